@@ -1,0 +1,52 @@
+// A formula in x, y, z, t and the scene's constants, compiled once by muParser.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace stillpoint {
+
+using Constants = std::map<std::string, double>;
+
+/// What is wrong with a formula, and where in it (0-based character; -1 where unknown).
+class ExpressionError : public std::runtime_error {
+ public:
+  ExpressionError(const std::string& what, int position) : std::runtime_error(what), position_(position) {}
+  int position() const { return position_; }
+
+ private:
+  int position_;
+};
+
+/// Value semantics; evaluating is not for several threads at once on the same object.
+class Expression {
+ public:
+  /// The constant 0.
+  Expression();
+  explicit Expression(double value);
+  /// variables: the names the formula may use, of "x", "y", "z", "t". Throws ExpressionError; also where the formula
+  /// without variables is not a finite number.
+  Expression(const std::string& text, const Constants& constants, const std::string& variables = "xyzt");
+  Expression(const Expression&);
+  Expression(Expression&&) noexcept;
+  Expression& operator=(const Expression&);
+  Expression& operator=(Expression&&) noexcept;
+  ~Expression();
+
+  /// x: up to three coordinates [m], the missing ones 0; t [s].
+  double operator()(std::span<const double> x, double t) const;
+  bool uses(char variable) const;
+  bool constant() const { return !uses('x') && !uses('y') && !uses('z') && !uses('t'); }
+  const std::string& text() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;  // null: a plain number
+  double value_ = 0;
+  std::string text_;
+};
+
+}  // namespace stillpoint

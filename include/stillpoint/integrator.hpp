@@ -1,0 +1,91 @@
+// Time integration of y' = f(t, y), y = [u; v], behind one interface.
+//
+//   leapfrog, symplectic-euler   our own, one force evaluation a step
+//   erk:<table>                  SUNDIALS' ARKODE (ERKStep): every packaged explicit table and three of our own
+//   gsl:<stepper>                GSL's explicit steppers, an independent second opinion
+#pragma once
+
+#include <stillpoint/relaxation.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stillpoint {
+
+/// How leapfrog and symplectic Euler treat C v in a step from v⁻ to v⁺.
+enum class DampingTreatment {
+  automatic,  // averaged for leapfrog, implicit for symplectic-euler
+  averaged,   // C (v⁻ + v⁺)/2      (leapfrog)
+  lagged,     // C v⁻
+  implicit,   // C v⁺               (symplectic-euler)
+  exact       // v' = M⁻¹Q − c v solved exactly for a frozen Q (symplectic-euler; C and M diagonal together)
+};
+
+struct IntegratorOptions {
+  std::string method = "leapfrog";
+  DampingTreatment treatment = DampingTreatment::automatic;
+  /// The largest step [s]: a fixed step's length, an adaptive step's cap (the stability limit times a fraction). > 0.
+  double max_step = 0;
+  /// Adaptive step where set (erk with an embedding, gsl): local error ≤ rtol |y| + atol.
+  std::optional<double> rtol;
+  double atol_u = 1e-12;  // [m]
+  double atol_v = 1e-12;  // [m/s]
+};
+
+/// What one call of step() did.
+struct StepReport {
+  enum class Status {
+    ok,            // an accepted step
+    inadmissible,  // the trial state cannot be evaluated (det f ≤ 0 or a non-finite stress), at any step length tried
+    not_finite,    // the new state holds inf or NaN
+    failed         // the integrator gave up (step underflow, error test failures); see message
+  };
+  Status status = Status::ok;
+  double t = 0;  // where y is now [s]
+  double h = 0;  // the step just taken [s]
+  std::string message{};
+};
+
+/// Advances y in place. One instance integrates one y.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// Begins at (t, y), y: (2n), which stays the caller's and must outlive the integration.
+  virtual void start(double t, Vector& y) = 0;
+  /// One accepted step, never past t_stop. A fixed step is the largest not above max_step of which a whole number
+  /// reaches t_stop, so that equal steps land on every output time. After a failure y holds the last good state.
+  virtual StepReport step(double t_stop) = 0;
+  virtual long steps() const = 0;           // accepted
+  virtual long rejected_steps() const = 0;  // tried and refused by the error control or as inadmissible
+};
+
+/// |largest eigenvalue| of one step's map for u'' + rate·u' + omega² u = 0 with step h: stable where ≤ 1.
+using AmplificationRadius = std::function<double(double h, double omega, double rate)>;
+
+/// What is known of a method before it runs.
+struct Method {
+  std::string name;              // as in integrator.method
+  std::string description;       // one line, with its source
+  int order = 0;                 // of the fixed-step solution
+  int evaluations_per_step = 0;  // right-hand sides a fixed step costs when implemented right; 0: not fixed
+  bool fixed_step = true;
+  bool adaptive = false;         // has an error estimate
+  AmplificationRadius amplification;  // empty where it has none (multistep)
+};
+
+/// Every method on offer, in the order of `stillpoint list integrators`.
+std::vector<Method> methods();
+/// One method by name; for leapfrog and symplectic-euler the treatment decides stability.
+/// Throws std::invalid_argument naming the nearest method where there is none of that name.
+Method find_method(std::string_view name, DampingTreatment treatment = DampingTreatment::automatic);
+
+/// Throws std::invalid_argument where options and method do not fit (rtol for a method without error estimate, a
+/// treatment that the method or the damping does not allow, max_step ≤ 0). The system outlives the integrator.
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system);
+
+}  // namespace stillpoint

@@ -1,0 +1,47 @@
+// Dynamic relaxation of R(u) = F as a first-order ODE [Więckowski 2011, eqs. 3 and 4]:
+//   M a + C v = F(t) − R(u),   y = [u; v],   y' = [ v ; M⁻¹ (F − R − C v) ].
+#pragma once
+
+#include <stillpoint/damping.hpp>
+#include <stillpoint/semi_discrete.hpp>
+#include <stillpoint/vector.hpp>
+
+namespace stillpoint {
+
+/// The right-hand side that integrators see. Repeatable, allocates nothing, counts its evaluations.
+class RelaxationSystem {
+ public:
+  /// Both outlive this object.
+  RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors = {});
+
+  std::size_t size() const { return system_.size(); }  // n: free degrees of freedom
+  SemiDiscrete& system() { return system_; }
+  const SemiDiscrete& system() const { return system_; }
+  const Damping& damping() const { return damping_; }
+  const VectorSpace& vectors() const { return vectors_; }
+
+  /// ydot = f(t, y); y, ydot: (2n). False where the trial y cannot be evaluated: retry with a smaller step.
+  bool operator()(double t, ConstVec y, Vec ydot);
+  /// Q = F(t) − R(u) (− inertia of moving supports), damping left out; u, Q: (n). False as above.
+  bool out_of_balance(double t, ConstVec u, Vec Q);
+
+  /// ‖F − R‖/‖F‖ over the free degrees of freedom; ‖reactions‖ instead of ‖F‖ where F = 0; 0 where both vanish.
+  double residual(double t, ConstVec u);
+  /// ½ vᵀ M v [J].
+  double kinetic_energy(ConstVec v);
+
+  /// Force evaluations made by integrators (not by residual()).
+  long evaluations() const { return evaluations_; }
+
+ private:
+  void balance_free_of_count(double t, ConstVec u, Vec Q);
+
+  SemiDiscrete& system_;
+  const Damping& damping_;
+  VectorSpace vectors_;
+  Vector F_, R_, Q_;
+  bool admissible_ = true;
+  long evaluations_ = 0;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,40 @@
+// The semi-discrete system M a + C v = F − R [Więckowski 2011, eq. 3], as the rest of the library sees it:
+// discretised in space, continuous in time. LagrangianPhase is the one that MPM makes; a test may bring its own.
+#pragma once
+
+#include <stillpoint/mass.hpp>
+#include <stillpoint/types.hpp>
+
+namespace stillpoint {
+
+/// n free degrees of freedom. u: displacement since the phase began [m], forces in [N], t [s].
+/// One virtual call does a whole evaluation, so none is inside a hot loop.
+class SemiDiscrete {
+ public:
+  virtual ~SemiDiscrete() = default;
+
+  virtual std::size_t size() const = 0;
+  virtual const Mass& mass() const = 0;
+
+  /// F_i = Σ_p N_ip m_p b(x_p, t) + tractions and point forces; F: (n).
+  virtual void external_force(double t, Vec F) const = 0;
+  /// R_i = Σ_p V_p P_p ∇N_ip from trial stresses; u, R: (n). Repeatable: the committed state is not touched.
+  /// t places the moving supports. False where the trial cannot be evaluated (det f ≤ 0 or a non-finite stress).
+  virtual bool internal_force(double t, ConstVec u, Vec R) const = 0;
+  /// dR = K(u) du, the derivative of R at u along du; u, du, dR: (n).
+  virtual void tangent(double t, ConstVec u, ConstVec du, Vec dR) const = 0;
+  /// K(u) = ∂R/∂u assembled, (n × n).
+  virtual SparseMatrix tangent_matrix(double t, ConstVec u) const = 0;
+
+  /// Accepts u: writes stress and history of every point. Once an accepted step where history_dependent().
+  virtual void commit(double t, ConstVec u) = 0;
+  /// Whether R(u) depends on what was committed, so that every accepted step has to commit.
+  virtual bool history_dependent() const { return false; }
+
+  /// Q −= M_fs (a_s(t) + c v_s(t)): what moving supports s do to the free degrees of freedom f. Nothing where none moves.
+  virtual void add_support_inertia(double /*t*/, double /*c*/, Vec /*Q*/) const {}
+  /// ‖reactions of the supports‖ at the last internal_force, the force scale where F = 0.
+  virtual double reaction_norm() const { return 0; }
+};
+
+}  // namespace stillpoint

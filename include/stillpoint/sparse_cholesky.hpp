@@ -1,0 +1,35 @@
+// A sparse Cholesky factor (SuiteSparse's CHOLMOD) that solves again and again without allocating.
+#pragma once
+
+#include <stillpoint/types.hpp>
+
+#include <Eigen/SparseCore>
+#include <memory>
+
+namespace stillpoint {
+
+/// Symmetric matrices are stored whole (both triangles), compressed by columns, so that a product needs no special case.
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// A = L Lᵀ for a symmetric positive definite A (n × n).
+class SparseCholesky {
+ public:
+  /// Factorises A. Throws std::runtime_error where CHOLMOD itself fails (memory);
+  /// a matrix that is not positive definite is no error: see positive_definite().
+  explicit SparseCholesky(const SparseMatrix& A);
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+  ~SparseCholesky();
+
+  /// Whether the factorisation went through: a proof (to rounding) that A is positive definite.
+  bool positive_definite() const;
+  /// x = A⁻¹ b; b, x: (n), may be the same array. Allocates nothing after the first call. Needs positive_definite().
+  void solve(ConstVec b, Vec x) const;
+  std::size_t size() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stillpoint

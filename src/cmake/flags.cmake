@@ -1,0 +1,16 @@
+# Compiler flags of our own files, kept in one interface target.
+add_library(stillpoint_flags INTERFACE)
+target_compile_options(stillpoint_flags INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow
+  $<$<BOOL:${STILLPOINT_WERROR}>:-Werror>
+  # The few floating-point flags that keep non-finite values visible and results the same bits:
+  # errno of sqrt and friends is never read, and no trap handler is installed, so both only free the vectoriser.
+  -fno-math-errno -fno-trapping-math
+  $<$<BOOL:${STILLPOINT_NATIVE}>:-march=native>
+  $<$<CONFIG:Release>:-O3>)
+
+set(STILLPOINT_DEPENDENCIES
+  fmt::fmt muparser::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json OpenMP::OpenMP_CXX
+  GSL::gsl SUNDIALS::arkode SUNDIALS::nvecserial ${STILLPOINT_CHOLMOD} ${STILLPOINT_ARPACK})
+
+find_package(CLI11 CONFIG REQUIRED)
