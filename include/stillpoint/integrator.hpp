@@ -60,6 +60,8 @@ class Integrator {
   /// One accepted step, never past t_stop. A fixed step is the largest not above max_step of which a whole number
   /// reaches t_stop, so that equal steps land on every output time. After a failure y holds the last good state.
   virtual StepReport step(double t_stop) = 0;
+  /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
+  virtual bool force_is_current() const { return false; }
   virtual long steps() const = 0;           // accepted
   virtual long rejected_steps() const = 0;  // tried and refused by the error control or as inadmissible
 };
@@ -74,7 +76,7 @@ struct Method {
   int order = 0;                 // of the fixed-step solution
   int evaluations_per_step = 0;  // right-hand sides a fixed step costs when implemented right; 0: not fixed
   bool fixed_step = true;
-  bool adaptive = false;         // has an error estimate
+  bool adaptive = false;              // has an error estimate
   AmplificationRadius amplification;  // empty where it has none (multistep)
 };
 

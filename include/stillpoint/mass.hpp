@@ -30,7 +30,7 @@ class Mass {
 
  private:
   std::vector<double> diagonal_;
-  SparseMatrix matrix_;                    // empty where lumped
+  SparseMatrix matrix_;                   // empty where lumped
   std::optional<SparseCholesky> factor_;  // of matrix_, where consistent
 };
 

@@ -27,20 +27,22 @@ class RelaxationSystem {
 
   /// ‖F − R‖/‖F‖ over the free degrees of freedom; ‖reactions‖ instead of ‖F‖ where F = 0; 0 where both vanish.
   double residual(double t, ConstVec u);
-  /// ½ vᵀ M v [J].
-  double kinetic_energy(ConstVec v);
+  /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
+  double last_residual();
+  /// ½ vᵀ M v [J]; v: (n).
+  double kinetic_energy(const Vector& v);
 
   /// Force evaluations made by integrators (not by residual()).
   long evaluations() const { return evaluations_; }
 
  private:
-  void balance_free_of_count(double t, ConstVec u, Vec Q);
+  bool balance(double t, ConstVec u, Vec Q);
 
   SemiDiscrete& system_;
   const Damping& damping_;
+  LinearDamping linear_;
   VectorSpace vectors_;
   Vector F_, R_, Q_;
-  bool admissible_ = true;
   long evaluations_ = 0;
 };
 

@@ -31,7 +31,8 @@ class SemiDiscrete {
   /// Whether R(u) depends on what was committed, so that every accepted step has to commit.
   virtual bool history_dependent() const { return false; }
 
-  /// Q −= M_fs (a_s(t) + c v_s(t)): what moving supports s do to the free degrees of freedom f. Nothing where none moves.
+  /// Q −= M_fs (a_s(t) + c v_s(t)): what moving supports s do to the free degrees of freedom f. Nothing where none
+  /// moves.
   virtual void add_support_inertia(double /*t*/, double /*c*/, Vec /*Q*/) const {}
   /// ‖reactions of the supports‖ at the last internal_force, the force scale where F = 0.
   virtual double reaction_norm() const { return 0; }

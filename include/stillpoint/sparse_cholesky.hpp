@@ -3,12 +3,14 @@
 
 #include <stillpoint/types.hpp>
 
-#include <Eigen/SparseCore>
 #include <memory>
+
+#include <Eigen/SparseCore>
 
 namespace stillpoint {
 
-/// Symmetric matrices are stored whole (both triangles), compressed by columns, so that a product needs no special case.
+/// Symmetric matrices are stored whole (both triangles), compressed by columns, so that a product needs no special
+/// case.
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// A = L Lᵀ for a symmetric positive definite A (n × n).

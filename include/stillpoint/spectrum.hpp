@@ -8,7 +8,7 @@
 namespace stillpoint {
 
 struct SpectrumOptions {
-  double tolerance = 1e-10;   // relative change of ω² between iterations at which it has converged
+  double tolerance = 1e-10;  // relative change of ω² between iterations at which it has converged
   int max_iterations = 2000;
   /// Says what is wrong, or nothing.
   std::string validate() const;
@@ -24,11 +24,13 @@ struct FrequencyEstimate {
 };
 
 /// ω_max from below: x ← M⁻¹ K x, Rayleigh quotient xᵀKx/xᵀMx, matrix-free. K at (t, u).
-FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
+FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, double t, ConstVec u,
+                                               const SpectrumOptions& = {});
 /// ω_max from above, guaranteed: Gershgorin's circles of the scaled K (see the source for consistent M).
 FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, double t, ConstVec u);
 /// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K. Not converged, ω = 0, where K is singular: the body is not held.
-FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
+FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
+                                               const SpectrumOptions& = {});
 /// ω₁ by ARPACK in shift-invert about 0, and ω_max by ARPACK in shift-invert about the Gershgorin bound.
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
 FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});

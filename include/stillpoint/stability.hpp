@@ -6,11 +6,12 @@
 namespace stillpoint {
 
 /// What the stability of u'' + rate·u' + omega² u = 0 depends on, over all modes of M a + C v + K u = 0.
-/// By Rayleigh quotients every eigenvalue of the damped system solves λ² + rate λ + omega² = 0 with some omega and rate in these ranges.
+/// By Rayleigh quotients every eigenvalue of the damped system solves λ² + rate λ + omega² = 0 with some omega and rate
+/// in these ranges.
 struct DampedSpectrum {
-  double omega_1 = 0;           // lowest angular frequency [rad/s]; 0 where unknown
-  double omega_max = 0;         // highest angular frequency [rad/s]
-  double rate_min = 0;          // smallest and largest vᵀCv / vᵀMv [1/s]
+  double omega_1 = 0;    // lowest angular frequency [rad/s]; 0 where unknown
+  double omega_max = 0;  // highest angular frequency [rad/s]
+  double rate_min = 0;   // smallest and largest vᵀCv / vᵀMv [1/s]
   double rate_max = 0;
   double stiffness_factor = 1;  // of local damping
 };
@@ -18,7 +19,8 @@ struct DampedSpectrum {
 /// Rates of C = mass·M + identity·I: [c_m + c_i/max m, c_m + c_i/min m] with the extreme eigenvalues of M.
 DampedSpectrum damped_spectrum(double omega_1, double omega_max, const Damping& damping, const Mass& mass);
 
-/// The largest h such that the amplification stays ≤ 1 for every step in (0, h] and every mode [s]. 0 where none is stable.
+/// The largest h such that the amplification stays ≤ 1 for every step in (0, h] and every mode [s]. 0 where none is
+/// stable.
 double critical_step(const AmplificationRadius& amplification, const DampedSpectrum& spectrum);
 
 /// The largest r = h·omega for one oscillator of damping ratio zeta = rate/(2 omega): the method's own stability limit.

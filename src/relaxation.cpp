@@ -1,0 +1,70 @@
+#include <stillpoint/relaxation.hpp>
+
+#include <limits>
+
+namespace stillpoint {
+
+RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors)
+    : system_(system),
+      damping_(damping),
+      linear_(damping.linear()),
+      vectors_(vectors),
+      F_(vectors_.make(system.size())),
+      R_(vectors_.make(system.size())),
+      Q_(vectors_.make(system.size())) {}
+
+// y' = [ v ; M⁻¹ (F − R + D(v, F − R) − c_i v) − c_m v ]  for  C = c_m M + c_i I
+bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
+  const ConstVec u = first_half(y), v = second_half(y);
+  const Vec u_dot = first_half(ydot), v_dot = second_half(ydot);
+  const std::size_t n = u.size();
+
+  if (!out_of_balance(t, u, v_dot)) return false;
+  if (damping_.is_local()) damping_.add_local(v, v_dot);
+  if (linear_.identity != 0) {
+    for (std::size_t i = 0; i < n; ++i) v_dot[i] -= linear_.identity * v[i];
+  }
+  system_.mass().solve(v_dot, v_dot);
+  for (std::size_t i = 0; i < n; ++i) {
+    u_dot[i] = v[i];
+    v_dot[i] -= linear_.mass * v[i];
+  }
+  return true;
+}
+
+bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
+  ++evaluations_;
+  return balance(t, u, Q);
+}
+
+// Q = F − R − M_fs (a_s + c_m v_s)
+bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
+  const Vec F = F_.span(), R = R_.span();
+  system_.external_force(t, F);
+  if (!system_.internal_force(t, u, R)) return false;
+  for (std::size_t i = 0; i < Q.size(); ++i) Q[i] = F[i] - R[i];
+  system_.add_support_inertia(t, linear_.mass, Q);
+  return true;
+}
+
+double RelaxationSystem::residual(double t, ConstVec u) {
+  if (!balance(t, u, Q_.span())) return std::numeric_limits<double>::quiet_NaN();
+  return last_residual();
+}
+
+double RelaxationSystem::last_residual() {
+  const ConstVec F = F_.span(), R = R_.span();
+  const Vec Q = Q_.span();
+  for (std::size_t i = 0; i < Q.size(); ++i) Q[i] = F[i] - R[i];
+  const double unbalanced = norm(Q_);
+  if (unbalanced == 0) return 0;
+  const double loads = norm(F_);
+  return unbalanced / (loads > 0 ? loads : system_.reaction_norm());
+}
+
+double RelaxationSystem::kinetic_energy(const Vector& v) {
+  system_.mass().apply(v.span(), Q_.span());
+  return 0.5 * dot(v, Q_);
+}
+
+}  // namespace stillpoint
