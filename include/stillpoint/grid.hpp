@@ -1,0 +1,62 @@
+// The background grid: a rectilinear product of axes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace stillpoint {
+
+/// Grid lines along one coordinate, strictly increasing [m]; cell c lies between nodes[c] and nodes[c + 1].
+struct Axis {
+  std::vector<double> nodes;
+
+  static Axis uniform(double min, double max, int cells) {
+    Axis axis;
+    for (int i = 0; i <= cells; ++i) axis.nodes.push_back(i == cells ? max : min + (max - min) * i / cells);
+    return axis;
+  }
+  int cells() const { return static_cast<int>(nodes.size()) - 1; }
+  double min() const { return nodes.front(); }
+  double max() const { return nodes.back(); }
+  /// The cell that holds x: at a node the one above it, at the ends (and past them) the end cell.
+  int cell_of(double x) const {
+    const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
+    return static_cast<int>(above - nodes.begin()) - 1;
+  }
+};
+
+template <int Dim>
+using Point = std::array<double, Dim>;
+
+/// Cells are numbered with the first coordinate running fastest.
+template <int Dim>
+struct Grid {
+  std::array<Axis, Dim> axes;
+
+  int cells() const {
+    int count = 1;
+    for (const Axis& axis : axes) count *= axis.cells();
+    return count;
+  }
+  std::array<int, Dim> cell_of(const Point<Dim>& x) const {
+    std::array<int, Dim> cell;
+    for (int d = 0; d < Dim; ++d) cell[d] = axes[d].cell_of(x[d]);
+    return cell;
+  }
+  int cell_number(const std::array<int, Dim>& cell) const {
+    int number = 0;
+    for (int d = Dim - 1; d >= 0; --d) number = number * axes[d].cells() + cell[d];
+    return number;
+  }
+  std::array<int, Dim> cell_at(int number) const {
+    std::array<int, Dim> cell;
+    for (int d = 0; d < Dim; ++d) {
+      cell[d] = number % axes[d].cells();
+      number /= axes[d].cells();
+    }
+    return cell;
+  }
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,27 @@
+// Consistent volumes: weights of the material points of one cell that integrate polynomials exactly.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace stillpoint {
+
+/// Weights of n points in the cube [−1, 1]^Dim, as shares of its volume.
+struct MomentFit {
+  Eigen::VectorXd weights;       // (n), ≥ 0, sum 1
+  int degree = 0;                // every product of powers up to this one in each coordinate is integrated exactly
+  bool limited_by_sign = false;  // a higher degree has weights, but none without a negative one
+};
+
+/// Σ_p w_p q(ξ_p) = mean of q over the cube, for all polynomials q up to the degree that the points can carry with w ≥
+/// 0; where that leaves a choice, the w nearest to 1/n. xi: (Dim × n) places of the points in the cube, n ≥ 1. Degrees
+/// are tried in whole groups of equal (largest, total) power, so that no coordinate is preferred. Source of the
+/// constrained fit: Lawson and Hanson 1974, problem LDP (least distance programming, chapter 23).
+MomentFit fit_moments(const Eigen::MatrixXd& xi);
+
+/// The weights 1/n with the degree that they happen to integrate.
+MomentFit equal_weights(const Eigen::MatrixXd& xi);
+
+/// min ‖E x − f‖ with x ≥ 0 [Lawson and Hanson 1974, algorithm NNLS (23.10)].
+Eigen::VectorXd solve_nnls(const Eigen::MatrixXd& E, const Eigen::VectorXd& f);
+
+}  // namespace stillpoint

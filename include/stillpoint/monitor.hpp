@@ -1,0 +1,56 @@
+// Decides when a relaxation is over: at rest and in balance for a whole period, at an end, or gone wrong.
+#pragma once
+
+#include <string>
+
+namespace stillpoint {
+
+enum class RunStatus {
+  running,
+  equilibrium,  // residual ≤ its limit and kinetic energy ≤ its share of the peak, both held
+  end_time,     // t = stop.time
+  step_limit,   // stop.steps taken
+  time_limit,   // stop.wall_time spent
+  interrupted,  // by the user
+  diverged,     // a state that is not finite, or a trial that cannot be evaluated
+  failed        // the integrator gave up
+};
+
+/// "equilibrium", "end-time", ...
+std::string to_string(RunStatus status);
+
+struct MonitorOptions {
+  double residual = 0;        // ‖F − R‖/‖F‖; 0: no test for equilibrium
+  double kinetic_energy = 0;  // share of the largest kinetic energy so far; 0: only the residual counts
+  double hold = 0;            // both held for this long [s]: a kinetic energy alone is small at every turning point
+  double end_time = 0;        // [s]; 0: none
+  long steps = 0;             // 0: no limit
+  double wall_time = 0;       // [s]; 0: no limit
+};
+
+class Monitor {
+ public:
+  explicit Monitor(const MonitorOptions& options) : options_(options), next_check_(options.hold / checks_a_hold) {}
+
+  /// Whether observe() wants residual and kinetic energy at t; in between, looking costs nothing.
+  bool due(double t) const { return t >= next_check_; }
+  /// Residual and kinetic energy [J] at t [s].
+  RunStatus observe(double t, double residual, double kinetic_energy);
+  /// The limits that do not need the state; call after every step.
+  RunStatus check_limits(double t, long steps, double wall_time);
+
+  /// The inequality that ended the run.
+  const std::string& reason() const { return reason_; }
+  double peak_kinetic_energy() const { return peak_kinetic_energy_; }
+
+ private:
+  static constexpr int checks_a_hold = 16;
+
+  MonitorOptions options_;
+  double next_check_;
+  double balanced_since_ = -1;  // [s]; negative: not in balance
+  double peak_kinetic_energy_ = 0;
+  std::string reason_;
+};
+
+}  // namespace stillpoint

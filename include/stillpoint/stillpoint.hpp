@@ -1,0 +1,10 @@
+// Stillpoint: quasi-static equilibrium by dynamic relaxation in the material point method.
+//
+//   const auto scene = stillpoint::load_scene("bar.toml");
+//   const auto summary = stillpoint::run(scene);
+#pragma once
+
+#include <stillpoint/model.hpp>
+#include <stillpoint/run.hpp>
+#include <stillpoint/scene.hpp>
+#include <stillpoint/spectrum.hpp>

@@ -1,0 +1,24 @@
+// Files that are whole or not there: written as NAME.partial, renamed when complete.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace stillpoint {
+
+class AtomicFile {
+ public:
+  /// Creates the folder if need be. Throws std::filesystem::filesystem_error where the file cannot be written.
+  explicit AtomicFile(std::filesystem::path file);
+  /// Appends and flushes, so that NAME.partial keeps what there was even if the process is killed.
+  void write(std::string_view text);
+  /// Renames to the final name.
+  void finish();
+
+ private:
+  std::filesystem::path file_, partial_;
+  std::ofstream stream_;
+};
+
+}  // namespace stillpoint

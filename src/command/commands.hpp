@@ -1,0 +1,28 @@
+// The subcommands of `stillpoint`. Each returns the exit status.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stillpoint::command {
+
+struct SceneArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  // "key=value"
+};
+
+struct RunArguments {
+  SceneArguments scene;
+  std::filesystem::path out;  // empty: out/<scene's stem>
+  int threads = 0;            // 0: as many as OpenMP would take
+  bool quiet = false;
+};
+
+int run(const RunArguments& arguments);
+int check(const SceneArguments& arguments);
+int spectrum(const SceneArguments& arguments);
+/// topic: integrators, dampings, materials, bases, or empty for all.
+int list(const std::string& topic);
+
+}  // namespace stillpoint::command

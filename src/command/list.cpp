@@ -1,0 +1,62 @@
+// stillpoint list: what there is to choose from.
+#include <stillpoint/damping.hpp>
+#include <stillpoint/integrator.hpp>
+#include <stillpoint/material_laws.hpp>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+
+namespace stillpoint::command {
+namespace {
+
+void list_integrators() {
+  fmt::print("integrators (integrator.method)\n  {:<34}{:>5}{:>14}  {:<9} {}\n", "name", "order", "forces a step",
+             "adaptive", "what");
+  for (const Method& method : methods()) {
+    const std::string forces = method.fixed_step ? fmt::format("{}", method.evaluations_per_step) : "-";
+    fmt::print("  {:<34}{:>5}{:>14}  {:<9} {}\n", method.name, method.order, forces, method.adaptive ? "yes" : "no",
+               method.description);
+  }
+}
+
+void list_dampings() {
+  fmt::print("dampings (damping.strategy)\n");
+  for (const DampingInfo& info : damping_strategies()) {
+    fmt::print("  {:<12}{}{}\n", info.name, info.equation,
+               info.source.empty() ? "" : fmt::format("   [{}]", info.source));
+  }
+}
+
+void list_materials() {
+  fmt::print("materials (material.<name>.law)\n");
+  for (const LawInfo& law : material_laws()) {
+    fmt::print("  {:<16}{}   [{}]\n", law.name, law.equation, law.source);
+    for (const ParameterInfo& p : law.parameters) {
+      fmt::print("    {:<6}{} [{}], {} < {} < {}{}\n", p.name, p.meaning, p.unit, p.lower, p.name, p.upper,
+                 p.required ? "" : fmt::format(", default {}", p.fallback));
+    }
+  }
+}
+
+void list_bases() {
+  fmt::print(
+      "bases (grid.basis)\n"
+      "  linear      hat functions, C0\n"
+      "  quadratic   B-spline, C1, interpolating at the ends of the grid\n"
+      "  cubic       B-spline, C2, interpolating at the ends of the grid\n"
+      "  hermite     cubic Hermite, C1, degrees of freedom u and du/dx at the nodes\n");
+}
+
+}  // namespace
+
+int list(const std::string& topic) {
+  const bool all = topic.empty();
+  if (all || topic == "integrators") list_integrators();
+  if (all || topic == "dampings") list_dampings();
+  if (all || topic == "materials") list_materials();
+  if (all || topic == "bases") list_bases();
+  return 0;
+}
+
+}  // namespace stillpoint::command

@@ -1,0 +1,74 @@
+// stillpoint: the command. Exit status: 0 as asked, 2 bad input, 3 not in equilibrium within the limits, 4 failed.
+#include <stillpoint/scene.hpp>
+
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands.hpp"
+
+namespace {
+
+constexpr int bad_input = 2, failed = 4;
+
+using namespace stillpoint::command;
+
+void add_scene(CLI::App& app, SceneArguments& arguments) {
+  app.add_option("SCENE", arguments.file, "scene file (TOML)")->required();
+  app.add_option("--set", arguments.overrides,
+                 "change a key of the scene, e.g. --set damping.c=0.45 (a bare word is a string)")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app("Quasi-static equilibrium by dynamic relaxation in the material point method", "stillpoint");
+  app.set_version_flag("--version", STILLPOINT_VERSION);
+  app.require_subcommand(1);
+
+  RunArguments run_arguments;
+  CLI::App& run_app = *app.add_subcommand("run", "relax a scene; writes summary.json and history.csv");
+  add_scene(run_app, run_arguments.scene);
+  run_app.add_option("--out", run_arguments.out, "folder to write into (default: out/<scene>)")->type_name("DIR");
+  run_app.add_option("--threads", run_arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  run_app.add_flag("--quiet", run_arguments.quiet, "print nothing but errors");
+
+  SceneArguments scene_arguments;
+  CLI::App& check_app = *app.add_subcommand("check", "say what would be modelled; nothing runs");
+  add_scene(check_app, scene_arguments);
+  CLI::App& spectrum_app =
+      *app.add_subcommand("spectrum", "frequencies, critical damping and critical steps of a scene");
+  add_scene(spectrum_app, scene_arguments);
+
+  std::string topic;
+  CLI::App& list_app = *app.add_subcommand("list", "what there is to choose from");
+  list_app.add_option("TOPIC", topic, "integrators, dampings, materials or bases (default: all)")
+      ->check(CLI::IsMember({"integrators", "dampings", "materials", "bases"}));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : bad_input;
+  }
+  if (run_app.parsed()) return run(run_arguments);
+  if (check_app.parsed()) return check(scene_arguments);
+  if (spectrum_app.parsed()) return spectrum(scene_arguments);
+  return list(topic);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const stillpoint::SceneError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "stillpoint: {}\n", error.what());
+    return failed;
+  }
+}

@@ -1,0 +1,60 @@
+// stillpoint run: relaxes a scene and ends in a short table.
+#include <stillpoint/run.hpp>
+
+#include <array>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "terminal.hpp"
+
+namespace stillpoint::command {
+namespace {
+
+void print_table(const Scene& scene, const Summary& s, const std::filesystem::path& out) {
+  const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<18}{}\n", what, value); };
+  fmt::print("{}\n", s.title.empty() ? s.scene : s.title);
+  row("status", fmt::format("{}: {}", to_string(s.status), s.reason));
+  row("model", fmt::format("{} points, {} degrees of freedom, {} phase{}", s.points, s.dofs, s.phases,
+                           s.phases == 1 ? "" : "s"));
+  row("method", fmt::format("{}, {} damping{}, step {:.4g} s", s.integrator, s.damping,
+                            s.c ? fmt::format(" c = {:.6g}", *s.c) : std::string(), s.dt));
+  row("frequencies", fmt::format("omega_1 {}, omega_max {:.6g}",
+                                 s.omega_1 ? fmt::format("{:.6g}", *s.omega_1) : "not needed", s.omega_max));
+  row("reached", fmt::format("t = {:.6g} s in {} steps, {} force evaluations", s.t, s.steps, s.rhs_evaluations));
+  row("residual", fmt::format("{:.3e}   kinetic energy {:.3e} J", s.residual, s.kinetic_energy));
+  if (s.error) {
+    row("error (exact)",
+        fmt::format("u {:.3e} (L2), {:.3e} (max){}", s.error->u_rel_l2, s.error->u_rel_max,
+                    s.error->stress_rel_l2 ? fmt::format(", stress {:.3e} (L2)", *s.error->stress_rel_l2) : ""));
+  }
+  row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {} thread{}", s.wall_s, s.ns_per_point_step,
+                               s.threads, s.threads == 1 ? "" : "s"));
+  for (const ProbeSpec& probe : scene.probes) {
+    std::string values;
+    for (const auto& [field, value] : s.probes.at(probe.name)) values += fmt::format("{} = {:.9g}  ", field, value);
+    row("probe " + probe.name, values);
+  }
+  row("written", fmt::format("{}", out.string()));
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  const Scene scene = load_scene(arguments.scene.file, arguments.scene.overrides);
+  const std::filesystem::path out = arguments.out.empty() ? std::filesystem::path("out") / scene.name : arguments.out;
+  watch_for_interrupt();
+  ProgressLine line;
+  RunOptions options{.out = out, .threads = arguments.threads, .interrupted = interrupted};
+  if (!arguments.quiet) options.progress = [&line](const Progress& progress) { line.show(progress); };
+  const Summary summary = stillpoint::run(scene, options);
+  line.finish();
+  if (!arguments.quiet) print_table(scene, summary, out);
+  if (summary.exit_status != 0) {
+    fmt::print(stderr, "stillpoint: {}: {}\n", to_string(summary.status), summary.reason);
+  }
+  return summary.exit_status;
+}
+
+}  // namespace stillpoint::command

@@ -1,0 +1,60 @@
+// stillpoint spectrum: frequencies by every method that the scene allows, and what follows from them.
+#include <stillpoint/model.hpp>
+#include <stillpoint/spectrum.hpp>
+#include <stillpoint/stability.hpp>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+
+namespace stillpoint::command {
+namespace {
+
+void print_estimate(std::string_view what, std::string_view how, const FrequencyEstimate& e) {
+  if (e.converged) {
+    fmt::print("  {:<10}{:<36}{:>14.9g}{:>12}{:>12.4f}\n", what, how, e.omega, e.iterations, 1e3 * e.wall_s);
+  } else {
+    fmt::print("  {:<10}{:<36}  {}\n", what, how, e.status);
+  }
+}
+
+}  // namespace
+
+int spectrum(const SceneArguments& arguments) {
+  const Scene scene = load_scene(arguments.file, arguments.overrides);
+  const auto phase = make_phase(scene);
+  const std::vector<double> u = phase->initial_displacement(0);
+
+  fmt::print("{}\n  {:<10}{:<36}{:>14}{:>12}{:>12}\n", scene.title.empty() ? scene.name : scene.title, "", "method",
+             "rad/s", "iterations", "ms");
+  const FrequencyEstimate omega_1 = omega_1_by_inverse_iteration(*phase, 0, u);
+  print_estimate("omega_1", "inverse iteration (CHOLMOD)", omega_1);
+  print_estimate("omega_1", "ARPACK, shift-invert at 0", omega_1_by_arpack(*phase, 0, u));
+  const FrequencyEstimate omega_max = omega_max_by_power_iteration(*phase, 0, u);
+  print_estimate("omega_max", "power iteration, matrix-free", omega_max);
+  print_estimate("omega_max", "ARPACK, shift-invert at the bound", omega_max_by_arpack(*phase, 0, u));
+  print_estimate("omega_max", "Gershgorin, guaranteed upper bound", omega_max_bound_by_gershgorin(*phase, 0, u));
+
+  if (omega_1.converged) {
+    const double ratio = omega_max.omega / omega_1.omega;
+    fmt::print("  kappa = (omega_max/omega_1)^2 = {:.8g}\n  critical damping c = 2 omega_1 = {:.9g}\n", ratio * ratio,
+               2 * omega_1.omega);
+  }
+  const bool takes_c = scene.damping.strategy == "viscous" || scene.damping.strategy == "identity";
+  if (takes_c && !scene.damping.c && !omega_1.converged) {
+    fmt::print("  critical steps   not known: c = \"critical\" needs omega_1\n");
+    return 0;
+  }
+  const auto damping =
+      make_damping(scene.damping.strategy, scene.damping.c.value_or(2 * omega_1.omega), scene.damping.alpha);
+  const DampedSpectrum damped = damped_spectrum(omega_1.omega, omega_max.omega, *damping, phase->mass());
+  fmt::print("  critical step with {} damping [s], and what a force evaluation buys of it\n", damping->name());
+  for (const Method& method : methods()) {
+    if (!method.amplification) continue;
+    const double step = critical_step(method.amplification, damped);
+    fmt::print("    {:<34}{:>12.6g}{:>12.6g}\n", method.name, step, step / method.evaluations_per_step);
+  }
+  return 0;
+}
+
+}  // namespace stillpoint::command

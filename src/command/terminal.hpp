@@ -1,0 +1,28 @@
+// Progress with time left: one line that rewrites itself on a terminal, plain lines now and then elsewhere.
+#pragma once
+
+#include <stillpoint/run.hpp>
+
+#include <string>
+
+namespace stillpoint::command {
+
+class ProgressLine {
+ public:
+  ProgressLine();
+  void show(const Progress& progress);
+  /// Clears the line on a terminal.
+  void finish();
+
+ private:
+  bool terminal_;
+  bool shown_ = false;
+  double next_plain_line_ = 10;  // [s]
+  double start_residual_ = 0;
+};
+
+/// Whether Ctrl-C was pressed since watch_for_interrupt(); a second one ends the process at once.
+bool interrupted();
+void watch_for_interrupt();
+
+}  // namespace stillpoint::command

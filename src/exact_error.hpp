@@ -1,0 +1,15 @@
+// The error of a state against the scene's exact solution.
+#pragma once
+
+#include <stillpoint/lagrangian_phase.hpp>
+#include <stillpoint/run.hpp>
+
+#include <optional>
+
+namespace stillpoint {
+
+/// ‖u_h − u‖/‖u‖ over the material points with weights V_p, at (t, u); stress as of the last commit.
+/// Empty where the scene gives no exact solution or it vanishes.
+std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
+
+}  // namespace stillpoint

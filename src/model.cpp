@@ -1,0 +1,126 @@
+#include <stillpoint/model.hpp>
+#include <stillpoint/spectrum.hpp>
+#include <stillpoint/stability.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace stillpoint {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+[[noreturn]] void reject(const Scene& scene, const std::string& key, const std::string& message) {
+  throw SceneError({{scene.location(key), message}});
+}
+
+// ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
+double highest_frequency(const LagrangianPhase& phase, ConstVec u) {
+  const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
+  const FrequencyEstimate estimate = omega_max_by_power_iteration(phase, 0, u, options);
+  if (estimate.converged) return estimate.omega;
+  constexpr double margin = 1.02;  // after 300 iterations an underestimate of 0.1 % is usual
+  return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
+}
+
+bool takes_c(const DampingSpec& damping) { return damping.strategy == "viscous" || damping.strategy == "identity"; }
+
+// The size of the motion to expect, so that tolerances need no number from the user: |M⁻¹F|_max/ω₁² for the largest
+// load over the run, or the initial values.
+double displacement_scale(const Scene& scene, const Model& model) {
+  std::vector<double> F(model.phase->size());
+  const double span = scene.stop.time > 0 ? scene.stop.time : two_pi / *model.omega_1;
+  double scale = 0;
+  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+    model.phase->external_force(share * span, F);
+    model.phase->mass().solve(F, F);
+    for (const double a : F) scale = std::max(scale, std::abs(a) / (*model.omega_1 * *model.omega_1));
+  }
+  for (const double u : model.u) scale = std::max(scale, std::abs(u));
+  for (const double v : model.v) scale = std::max(scale, std::abs(v) / *model.omega_1);
+  return scale;
+}
+
+void set_tolerances(const Scene& scene, Model& model) {
+  const IntegratorSpec& spec = scene.integrator;
+  model.integrator.rtol = spec.rtol;
+  if (!spec.rtol) return;
+  if (!spec.atol_u || !spec.atol_v) {
+    const double scale = model.omega_1 ? displacement_scale(scene, model) : 0;
+    if (!(scale > 0)) {
+      reject(scene, "integrator.rtol",
+             "the size of the motion is not known beforehand; expected integrator.atol_u and integrator.atol_v beside "
+             "rtol");
+    }
+    model.integrator.atol_u = *spec.rtol * scale;
+    model.integrator.atol_v = *spec.rtol * scale * *model.omega_1;
+  }
+  if (spec.atol_u) model.integrator.atol_u = *spec.atol_u;
+  if (spec.atol_v) model.integrator.atol_v = *spec.atol_v;
+}
+
+void choose_step(const Scene& scene, Model& model) {
+  const IntegratorSpec& spec = scene.integrator;
+  const bool adaptive = spec.rtol.has_value();
+  if (model.method.amplification) {
+    const DampedSpectrum spectrum =
+        damped_spectrum(model.omega_1.value_or(0), model.omega_max, *model.damping, model.phase->mass());
+    model.critical_step = critical_step(model.method.amplification, spectrum);
+  }
+  if (spec.step) {
+    model.integrator.max_step = *spec.step;
+    if (!adaptive && model.critical_step && *spec.step > *model.critical_step * (1 + 1e-9) &&
+        spec.unstable_reason.empty()) {
+      reject(scene, "integrator.step",
+             fmt::format("the step {:.6g} is past the critical one of {} here, {:.6g}; expected a smaller step, "
+                         "integrator.step_fraction, or integrator.unstable_reason to say why",
+                         *spec.step, model.method.name, *model.critical_step));
+    }
+  } else if (model.critical_step && *model.critical_step > 0) {
+    model.integrator.max_step = spec.step_fraction * *model.critical_step;
+  } else if (adaptive) {
+    model.integrator.max_step = 1 / model.omega_max;  // no limit of its own: the error control is what bounds the step
+  } else {
+    reject(scene, "integrator.method",
+           fmt::format("{} has no stable step on this scene; expected another method, damping, or integrator.step with "
+                       "integrator.unstable_reason",
+                       model.method.name));
+  }
+}
+
+}  // namespace
+
+Model make_model(const Scene& scene) {
+  Model model;
+  model.phase = make_phase(scene);
+  model.u = model.phase->initial_displacement(0);
+  model.v = model.phase->initial_velocity(0);
+  model.omega_max = highest_frequency(*model.phase, model.u);
+
+  const bool critical = takes_c(scene.damping) && !scene.damping.c;
+  const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
+  if (critical || own_scale || scene.stop.residual > 0) {
+    const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
+    if (lowest.converged) model.omega_1 = lowest.omega;
+    if (critical && !model.omega_1) {
+      reject(scene, "damping.c",
+             fmt::format("critical damping needs omega_1, but {}; expected a support or a number", lowest.status));
+    }
+  }
+  // A body that is not held has no lowest frequency: a hundred of its shortest periods stand in for the longest.
+  model.hold = scene.stop.hold * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
+
+  if (takes_c(scene.damping)) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
+  model.damping = make_damping(scene.damping.strategy, model.c.value_or(0), scene.damping.alpha);
+  model.method = find_method(scene.integrator.method, scene.integrator.treatment);
+  model.integrator.method = scene.integrator.method;
+  model.integrator.treatment = scene.integrator.treatment;
+  set_tolerances(scene, model);
+  choose_step(scene, model);
+  return model;
+}
+
+}  // namespace stillpoint

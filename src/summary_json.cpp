@@ -1,0 +1,64 @@
+#include <stillpoint/run.hpp>
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "versions.hpp"
+
+namespace stillpoint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no inf or nan.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+}  // namespace
+
+std::string to_json(const Summary& s) {
+  Json error = nullptr;
+  if (s.error) {
+    error = {{"u_rel_l2", number(s.error->u_rel_l2)},
+             {"u_rel_max", number(s.error->u_rel_max)},
+             {"stress_rel_l2", number(s.error->stress_rel_l2)}};
+  }
+  Json probes = Json::object();
+  for (const auto& [name, fields] : s.probes) {
+    for (const auto& [field, value] : fields) probes[name][field] = number(value);
+  }
+  Json versions = Json::object();
+  for (const auto& [name, version] : library_versions()) versions[name] = version;
+
+  const Json json = {{"scene", s.scene},
+                     {"title", s.title},
+                     {"status", to_string(s.status)},
+                     {"reason", s.reason},
+                     {"exit_status", s.exit_status},
+                     {"t", number(s.t)},
+                     {"steps", s.steps},
+                     {"rejected_steps", s.rejected_steps},
+                     {"rhs_evaluations", s.rhs_evaluations},
+                     {"phases", s.phases},
+                     {"points", s.points},
+                     {"dofs", s.dofs},
+                     {"threads", s.threads},
+                     {"wall_s", number(s.wall_s)},
+                     {"ns_per_point_step", number(s.ns_per_point_step)},
+                     {"residual", number(s.residual)},
+                     {"kinetic_energy", number(s.kinetic_energy)},
+                     {"integrator", s.integrator},
+                     {"damping", s.damping},
+                     {"omega_1", number(s.omega_1)},
+                     {"omega_max", number(s.omega_max)},
+                     {"c", number(s.c)},
+                     {"dt", number(s.dt)},
+                     {"critical_step", number(s.critical_step)},
+                     {"error", error},
+                     {"probes", probes},
+                     {"versions", versions}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,12 @@
+// Versions of the program and of the libraries that its numbers come from.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stillpoint {
+
+std::vector<std::pair<std::string, std::string>> library_versions();
+
+}  // namespace stillpoint
