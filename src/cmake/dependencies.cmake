@@ -1,5 +1,10 @@
 # Everything that the library links, from Debian's packages (scripts/packages lists them).
 # This file is used twice: by the build, and, installed, by find_package(stillpoint).
+if(NOT CMAKE_FIND_PACKAGE_NAME)  # the build: nobody called find_package, and what is missing is an error at once
+  set(CMAKE_FIND_PACKAGE_NAME stillpoint)
+  set(stillpoint_FIND_REQUIRED TRUE)
+endif()
+
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 CONFIG)
 find_dependency(fmt CONFIG)
@@ -9,5 +14,16 @@ find_dependency(nlohmann_json CONFIG)
 find_dependency(OpenMP COMPONENTS CXX)
 find_dependency(GSL)
 find_dependency(SUNDIALS CONFIG COMPONENTS arkode nvecserial)
-find_library(STILLPOINT_CHOLMOD cholmod REQUIRED)
-find_library(STILLPOINT_ARPACK arpack REQUIRED)
+
+# SuiteSparse and ARPACK bring no CMake package in Debian: a target for each.
+if(NOT TARGET stillpoint::cholmod)
+  find_library(STILLPOINT_CHOLMOD cholmod REQUIRED)
+  find_path(STILLPOINT_CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+  add_library(stillpoint::cholmod UNKNOWN IMPORTED)
+  set_target_properties(stillpoint::cholmod PROPERTIES
+    IMPORTED_LOCATION ${STILLPOINT_CHOLMOD} INTERFACE_INCLUDE_DIRECTORIES ${STILLPOINT_CHOLMOD_INCLUDE})
+
+  find_library(STILLPOINT_ARPACK arpack REQUIRED)
+  add_library(stillpoint::arpack UNKNOWN IMPORTED)
+  set_target_properties(stillpoint::arpack PROPERTIES IMPORTED_LOCATION ${STILLPOINT_ARPACK})
+endif()

@@ -1,4 +1,4 @@
-# Compiler flags of our own files, kept in one interface target.
+# How our own files are compiled, kept in one interface target, and what they link.
 add_library(stillpoint_flags INTERFACE)
 target_compile_options(stillpoint_flags INTERFACE
   -Wall -Wextra -Wconversion -Wshadow
@@ -9,8 +9,7 @@ target_compile_options(stillpoint_flags INTERFACE
   $<$<BOOL:${STILLPOINT_NATIVE}>:-march=native>
   $<$<CONFIG:Release>:-O3>)
 
+find_package(CLI11 CONFIG REQUIRED)  # of the command alone
 set(STILLPOINT_DEPENDENCIES
   fmt::fmt muparser::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json OpenMP::OpenMP_CXX
-  GSL::gsl SUNDIALS::arkode SUNDIALS::nvecserial ${STILLPOINT_CHOLMOD} ${STILLPOINT_ARPACK})
-
-find_package(CLI11 CONFIG REQUIRED)
+  GSL::gsl SUNDIALS::arkode SUNDIALS::nvecserial stillpoint::cholmod stillpoint::arpack)

@@ -1,8 +1,16 @@
 include(CMakePackageConfigHelpers)
 set(STILLPOINT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/stillpoint)
 
+# Eigen aligns by the processor that it is compiled for. With -march=native in the library and not in a program that
+# links it, one would free what the other allocated in another way: both take the widest alignment instead.
+target_compile_definitions(stillpoint PUBLIC EIGEN_MAX_ALIGN_BYTES=64)
+
+# Our own compiler flags stay here: nothing that is installed names them.
+get_target_property(links stillpoint INTERFACE_LINK_LIBRARIES)
+list(REMOVE_ITEM links $<LINK_ONLY:stillpoint_flags>)
+set_target_properties(stillpoint PROPERTIES INTERFACE_LINK_LIBRARIES "${links}")
+
 install(TARGETS stillpoint EXPORT stillpointTargets)
-install(TARGETS stillpoint_flags EXPORT stillpointTargets)
 install(TARGETS stillpoint_command RUNTIME)
 install(DIRECTORY include/stillpoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT stillpointTargets NAMESPACE stillpoint:: DESTINATION ${STILLPOINT_CONFIG_DIR})

@@ -1,0 +1,17 @@
+// SUNDIALS' ARKODE, explicit Runge–Kutta (ERKStep), behind the Integrator interface.
+#pragma once
+
+#include <stillpoint/integrator.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace stillpoint {
+
+/// erk:<table> for every explicit table of the installed ARKODE, and for three of our own.
+std::vector<Method> erk_methods();
+
+/// options.method is one of erk_methods(). Fixed steps without rtol, adaptive with it.
+std::unique_ptr<Integrator> make_erk(const IntegratorOptions& options, RelaxationSystem& system);
+
+}  // namespace stillpoint

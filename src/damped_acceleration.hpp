@@ -1,0 +1,48 @@
+// The acceleration under C = c_m M + c_i I, as the one-force schemes treat it:
+//
+//   lagged    M a = Q − C v                            averaged  M a = Q − C (v + h/2 a)
+//   implicit  M a = Q − C (v + h a)                    exact     v + h a = the solution at h of v' = M⁻¹(Q − C v), Q
+//   frozen
+//
+// With a diagonal M each degree of freedom has its own rate r = c_m + c_i/m, and all four are
+//   a = g(h r) (Q/m − r v),   g(z) = 1,  1/(1 + z/2),  1/(1 + z),  (1 − e^{−z})/z.
+#pragma once
+
+#include <stillpoint/integrator.hpp>
+#include <stillpoint/mass.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace stillpoint {
+
+/// g(z) above.
+double damping_factor(DampingTreatment treatment, double z);
+
+/// Amplification of  v⁺ = v⁻ + h a(v⁻, Q_n),  u⁺ = u + h v⁺,  which is both leapfrog and symplectic Euler.
+AmplificationRadius kick_drift_amplification(DampingTreatment treatment);
+
+class DampedAcceleration {
+ public:
+  /// Throws std::invalid_argument for exact where C and M are not diagonal together. mass is the system's and outlives
+  /// this.
+  DampedAcceleration(DampingTreatment treatment, const LinearDamping& C, const Mass& mass);
+
+  /// a from Q, in its place; h [s], v: (n), Q_to_a: (n). Allocates only where M + θ h C has to be factorised for a new
+  /// h.
+  void operator()(double h, ConstVec v, Vec Q_to_a);
+
+ private:
+  void solve_diagonal(double h, ConstVec v, Vec Q_to_a);
+  void solve_coupled(double h, ConstVec v, Vec Q_to_a);
+
+  DampingTreatment treatment_;
+  LinearDamping C_;
+  const Mass& mass_;
+  double h_ = -1;                         // what the next two were made for
+  std::vector<double> factor_;            // g(h r_i), (n), where c_i ≠ 0 and M is a diagonal
+  std::optional<SparseCholesky> matrix_;  // M + θ h C, where c_i ≠ 0 and M is not
+  std::vector<double> Mv_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,18 @@
+// The two schemes that cost one force evaluation a step: leapfrog and symplectic Euler.
+#pragma once
+
+#include <stillpoint/integrator.hpp>
+
+#include <memory>
+
+namespace stillpoint {
+
+/// Throw std::invalid_argument for a treatment that the scheme does not have.
+Method leapfrog_method(DampingTreatment treatment);
+Method symplectic_euler_method(DampingTreatment treatment);
+
+/// Throw likewise; also where the treatment does not fit the system's damping and mass.
+std::unique_ptr<Integrator> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system);
+std::unique_ptr<Integrator> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system);
+
+}  // namespace stillpoint

@@ -1,0 +1,79 @@
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "in_quotes.hpp"
+#include "scene_constants.hpp"
+#include "scene_schema.hpp"
+#include "scene_validation.hpp"
+#include "toml_source.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// The scene in a file's text under overrides; complete only where problems stays empty.
+Scene read_scene(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 std::vector<Problem>& problems) {
+  Scene scene;
+  scene.file = file;
+  scene.name = file.stem().string();
+  auto table = parse_toml(text, file.string(), problems);
+  if (!table) return scene;
+  for (const std::string& text_of_override : overrides) apply_override(*table, text_of_override, problems);
+  scene.where = locations_of(*table);
+
+  Reading reading;
+  if (const auto* constants = table->get_as<toml::table>("constants")) resolve_constants(*constants, reading);
+  scene.constants = reading.constants;
+  TableReader root(&*table, "", {file.string(), 1, 1}, reading);
+  if (read_schema(root, scene)) validate(scene, reading.problems);
+  problems.insert(problems.end(), reading.problems.begin(), reading.problems.end());
+  return scene;
+}
+
+bool same(const Problem& a, const Problem& b) {
+  return a.message == b.message && to_string(a.where) == to_string(b.where);
+}
+
+/// Loads the scene once for each variant, and reports at the variant what the scene itself does not suffer from.
+void check_variants(const Scene& scene, const std::string& text, const std::vector<std::string>& overrides,
+                    std::vector<Problem>& problems) {
+  const std::vector<Problem> own = problems;
+  for (std::size_t k = 0; k < scene.variants.size(); ++k) {
+    std::vector<std::string> all = overrides;
+    all.insert(all.end(), scene.variants[k].set.begin(), scene.variants[k].set.end());
+    std::vector<Problem> found;
+    read_scene(text, scene.file, all, found);
+    for (const Problem& problem : found) {
+      if (std::any_of(own.begin(), own.end(), [&](const Problem& other) { return same(problem, other); })) continue;
+      problems.push_back({scene.location(fmt::format("variant[{}].set", k)),
+                          fmt::format("variant {}: {}", in_quotes(scene.variants[k].name), problem.message)});
+    }
+  }
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::vector<Problem> problems;
+  const auto text = read_file(file, problems);
+  if (!text) throw SceneError(std::move(problems));
+  Scene scene = read_scene(*text, file, overrides, problems);
+  constexpr std::size_t most_variants = 1000;
+  if (scene.variants.size() > most_variants) {
+    problems.push_back({scene.location("variant"), fmt::format("more than {} variants", most_variants)});
+  } else {
+    check_variants(scene, *text, overrides, problems);
+  }
+  if (problems.empty()) return scene;
+  // In the order of the file, overrides first.
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
+  });
+  throw SceneError(std::move(problems));
+}
+
+}  // namespace stillpoint

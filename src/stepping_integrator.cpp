@@ -1,0 +1,56 @@
+#include "stepping_integrator.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "vector_operations.hpp"
+
+namespace stillpoint {
+
+SteppingIntegrator::SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system)
+    : system_(system),
+      options_(options),
+      division_(options.max_step),
+      trial_(system.vectors().make(2 * system.size())) {}
+
+void SteppingIntegrator::start(double t, Vector& y) {
+  if (y.size() != trial_.size()) {
+    throw std::invalid_argument(fmt::format("y has {} entries, 2n is {}", y.size(), trial_.size()));
+  }
+  t_ = t;
+  y_ = &y;
+  begin(t, y);
+}
+
+StepReport SteppingIntegrator::step(double t_stop) {
+  if (!y_) throw std::logic_error("step() before start()");
+  if (!(t_stop > t_) || !std::isfinite(t_stop)) {
+    throw std::invalid_argument(fmt::format("there is no step from t = {} to {}", t_, t_stop));
+  }
+  double h = adaptive() ? options_.max_step : division_.step_from(t_, t_stop);
+  for (int halvings = 0;; ++halvings) {
+    Attempt tried = attempt(t_, *y_, h, t_stop, trial_);
+    if (tried.status == StepReport::Status::ok) {
+      // A sum of squares is not finite where any entry is not.
+      if (std::isfinite(dot(trial_, trial_))) return accept(tried);
+      refused();
+      tried = {.status = StepReport::Status::not_finite, .h = tried.h, .message = "the new state is not finite"};
+    }
+    const bool retry = tried.status == StepReport::Status::inadmissible && tried.h > 0 && halvings < max_halvings;
+    if (!retry) return {.status = tried.status, .t = t_, .h = tried.h, .message = tried.message};
+    ++rejected_;
+    h = tried.h / 2;
+  }
+}
+
+StepReport SteppingIntegrator::accept(const Attempt& attempt) {
+  copy(trial_, *y_);
+  accepted();
+  t_ = adaptive() ? attempt.t : division_.arrive(t_, attempt.h);
+  ++steps_;
+  return {.status = StepReport::Status::ok, .t = t_, .h = attempt.h};
+}
+
+}  // namespace stillpoint

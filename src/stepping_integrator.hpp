@@ -1,0 +1,59 @@
+// What all integrators do alike around their own step: divide the way to t_stop, try, look at the trial, retry, accept.
+#pragma once
+
+#include <stillpoint/integrator.hpp>
+
+#include <string>
+
+#include "step_division.hpp"
+
+namespace stillpoint {
+
+class SteppingIntegrator : public Integrator {
+ public:
+  /// An inadmissible trial is tried again with half its step, at most so many times.
+  static constexpr int max_halvings = 10;
+
+  void start(double t, Vector& y) final;
+  StepReport step(double t_stop) final;
+  long steps() const final { return steps_; }
+  long rejected_steps() const final { return rejected_; }
+
+ protected:
+  struct Attempt {
+    StepReport::Status status = StepReport::Status::ok;
+    double h = 0;  // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
+    double t = 0;  // adaptive: where the trial is [s]
+    std::string message{};
+  };
+
+  SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system);
+
+  /// Begins at (t, y).
+  virtual void begin(double t, const Vector& y) = 0;
+  /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
+  /// read.
+  virtual Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) = 0;
+  /// The last trial has become the state.
+  virtual void accepted() {}
+  /// The last trial, though attempt() thought it good, has not.
+  virtual void refused() {}
+  void count_rejected(long rejected) { rejected_ += rejected; }
+
+  RelaxationSystem& system() { return system_; }
+  const IntegratorOptions& options() const { return options_; }
+  bool adaptive() const { return options_.rtol.has_value(); }
+
+ private:
+  StepReport accept(const Attempt& attempt);
+
+  RelaxationSystem& system_;
+  IntegratorOptions options_;
+  StepDivision division_;
+  Vector trial_;  // (2n)
+  Vector* y_ = nullptr;
+  double t_ = 0;
+  long steps_ = 0, rejected_ = 0;
+};
+
+}  // namespace stillpoint

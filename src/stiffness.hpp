@@ -1,0 +1,30 @@
+// The tangent K with its Cholesky factor, or why it has none: what both ways to ω₁ need.
+#pragma once
+
+#include <stillpoint/semi_discrete.hpp>
+
+#include <string>
+
+namespace stillpoint {
+
+/// K = ∂R/∂u at (t, u), assembled and factorised. Throws std::runtime_error where CHOLMOD itself fails.
+class FactorisedStiffness {
+ public:
+  FactorisedStiffness(const SemiDiscrete& system, double t, ConstVec u);
+
+  /// Whether there is a factor to solve with.
+  bool usable() const { return mass_.size() > 0 && factor_.positive_definite(); }
+  /// x = K⁻¹ b; b, x: (n). Needs usable().
+  void solve(ConstVec b, Vec x) const { factor_.solve(b, x); }
+  /// Why K gives no ω₁: no degrees of freedom, not finite, indefinite, or singular. Empty where it gives one.
+  /// omega_squared: the ω₁² that was found, 0 where K has no factor.
+  std::string refusal(double omega_squared) const;
+
+ private:
+  const Mass& mass_;
+  SparseMatrix K_;
+  SparseCholesky factor_;
+  double scale_;  // max K_ii/M_ii, at most ω_max² and of its size
+};
+
+}  // namespace stillpoint

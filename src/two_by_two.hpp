@@ -1,0 +1,18 @@
+// Eigenvalues of a real 2 × 2 matrix, enough of them to tell a stable map from an unstable one.
+#pragma once
+
+#include <cmath>
+
+namespace stillpoint {
+
+struct TwoByTwo {
+  double trace = 0, determinant = 0;
+};
+
+/// max |λ| over λ² − trace λ + determinant = 0.
+inline double spectral_radius(const TwoByTwo& matrix) {
+  const double half = matrix.trace / 2, discriminant = half * half - matrix.determinant;
+  return discriminant < 0 ? std::sqrt(matrix.determinant) : std::abs(half) + std::sqrt(discriminant);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,15 @@
+// Operations on serial N_Vectors that replace those of Debian's SUNDIALS, which is compiled without optimisation.
+#pragma once
+
+#include <stillpoint/vector.hpp>
+
+namespace stillpoint {
+
+/// Puts our operations into a vector made by N_VNew_Serial or N_VMake_Serial; its clones carry them.
+void use_fast_operations(NVectorHandle serial);
+/// to = from, of the same length.
+void copy(const Vector& from, Vector& to);
+/// Whether use_fast_operations() was called on it or on what it was cloned from.
+bool has_fast_operations(NVectorHandle any);
+
+}  // namespace stillpoint

@@ -1,0 +1,221 @@
+// What is wrong with a scene is said in words, at its line and column, all at once.
+#include <stillpoint/scene.hpp>
+
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "broken_scene.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using stillpoint::testing::broken;
+using stillpoint::testing::kGoodScene;
+using stillpoint::testing::TemporaryFolder;
+
+namespace {
+
+struct BadScene {
+  const char *name, *from, *to;  // the good scene with `from` replaced by `to`
+  const char *where, *message;   // "line:column", part of the message
+};
+
+const std::vector<BadScene> kBadScenes = {
+    {"not TOML", "cells = 4", "cells = ", "6:9", "not valid TOML"},
+    {"a key twice", "E = 1.0", "E = 1.0\nE = 2.0", "13:5", "not valid TOML"},
+    {"key at the top", "[constants]", "titel = \"bar\"\n[constants]", "1:1",
+     "unknown key 'titel'; did you mean 'title'?"},
+    {"key in a table", "[body]", "[body]\nplacment = 1", "8:1",
+     "body: unknown key 'placment'; did you mean 'placement'?"},
+    {"key far from any", "c = 0.3", "mushroom = 0.3", "22:1", "expected one of strategy, c, alpha"},
+    {"key in an entry", "u = 0.0", "uu = 0.0", "16:1", "support[0]: unknown key 'uu'; did you mean 'u'?"},
+    {"unknown table", "[damping]", "[dampling]", "20:2", "unknown key 'dampling'; did you mean 'damping'?"},
+    {"material's key", "rho = 1.0", "rho = 1.0\nroh = 1.0", "14:1", "unknown key 'roh'; did you mean 'rho'?"},
+    {"a missing key", "cells = 4\n", "", "3:1", "grid: the key 'cells' is missing"},
+    {"a missing parameter", "rho = 1.0\n", "", "10:1", "material.steel: the key 'rho' is missing"},
+    {"a missing law", "law = \"linear-elastic\"\n", "", "10:1", "material.steel: the key 'law' is missing"},
+    {"string for number", "E = 1.0", "E = \"stiff\"", "12:6", "material.steel.E: unknown name 'stiff'"},
+    {"bool for number", "max = 10.0", "max = true", "5:7", "grid.max: expected a number or a formula, found true"},
+    {"number for string", "\"steel\"", "3", "8:12", "body.material: expected a string, found the number 3"},
+    {"value for table", "[damping]", "[[damping]]", "20:1", "damping: expected a table, found an array of tables"},
+    {"table for array", "[[force]]", "[force]", "17:1", "force: expected an array of tables, [[force]]"},
+    {"wrong length", "max = 10.0", "max = [10.0, 3.0]", "5:7", "grid.max: expected 1 value, found 2"},
+    {"no law like it", "\"linear-elastic\"", "\"linear-elastik\"", "11:7", "did you mean 'linear-elastic'?"},
+    {"no material like it", "\"steel\"", "\"stel\"", "8:12", "there is no material 'stel'; did you mean 'steel'?"},
+    {"no density", "rho = 1.0", "rho = 0", "13:7", "material.steel.rho: must be greater than 0, not 0"},
+    {"negative stiffness", "E = 1.0", "E = -2", "12:5", "material.steel.E: must be greater than 0, not -2"},
+    {"Poisson's ratio", "E = 1.0", "E = 1.0\nnu = 0.5", "13:6", "must be greater than -1 and less than 0.5, not 0.5"},
+    {"zero cells", "cells = 4", "cells = 0", "6:9", "grid.cells: must be a whole number from 1 to 10000000, not 0"},
+    {"half a cell", "cells = 4", "cells = 4.5", "6:9", "not 4.5"},
+    {"too many cells", "cells = 4", "cells = 9223372036854775807", "6:9", "not 9223372036854775807"},
+    {"far too many cells", "cells = 4", "cells = 1e300", "6:9", "not 1e+300"},
+    {"too many points", "cells = 4\n[body]\nmaterial = \"steel\"\npoints_per_cell = 3",
+     "cells = 10000000\n[body]\nmaterial = \"steel\"\npoints_per_cell = 1000", "9:19", "1e+10 material points"},
+    {"an empty grid", "max = 10.0", "max = 0", "5:7", "grid.max: must be greater than grid.min = 0, not 0"},
+    {"cells below rounding", "min = 0.0\nmax = 10.0", "min = 1e16\nmax = 10000000000000004", "6:9", "too small"},
+    {"body before grid", "[body]", "[body]\nmin = -1", "8:7", "body.min: -1 lies outside the grid, 0 to 10"},
+    {"body past grid", "[body]", "[body]\nmax = 11", "8:7", "body.max: 11 lies outside the grid, 0 to 10"},
+    {"body inside out", "[body]", "[body]\nmin = 5\nmax = 5", "9:7", "must be greater than body.min = 5, not 5"},
+    {"no area", "[body]", "[body]\narea = 0", "8:8", "body.area: must be greater than 0, not 0"},
+    {"negative seed", "[body]", "[body]\nseed = -1", "8:8", "must be a whole number of at least 0, not -1"},
+    {"support outside", "at = 0.0", "at = -0.5", "15:6", "support[0].at: -0.5 lies outside the grid, 0 to 10"},
+    {"support twice", "[[force]]", "[[support]]\nat = 0\n[[force]]", "18:6", "support[0] holds this place already"},
+    {"support's component", "u = 0.0", "component = 1", "16:13", "must be a whole number from 0 to 0, not 1"},
+    {"force outside", "at = 10.0", "at = 12", "18:6", "force[0].at: 12 lies outside the body, 0 to 10"},
+    {"not a number", "at = 10.0", "at = nan", "18:6", "force[0].at: expected a finite number, found nan"},
+    {"infinite", "c = 0.3", "c = inf", "22:5", "damping.c: expected a finite number, found inf"},
+    {"infinite formula", "value = \"P0\"", "value = \"P0/0\"", "19:9", "the value inf is not a finite number"},
+    {"unknown name", "value = \"P0\"", "value = \"2*P1\"", "19:12", "unknown name 'P1'; did you mean 'P0'?"},
+    {"x in a load", "value = \"P0\"", "value = \"P0*x\"", "19:13", "'x' cannot be used here: this is a formula of t"},
+    {"half a formula", "value = \"P0\"", "value = \"P0*(1+t\"", "19:17", "a ')' is missing"},
+    {"escaped formula", "value = \"P0\"", "value = \"\\tP0*t2\"", "19:9",
+     "unknown name 't2'; did you mean 't'? (at character 5 of"},
+    {"no damping like it", "\"viscous\"", "\"viscose\"", "21:12", "did you mean 'viscous'?"},
+    {"negative damping", "c = 0.3", "c = -0.1", "22:5", "damping.c: must be at least 0, not -0.1"},
+    {"critical misspelt", "c = 0.3", "c = \"critcal\"", "22:5", "did you mean 'critical'?"},
+    {"alpha of 1", "c = 0.3", "alpha = 1.0", "22:9", "damping.alpha: must be at least 0 and less than 1, not 1"},
+    {"no method like it", "\"leapfrog\"", "\"leepfrog\"", "24:10", "did you mean 'leapfrog'?"},
+    {"no step", "step_fraction = 0.9", "step = 0", "25:8", "integrator.step: must be greater than 0, not 0"},
+    {"two steps", "step_fraction = 0.9", "step = 1\nstep_fraction = 0.9", "26:17", "either step or step_fraction"},
+    {"unstable step", "step_fraction = 0.9", "step_fraction = 1.1", "25:17", "1.1 of the critical step is unstable"},
+    {"no error estimate", "step_fraction = 0.9", "rtol = 1e-3", "25:8", "'leapfrog' has no error estimate"},
+    {"tolerance of 1", "\"leapfrog\"", "\"leapfrog\"\nrtol = 1", "25:8",
+     "must be greater than 0 and less than 1, not 1"},
+    {"treatment", "\"leapfrog\"", "\"leapfrog\"\ndamping = \"exact\"", "25:11", "does not go with method 'leapfrog'"},
+    {"negative test", "residual = 1e-6", "residual = -1", "27:12", "stop.residual: must be at least 0, not -1"},
+    {"endless", "residual = 1e-6", "residual = 0", "27:12", "nothing would ever stop this run"},
+    {"no such point", "point = 12", "point = 13", "31:9", "there are 12 material points, so 13 is too large"},
+    {"point 0", "point = 12", "point = 0", "31:9", "probe[0].point: must be a whole number from 1"},
+    {"probe outside", "point = 12", "at = -1", "31:6", "probe[0].at: -1 lies outside the body, 0 to 10"},
+    {"probe nowhere", "point = 12\n", "", "29:1", "probe[0]: give point, the number of a material point, or at"},
+    {"probe at two places", "point = 12", "point = 12\nat = 1", "32:6", "give either point or at, not both"},
+    {"probe with a comma", "\"tip\"", "\"a,b\"", "30:8", "cannot hold a comma, a quote or a control character"},
+    {"probe without name", "\"tip\"", "\"\"", "30:8", "probe[0].name: must not be empty"},
+    {"no fields", "[\"u\"]", "[]", "32:10", "probe[0].fields: name at least one of u, v, strain, stress"},
+    {"unknown field", "[\"u\"]", "[\"u\", \"strss\"]", "32:16", "unknown field 'strss'; did you mean 'stress'?"},
+    {"two probes, one name", "[\"u\"]", "[\"u\"]\n[[probe]]\nname = \"tip\"\nat = 1\nfields = [\"v\"]", "34:8",
+     "there is a probe 'tip' already"},
+    {"constants in a circle", "P0 = 1.0", "P0 = \"2*Q\"\nQ = \"P0\"", "2:6", "is defined by itself: P0 → Q → P0"},
+    {"constant called x", "P0 = 1.0", "P0 = 1.0\nx = 2.0", "3:1", "x, y, z and t are the variables"},
+    {"constant called sin", "P0 = 1.0", "P0 = 1.0\nsin = 2.0", "3:1", "a function has this name"},
+    {"two dimensions", "[constants]", "dim = 2\n[constants]", "1:7",
+     "this version computes in 1 dimension only, not in 2"},
+    {"force that is a pair", "[damping]", "[body_force]\nvalue = [1, 2]\n[damping]", "21:9",
+     "expected 1 value, found 2"},
+    {"bad variant", "[[probe]]", "[[variant]]\nname = \"v\"\nset = [\"damping.c=-1\"]\n[[probe]]", "31:7",
+     "variant 'v': damping.c: must be at least 0, not -1"},
+};
+
+/// The problems of a scene; empty where it loads.
+std::vector<Problem> problems_of(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}) {
+  try {
+    load_scene(file, overrides);
+  } catch (const SceneError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+std::string only_problem_of(const std::string& override_text) {
+  const TemporaryFolder folder;
+  const auto problems = problems_of(folder.write("bar.toml", kGoodScene), {override_text});
+  REQUIRE(problems.size() == 1);
+  return to_string(problems[0].where) + ": " + problems[0].message;
+}
+
+}  // namespace
+
+TEST_CASE("the scene that the tests break is good") {
+  const TemporaryFolder folder;
+  REQUIRE_NOTHROW(load_scene(folder.write("good.toml", kGoodScene)));
+}
+
+TEST_CASE("each of over 70 broken scenes gives one problem, with what is wrong, its line and its column") {
+  REQUIRE(kBadScenes.size() >= 70);
+  const TemporaryFolder folder;
+  for (const BadScene& bad : kBadScenes) {
+    INFO(bad.name);
+    const auto file = folder.write("bad.toml", broken(bad.from, bad.to));
+    const auto problems = problems_of(file);
+    for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem.where) + ": " + problem.message);
+    CHECK(problems.size() == 1);
+    if (problems.empty()) continue;
+    CHECK(to_string(problems[0].where) == file.string() + ":" + bad.where);
+    CHECK_THAT(problems[0].message, Catch::Contains(bad.message));
+  }
+}
+
+TEST_CASE("five mistakes are reported at once, in the order of the file") {
+  std::string scene = broken("max = 10.0", "max = \"L\"");
+  scene = broken("rho = 1.0", "rho = -1", scene);
+  scene = broken("u = 0.0", "uu = 0.0", scene);
+  scene = broken("c = 0.3", "c = -1", scene);
+  scene = broken("[\"u\"]", "[\"w\"]", scene);
+  const TemporaryFolder folder;
+  const auto problems = problems_of(folder.write("bad.toml", scene));
+  std::vector<int> lines;
+  for (const Problem& problem : problems) lines.push_back(problem.where.line);
+  REQUIRE(lines == std::vector<int>{5, 13, 16, 22, 32});
+}
+
+TEST_CASE("a wrong constant is reported where it is written, not where it is used") {
+  const TemporaryFolder folder;
+  const auto problems = problems_of(folder.write("bad.toml", broken("P0 = 1.0", "P0 = \"Q\"\nR = \"2*P0\"")));
+  REQUIRE(problems.size() == 1);
+  REQUIRE(problems[0].where.line == 2);
+}
+
+TEST_CASE("a scene that is not there, a folder and a huge file are refused by name") {
+  const TemporaryFolder folder;
+  const auto check = [](const std::filesystem::path& file, const char* message) {
+    const auto problems = problems_of(file);
+    REQUIRE(problems.size() == 1);
+    CHECK(to_string(problems[0].where) == file.string());
+    CHECK_THAT(problems[0].message, Catch::Contains(message));
+  };
+  check(folder.path() / "none.toml", "there is no such file");
+  check(folder.path(), "is a directory");
+  check(folder.write("huge.toml", std::string(std::size_t{17} << 20, '#')), "larger than 16 MiB");
+  check("/dev/zero", "larger than 16 MiB");
+}
+
+TEST_CASE("an empty scene lacks its grid and its body") {
+  const TemporaryFolder folder;
+  const auto problems = problems_of(folder.write("empty.toml", ""));
+  REQUIRE(problems.size() == 2);
+  REQUIRE_THAT(problems[0].message, Catch::Contains("grid: this table is missing"));
+  REQUIRE_THAT(problems[1].message, Catch::Contains("body: this table is missing"));
+}
+
+TEST_CASE("a wrong override is shown as it was typed") {
+  CHECK(only_problem_of("damping.c") == "--set damping.c: expected key=value, for example --set damping.c=0.5");
+  CHECK(only_problem_of("=3") == "--set =3: the key before '=' is missing");
+  CHECK(only_problem_of("damping..c=3") == "--set damping..c=3: the key 'damping..c' has an empty part");
+  CHECK(only_problem_of("probe[0].name=a") == "--set probe[0].name=a: 'probe[0]' is not a key that --set can change");
+  CHECK(only_problem_of("probe.name=a") ==
+        "--set probe.name=a: probe: is an array; --set can replace it but not reach into it");
+  CHECK(only_problem_of("damping.d=1") ==
+        "--set damping.d=1: damping: unknown key 'd'; expected one of strategy, c, alpha");
+  CHECK(only_problem_of("damping.c=pi/") ==
+        "--set damping.c=pi/: damping.c: the formula ends too early (at character 4 of 'pi/')");
+  CHECK(only_problem_of("damping.c=") == "--set damping.c=: damping.c: the formula is empty");
+}
+
+TEST_CASE("no message carries a control character or the whole of a long word") {
+  const TemporaryFolder folder;
+  const std::string word = "\\u001b[2J" + std::string(10000, 'a');
+  const auto problems = problems_of(folder.write("bad.toml", broken("\"steel\"", '"' + word + '"')));
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].message.find('\x1b') == std::string::npos);
+  CHECK(problems[0].message.size() < 300);
+}
+
+TEST_CASE("a key with a million parts is refused and does not overrun the stack") {
+  const TemporaryFolder folder;
+  std::string key = "a";
+  for (int k = 0; k < 1'000'000; ++k) key += ".a";
+  const auto problems = problems_of(folder.write("bad.toml", kGoodScene + key + " = 1\n"));
+  REQUIRE(problems.size() == 1);
+  REQUIRE_THAT(problems[0].message, Catch::Contains("too many dots"));
+}

@@ -1,0 +1,97 @@
+// The command on bad input: exit status 2, the reason on stderr, and no output folder.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+
+#include "broken_scene.hpp"
+#include "temporary_folder.hpp"
+
+using stillpoint::testing::broken;
+using stillpoint::testing::kGoodScene;
+using stillpoint::testing::TemporaryFolder;
+
+namespace {
+
+/// The end of one run of the command, in a folder that it may write into.
+struct CommandRun {
+  int status = -1;
+  std::string standard_error;
+  bool wrote = false;  // whether the output folder exists
+
+  /// arguments go through the shell; SCENE and OUT in them stand for the scene file and the output folder.
+  CommandRun(const std::string& scene, std::string arguments) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("scene.toml", scene);
+    const auto out = folder.path() / "out";
+    const auto errors = folder.path() / "errors";
+    replace(arguments, "SCENE", file.string());
+    replace(arguments, "OUT", out.string());
+    const std::string line = std::string(STILLPOINT_BINARY) + " " + arguments + " >/dev/null 2>" + errors.string();
+    const int ended = std::system(line.c_str());
+    status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+    std::ostringstream text;
+    text << std::ifstream(errors).rdbuf();
+    standard_error = text.str();
+    replace(standard_error, file.string(), "scene.toml");
+    wrote = std::filesystem::exists(out);
+  }
+
+ private:
+  static void replace(std::string& text, const std::string& from, const std::string& to) {
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  }
+};
+
+void refuses(const CommandRun& run, const std::string& message) {
+  CHECK(run.status == 2);
+  CHECK_FALSE(run.wrote);
+  CHECK_THAT(run.standard_error, Catch::Contains(message));
+}
+
+}  // namespace
+
+TEST_CASE("the command refuses a wrong value at its place in the file, with status 2 and no output") {
+  refuses({broken("rho = 1.0", "rho = 0"), "run SCENE --out OUT"},
+          "scene.toml:13:7: material.steel.rho: must be greater than 0, not 0");
+}
+
+TEST_CASE("the command names a misspelt key's place and the key that was meant") {
+  refuses({broken("strategy", "stratgey"), "run SCENE --out OUT"},
+          "scene.toml:21:1: damping: unknown key 'stratgey'; did you mean 'strategy'?");
+}
+
+TEST_CASE("the command refuses a file that is not TOML at the place of the fault") {
+  refuses({broken("cells = 4", "cells = "), "run SCENE --out OUT"}, "scene.toml:6:9: not valid TOML");
+}
+
+TEST_CASE("the command points into a wrong formula") {
+  refuses({broken("\"P0\"", "\"2*P1\""), "run SCENE --out OUT"}, "scene.toml:19:12: force[0].value: unknown name 'P1'");
+}
+
+TEST_CASE("the command reports every problem of a scene in one run") {
+  const CommandRun run(broken("c = 0.3", "c = -1", broken("cells = 4", "cells = 0")), "run SCENE --out OUT");
+  refuses(run, "scene.toml:6:9: grid.cells");
+  refuses(run, "scene.toml:22:5: damping.c");
+}
+
+TEST_CASE("the command shows a wrong override as it was typed") {
+  refuses({kGoodScene, "run SCENE --out OUT --set damping.c=-1"}, "--set damping.c=-1: damping.c: must be at least 0");
+  refuses({kGoodScene, "run SCENE --out OUT --set damping.c"}, "--set damping.c: expected key=value");
+}
+
+TEST_CASE("the command refuses a scene file that is not there, or is a folder") {
+  refuses({kGoodScene, "run SCENE.none --out OUT"}, "scene.toml.none: there is no such file");
+  refuses({kGoodScene, "run / --out OUT"}, "/: is a directory");
+}
+
+TEST_CASE("the command refuses an option that it does not know") {
+  refuses({kGoodScene, "run SCENE --out OUT --mushroom"}, "--mushroom");
+}
+
+TEST_CASE("the command refuses a subcommand that it does not know") { refuses({kGoodScene, "rum SCENE"}, "rum"); }

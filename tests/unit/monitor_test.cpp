@@ -1,0 +1,74 @@
+#include <stillpoint/monitor.hpp>
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+using namespace stillpoint;
+
+namespace {
+
+const MonitorOptions options{
+    .residual = 1e-3, .kinetic_energy = 1e-2, .hold = 10, .end_time = 0, .steps = 0, .wall_time = 0};
+
+}  // namespace
+
+TEST_CASE("equilibrium is declared only after residual and kinetic energy both held for the whole period") {
+  Monitor monitor(options);
+  CHECK(monitor.observe(0, 1, 5.0) == RunStatus::running);
+  CHECK(monitor.observe(1, 1e-4, 1e-3) == RunStatus::running);
+  CHECK(monitor.observe(6, 1e-4, 1e-3) == RunStatus::running);
+  CHECK(monitor.observe(10.9, 1e-4, 1e-3) == RunStatus::running);
+  CHECK(monitor.observe(11, 1e-4, 1e-3) == RunStatus::equilibrium);
+  CHECK(monitor.reason().find("held for 10 s") != std::string::npos);
+}
+
+TEST_CASE("a turning point, where the kinetic energy alone is small, is not equilibrium") {
+  Monitor monitor(options);
+  for (int k = 0; k < 100; ++k) CHECK(monitor.observe(k, 0.5, k % 2 == 0 ? 0.0 : 1.0) == RunStatus::running);
+}
+
+TEST_CASE("passing through balance at full speed is not equilibrium and starts the period anew") {
+  Monitor monitor(options);
+  CHECK(monitor.observe(0, 1e-4, 1.0) == RunStatus::running);   // at the peak of its kinetic energy
+  CHECK(monitor.observe(5, 1e-4, 1e-4) == RunStatus::running);  // the period begins here
+  CHECK(monitor.observe(12, 2e-3, 1e-4) == RunStatus::running);
+  CHECK(monitor.observe(13, 1e-4, 1e-4) == RunStatus::running);
+  CHECK(monitor.observe(22, 1e-4, 1e-4) == RunStatus::running);
+  CHECK(monitor.observe(23, 1e-4, 1e-4) == RunStatus::equilibrium);
+}
+
+TEST_CASE("a residual limit of 0 switches the test for equilibrium off") {
+  MonitorOptions off = options;
+  off.residual = 0;
+  Monitor monitor(off);
+  for (int k = 0; k < 100; ++k) CHECK(monitor.observe(k, 0, 0) == RunStatus::running);
+}
+
+TEST_CASE("a residual that is not finite is divergence") {
+  Monitor monitor(options);
+  CHECK(monitor.observe(0, std::numeric_limits<double>::quiet_NaN(), 1) == RunStatus::diverged);
+  Monitor energy(options);
+  CHECK(energy.observe(0, 1, std::numeric_limits<double>::infinity()) == RunStatus::diverged);
+}
+
+TEST_CASE("each limit ends the run with its own status, and 0 is no limit") {
+  MonitorOptions limits{.residual = 0, .kinetic_energy = 0, .hold = 0, .end_time = 5, .steps = 100, .wall_time = 2};
+  CHECK(Monitor(limits).check_limits(5, 1, 0) == RunStatus::end_time);
+  CHECK(Monitor(limits).check_limits(1, 100, 0) == RunStatus::step_limit);
+  CHECK(Monitor(limits).check_limits(1, 1, 2) == RunStatus::time_limit);
+  CHECK(Monitor(limits).check_limits(1, 1, 0) == RunStatus::running);
+  CHECK(Monitor(MonitorOptions{}).check_limits(1e9, 1'000'000'000, 1e9) == RunStatus::running);
+}
+
+TEST_CASE("the state is asked for about sixteen times a period, not at every step") {
+  Monitor monitor(options);
+  int asked = 0;
+  for (double t = 0.01; t < 10; t += 0.01) {
+    if (!monitor.due(t)) continue;
+    ++asked;
+    monitor.observe(t, 1, 1);
+  }
+  CHECK(asked >= 14);
+  CHECK(asked <= 16);
+}
