@@ -104,13 +104,7 @@ bool is_mistaken_for_fsal(const ButcherTable& table) {
 class Erk final : public SteppingIntegrator {
  public:
   Erk(const IntegratorOptions& options, RelaxationSystem& system)
-      : SteppingIntegrator(options, system),
-        table_(table_of(options.method)),
-        absolute_tolerance_(system.vectors().make(adaptive() ? 2 * system.size() : 0)) {
-    const Vec atol = absolute_tolerance_.span();
-    std::ranges::fill(first_half(atol), options.atol_u);
-    std::ranges::fill(second_half(atol), options.atol_v);
-  }
+      : SteppingIntegrator(options, system), table_(table_of(options.method)) {}
   Erk(const Erk&) = delete;
   Erk& operator=(const Erk&) = delete;
   ~Erk() override {
@@ -122,7 +116,7 @@ class Erk final : public SteppingIntegrator {
  private:
   void begin(double t, const Vector& y) override {
     if (!arkode_) {
-      create(t, y.handle());
+      create(t, y);
     } else {
       check(ERKStepReInit(arkode_, right_hand_side, t, y.handle()), "ERKStepReInit");
       if (adaptive()) check(ark::SetInitStep(arkode_, 0), "SetInitStep");  // ARKODE's own estimate
@@ -173,9 +167,9 @@ class Erk final : public SteppingIntegrator {
     return {.status = StepReport::Status::failed, .h = h, .message = message_of(code)};
   }
 
-  void create(double t, N_Vector y) {
-    context_ = y->sunctx;
-    arkode_ = ERKStepCreate(right_hand_side, t, y, context_);
+  void create(double t, const Vector& y) {
+    context_ = y.handle()->sunctx;
+    arkode_ = ERKStepCreate(right_hand_side, t, y.handle(), context_);
     if (!arkode_) throw std::runtime_error("ARKODE: ERKStepCreate failed");
     check(ark::capture_messages(arkode_, context_, last_message_), "capture_messages");
     check(ark::SetUserData(arkode_, this), "SetUserData");
@@ -184,7 +178,10 @@ class Erk final : public SteppingIntegrator {
     check(ark::SetMaxNumSteps(arkode_, -1), "SetMaxNumSteps");
     if (is_mistaken_for_fsal(table_)) check(ark::SetPostprocessStepFn(arkode_, post_process), "SetPostprocessStepFn");
     if (adaptive()) {
-      check(ark::SVtolerances(arkode_, *options().rtol, absolute_tolerance_.handle()), "SVtolerances");
+      Vector atol = system().vectors().like(y);  // ARKODE takes a copy
+      std::ranges::fill(first_half(atol.span()), options().atol_u);
+      std::ranges::fill(second_half(atol.span()), options().atol_v);
+      check(ark::SVtolerances(arkode_, *options().rtol, atol.handle()), "SVtolerances");
       check(ark::SetMaxStep(arkode_, options().max_step), "SetMaxStep");
     } else {
       check(ark::WFtolerances(arkode_, unit_weights), "WFtolerances");
@@ -234,7 +231,6 @@ class Erk final : public SteppingIntegrator {
   }
 
   ButcherTable table_;
-  Vector absolute_tolerance_;  // (2n) [m; m/s], where adaptive
   void* arkode_ = nullptr;
   SUNContext context_ = nullptr;
   N_Vector weights_ = nullptr;  // the vector that unit_weights() filled

@@ -18,7 +18,7 @@ struct ButcherTable {
   std::vector<double> b, c;        // (stages)
   std::vector<double> b_embedded;  // (stages); empty: no error estimate
 
-  double a(int i, int j) const { return A[static_cast<std::size_t>(i * stages + j)]; }
+  double a(int i, int j) const { return A[static_cast<std::size_t>(i) * b.size() + static_cast<std::size_t>(j)]; }
 };
 
 /// Whether the last stage is f(t + h, y⁺), the next step's first: c_s = 1 and the last row of A is b.

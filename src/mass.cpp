@@ -60,7 +60,7 @@ Mass Mass::consistent(SparseMatrix matrix) {
       !(s > singular)) {
     refuse_consistent(mass.size(), fmt::format("singular to rounding: λ_min(D⁻¹M) = {:.1e} ≤ {:.0e}", s, singular));
   }
-  mass.matrix_ = std::move(matrix);
+  mass.matrix_.swap(matrix);  // Eigen's sparse matrices have no move
   return mass;
 }
 

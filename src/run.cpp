@@ -3,7 +3,6 @@
 #include <stillpoint/run.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -11,17 +10,10 @@
 
 #include "exact_error.hpp"
 #include "history.hpp"
+#include "stopwatch.hpp"
 
 namespace stillpoint {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 MonitorOptions monitor_options(const Scene& scene, const Model& model) {
   return {.residual = scene.stop.residual,
@@ -32,11 +24,14 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
           .wall_time = scene.stop.wall_time};
 }
 
-// Time between rows: as asked, or 200 rows to the end time, or 20 to a period.
+// Time between rows: as asked; otherwise 200 rows to the end time or 20 to a period, and a whole number of steps so
+// that landing on a row costs none.
 double output_interval(const Scene& scene, const Model& model) {
   if (scene.output.every > 0) return scene.output.every;
-  if (scene.stop.time > 0) return scene.stop.time / 200;
-  return (model.omega_1 ? 2 * std::numbers::pi / *model.omega_1 : model.hold) / 20;
+  const double period = model.omega_1 ? 2 * std::numbers::pi / *model.omega_1 : model.hold;
+  const double wanted = scene.stop.time > 0 ? scene.stop.time / 200 : period / 20;
+  const double step = model.integrator.max_step;
+  return std::max(1.0, std::round(wanted / step)) * step;
 }
 
 int exit_status_of(RunStatus status, const Scene& scene) {

@@ -14,6 +14,15 @@
 namespace stillpoint {
 namespace {
 
+/// A step and a fraction of the critical one exclude each other: what --set gives replaces what the file says.
+void drop_what_it_replaces(toml::table& table, const std::string& override_text) {
+  toml::table* const integrator = table["integrator"].as_table();
+  if (!integrator) return;
+  const std::string key = override_text.substr(0, override_text.find_first_of(" \t="));
+  if (key == "integrator.step") integrator->erase("step_fraction");
+  if (key == "integrator.step_fraction") integrator->erase("step");
+}
+
 /// The scene in a file's text under overrides; complete only where problems stays empty.
 Scene read_scene(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  std::vector<Problem>& problems) {
@@ -22,7 +31,10 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file, con
   scene.name = file.stem().string();
   auto table = parse_toml(text, file.string(), problems);
   if (!table) return scene;
-  for (const std::string& text_of_override : overrides) apply_override(*table, text_of_override, problems);
+  for (const std::string& text_of_override : overrides) {
+    drop_what_it_replaces(*table, text_of_override);
+    apply_override(*table, text_of_override, problems);
+  }
   scene.where = locations_of(*table);
 
   Reading reading;

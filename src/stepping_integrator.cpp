@@ -10,15 +10,14 @@
 namespace stillpoint {
 
 SteppingIntegrator::SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system)
-    : system_(system),
-      options_(options),
-      division_(options.max_step),
-      trial_(system.vectors().make(2 * system.size())) {}
+    : system_(system), options_(options), division_(options.max_step) {}
 
 void SteppingIntegrator::start(double t, Vector& y) {
-  if (y.size() != trial_.size()) {
-    throw std::invalid_argument(fmt::format("y has {} entries, 2n is {}", y.size(), trial_.size()));
+  if (y.size() != 2 * system_.size()) {
+    throw std::invalid_argument(fmt::format("y has {} entries, 2n is {}", y.size(), 2 * system_.size()));
   }
+  if (!trial_) trial_ = system_.vectors().like(y);
+  if (!same_kind(*trial_, y)) throw std::invalid_argument("y is another kind of N_Vector than at the first start");
   t_ = t;
   y_ = &y;
   begin(t, y);
@@ -31,10 +30,10 @@ StepReport SteppingIntegrator::step(double t_stop) {
   }
   double h = adaptive() ? options_.max_step : division_.step_from(t_, t_stop);
   for (int halvings = 0;; ++halvings) {
-    Attempt tried = attempt(t_, *y_, h, t_stop, trial_);
+    Attempt tried = attempt(t_, *y_, h, t_stop, *trial_);
     if (tried.status == StepReport::Status::ok) {
       // A sum of squares is not finite where any entry is not.
-      if (std::isfinite(dot(trial_, trial_))) return accept(tried);
+      if (std::isfinite(dot(*trial_, *trial_))) return accept(tried);
       refused();
       tried = {.status = StepReport::Status::not_finite, .h = tried.h, .message = "the new state is not finite"};
     }
@@ -46,7 +45,7 @@ StepReport SteppingIntegrator::step(double t_stop) {
 }
 
 StepReport SteppingIntegrator::accept(const Attempt& attempt) {
-  copy(trial_, *y_);
+  copy(*trial_, *y_);
   accepted();
   t_ = adaptive() ? attempt.t : division_.arrive(t_, attempt.h);
   ++steps_;

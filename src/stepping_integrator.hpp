@@ -3,6 +3,7 @@
 
 #include <stillpoint/integrator.hpp>
 
+#include <optional>
 #include <string>
 
 #include "step_division.hpp"
@@ -50,7 +51,7 @@ class SteppingIntegrator : public Integrator {
   RelaxationSystem& system_;
   IntegratorOptions options_;
   StepDivision division_;
-  Vector trial_;  // (2n)
+  std::optional<Vector> trial_;  // (2n), of y's kind
   Vector* y_ = nullptr;
   double t_ = 0;
   long steps_ = 0, rejected_ = 0;

@@ -57,6 +57,13 @@ Vector VectorSpace::make(std::size_t n) const {
   return {handle, true, context_};
 }
 
+Vector VectorSpace::like(const Vector& other) const {
+  const NVectorHandle handle = N_VClone(other.handle());
+  if (!handle) throw std::bad_alloc();
+  N_VConst(0, handle);
+  return {handle, true, other.context_};
+}
+
 Vector VectorSpace::view(Vec memory) const {
   const auto n = static_cast<sunindextype>(memory.size());
   const NVectorHandle handle = N_VMake_Serial(n, memory.data(), context_->context);

@@ -202,6 +202,8 @@ void use_fast_operations(NVectorHandle serial) {
   ops.nvdotprodmulti = ops.nvdotprodmultilocal = dot_product_multi;
 }
 
+bool same_kind(const Vector& a, const Vector& b) { return N_VGetVectorID(a.handle()) == N_VGetVectorID(b.handle()); }
+
 void copy(const Vector& from, Vector& to) { N_VScale(1, from.handle(), to.handle()); }
 
 bool has_fast_operations(NVectorHandle any) { return any->ops->nvlinearcombination == linear_combination; }

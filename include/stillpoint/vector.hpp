@@ -44,6 +44,8 @@ class VectorSpace {
 
   /// A vector of n zeros that owns its memory.
   Vector make(std::size_t n) const;
+  /// A vector of zeros of the kind and size of another, as for work arrays beside an adopted vector.
+  Vector like(const Vector& other) const;
   /// A vector over memory that the caller keeps alive; nothing is copied.
   Vector view(Vec memory) const;
   /// A vector over the caller's own N_Vector, which must have a host array (N_VGetArrayPointer) and outlive the result.

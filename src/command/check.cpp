@@ -46,7 +46,7 @@ int check(const SceneArguments& arguments) {
   fmt::print("  body             {} material points, mass {:.6g} kg, law {}\n", phase.points(), phase.total_mass(),
              scene.materials.at(scene.body.material).law);
   print_quadrature(scene, phase);
-  fmt::print("  degrees of freedom  {} free, {} supported; {} mass\n", phase.size(),
+  fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
              phase.supported_degrees_of_freedom(), phase.mass().is_lumped() ? "lumped" : "consistent");
   fmt::print("  damping          {}{}\n", model.damping->name(), model.c ? fmt::format(", c = {:.8g}", *model.c) : "");
   fmt::print("  omega_max        {:.8g} rad/s\n", model.omega_max);

@@ -27,7 +27,6 @@ void add_scene(CLI::App& app, SceneArguments& arguments) {
 int dispatch(int argc, char** argv) {
   CLI::App app("Quasi-static equilibrium by dynamic relaxation in the material point method", "stillpoint");
   app.set_version_flag("--version", STILLPOINT_VERSION);
-  app.require_subcommand(1);
 
   RunArguments run_arguments;
   CLI::App& run_app = *app.add_subcommand("run", "relax a scene; writes summary.json and history.csv");
@@ -52,6 +51,10 @@ int dispatch(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
+  }
+  if (app.get_subcommands().empty()) {  // asked for here, so that a misspelt one is reported by its name
+    fmt::print(stderr, "{}", app.help());
+    return bad_input;
   }
   if (run_app.parsed()) return run(run_arguments);
   if (check_app.parsed()) return check(scene_arguments);

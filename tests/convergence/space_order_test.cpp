@@ -1,11 +1,11 @@
 // Convergence in h to a manufactured solution: observed orders of the L2 error of u.
-#include "scenes.hpp"
-
-#include "exact_error.hpp"
+#include <cmath>
 
 #include <Eigen/SparseCholesky>
 #include <catch2/catch.hpp>
-#include <cmath>
+
+#include "exact_error.hpp"
+#include "scenes.hpp"
 
 using namespace stillpoint;
 
@@ -57,7 +57,8 @@ TEST_CASE("with consistent volumes u converges in L2 with order 2, 3, 4, 4: line
     for (const std::string placement : {"gauss", "uniform"}) {
       CAPTURE(basis, placement);
       const std::string points = placement == "gauss" ? "4" : "6";  // six even points carry degree 5
-      const double observed = observed_order({"grid.basis=" + basis, "body.placement=" + placement, "body.points_per_cell=" + points});
+      const double observed =
+          observed_order({"grid.basis=" + basis, "body.placement=" + placement, "body.points_per_cell=" + points});
       CHECK(observed == Approx(order).margin(0.15));
     }
   }
@@ -69,10 +70,14 @@ TEST_CASE("the same orders at finite strain, with a neo-Hookean bar and its own 
   const std::string slope = "(" + mu + "*(1+1/" + F + "^2)+" + lambda + "*(1-ln(" + F + "))/" + F + "^2)";
   const std::string end = "(1+0.2*cos(2))";
   const std::vector<std::string> scene = {
-      "material.bar.law=neo-hookean", "material.bar.nu=0.25", "body.state=uniaxial-strain", "exact.u=0.1*sin(2*x)",
+      "material.bar.law=neo-hookean",
+      "material.bar.nu=0.25",
+      "body.state=uniaxial-strain",
+      "exact.u=0.1*sin(2*x)",
       "exact.stress=" + mu + "*(" + F + "-1/" + F + ")+" + lambda + "*ln(" + F + ")/" + F,
       "body_force.value=" + slope + "*0.4*sin(2*x)/rho",
-      "traction=[{face='right', value='" + mu + "*(" + end + "-1/" + end + ")+" + lambda + "*ln(" + end + ")/" + end + "'}]"};
+      "traction=[{face='right', value='" + mu + "*(" + end + "-1/" + end + ")+" + lambda + "*ln(" + end + ")/" + end +
+          "'}]"};
   for (const auto& [basis, order] : bases) {
     std::vector<std::string> overrides = scene;
     overrides.push_back("grid.basis=" + basis);
@@ -82,7 +87,8 @@ TEST_CASE("the same orders at finite strain, with a neo-Hookean bar and its own 
 }
 
 TEST_CASE("volumes that integrate too low a degree lose the order of a cubic basis, and it is reported") {
-  const std::vector<std::string> poor = {"grid.basis=cubic", "body.placement=uniform", "body.points_per_cell=4", "body.volumes=equal"};
+  const std::vector<std::string> poor = {"grid.basis=cubic", "body.placement=uniform", "body.points_per_cell=4",
+                                         "body.volumes=equal"};
   CHECK(observed_order(poor) < 2.5);
   auto phase = make_phase(scenes::load("mms_bar", poor));
   CHECK(phase->quadrature().degree == 1);

@@ -85,6 +85,10 @@ TEST_CASE("a last node of 1 alone does not make a table first same as last") {
   CHECK_FALSE(first_same_as_last(classical_rk4()));  // c_4 = 1, but the last row is not b
   CHECK_FALSE(first_same_as_last(heun_euler));
   CHECK_FALSE(first_same_as_last(jameson_5()));
+  ButcherTable other_row = sofroniou_spaletta_5_3_4();  // c_5 = 1 and b_5 = 0, but another last row
+  other_row.A[20] += 0.1;
+  other_row.A[21] -= 0.1;
+  CHECK_FALSE(first_same_as_last(other_row));
   CHECK(effective_stages(sofroniou_spaletta_5_3_4()) == 4);
   CHECK(effective_stages(classical_rk4()) == 4);
   CHECK(effective_stages(jameson_5()) == 5);

@@ -185,3 +185,12 @@ TEST_CASE("the nearest word is found across a slip, and none is made up") {
   CHECK(nearest("", words).empty());
   CHECK(nearest(std::string(100000, 'a'), words).empty());
 }
+
+TEST_CASE("an override of the step replaces the file's fraction of the critical one, and the other way round") {
+  const Scene fixed = load_scene(STILLPOINT_PROBLEMS "/bar.toml", {"integrator.step=0.01"});
+  CHECK(fixed.integrator.step == 0.01);
+  const Scene fraction =
+      load_scene(STILLPOINT_PROBLEMS "/bar.toml", {"integrator.step=0.01", "integrator.step_fraction=0.5"});
+  CHECK_FALSE(fraction.integrator.step);
+  CHECK(fraction.integrator.step_fraction == 0.5);
+}

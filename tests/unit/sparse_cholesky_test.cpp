@@ -102,9 +102,11 @@ TEST_CASE(
   CHECK_FALSE(factor.positive_definite());
   std::vector<double> x(3, 1.0);
   CHECK_THROWS_AS(factor.solve(x, x), std::logic_error);
-  SparseMatrix coupled = laplacian(3);
-  coupled.coeffRef(3, 0) = coupled.coeffRef(0, 3) = nan;
-  CHECK_FALSE(SparseCholesky(coupled).positive_definite());
+  for (const int m : {3, 150}) {  // simplicial and supernodal
+    SparseMatrix coupled = laplacian(m);
+    coupled.coeffRef(m, 0) = coupled.coeffRef(0, m) = nan;
+    CHECK_FALSE(SparseCholesky(coupled).positive_definite());
+  }
 }
 
 TEST_CASE("a matrix that is not compressed is factorised all the same") {
@@ -112,6 +114,10 @@ TEST_CASE("a matrix that is not compressed is factorised all the same") {
   A.reserve(Eigen::VectorXi::Constant(2, 3));
   A.insert(1, 0) = A.insert(0, 1) = 1;
   REQUIRE_FALSE(A.isCompressed());
+  const int gap = A.outerIndexPtr()[0] + A.innerNonZeroPtr()[0];  // a place of column 0 that holds nothing
+  REQUIRE(gap < A.outerIndexPtr()[1]);
+  A.innerIndexPtr()[gap] = 1;
+  A.valuePtr()[gap] = 100;
   const std::vector<double> b = {5, 10};
   std::vector<double> x(2);
   SparseCholesky(A).solve(b, x);

@@ -260,6 +260,17 @@ TEST_CASE("an adopted N_Vector stays its owner's", "[vector]") {
   SUNContext_Free(&closing);
 }
 
+TEST_CASE("a vector like another has its kind and size and is zero", "[vector]") {
+  VectorSpace space;
+  Vector model = space.make(3);
+  model.span()[0] = 4;
+  Vector like = space.like(model);
+  CHECK(like.size() == 3);
+  CHECK(stillpoint::max_norm(like) == 0);
+  CHECK(like.span().data() != model.span().data());
+  CHECK(like.handle()->ops->nvdotprod == model.handle()->ops->nvdotprod);
+}
+
 TEST_CASE("clones carry the replaced operations", "[vector]") {
   VectorSpace space;
   const Vector vector = space.make(3);

@@ -1,0 +1,49 @@
+// Moving supports against exact motions.
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+// The bar without its force, with x = 0 moved and u = motion everywhere as the exact solution.
+Summary pulled(const std::string& motion, const std::vector<std::string>& more) {
+  std::vector<std::string> overrides{"support=[{at=0.0, u='" + motion + "'}]",
+                                     "force=[]",
+                                     "stop.residual=0",
+                                     "exact.u=" + motion,
+                                     "exact.stress=0",
+                                     "output.every=1"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return run(scenes::bar(overrides));
+}
+
+}  // namespace
+
+TEST_CASE("a support that moves at constant speed from the start carries the body along without stress") {
+  // u = 0.3 t is an exact solution: no acceleration, no strain. Initial velocity 0.3 everywhere.
+  for (const char* mass : {"consistent", "lumped"}) {
+    const Summary s =
+        pulled("0.3*t", {"damping.strategy=none", "initial.v=0.3", "stop.time=10", std::string("mass.kind=") + mass});
+    CAPTURE(mass);
+    CHECK(s.error->u_rel_max < 1e-9);
+    CHECK(std::abs(scenes::probe(s, "p12", "stress")) < 1e-9);
+  }
+}
+
+TEST_CASE("a support that accelerates with the whole body under its inertia force leaves it unstrained") {
+  // u = t²/2 with b = 1 [m/s²]: exact only if the support's inertia M_fs a_s is in the equation.
+  const Summary s = pulled("0.5*t^2", {"damping.strategy=none", "body_force.value=1", "stop.time=10",
+                                       "integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-10"});
+  CHECK(s.error->u_rel_max < 1e-7);  // limited by the numerical second derivative of the motion
+}
+
+TEST_CASE("a bar held at one end and pushed in at the other relaxes to uniform compression") {
+  const Summary s = run(scenes::bar({"support=[{at=0.0, u='t<5 ? 0.25*(1-cos(pi*t/5)) : 0.5'}, {at=10.0}]", "force=[]",
+                                     "stop.residual=1e-9", "exact.u=0.5*(1-x/10)", "exact.stress=-0.05",
+                                     "damping.strategy=viscous", "damping.c=critical", "output.every=10"}));
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.error->u_rel_max < 1e-7);
+  CHECK(*s.error->stress_rel_l2 < 1e-7);
+}

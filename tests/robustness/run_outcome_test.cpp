@@ -1,0 +1,194 @@
+// How runs end: each way has its status, its exit status and its files.
+#include <fstream>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using scenes::bar;
+using stillpoint::testing::TemporaryFolder;
+
+namespace {
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines(const std::filesystem::path& file) {
+  std::vector<std::string> result;
+  std::istringstream text(contents(file));
+  for (std::string line; std::getline(text, line);) result.push_back(line);
+  return result;
+}
+
+bool leftovers(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".partial") return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a run writes its summary and history whole, with every key of the contract") {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "new" / "out";
+  const Summary s = run(bar(), {.out = out});
+  CHECK(s.exit_status == 0);
+  CHECK_FALSE(leftovers(out));
+  const auto json = nlohmann::json::parse(contents(out / "summary.json"));
+  for (const char* key : {"scene",
+                          "status",
+                          "t",
+                          "steps",
+                          "rhs_evaluations",
+                          "phases",
+                          "points",
+                          "dofs",
+                          "threads",
+                          "wall_s",
+                          "ns_per_point_step",
+                          "residual",
+                          "kinetic_energy",
+                          "omega_1",
+                          "omega_max",
+                          "c",
+                          "dt",
+                          "error",
+                          "probes",
+                          "versions"}) {
+    CAPTURE(key);
+    CHECK(json.contains(key));
+  }
+  CHECK(json["scene"] == "bar");
+  CHECK(json["status"] == "equilibrium");
+  CHECK(json["phases"] == 1);
+  CHECK(json["points"] == 12);
+  CHECK(json["dofs"] == 9);
+  for (const char* key : {"u_rel_l2", "u_rel_max", "stress_rel_l2"}) CHECK(json["error"][key] < 1e-8);
+  CHECK(json["probes"]["p12"]["u"].get<double>() == Approx(0.001 * 115 / 12).epsilon(1e-8));
+  const auto history = lines(out / "history.csv");
+  CHECK(history.front() == "t,steps,rhs_evaluations,residual,kinetic_energy,p6.u,p6.stress,p12.u,p12.stress");
+  CHECK(history.size() > 100);
+}
+
+TEST_CASE("with only stop.time set, reaching it is success and the history's last row is at it") {
+  const TemporaryFolder folder;
+  for (const char* method : {"leapfrog", "erk:rk4", "gsl:rkf45"}) {
+    const Summary s =
+        run(bar({"stop.time=7.3", "stop.residual=0", "output.every=0.5", std::string("integrator.method=") + method}),
+            {.out = folder.path()});
+    CAPTURE(method);
+    CHECK(s.status == RunStatus::end_time);
+    CHECK(s.exit_status == 0);
+    const auto history = lines(folder.path() / "history.csv");
+    REQUIRE(history.size() == 1 + 1 + 15);  // header, t = 0, 0.5 … 7.0, 7.3
+    CHECK(std::stod(history[1]) == 0);
+    for (int k = 0; k <= 14; ++k) CHECK(std::stod(history[1 + k]) == 0.5 * k);
+    CHECK(std::stod(history.back()) == 7.3);
+  }
+}
+
+TEST_CASE("a figure that was not computed is null") {
+  const auto json = nlohmann::json::parse(
+      to_json(run(bar({"stop.time=1", "stop.residual=0", "damping.strategy=none", "exact.u=0*x", "exact.stress=0"}))));
+  CHECK(json["omega_1"].is_null());
+  CHECK(json["c"].is_null());
+  CHECK(json["error"].is_null());
+}
+
+TEST_CASE("limits that come before equilibrium end the run with status 3 and keep the history") {
+  const TemporaryFolder folder;
+  const auto ends = [&](const std::vector<std::string>& overrides, RunStatus expected) {
+    const Summary s = run(bar(overrides), {.out = folder.path()});
+    CHECK(s.status == expected);
+    CHECK(s.exit_status == 3);
+    CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["status"] == to_string(expected));
+    CHECK(lines(folder.path() / "history.csv").size() >= 3);
+  };
+  ends({"stop.time=10"}, RunStatus::end_time);  // residual is still asked for
+  ends({"stop.steps=50"}, RunStatus::step_limit);
+  ends({"damping.strategy=none", "stop.wall_time=0.2"}, RunStatus::time_limit);
+}
+
+TEST_CASE("an unstable step is refused unless the scene says why, and then diverges with status 4") {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "out";
+  CHECK_THROWS_AS(run(bar({"integrator.step=0.36"}), {.out = out}), SceneError);
+  CHECK_FALSE(std::filesystem::exists(out));
+  for (const char* method : {"leapfrog", "symplectic-euler", "erk:rk4", "erk:dormand-prince-7-4-5", "gsl:rk4"}) {
+    const Summary s =
+        run(bar({"integrator.step=0.6", "output.every=0.6", "integrator.unstable_reason=to see it diverge",
+                 std::string("integrator.method=") + method}),
+            {.out = out});
+    CAPTURE(method);
+    CHECK(s.status == RunStatus::diverged);
+    CHECK(s.exit_status == 4);
+    CHECK_FALSE(s.reason.empty());
+    CHECK(std::filesystem::exists(out / "history.csv"));
+    CHECK_FALSE(leftovers(out));
+  }
+}
+
+TEST_CASE("a bar crushed past zero length is reported as diverged, not as a number") {
+  const Summary s = run(bar({"material.bar.law=neo-hookean", "force=[{at=10.0, value=-50.0}]", "stop.steps=100000"}));
+  CHECK(s.status == RunStatus::diverged);
+  CHECK(s.exit_status == 4);
+}
+
+TEST_CASE("history.csv is the same to the bit for 1 and 2 threads") {
+  const TemporaryFolder folder;
+  const Scene scene = bar({"grid.cells=8000", "body.points_per_cell=4", "stop.residual=0", "stop.time=0.01",
+                           "output.every=0.002", "material.bar.law=neo-hookean"});
+  run(scene, {.out = folder.path() / "1", .threads = 1});
+  run(scene, {.out = folder.path() / "2", .threads = 2});
+  CHECK(contents(folder.path() / "1" / "history.csv") == contents(folder.path() / "2" / "history.csv"));
+  CHECK(lines(folder.path() / "1" / "history.csv").size() == 7);
+}
+
+TEST_CASE("an interrupt finishes the step, writes what there is and says so") {
+  const TemporaryFolder folder;
+  int asked = 0;
+  const Summary s =
+      run(bar({"damping.strategy=none"}), {.out = folder.path(), .interrupted = [&] { return ++asked == 100; }});
+  CHECK(s.status == RunStatus::interrupted);
+  CHECK(s.exit_status == 3);
+  CHECK(s.steps == 100);
+  CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["status"] == "interrupted");
+}
+
+TEST_CASE("Ctrl-C ends the command in good order with status 3") {
+  const TemporaryFolder folder;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const std::string out = folder.path().string();
+    execl(STILLPOINT_BINARY, "stillpoint", "run", STILLPOINT_PROBLEMS "/bar.toml", "--set", "damping.strategy=none",
+          "--quiet", "--out", out.c_str(), nullptr);
+    _exit(127);
+  }
+  for (int wait = 0; wait < 500 && !std::filesystem::exists(folder.path() / "history.csv.partial"); ++wait)
+    usleep(20'000);
+  usleep(200'000);
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 3);
+  CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["status"] == "interrupted");
+  CHECK(lines(folder.path() / "history.csv").size() > 2);
+  CHECK_FALSE(leftovers(folder.path()));
+}
+
+TEST_CASE("a folder that cannot be written is an error, not a silent success") {
+  CHECK_THROWS_AS(run(bar(), {.out = "/proc/nowhere"}), std::filesystem::filesystem_error);
+}
