@@ -154,6 +154,10 @@ class Erk final : public SteppingIntegrator {
   // ARKODE has moved on, or holds times and states of a trial: it begins anew at the last good state.
   void refused() override { refused_ = true; }
 
+  void max_step_changed() override {
+    if (adaptive() && arkode_) check(ark::SetMaxStep(arkode_, options().max_step), "SetMaxStep");
+  }
+
   Attempt failure(int code, double h) {
     refused();
     if (adaptive()) check(ark::GetCurrentStep(arkode_, &h), "GetCurrentStep");

@@ -38,6 +38,9 @@ class Leapfrog final : public SteppingIntegrator {
         a_(system.vectors().make(system.size())),
         next_a_(system.vectors().make(system.size())) {}
 
+  // A step ends with the force at its end.
+  bool force_is_current() const override { return true; }
+
  private:
   // M a_0 = Q_0 + D(v_0, Q_0) − C v_0
   void begin(double t, const Vector& y) override {

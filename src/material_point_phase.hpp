@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "cell_assembly.hpp"
@@ -199,6 +200,19 @@ class MaterialPointPhase final : public LagrangianPhase {
   std::size_t supported_degrees_of_freedom() const override { return s_.dofs.prescribed.size(); }
   std::size_t occupied_cells() const override { return s_.points.cell.size(); }
   QuadratureReport quadrature() const override { return s_.quadrature; }
+  double stiffening(double t, ConstVec u) const override {
+    static_assert(Dim == 1, "a modulus is one number in one dimension only");
+    if (!nonlinear()) return 1;
+    spread(t, u);
+    const double undeformed = s_.law.moduli({})[0];
+    double largest = 0;
+    for (std::size_t p = 0; p < points(); ++p) {
+      const double modulus = s_.law.moduli(s_.weights.gradient(grid_u_.data(), p))[0];
+      if (!std::isfinite(modulus)) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, modulus);
+    }
+    return largest / undeformed;
+  }
   bool nonlinear() const override { return Law::finite_strain || Law::history_dependent; }
 
  private:

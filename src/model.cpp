@@ -26,6 +26,37 @@ double highest_frequency(const LagrangianPhase& phase, ConstVec u) {
   return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
 }
 
+int degree_of(BasisKind basis) {
+  switch (basis) {
+    case BasisKind::linear:
+      return 1;
+    case BasisKind::quadratic:
+      return 2;
+    case BasisKind::cubic:
+    case BasisKind::hermite:
+      return 3;
+  }
+  throw std::logic_error("a basis without a degree");
+}
+
+// A basis of degree p keeps its order of convergence where the points integrate degree 2p − 2 [Strang and Fix
+// 1973, 4.3].
+std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureReport& quadrature) {
+  std::vector<std::string> notes;
+  if (quadrature.cells_limited_by_sign > 0) {
+    notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
+                                quadrature.cells_limited_by_sign));
+  }
+  const int needed = 2 * degree_of(scene.grid.basis) - 2;
+  if (quadrature.degree < needed) {
+    notes.push_back(
+        fmt::format("the material points integrate degree {}; this basis needs {} to keep its order of convergence: "
+                    "take more points per cell, consistent volumes, or placement = \"gauss\"",
+                    quadrature.degree, needed));
+  }
+  return notes;
+}
+
 bool takes_c(const DampingSpec& damping) { return damping.strategy == "viscous" || damping.strategy == "identity"; }
 
 // The size of the motion to expect, so that tolerances need no number from the user: |M⁻¹F|_max/ω₁² for the largest
@@ -96,6 +127,7 @@ void choose_step(const Scene& scene, Model& model) {
 Model make_model(const Scene& scene) {
   Model model;
   model.phase = make_phase(scene);
+  model.notes = quadrature_notes(scene, model.phase->quadrature());
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   model.omega_max = highest_frequency(*model.phase, model.u);
@@ -104,7 +136,12 @@ Model make_model(const Scene& scene) {
   const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
   if (critical || own_scale || scene.stop.residual > 0) {
     const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
-    if (lowest.converged) model.omega_1 = lowest.omega;
+    if (lowest.converged) {
+      model.omega_1 = lowest.omega;
+    } else {
+      model.notes.push_back(
+          fmt::format("omega_1 is not known ({}): equilibrium is held for 100 of the shortest periods", lowest.status));
+    }
     if (critical && !model.omega_1) {
       reject(scene, "damping.c",
              fmt::format("critical damping needs omega_1, but {}; expected a support or a number", lowest.status));

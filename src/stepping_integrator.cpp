@@ -44,6 +44,13 @@ StepReport SteppingIntegrator::step(double t_stop) {
   }
 }
 
+void SteppingIntegrator::set_max_step(double h) {
+  if (h == options_.max_step) return;
+  options_.max_step = h;
+  division_ = StepDivision(h);
+  max_step_changed();
+}
+
 StepReport SteppingIntegrator::accept(const Attempt& attempt) {
   copy(*trial_, *y_);
   accepted();

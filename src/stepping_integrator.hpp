@@ -17,6 +17,7 @@ class SteppingIntegrator : public Integrator {
 
   void start(double t, Vector& y) final;
   StepReport step(double t_stop) final;
+  void set_max_step(double h) final;
   long steps() const final { return steps_; }
   long rejected_steps() const final { return rejected_; }
 
@@ -39,6 +40,8 @@ class SteppingIntegrator : public Integrator {
   virtual void accepted() {}
   /// The last trial, though attempt() thought it good, has not.
   virtual void refused() {}
+  /// options().max_step is another one.
+  virtual void max_step_changed() {}
   void count_rejected(long rejected) { rejected_ += rejected; }
 
   RelaxationSystem& system() { return system_; }

@@ -55,6 +55,7 @@ std::string to_json(const Summary& s) {
                      {"c", number(s.c)},
                      {"dt", number(s.dt)},
                      {"critical_step", number(s.critical_step)},
+                     {"notes", s.notes},
                      {"error", error},
                      {"probes", probes},
                      {"versions", versions}};

@@ -60,6 +60,8 @@ class Integrator {
   /// One accepted step, never past t_stop. A fixed step is the largest not above max_step of which a whole number
   /// reaches t_stop, so that equal steps land on every output time. After a failure y holds the last good state.
   virtual StepReport step(double t_stop) = 0;
+  /// Lowers or raises max_step from the next step on, where the critical step changes with the state. h > 0 [s].
+  virtual void set_max_step(double h) = 0;
   /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
   virtual bool force_is_current() const { return false; }
   virtual long steps() const = 0;           // accepted

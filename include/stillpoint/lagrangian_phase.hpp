@@ -47,6 +47,9 @@ class LagrangianPhase : public SemiDiscrete {
   virtual QuadratureReport quadrature() const = 0;
   /// Whether K depends on u, so that frequencies and the critical step change with it.
   virtual bool nonlinear() const = 0;
+  /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
+  /// Infinite where u cannot be evaluated.
+  virtual double stiffening(double t, ConstVec u) const = 0;
 };
 
 /// Places the body, evaluates and freezes the weights, assembles the mass. The instantiation for the scene's dimension,

@@ -54,6 +54,7 @@ struct Summary {
   double dt = 0;  // the last whole step [s]
   std::optional<double> critical_step;
   std::string integrator, damping;
+  std::vector<std::string> notes;  // of Model
   std::optional<ExactError> error;
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)
 };

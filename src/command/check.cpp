@@ -12,26 +12,6 @@ namespace stillpoint::command {
 namespace {
 
 constexpr std::array basis_names{"linear B-spline", "quadratic B-spline", "cubic B-spline", "cubic Hermite"};
-constexpr std::array basis_degrees{1, 2, 3, 3};
-
-// A degree p basis keeps its order of convergence where the points integrate degree 2p − 2 [Strang and Fix 1973, 4.3].
-void print_quadrature(const Scene& scene, const LagrangianPhase& phase) {
-  const auto basis = static_cast<std::size_t>(scene.grid.basis);
-  const QuadratureReport quadrature = phase.quadrature();
-  const int needed = 2 * basis_degrees[basis] - 2;
-  fmt::print("  volumes          {} integrate polynomials up to degree {}\n",
-             scene.body.volumes == VolumeRule::equal ? "equal ones" : "consistent ones", quadrature.degree);
-  if (quadrature.cells_limited_by_sign > 0) {
-    fmt::print("  note             in {} cells a higher degree has no non-negative volumes\n",
-               quadrature.cells_limited_by_sign);
-  }
-  if (quadrature.degree < needed) {
-    fmt::print(
-        "  note             degree {} is needed to keep the order of convergence of this basis: more points per cell, "
-        "or placement = \"gauss\"\n",
-        needed);
-  }
-}
 
 }  // namespace
 
@@ -45,9 +25,10 @@ int check(const SceneArguments& arguments) {
              basis_names[static_cast<std::size_t>(scene.grid.basis)], scene.grid.cells[0], phase.occupied_cells());
   fmt::print("  body             {} material points, mass {:.6g} kg, law {}\n", phase.points(), phase.total_mass(),
              scene.materials.at(scene.body.material).law);
-  print_quadrature(scene, phase);
-  fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
-             phase.supported_degrees_of_freedom(), phase.mass().is_lumped() ? "lumped" : "consistent");
+  fmt::print("  volumes          {} integrate polynomials up to degree {}\n",
+             scene.body.volumes == VolumeRule::equal ? "equal ones" : "consistent ones", phase.quadrature().degree);
+  fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.supported_degrees_of_freedom(),
+             phase.mass().is_lumped() ? "lumped" : "consistent");
   fmt::print("  damping          {}{}\n", model.damping->name(), model.c ? fmt::format(", c = {:.8g}", *model.c) : "");
   fmt::print("  omega_max        {:.8g} rad/s\n", model.omega_max);
   if (model.critical_step) {
@@ -56,6 +37,7 @@ int check(const SceneArguments& arguments) {
   } else {
     fmt::print("  critical step    not known for {}; error control bounds the step\n", model.method.name);
   }
+  for (const std::string& note : model.notes) fmt::print("  note             {}\n", note);
   double total = 0;
   fmt::print("  bytes a point\n");
   for (const PointArray& array : phase.point_arrays()) {

@@ -36,6 +36,7 @@ void print_table(const Scene& scene, const Summary& s, const std::filesystem::pa
     for (const auto& [field, value] : s.probes.at(probe.name)) values += fmt::format("{} = {:.9g}  ", field, value);
     row("probe " + probe.name, values);
   }
+  for (const std::string& note : s.notes) row("note", note);
   row("written", fmt::format("{}", out.string()));
 }
 

@@ -1,0 +1,67 @@
+// Cases that ordinary explicit runs lose.
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+Summary rubber(std::vector<std::string> overrides) { return run(scenes::load("neo_hookean_bar", overrides)); }
+
+}  // namespace
+
+TEST_CASE("a neo-Hookean bar stretched to 2 and 5 times its length relaxes to the exact answer") {
+  for (const char* F : {"2", "5"}) {
+    const Summary s = rubber({std::string("constants.F=") + F});
+    CAPTURE(F);
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.error->u_rel_max < 1e-8);
+    CHECK(*s.error->stress_rel_l2 < 1e-8);
+  }
+}
+
+TEST_CASE("a bar crushed at a stroke to 40 % of its length relaxes: the step follows the stiffening") {
+  for (const char* method : {"leapfrog", "erk:rk4", "erk:bogacki-shampine-4-2-3"}) {
+    std::vector<std::string> overrides{"constants.F=0.4", std::string("integrator.method=") + method};
+    if (std::string(method) == "erk:bogacki-shampine-4-2-3") overrides.push_back("integrator.rtol=1e-3");
+    const Summary s = rubber(overrides);
+    CAPTURE(method);
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.error->u_rel_max < 1e-8);
+  }
+}
+
+TEST_CASE("a free bar under a force in balance finds its shape, though it has no lowest frequency") {
+  const Summary s = run(scenes::bar({"support=[]", "force=[{at=0.0, value=-0.001}, {at=10.0, value=0.001}]",
+                                     "damping.strategy=cundall", "stop.residual=1e-8"}));
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK_FALSE(s.omega_1);
+  CHECK(scenes::probe(s, "p12", "stress") == Approx(0.001).epsilon(1e-6));
+  CHECK(scenes::probe(s, "p12", "u") - scenes::probe(s, "p6", "u") == Approx(0.005).epsilon(1e-6));
+}
+
+TEST_CASE("critical damping of a body that is not held is refused at its key") {
+  CHECK_THROWS_WITH(run(scenes::bar({"support=[]", "damping.c=critical"})),
+                    Catch::Contains("damping.c") && Catch::Contains("not held"));
+}
+
+TEST_CASE("an adaptive run at a loose tolerance reaches equilibrium: the stability cap keeps it from stalling") {
+  for (const char* method : {"erk:bogacki-shampine-4-2-3", "erk:dormand-prince-7-4-5"}) {
+    const Summary s = run(scenes::bar({std::string("integrator.method=") + method, "integrator.rtol=1e-3",
+                                       "damping.strategy=viscous", "damping.c=critical", "stop.steps=20000"}));
+    CAPTURE(method);
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.error->u_rel_max < 1e-8);
+  }
+}
+
+TEST_CASE("random points with consistent volumes still give the exact stress of the bar") {
+  for (const char* seed : {"1", "2", "3"}) {
+    const Summary s =
+        run(scenes::bar({"body.placement=random", "body.points_per_cell=8", std::string("body.seed=") + seed}));
+    CAPTURE(seed);
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.error->u_rel_max < 1e-8);
+  }
+}
