@@ -1,11 +1,12 @@
-// The observed order in time of every method on offer, with fixed steps.
+// The observed order in time of every method on offer, with fixed steps, on two nonlinear systems under a load that
+// depends on time (so that the nodes c count), undamped and damped. Reference: another library at a tight tolerance.
 //
-// A chain of four masses on springs with a cubic term under a load that depends on time (so that the nodes c count):
-//   u_i'' = T(u_{i+1} − u_i) − T(u_i − u_{i−1}) − c u_i' + ½ cos(3 t + i),   T(e) = e + ½ e³,  0 ≤ t ≤ 4,
-// undamped and with c = 0.4. Reference: another library at a tight tolerance.
+//   chain   u_i'' = T(u_{i+1} − u_i) − T(u_i − u_{i−1}) − c u_i' + ½ cos(3 t + i),   T(e) = e + ½ e³,  0 ≤ t ≤ 4
+//   bar     the paper's bar, neo-Hookean, P0 = 0.05 cos 2t at its end, from a rough state in motion,  0 ≤ t ≤ 2
 #include <stillpoint/integrator.hpp>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,12 +14,11 @@
 #include <catch2/catch.hpp>
 
 #include "chain.hpp"
+#include "scenes.hpp"
 
 namespace {
 
 using namespace stillpoint;
-
-constexpr double end_time = 4;
 
 class DrivenChain : public test::Chain {
  public:
@@ -28,28 +28,48 @@ class DrivenChain : public test::Chain {
   }
 };
 
-std::vector<double> state_at_end(const IntegratorOptions& options, double c) {
-  DrivenChain chain;
-  const auto damping = make_damping("viscous", c, 0);
-  RelaxationSystem system(chain, *damping);
-  std::vector<double> y(2 * chain.size());
-  for (std::size_t i = 0; i < chain.size(); ++i) {
+struct Problem {
+  std::string name;
+  std::unique_ptr<SemiDiscrete> system;
+  std::vector<double> start;  // [u; v]
+  double end_time;
+};
+
+// A state that excites every mode, so that errors of high order stay above rounding.
+std::vector<double> rough_state(std::size_t n) {
+  std::vector<double> y(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
     y[i] = 0.2 * std::sin(0.7 * (static_cast<double>(i) + 1));
-    y[chain.size() + i] = 0.3 * std::cos(1.1 * static_cast<double>(i));
+    y[n + i] = 0.3 * std::cos(1.1 * static_cast<double>(i));
   }
+  return y;
+}
+
+Problem driven_chain() { return {"chain", std::make_unique<DrivenChain>(), rough_state(4), 4}; }
+
+Problem driven_bar() {
+  auto phase = make_phase(scenes::bar({"material.bar.law=neo-hookean", "force=[{at=10.0, value='0.05*cos(2*t)'}]"}));
+  std::vector<double> start = rough_state(phase->size());
+  return {"bar", std::move(phase), std::move(start), 2};
+}
+
+std::vector<double> state_at_end(Problem& problem, const IntegratorOptions& options, double c) {
+  const auto damping = make_damping("viscous", c, 0);
+  RelaxationSystem system(*problem.system, *damping);
+  std::vector<double> y = problem.start;
   Vector vector = system.vectors().view(y);
   const auto integrator = make_integrator(options, system);
   integrator->start(0, vector);
   StepReport report;
-  while (report.t < end_time) {
-    report = integrator->step(end_time);
+  while (report.t < problem.end_time) {
+    report = integrator->step(problem.end_time);
     REQUIRE(report.status == StepReport::Status::ok);
   }
   return y;
 }
 
-std::vector<double> reference(const std::string& method, double c) {
-  return state_at_end({.method = method, .max_step = 0.1, .rtol = 1e-14, .atol_u = 1e-15, .atol_v = 1e-15}, c);
+std::vector<double> reference(Problem& problem, const std::string& method, double c) {
+  return state_at_end(problem, {.method = method, .max_step = 0.1, .rtol = 1e-14, .atol_u = 1e-15, .atol_v = 1e-15}, c);
 }
 
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
@@ -58,8 +78,8 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(squares);
 }
 
-// So many steps that the error is in its asymptotic range, and twice as many still above rounding.
-int coarse_steps(int order) {
+// Where to begin looking for the asymptotic range of the error.
+int first_steps(int order) {
   switch (order) {
     case 1:
       return 1024;
@@ -78,50 +98,72 @@ int coarse_steps(int order) {
   }
 }
 
-double observed_order(const std::string& method, DampingTreatment treatment, double c, int order) {
-  const std::vector<double> exact = reference(method == "gsl:rk8pd" ? "erk:fehlberg-13-7-8" : "gsl:rk8pd", c);
+double observed_order(Problem& problem, const std::string& method, DampingTreatment treatment, double c, int order) {
+  const std::vector<double> exact = reference(problem, method == "gsl:rk8pd" ? "erk:fehlberg-13-7-8" : "gsl:rk8pd", c);
   const auto error = [&](int steps) {
     IntegratorOptions options;
     options.method = method;
     options.treatment = treatment;
-    options.max_step = end_time / steps;
-    return distance(state_at_end(options, c), exact);
+    options.max_step = problem.end_time / steps;
+    return distance(state_at_end(problem, options, c), exact);
   };
-  const int steps = coarse_steps(order);
-  return std::log2(error(steps) / error(2 * steps));
+  // Steps are halved as long as the error is above rounding, at most seven times.
+  constexpr double rounding = 2e-13;
+  std::vector<double> errors{error(first_steps(order)), error(2 * first_steps(order))};
+  for (int steps = 4 * first_steps(order); errors.size() < 8; steps *= 2) {
+    const double next = error(steps);
+    if (next < rounding) break;
+    errors.push_back(next);
+  }
+  const auto order_from = [&](std::size_t k) { return std::log2(errors[k - 1] / errors[k]); };
+  const std::size_t last = errors.size() - 1;
+  // An observed order nears its limit like h, p(h) = p + O(h), so 2 p(h/2) − p(h) is nearer; order 8 leaves no room for
+  // it.
+  return order < 8 ? 2 * order_from(last) - order_from(last - 1) : order_from(last);
 }
 
 TEST_CASE("every method shows its order in time, undamped and damped", "[integrator]") {
-  for (const Method& method : methods()) {
-    if (!method.fixed_step) continue;
-    for (const double c : {0.0, 0.4}) {
-      CAPTURE(method.name, c);
-      CHECK(observed_order(method.name, DampingTreatment::automatic, c, method.order) ==
-            Approx(method.order).margin(0.15));
+  for (const auto& make_problem : {driven_chain, driven_bar}) {
+    Problem problem = make_problem();
+    for (const Method& method : methods()) {
+      if (!method.fixed_step) continue;
+      for (const double c : {0.0, 0.4}) {
+        CAPTURE(problem.name, method.name, c);
+        const double order = observed_order(problem, method.name, DampingTreatment::automatic, c, method.order);
+        if (method.name == "gsl:rk8pd" && problem.name == "bar") {
+          CHECK(order > method.order - 0.15);  // its term of order 8 is so small that rounding hides it here
+        } else {
+          CHECK(order == Approx(method.order).margin(0.15));
+        }
+      }
     }
   }
 }
 
 TEST_CASE("leapfrog with lagged damping is of second order undamped and of first order damped", "[integrator]") {
-  CHECK(observed_order("leapfrog", DampingTreatment::lagged, 0, 2) == Approx(2).margin(0.15));
-  CHECK(observed_order("leapfrog", DampingTreatment::lagged, 0.4, 1) == Approx(1).margin(0.15));
+  Problem chain = driven_chain();
+  CHECK(observed_order(chain, "leapfrog", DampingTreatment::lagged, 0, 2) == Approx(2).margin(0.15));
+  CHECK(observed_order(chain, "leapfrog", DampingTreatment::lagged, 0.4, 1) == Approx(1).margin(0.15));
 }
 
 TEST_CASE("symplectic Euler is of first order with every treatment of damping", "[integrator]") {
+  Problem chain = driven_chain();
   for (const auto treatment : {DampingTreatment::lagged, DampingTreatment::implicit, DampingTreatment::exact}) {
-    CHECK(observed_order("symplectic-euler", treatment, 0.4, 1) == Approx(1).margin(0.15));
+    CHECK(observed_order(chain, "symplectic-euler", treatment, 0.4, 1) == Approx(1).margin(0.15));
   }
 }
 
 TEST_CASE("adaptive methods of two libraries agree to their tolerance", "[integrator]") {
-  const std::vector<double> exact = reference("gsl:rk8pd", 0.4);
+  Problem chain = driven_chain();
+  const std::vector<double> exact = reference(chain, "gsl:rk8pd", 0.4);
   for (const Method& method : methods()) {
     if (!method.adaptive) continue;
     CAPTURE(method.name);
     const auto error = [&](double rtol) {
       return distance(
-          state_at_end({.method = method.name, .max_step = end_time, .rtol = rtol, .atol_u = rtol, .atol_v = rtol},
-                       0.4),
+          state_at_end(
+              chain, {.method = method.name, .max_step = chain.end_time, .rtol = rtol, .atol_u = rtol, .atol_v = rtol},
+              0.4),
           exact);
     };
     CHECK(error(1e-7) < 1e-5);
