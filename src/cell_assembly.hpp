@@ -58,7 +58,7 @@ SplitMatrix assemble_cells(const MaterialPoints<Dim>& points, const PointWeights
   split.free.setFromTriplets(free.begin(), free.end());
   split.prescribed.setFromTriplets(prescribed.begin(), prescribed.end());
   return split;
-}
+}  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
 
 /// M_ij = Σ_p m_p N_ip N_jp for each component.
 template <AxisBasis B, int Dim>

@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <memory>
 
-struct _generic_N_Vector;  // SUNDIALS' own tag: N_Vector is a pointer to it, in 6.x and 7.x
+// SUNDIALS' own tag: N_Vector is a pointer to it, in 6.x and 7.x.
+struct _generic_N_Vector;  // NOLINT(bugprone-reserved-identifier)
 
 namespace stillpoint {
 
