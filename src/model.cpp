@@ -49,10 +49,10 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureRe
   }
   const int needed = 2 * degree_of(scene.grid.basis) - 2;
   if (quadrature.degree < needed) {
-    notes.push_back(
-        fmt::format("the material points integrate degree {}; this basis needs {} to keep its order of convergence: "
-                    "take more points per cell, consistent volumes, or placement = \"gauss\"",
-                    quadrature.degree, needed));
+    const bool equal = scene.body.volumes == VolumeRule::equal;
+    notes.push_back(fmt::format("the points integrate degree {}, this basis needs {} for its full order: {}",
+                                quadrature.degree, needed,
+                                equal ? "take consistent volumes" : "take more points per cell or Gauss points"));
   }
   return notes;
 }

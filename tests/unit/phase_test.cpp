@@ -1,9 +1,12 @@
+#include <stillpoint/relaxation.hpp>
+
 #include <cmath>
 #include <random>
 
 #include <catch2/catch.hpp>
 #include <omp.h>
 
+#include "allocation_count.hpp"
 #include "scenes.hpp"
 
 using namespace stillpoint;
@@ -178,4 +181,23 @@ TEST_CASE("what the scene cannot carry is refused with the key that is wrong") {
   CHECK_THAT(message({"grid.basis=cubic", "support=[{at=2.5}]"}), Catch::Contains("a support must lie where"));
   CHECK_THAT(message({"body.points_per_cell=1", "probe=[]"}), Catch::Contains("too few material points"));
   CHECK_THAT(message({"body.min=5.0", "probe=[]"}), Catch::Contains("no material reaches this support"));
+}
+
+TEST_CASE("the right-hand side of a scene allocates nothing after its first evaluation") {
+  for (const char* mass : {"consistent", "lumped"}) {
+    for (const char* law : {"linear-elastic", "neo-hookean"}) {
+      const auto phase =
+          make_phase(scenes::bar({std::string("mass.kind=") + mass, std::string("material.bar.law=") + law}));
+      const auto damping = make_damping("identity", 0.45, 0);
+      RelaxationSystem system(*phase, *damping);
+      const auto y = random_state(2 * phase->size(), 0.01);
+      std::vector<double> ydot(y.size());
+      REQUIRE(system(0, y, ydot));
+      const long before = test::allocation_count();
+      const bool admissible = system(0.1, y, ydot);
+      const long allocated = test::allocation_count() - before;
+      CHECK(admissible);
+      CHECK(allocated == 0);
+    }
+  }
 }
