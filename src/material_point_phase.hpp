@@ -11,6 +11,7 @@
 
 #include "cell_assembly.hpp"
 #include "degrees_of_freedom.hpp"
+#include "nodal_force.hpp"
 #include "nodal_loads.hpp"
 #include "point_weights.hpp"
 #include "prescribed_motion.hpp"
@@ -41,27 +42,14 @@ class MaterialPointPhase final : public LagrangianPhase {
   static constexpr int per_cell = PointWeights<B, Dim>::per_cell;
   static constexpr int corners = Dim * per_cell;  // a cell's corner forces
   static constexpr std::size_t tensor = Dim * Dim;
-  static constexpr std::size_t block_points = 512;          // a block's stresses stay in the first-level cache
-  static constexpr std::size_t points_for_threads = 16384;  // below, waking threads costs more than it saves
 
  public:
   explicit MaterialPointPhase(PhaseParts<B, Law> parts)
       : s_(std::move(parts)),
-        corner_sum_(corner_degrees_of_freedom(), s_.dofs.size() + s_.dofs.prescribed.size()),
+        nodal_force_(s_.points, s_.weights, s_.dofs),
         grid_u_(static_cast<std::size_t>(Dim * s_.grid_functions), 0.0),
         grid_du_(grid_u_.size(), 0.0),
-        corner_(corners * s_.points.cell.size()),
-        traction_(tensor * points()),
-        stress_(tensor * points(), 0.0) {
-    for (std::size_t k = 0; k < s_.points.cell.size(); ++k) {
-      const auto begin = static_cast<std::size_t>(s_.points.cell_begin[k]);
-      if (block_begin_.empty() ||
-          begin >= block_points + static_cast<std::size_t>(s_.points.cell_begin[block_begin_.back()])) {
-        block_begin_.push_back(k);
-      }
-    }
-    block_begin_.push_back(s_.points.cell.size());
-  }
+        stress_(tensor * points(), 0.0) {}
 
   // --- SemiDiscrete -------------------------------------------------------------------------------
   std::size_t size() const override { return s_.dofs.size(); }
@@ -75,9 +63,10 @@ class MaterialPointPhase final : public LagrangianPhase {
 
   bool internal_force(double t, ConstVec u, Vec R) const override {
     spread(t, u);
-    const bool admissible =
-        corner_forces([&](std::size_t p) { return s_.law.first_piola(s_.weights.gradient(grid_u_.data(), p)); });
-    sum_corners(R);
+    const bool admissible = nodal_force_.gather(s_.points, s_.weights, [&](std::size_t p) {
+      return s_.law.first_piola(s_.weights.gradient(grid_u_.data(), p));
+    });
+    nodal_force_.sum(R);
     return admissible;
   }
 
@@ -85,7 +74,7 @@ class MaterialPointPhase final : public LagrangianPhase {
   void tangent(double t, ConstVec u, ConstVec du, Vec dR) const override {
     spread(t, u);
     for (std::size_t k = 0; k < size(); ++k) grid_du_[static_cast<std::size_t>(s_.dofs.free[k])] = du[k];
-    corner_forces([&](std::size_t p) {
+    nodal_force_.gather(s_.points, s_.weights, [&](std::size_t p) {
       const Moduli<Dim> A = s_.law.moduli(s_.weights.gradient(grid_u_.data(), p));
       const Tensor<Dim> dH = s_.weights.gradient(grid_du_.data(), p);
       Tensor<Dim> dP{};
@@ -94,7 +83,7 @@ class MaterialPointPhase final : public LagrangianPhase {
       }
       return dP;
     });
-    sum_corners(dR);
+    nodal_force_.sum(dR);
   }
 
   // K_ai,bk = Σ_p V_p ∂N_a/∂x_j (∂P_ij/∂H_kl) ∂N_b/∂x_l
@@ -139,7 +128,7 @@ class MaterialPointPhase final : public LagrangianPhase {
   double reaction_norm() const override {
     double sum = 0;
     for (std::size_t s = 0; s < s_.dofs.prescribed.size(); ++s) {
-      const double reaction = corner_sum_.sum(size() + s, corner_.data());
+      const double reaction = nodal_force_.at(size() + s);
       sum += reaction * reaction;
     }
     return std::sqrt(sum);
@@ -236,69 +225,6 @@ class MaterialPointPhase final : public LagrangianPhase {
     }
   }
 
-  std::vector<int> corner_degrees_of_freedom() const {
-    std::vector<int> dof;
-    for (std::size_t k = 0; k < s_.points.cell.size(); ++k) {
-      const auto p = static_cast<std::size_t>(s_.points.cell_begin[k]);
-      for (int a = 0; a < per_cell; ++a) {
-        for (int i = 0; i < Dim; ++i)
-          dof.push_back(s_.dofs.number[static_cast<std::size_t>(Dim * s_.weights.function(p, a) + i)]);
-      }
-    }
-    return dof;
-  }
-
-  // corner_[cell, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points. False where some P is not finite.
-  template <class Stress>
-  bool corner_forces(const Stress& stress_at) const {
-    const double* V = s_.points.volume.data();
-    double* VP = traction_.data();
-    const std::size_t n = points();
-    const std::size_t blocks = block_begin_.size() - 1;
-    double not_finite = 0;  // 0·P is 0 or NaN, so the loop needs no branch
-#pragma omp parallel for schedule(static) reduction(+ : not_finite) if (n > points_for_threads)
-    for (std::size_t block = 0; block < blocks; ++block) {
-      const std::size_t first_cell = block_begin_[block], last_cell = block_begin_[block + 1];
-      const auto begin = static_cast<std::size_t>(s_.points.cell_begin[first_cell]);
-      const auto end = static_cast<std::size_t>(s_.points.cell_begin[last_cell]);
-      double bad = 0;
-#pragma omp simd reduction(+ : bad)
-      for (std::size_t p = begin; p < end; ++p) {
-        const Tensor<Dim> P = stress_at(p);
-        for (std::size_t ij = 0; ij < tensor; ++ij) {
-          VP[n * ij + p] = V[p] * P[ij];
-          bad += 0 * P[ij];
-        }
-      }
-      not_finite += bad;
-      for (std::size_t k = first_cell; k < last_cell; ++k) scatter_cell(k);
-    }
-    return not_finite == 0;
-  }
-
-  void scatter_cell(std::size_t k) const {
-    const auto begin = static_cast<std::size_t>(s_.points.cell_begin[k]),
-               end = static_cast<std::size_t>(s_.points.cell_begin[k + 1]);
-    const double* VP = traction_.data();
-    double* force = corner_.data() + corners * k;
-    for (int a = 0; a < per_cell; ++a) {
-      for (int i = 0; i < Dim; ++i) {
-        double sum = 0;
-        for (int j = 0; j < Dim; ++j) {
-          for (std::size_t p = begin; p < end; ++p)
-            sum += VP[points() * static_cast<std::size_t>(Dim * i + j) + p] * s_.weights.dN(j, a, p);
-        }
-        force[Dim * a + i] = sum;
-      }
-    }
-  }
-
-  void sum_corners(Vec R) const {
-    const double* forces = corner_.data();
-#pragma omp parallel for schedule(static) if (points() > points_for_threads)
-    for (std::size_t k = 0; k < R.size(); ++k) R[k] = corner_sum_.sum(k, forces);
-  }
-
   // F_i += Σ_p N_ip m_p b(x_p, t)
   void add_body_force(double t, Vec F) const {
     for (std::size_t p = 0; p < points(); ++p) {
@@ -341,12 +267,9 @@ class MaterialPointPhase final : public LagrangianPhase {
   }
 
   PhaseParts<B, Law> s_;
-  CornerSum corner_sum_;
-  std::vector<std::size_t> block_begin_;  // first occupied cell of each block, and the number of cells at the end
   // Work arrays, sized once; evaluations of one phase are not for several threads at once.
+  mutable NodalForce<B, Dim> nodal_force_;
   mutable std::vector<double> grid_u_, grid_du_;  // (Dim × functions of the grid); grid_du_ is 0 at supports
-  mutable std::vector<double> corner_;            // (cells × corners)
-  mutable std::vector<double> traction_;          // V_p P_ij, (tensor × P)
   std::vector<double> stress_;                    // Cauchy, committed, (P × tensor)
 };
 
