@@ -24,14 +24,8 @@ std::size_t nearest_point(const LagrangianPhase& phase, const std::vector<double
 }  // namespace
 
 Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : phase_(phase), specs_(scene.probes) {
-  assert(phase.dim() == 1);  // a field of one component a column
-  for (std::size_t k = 0; k < specs_.size(); ++k) {
-    const ProbeSpec& probe = specs_[k];
-    if (probe.point && static_cast<std::size_t>(*probe.point) > phase.points()) {
-      throw SceneError(
-          {{scene.location(fmt::format("probe[{}].point", k)),
-            fmt::format("there is no material point {}; expected 1 to {}", *probe.point, phase.points())}});
-    }
+  assert(phase.dim() == 1);  // a field of one component a column; make_model() has checked the numbers of points
+  for (const ProbeSpec& probe : specs_) {
     point_.push_back(probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(phase, probe.at));
     for (const std::string& field : probe.fields) {
       columns_.push_back(probe.name + "." + field);

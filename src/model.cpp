@@ -18,12 +18,32 @@ constexpr double two_pi = 2 * std::numbers::pi;
 }
 
 // ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
-double highest_frequency(const LagrangianPhase& phase, ConstVec u) {
+double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
   const FrequencyEstimate estimate = omega_max_by_power_iteration(phase, 0, u, options);
+  if (!(estimate.omega > 0) || !std::isfinite(estimate.omega)) {
+    reject(scene, "initial",
+           fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
+  }
   if (estimate.converged) return estimate.omega;
   constexpr double margin = 1.02;  // after 300 iterations an underestimate of 0.1 % is usual
   return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
+}
+
+// Whether R can be evaluated where the motion begins.
+void check_initial_state(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
+  std::vector<double> R(phase.size());
+  if (phase.internal_force(0, u, R)) return;
+  reject(scene, "initial", "the initial state cannot be evaluated: det f <= 0 or a stress that is not finite");
+}
+
+void check_probes(const Scene& scene, const LagrangianPhase& phase) {
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const auto& point = scene.probes[k].point;
+    if (!point || static_cast<std::size_t>(*point) <= phase.points()) continue;
+    reject(scene, fmt::format("probe[{}].point", k),
+           fmt::format("there is no material point {}; expected 1 to {}", *point, phase.points()));
+  }
 }
 
 int degree_of(BasisKind basis) {
@@ -103,6 +123,10 @@ void choose_step(const Scene& scene, Model& model) {
   }
   if (spec.step) {
     model.integrator.max_step = *spec.step;
+    // Past its stability limit an adaptive step stalls near equilibrium, where it excites what it should damp.
+    if (adaptive && model.critical_step && *model.critical_step > 0 && spec.unstable_reason.empty()) {
+      model.integrator.max_step = std::min(*spec.step, spec.step_fraction * *model.critical_step);
+    }
     if (!adaptive && model.critical_step && *spec.step > *model.critical_step * (1 + 1e-9) &&
         spec.unstable_reason.empty()) {
       reject(scene, "integrator.step",
@@ -130,7 +154,9 @@ Model make_model(const Scene& scene) {
   model.notes = quadrature_notes(scene, model.phase->quadrature());
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
-  model.omega_max = highest_frequency(*model.phase, model.u);
+  check_probes(scene, *model.phase);
+  check_initial_state(scene, *model.phase, model.u);
+  model.omega_max = highest_frequency(scene, *model.phase, model.u);
 
   const bool critical = takes_c(scene.damping) && !scene.damping.c;
   const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
@@ -143,8 +169,10 @@ Model make_model(const Scene& scene) {
           fmt::format("omega_1 is not known ({}): equilibrium is held for 100 of the shortest periods", lowest.status));
     }
     if (critical && !model.omega_1) {
-      reject(scene, "damping.c",
-             fmt::format("critical damping needs omega_1, but {}; expected a support or a number", lowest.status));
+      reject(
+          scene, "damping.c",
+          fmt::format("critical damping needs omega_1, but {}; expected a support, more points per cell, or a number",
+                      lowest.status));
     }
   }
   // A body that is not held has no lowest frequency: a hundred of its shortest periods stand in for the longest.

@@ -29,7 +29,7 @@ std::string to_string(RunStatus status) {
   return "unknown";
 }
 
-RunStatus Monitor::observe(double t, double residual, double kinetic_energy) {
+RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale) {
   next_check_ = t + options_.hold / checks_a_hold;
   peak_kinetic_energy_ = std::max(peak_kinetic_energy_, kinetic_energy);
   if (!std::isfinite(residual) || !std::isfinite(kinetic_energy)) {
@@ -40,17 +40,22 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy) {
   if (options_.residual <= 0) return RunStatus::running;
 
   const bool balanced = residual <= options_.residual;
-  const bool at_rest = options_.kinetic_energy <= 0 || kinetic_energy <= options_.kinetic_energy * peak_kinetic_energy_;
+  constexpr double rounding = 1e-20;  // of an energy: velocities to ten digits
+  const double rest = std::max(options_.kinetic_energy * peak_kinetic_energy_, rounding * work_scale);
+  const bool at_rest = options_.kinetic_energy <= 0 || kinetic_energy <= rest;
   if (!balanced || !at_rest) {
     balanced_since_ = -1;
     return RunStatus::running;
   }
   if (balanced_since_ < 0) balanced_since_ = t;
   if (t - balanced_since_ < options_.hold * (1 - 1e-12)) return RunStatus::running;
-  reason_ =
-      fmt::format("residual {:.3g} <= {:.3g} and kinetic energy {:.3g} <= {:.3g} of its peak, held for {:.4g} s",
-                  residual, options_.residual, peak_kinetic_energy_ > 0 ? kinetic_energy / peak_kinetic_energy_ : 0.0,
-                  options_.kinetic_energy, t - balanced_since_);
+  reason_ = fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual);
+  if (options_.kinetic_energy > 0) {
+    reason_ +=
+        fmt::format(" and kinetic energy {:.3g} <= {:.3g} of its peak",
+                    peak_kinetic_energy_ > 0 ? kinetic_energy / peak_kinetic_energy_ : 0.0, options_.kinetic_energy);
+  }
+  reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);
   return RunStatus::equilibrium;
 }
 

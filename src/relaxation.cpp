@@ -1,5 +1,7 @@
 #include <stillpoint/relaxation.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace stillpoint {
@@ -56,11 +58,13 @@ double RelaxationSystem::last_residual() {
   const ConstVec F = F_.span(), R = R_.span();
   const Vec Q = Q_.span();
   for (std::size_t i = 0; i < Q.size(); ++i) Q[i] = F[i] - R[i];
-  const double unbalanced = norm(Q_);
+  const double unbalanced = norm(Q_), loads = norm(F_);
+  force_scale_ = std::max({force_scale_, loads, loads > 0 ? 0 : system_.reaction_norm()});
   if (unbalanced == 0) return 0;
-  const double loads = norm(F_);
-  return unbalanced / (loads > 0 ? loads : system_.reaction_norm());
+  return unbalanced / (loads > 0 ? loads : force_scale_);
 }
+
+double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
 
 double RelaxationSystem::kinetic_energy(const Vector& v) {
   system_.mass().apply(v.span(), Q_.span());

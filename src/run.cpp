@@ -68,6 +68,7 @@ class Run {
         model_(make_model(scene)),
         relaxation_(*model_.phase, *model_.damping, vectors_),
         y_(vectors_.make(2 * model_.phase->size())),
+        u_(vectors_.view(first_half(y_.span()))),
         v_(vectors_.view(second_half(y_.span()))),
         integrator_(make_integrator(model_.integrator, relaxation_)),
         monitor_(monitor_options(scene, model_)),
@@ -92,6 +93,7 @@ class Run {
       if (step.status != StepReport::Status::ok) {
         status_ = status_of(step.status);
         reason_ = step.message;
+        record();  // the last good state
         break;
       }
       step_ = step.h;
@@ -110,9 +112,10 @@ class Run {
   ConstVec u() const { return first_half(y_.span()); }
   ConstVec v() const { return second_half(y_.span()); }
 
+  // A row that rounding puts next to the end is the row at the end.
   double next_row_time() const {
-    const double t_row = static_cast<double>(rows_) * interval_;
-    return scene_.stop.time > 0 ? std::min(t_row, scene_.stop.time) : t_row;
+    const double t_row = static_cast<double>(rows_) * interval_, end = scene_.stop.time;
+    return end > 0 && t_row > end - 1e-9 * interval_ ? end : t_row;
   }
 
   // The critical step falls as 1/omega_max where the material stiffens: the longest step h (in notches, since an
@@ -136,13 +139,14 @@ class Run {
     if (measured_at_ == t_) return;
     measured_at_ = t_;
     residual_ = integrator_->force_is_current() ? relaxation_.last_residual() : relaxation_.residual(t_, u());
+    work_scale_ = relaxation_.work_scale(u_);
     kinetic_energy_ = relaxation_.kinetic_energy(v_);
   }
 
   void watch() {
     if (monitor_.due(t_)) {
       measure();
-      status_ = monitor_.observe(t_, residual_, kinetic_energy_);
+      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_);
     }
     if (status_ == RunStatus::running) status_ = monitor_.check_limits(t_, integrator_->steps(), wall_.seconds());
     reason_ = monitor_.reason();
@@ -209,8 +213,8 @@ class Run {
   VectorSpace vectors_;
   Model model_;
   RelaxationSystem relaxation_;
-  Vector y_;  // [u; v]
-  Vector v_;  // its second half, in place
+  Vector y_;      // [u; v]
+  Vector u_, v_;  // its halves, in place
   std::unique_ptr<Integrator> integrator_;
   Monitor monitor_;
   Probes probes_;
@@ -223,7 +227,7 @@ class Run {
 
   double t_ = 0, step_ = 0;
   long rows_ = 0;  // number of the next row: it is due at rows_ · interval_
-  double residual_ = 0, kinetic_energy_ = 0;
+  double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0;
   std::optional<double> measured_at_;  // the t of both
   double stepping_s_ = 0, next_progress_ = 0;
   RunStatus status_ = RunStatus::running;

@@ -50,15 +50,14 @@ bool same(const Problem& a, const Problem& b) {
   return a.message == b.message && to_string(a.where) == to_string(b.where);
 }
 
-/// Loads the scene once for each variant, and reports at the variant what the scene itself does not suffer from.
-void check_variants(const Scene& scene, const std::string& text, const std::vector<std::string>& overrides,
-                    std::vector<Problem>& problems) {
-  const std::vector<Problem> own = problems;
+/// Loads the file once for each variant, and reports at the variant what the file itself does not suffer from.
+/// Overrides stay out of it: a variant that does not go with them is no fault of the scene that was asked for.
+void check_variants(const Scene& scene, const std::string& text, std::vector<Problem>& problems) {
+  std::vector<Problem> own;
+  read_scene(text, scene.file, {}, own);
   for (std::size_t k = 0; k < scene.variants.size(); ++k) {
-    std::vector<std::string> all = overrides;
-    all.insert(all.end(), scene.variants[k].set.begin(), scene.variants[k].set.end());
     std::vector<Problem> found;
-    read_scene(text, scene.file, all, found);
+    read_scene(text, scene.file, scene.variants[k].set, found);
     for (const Problem& problem : found) {
       if (std::any_of(own.begin(), own.end(), [&](const Problem& other) { return same(problem, other); })) continue;
       problems.push_back({scene.location(fmt::format("variant[{}].set", k)),
@@ -78,7 +77,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (scene.variants.size() > most_variants) {
     problems.push_back({scene.location("variant"), fmt::format("more than {} variants", most_variants)});
   } else {
-    check_variants(scene, *text, overrides, problems);
+    check_variants(scene, *text, problems);
   }
   if (problems.empty()) return scene;
   // In the order of the file, overrides first.

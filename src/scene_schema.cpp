@@ -122,6 +122,7 @@ void read_fields(TableReader& root, Scene& scene) {
   TableReader exact = root.table("exact");
   assign(scene.exact_u, exact.formulas("u", axes, coordinates(scene) + "t"));
   assign(scene.exact_stress, exact.formula("stress", coordinates(scene) + "t"));
+  if (exact.has("stress") && !exact.has("u")) exact.problem("stress", "needs exact.u beside it");
   exact.report_unknown_keys();
 }
 

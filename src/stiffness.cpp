@@ -23,7 +23,7 @@ FactorisedStiffness::FactorisedStiffness(const SemiDiscrete& system, double t, C
 
 std::string FactorisedStiffness::refusal(double omega_squared) const {
   if (mass_.size() == 0) return "no free degrees of freedom";
-  const std::string singular = "K is singular: the body is not held";
+  const std::string singular = "K is singular: the body is not held, or has too few material points for its basis";
   if (usable()) {
     // The factor is exact for a K that is off by a few roundings of its entries, which move ω² by a few eps ω_max²:
     // an ω₁² of that size is a zero.

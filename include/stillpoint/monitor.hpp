@@ -34,8 +34,9 @@ class Monitor {
 
   /// Whether observe() wants residual and kinetic energy at t; in between, looking costs nothing.
   bool due(double t) const { return t >= next_check_; }
-  /// Residual and kinetic energy [J] at t [s].
-  RunStatus observe(double t, double residual, double kinetic_energy);
+  /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
+  /// the work counts as rest, also in a body that never moved.
+  RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0);
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps, double wall_time);
 

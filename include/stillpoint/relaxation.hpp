@@ -25,10 +25,13 @@ class RelaxationSystem {
   /// Q = F(t) − R(u) (− inertia of moving supports), damping left out; u, Q: (n). False as above.
   bool out_of_balance(double t, ConstVec u, Vec Q);
 
-  /// ‖F − R‖/‖F‖ over the free degrees of freedom; ‖reactions‖ instead of ‖F‖ where F = 0; 0 where both vanish.
+  /// ‖F − R‖/‖F‖ over the free degrees of freedom. Where F = 0, over the largest ‖reactions‖ or ‖F‖ seen here so far:
+  /// those of the moment fall with the residual itself when a body is unloaded. 0 where nothing pulls.
   double residual(double t, ConstVec u);
   /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
   double last_residual();
+  /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
+  double work_scale(const Vector& u);
   /// ½ vᵀ M v [J]; v: (n).
   double kinetic_energy(const Vector& v);
 
@@ -43,6 +46,7 @@ class RelaxationSystem {
   LinearDamping linear_;
   VectorSpace vectors_;
   Vector F_, R_, Q_;
+  double force_scale_ = 0;  // largest ‖F‖ or ‖reactions‖ of residual() and last_residual()
   long evaluations_ = 0;
 };
 

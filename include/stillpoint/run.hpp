@@ -51,7 +51,7 @@ struct Summary {
   std::optional<double> omega_1;
   double omega_max = 0;
   std::optional<double> c;
-  double dt = 0;  // the last whole step [s]
+  double dt = 0;  // the last step [s]
   std::optional<double> critical_step;
   std::string integrator, damping;
   std::vector<std::string> notes;  // of Model

@@ -184,7 +184,7 @@ TEST_CASE("a body that is not held has a singular K and no omega_1") {
           INFO("n = " << n << ", k = " << stiffness << ": " << estimate.status);
           CHECK_FALSE(estimate.converged);
           CHECK(estimate.omega == 0);
-          CHECK(estimate.status == "K is singular: the body is not held");
+          CHECK(estimate.status == "K is singular: the body is not held, or has too few material points for its basis");
         }
       }
     }
@@ -199,7 +199,8 @@ TEST_CASE("a free body is found out although rounding lets the factorisation of 
     for (std::size_t i = 0; i < n; ++i) u.push_back(std::sin(17.0 * static_cast<double>(i * i)));
     for (const auto method : {omega_1_by_inverse_iteration, omega_1_by_arpack}) {
       INFO("n = " << n);
-      CHECK(method(chain, 0, u, SpectrumOptions{}).status == "K is singular: the body is not held");
+      CHECK(method(chain, 0, u, SpectrumOptions{}).status ==
+            "K is singular: the body is not held, or has too few material points for its basis");
     }
   }
 }
