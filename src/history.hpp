@@ -28,6 +28,8 @@ class Probes {
 
   const std::vector<std::string>& columns() const { return columns_; }  // "<probe>.<field>"
   const std::vector<ProbeSpec>& specs() const { return specs_; }
+  /// Where probe k's material point was when the phase began, (dim) [m].
+  std::vector<double> place(std::size_t k) const { return phase_.place(point_[k]); }
   /// Values at (t, u, v), in the order of columns(); commits nothing: stress is that of the last commit.
   std::vector<double> read(double t, ConstVec u, ConstVec v);
 

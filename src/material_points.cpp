@@ -76,16 +76,19 @@ PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double d
     // The part of the cell that the body's box covers; slivers of rounding are none.
     const auto cell = grid.cell_at(number);
     Point<Dim> low, high;
-    double size = 1;
+    double size = 1, smallest_share = 1;
     bool covered = true;
     for (int d = 0; d < Dim; ++d) {
       const double a = grid.axes[d].nodes[cell[d]], b = grid.axes[d].nodes[cell[d] + 1];
       low[d] = std::max(a, body.min[d]);
       high[d] = std::min(b, body.max[d]);
-      covered = covered && high[d] - low[d] > 1e-12 * (b - a);
+      const double share = (high[d] - low[d]) / (b - a);
+      covered = covered && share > 1e-12;
+      if (share > 0) smallest_share = std::min(smallest_share, share);
       size *= high[d] - low[d];
     }
     if (!covered) continue;
+    placed.quadrature.smallest_share = std::min(placed.quadrature.smallest_share, smallest_share);
 
     const Eigen::MatrixXd& xi = places.next();
     if (!fitted || body.placement == Placement::random) {

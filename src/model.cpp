@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
+
+#include "load_schedule.hpp"
 
 namespace stillpoint {
 namespace {
@@ -67,6 +70,12 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureRe
     notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
                                 quadrature.cells_limited_by_sign));
   }
+  if (quadrature.smallest_share < 0.05) {
+    notes.push_back(
+        fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
+                    "faces on grid lines",
+                    quadrature.smallest_share));
+  }
   const int needed = 2 * degree_of(scene.grid.basis) - 2;
   if (quadrature.degree < needed) {
     const bool equal = scene.body.volumes == VolumeRule::equal;
@@ -77,21 +86,45 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureRe
   return notes;
 }
 
+std::vector<std::string> support_notes(const Scene& scene) {
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    for (std::size_t d = 0; d < scene.supports[k].at.size(); ++d) {
+      const double at = scene.supports[k].at[d];
+      if (at >= scene.body.min[d] && at <= scene.body.max[d]) continue;
+      notes.push_back(fmt::format(
+          "support[{}] at {:.6g} lies outside the body: it holds the cell that the body shares with it", k, at));
+    }
+  }
+  return notes;
+}
+
 bool takes_c(const DampingSpec& damping) { return damping.strategy == "viscous" || damping.strategy == "identity"; }
 
-// The size of the motion to expect, so that tolerances need no number from the user: |M⁻¹F|_max/ω₁² for the largest
-// load over the run, or the initial values.
+// The size of the motion to expect, so that tolerances need no number from the user: the largest displacement of a
+// material point under the loads of any time, u = K⁻¹ Q(t), or under the initial values.
 double displacement_scale(const Scene& scene, const Model& model) {
-  std::vector<double> F(model.phase->size());
-  const double span = scene.stop.time > 0 ? scene.stop.time : two_pi / *model.omega_1;
+  const LagrangianPhase& phase = *model.phase;
   double scale = 0;
-  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
-    model.phase->external_force(share * span, F);
-    model.phase->mass().solve(F, F);
-    for (const double a : F) scale = std::max(scale, std::abs(a) / (*model.omega_1 * *model.omega_1));
+  std::vector<double> at_points(phase.points() * static_cast<std::size_t>(phase.dim()));
+  const auto widen = [&](double factor) {
+    for (const double u : at_points) scale = std::max(scale, factor * std::abs(u));
+  };
+  phase.point_displacement(0, model.u, at_points);
+  widen(1);
+  phase.point_velocity(0, model.v, at_points);
+  widen(1 / *model.omega_1);
+
+  const SparseCholesky K(phase.tangent_matrix(0, model.u));
+  const double span = scene.stop.time > 0 ? scene.stop.time : two_pi / *model.omega_1;
+  const int samples = pulls_vary(scene) ? 32 : 0;
+  for (int k = 0; k <= samples; ++k) {
+    const double t = samples > 0 ? span * k / samples : 0;
+    std::vector<double> u = pull_at(phase, t);
+    K.solve(u, u);
+    phase.point_displacement(t, u, at_points);
+    widen(1);
   }
-  for (const double u : model.u) scale = std::max(scale, std::abs(u));
-  for (const double v : model.v) scale = std::max(scale, std::abs(v) / *model.omega_1);
   return scale;
 }
 
@@ -152,6 +185,7 @@ Model make_model(const Scene& scene) {
   Model model;
   model.phase = make_phase(scene);
   model.notes = quadrature_notes(scene, model.phase->quadrature());
+  std::ranges::copy(support_notes(scene), std::back_inserter(model.notes));
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);
@@ -174,6 +208,11 @@ Model make_model(const Scene& scene) {
           fmt::format("critical damping needs omega_1, but {}; expected a support, more points per cell, or a number",
                       lowest.status));
     }
+  }
+  if (scene.stop.residual > 0 && scene.stop.time == 0 && pulls_vary(scene)) {
+    model.notes.push_back(
+        "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
+        "equilibrium");
   }
   // A body that is not held has no lowest frequency: a hundred of its shortest periods stand in for the longest.
   model.hold = scene.stop.hold * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);

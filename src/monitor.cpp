@@ -29,7 +29,7 @@ std::string to_string(RunStatus status) {
   return "unknown";
 }
 
-RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale) {
+RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale, bool settled) {
   next_check_ = t + options_.hold / checks_a_hold;
   peak_kinetic_energy_ = std::max(peak_kinetic_energy_, kinetic_energy);
   if (!std::isfinite(residual) || !std::isfinite(kinetic_energy)) {
@@ -39,7 +39,7 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   }
   if (options_.residual <= 0) return RunStatus::running;
 
-  const bool balanced = residual <= options_.residual;
+  const bool balanced = settled && residual <= options_.residual;
   constexpr double rounding = 1e-20;  // of an energy: velocities to ten digits
   const double rest = std::max(options_.kinetic_energy * peak_kinetic_energy_, rounding * work_scale);
   const bool at_rest = options_.kinetic_energy <= 0 || kinetic_energy <= rest;

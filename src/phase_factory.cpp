@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -49,7 +50,7 @@ class PhaseBuilder {
     const DegreesOfFreedom dofs = degrees_of_freedom();
     SplitMatrix consistent = consistent_mass<B, Dim>(body_.points, weights_, dofs);
     std::vector<PrescribedMotion> motions;
-    for (const auto& support : scene_.supports) motions.emplace_back(support.motion);
+    for (const auto& support : scene_.supports) motions.emplace_back(support.motion, time_scale());
     NodalLoads loads = nodal_loads(dofs);
     const bool varying_body_force =
         std::ranges::any_of(scene_.body_force, [](const Expression& b) { return b.uses('t'); });
@@ -73,6 +74,16 @@ class PhaseBuilder {
   }
 
  private:
+  // A wave's time through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max [s].
+  double time_scale() const {
+    double h = std::numeric_limits<double>::infinity();
+    for (const Axis& axis : grid_.axes) {
+      for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
+    }
+    const double density = scene_.materials.at(scene_.body.material).parameters.at("rho");
+    return h / 2 * std::sqrt(density / law_.moduli({})[0]);
+  }
+
   DegreesOfFreedom degrees_of_freedom() const {
     std::vector<bool> reached(static_cast<std::size_t>(Dim * Basis::count(grid_)), false);
     for (std::size_t p = 0; p < body_.points.size(); ++p) {

@@ -1,28 +1,38 @@
 #include "prescribed_motion.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include <gsl/gsl_deriv.h>
-
 namespace stillpoint {
+namespace {
 
+// difference(t), or at t + 2h where it reaches to where the formula has no value.
+template <class Difference>
+double where_defined(const Difference& difference, double t, double h) {
+  const double value = difference(t);
+  return std::isfinite(value) ? value : difference(t + 2 * h);
+}
+
+}  // namespace
+
+// u' = (u(t − 2h) − 8 u(t − h) + 8 u(t + h) − u(t + 2h))/(12 h) + O(h⁴)
 double PrescribedMotion::velocity(double t) const {
   if (!moves_) return 0;
-  gsl_function formula{
-      [](double at, void* self) { return static_cast<const PrescribedMotion*>(self)->displacement(at); },
-      const_cast<PrescribedMotion*>(this)};
-  double slope = 0, error = 0;
-  gsl_deriv_central(&formula, t, 1e-3 * std::max(1.0, std::abs(t)), &slope, &error);
-  return slope;
+  const auto difference = [this, h = h_](double at) {
+    return (displacement(at - 2 * h) - 8 * displacement(at - h) + 8 * displacement(at + h) - displacement(at + 2 * h)) /
+           (12 * h);
+  };
+  return where_defined(difference, t, h_);
 }
 
 // u'' = (−u(t − 2h) + 16 u(t − h) − 30 u(t) + 16 u(t + h) − u(t + 2h))/(12 h²) + O(h⁴)
 double PrescribedMotion::acceleration(double t) const {
   if (!moves_) return 0;
-  const double h = 2e-3 * std::max(1.0, std::abs(t));
-  const auto u = [this](double at) { return displacement(at); };
-  return (16 * (u(t - h) + u(t + h)) - (u(t - 2 * h) + u(t + 2 * h)) - 30 * u(t)) / (12 * h * h);
+  const auto difference = [this, h = h_](double at) {
+    return (16 * (displacement(at - h) + displacement(at + h)) - (displacement(at - 2 * h) + displacement(at + 2 * h)) -
+            30 * displacement(at)) /
+           (12 * h * h);
+  };
+  return where_defined(difference, t, h_);
 }
 
 }  // namespace stillpoint

@@ -10,6 +10,7 @@
 
 #include "exact_error.hpp"
 #include "history.hpp"
+#include "load_schedule.hpp"
 #include "stopwatch.hpp"
 
 namespace stillpoint {
@@ -59,6 +60,15 @@ RunStatus status_of(StepReport::Status status) {
   }
 }
 
+// A folder that cannot be written is bad input: nothing has run yet.
+History open_history(const std::filesystem::path& out, const std::vector<std::string>& columns) {
+  try {
+    return History(out, columns);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw SceneError({{{"--out " + out.string(), 0, 0}, "cannot be written: " + error.code().message()}});
+  }
+}
+
 /// One relaxation, from the scene's initial values to its end.
 class Run {
  public:
@@ -72,8 +82,9 @@ class Run {
         v_(vectors_.view(second_half(y_.span()))),
         integrator_(make_integrator(model_.integrator, relaxation_)),
         monitor_(monitor_options(scene, model_)),
+        schedule_(scene, *model_.phase, scene.stop.residual > 0 ? scene.stop.time : 0),
         probes_(scene, *model_.phase),
-        history_(options.out, probes_.columns()),
+        history_(open_history(options.out, probes_.columns())),
         interval_(output_interval(scene, model_)),
         follows_stiffening_(model_.phase->nonlinear() && !scene.integrator.step),
         initial_stiffening_(model_.phase->stiffening(0, model_.u)),
@@ -146,7 +157,7 @@ class Run {
   void watch() {
     if (monitor_.due(t_)) {
       measure();
-      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_);
+      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_));
     }
     if (status_ == RunStatus::running) status_ = monitor_.check_limits(t_, integrator_->steps(), wall_.seconds());
     reason_ = monitor_.reason();
@@ -201,7 +212,9 @@ class Run {
     s.error = exact_error(scene_, *model_.phase, t_, u());
     const std::vector<double> values = probes_.read(t_, u(), v());
     std::size_t column = 0;
-    for (const ProbeSpec& probe : probes_.specs()) {
+    for (std::size_t k = 0; k < probes_.specs().size(); ++k) {
+      const ProbeSpec& probe = probes_.specs()[k];
+      s.probe_places[probe.name] = probes_.place(k);
       for (const std::string& field : probe.fields) s.probes[probe.name].emplace_back(field, values[column++]);
     }
     return s;
@@ -217,6 +230,7 @@ class Run {
   Vector u_, v_;  // its halves, in place
   std::unique_ptr<Integrator> integrator_;
   Monitor monitor_;
+  LoadSchedule schedule_;
   Probes probes_;
   History history_;
   double interval_;          // between rows [s]

@@ -12,6 +12,9 @@
 namespace stillpoint {
 namespace {
 
+/// A share of a cell that is taken for none.
+constexpr double kSliver = 1e-6;
+
 /// One pass over a scene; add() gives each problem its place.
 class Validation {
  public:
@@ -68,12 +71,32 @@ class Validation {
     const bool min_inside = check_inside(body.min, scene_.grid.min, scene_.grid.max, "grid", "body.min");
     const bool max_inside = check_inside(body.max, scene_.grid.min, scene_.grid.max, "grid", "body.max");
     if (!min_inside || !max_inside) return false;
+    snap_to_grid(body.min);
+    snap_to_grid(body.max);
     for (std::size_t axis = 0; axis < body.min.size(); ++axis) {
       if (body.max[axis] > body.min[axis]) continue;
       add("body.max", fmt::format("must be greater than body.min = {}, not {}", body.min[axis], body.max[axis]));
       return false;
     }
     return true;
+  }
+
+  /// A cell's length along an axis; 0 where the cells are not known.
+  double cell_length(std::size_t axis) const {
+    const GridSpec& grid = scene_.grid;
+    return axis < grid.cells.size() ? (grid.max[axis] - grid.min[axis]) / grid.cells[axis] : 0;
+  }
+
+  /// Moves a face that misses a grid line by a sliver of a cell onto it: points in the sliver would have next to no
+  /// mass.
+  void snap_to_grid(std::vector<double>& place) const {
+    for (std::size_t axis = 0; axis < place.size(); ++axis) {
+      const double h = cell_length(axis);
+      if (h == 0) continue;
+      const double cells = std::round((place[axis] - scene_.grid.min[axis]) / h);
+      const double line = cells == scene_.grid.cells[axis] ? scene_.grid.max[axis] : scene_.grid.min[axis] + cells * h;
+      if (std::abs(place[axis] - line) <= kSliver * h) place[axis] = line;
+    }
   }
 
   void check_points_of_body(bool body_in_order) {
@@ -96,11 +119,10 @@ class Validation {
     if (scene_.grid.cells.empty()) return 0;
     long points = 1;
     for (std::size_t axis = 0; axis < scene_.grid.cells.size(); ++axis) {
-      const double h = (scene_.grid.max[axis] - scene_.grid.min[axis]) / scene_.grid.cells[axis];
+      const double h = cell_length(axis);
       const double first = (scene_.body.min[axis] - scene_.grid.min[axis]) / h;
       const double last = (scene_.body.max[axis] - scene_.grid.min[axis]) / h;
-      constexpr double rounding = 1e-6;  // of a cell
-      if (std::abs(first - std::round(first)) > rounding || std::abs(last - std::round(last)) > rounding) return 0;
+      if (std::abs(first - std::round(first)) > kSliver || std::abs(last - std::round(last)) > kSliver) return 0;
       points *= std::lround(std::round(last) - std::round(first)) * scene_.body.points_per_cell[axis];
     }
     return points;
@@ -201,12 +223,14 @@ class Validation {
     }
   }
 
-  /// True where place lies in the box, after moving a place that misses it by rounding onto its border.
+  /// True where place lies in the box, after moving a place that misses it by a sliver onto its border.
   bool check_inside(std::vector<double>& place, const std::vector<double>& min, const std::vector<double>& max,
                     const char* box, const std::string& key) {
     for (std::size_t axis = 0; axis < place.size(); ++axis) {
       constexpr double rounding = 1e-12;  // of the box and its distance from the origin
-      const double slack = rounding * std::max({max[axis] - min[axis], std::abs(min[axis]), std::abs(max[axis])});
+      const double slack =
+          std::max(rounding * std::max({max[axis] - min[axis], std::abs(min[axis]), std::abs(max[axis])}),
+                   2 * kSliver * cell_length(axis));
       if (place[axis] < min[axis] - slack || place[axis] > max[axis] + slack) {
         add(key, fmt::format("{} lies outside the {}, {} to {}", place[axis], box, min[axis], max[axis]));
         return false;

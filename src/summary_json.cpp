@@ -58,6 +58,7 @@ std::string to_json(const Summary& s) {
                      {"notes", s.notes},
                      {"error", error},
                      {"probes", probes},
+                     {"probe_places", s.probe_places},
                      {"versions", versions}};
   return json.dump(2) + "\n";
 }

@@ -1,6 +1,7 @@
 #include "toml_source.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <system_error>
 
@@ -72,7 +73,8 @@ void merge(toml::table& base, toml::table&& over, const std::string& prefix, con
     if (below && below->is_table() && table) {
       merge(*below->as_table(), std::move(*table), path + ".", where, problems);
     } else if (below && below->is_array() && table) {
-      problems.push_back({where, fmt::format("{}: is an array; --set can replace it but not reach into it", path)});
+      problems.push_back(
+          {where, fmt::format("{}: is an array; --set can replace it, or reach into it with an index", path)});
     } else {
       // An insertion that replaces keeps the old key with its place in the file, so the old entry goes first.
       base.erase(key.str());
@@ -80,6 +82,41 @@ void merge(toml::table& base, toml::table&& over, const std::string& prefix, con
           [&, &place = key](auto&& value) { base.insert_or_assign(place, std::forward<decltype(value)>(value)); });
     }
   }
+}
+
+/// The table that the indexed parts of a key lead to ("probe[0]." of probe[0].name), and what of the key is left.
+struct Target {
+  toml::table* table;
+  std::string_view rest;
+  std::string fault;  // empty where there is such a table
+};
+
+Target follow_indices(toml::table& root, std::string_view key) {
+  Target target{&root, key, {}};
+  for (auto open = key.find('['); open != std::string_view::npos; open = target.rest.find('[')) {
+    const auto close = target.rest.find(']', open);
+    const std::string_view name = target.rest.substr(0, open);
+    std::size_t index = 0;
+    const char* const digits = target.rest.data() + open + 1;
+    const bool closed = close != std::string_view::npos && close > open + 1 && close + 2 < target.rest.size() &&
+                        target.rest[close + 1] == '.';
+    const auto [end, error] =
+        closed ? std::from_chars(digits, target.rest.data() + close, index) : std::from_chars_result{};
+    if (!closed || error != std::errc() || end != target.rest.data() + close) {
+      target.fault = fmt::format("{} is not a key; expected, for example, probe[0].name", in_quotes(key));
+      return target;
+    }
+    const toml::array* const array = target.table->get_as<toml::array>(name);
+    const std::size_t count = array ? array->size() : 0;
+    if (index >= count || !array->get(index)->is_table()) {
+      target.fault =
+          fmt::format("there is no {}[{}] in the scene, which has {} of them", in_quotes(name), index, count);
+      return target;
+    }
+    target.table = target.table->get_as<toml::array>(name)->get_as<toml::table>(index);
+    target.rest = target.rest.substr(close + 2);
+  }
+  return target;
 }
 
 void collect(const toml::node& node, const std::string& path, std::map<std::string, Location>& found) {
@@ -148,8 +185,9 @@ void apply_override(toml::table& table, const std::string& text, std::vector<Pro
     problems.push_back({where, "expected key=value, for example --set damping.c=0.5"});
     return;
   }
-  const std::string_view key = trimmed(std::string_view(text).substr(0, equals));
-  if (const std::string fault = fault_of_key(key); !fault.empty()) {
+  const Target target = follow_indices(table, trimmed(std::string_view(text).substr(0, equals)));
+  const std::string_view key = target.rest;
+  if (const std::string fault = target.fault.empty() ? fault_of_key(key) : target.fault; !fault.empty()) {
     problems.push_back({where, fault});
     return;
   }
@@ -160,7 +198,7 @@ void apply_override(toml::table& table, const std::string& text, std::vector<Pro
   if (value.find_first_of("\n\r") == std::string::npos)
     over = parse_toml(fmt::format("{} = {}", key, value), name, not_toml);
   if (!over) over = parse_toml(fmt::format("{} = {}", key, basic_string(value)), name, problems);
-  if (over) merge(table, std::move(*over), "", where, problems);
+  if (over) merge(*target.table, std::move(*over), "", where, problems);
 }
 
 std::map<std::string, Location> locations_of(const toml::table& table) {

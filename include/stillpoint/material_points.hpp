@@ -29,6 +29,7 @@ struct MaterialPoints {
 /// What the volumes of a body can integrate, the worst over its cells.
 struct QuadratureReport {
   int degree = 0;                 // polynomials up to this power in each coordinate are integrated exactly
+  double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells where a higher degree would need a negative volume
 };
 

@@ -36,7 +36,8 @@ class Monitor {
   bool due(double t) const { return t >= next_check_; }
   /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
   /// the work counts as rest, also in a body that never moved.
-  RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0);
+  /// settled: whether the loads are what they will be at the end; before, balance is none.
+  RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true);
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps, double wall_time);
 

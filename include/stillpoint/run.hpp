@@ -56,6 +56,7 @@ struct Summary {
   std::string integrator, damping;
   std::vector<std::string> notes;  // of Model
   std::optional<ExactError> error;
+  std::map<std::string, std::vector<double>> probe_places;  // of each probe's material point when the phase began [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)
 };
 

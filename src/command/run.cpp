@@ -1,7 +1,6 @@
 // stillpoint run: relaxes a scene and ends in a short table.
 #include <stillpoint/run.hpp>
 
-#include <array>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -34,7 +33,7 @@ void print_table(const Scene& scene, const Summary& s, const std::filesystem::pa
   for (const ProbeSpec& probe : scene.probes) {
     std::string values;
     for (const auto& [field, value] : s.probes.at(probe.name)) values += fmt::format("{} = {:.9g}  ", field, value);
-    row("probe " + probe.name, values);
+    row("probe " + probe.name, fmt::format("{} at x = {:.6g}", values, fmt::join(s.probe_places.at(probe.name), ", ")));
   }
   for (const std::string& note : s.notes) row("note", note);
   row("written", fmt::format("{}", out.string()));

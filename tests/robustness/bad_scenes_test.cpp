@@ -192,9 +192,14 @@ TEST_CASE("a wrong override is shown as it was typed") {
   CHECK(only_problem_of("damping.c") == "--set damping.c: expected key=value, for example --set damping.c=0.5");
   CHECK(only_problem_of("=3") == "--set =3: the key before '=' is missing");
   CHECK(only_problem_of("damping..c=3") == "--set damping..c=3: the key 'damping..c' has an empty part");
-  CHECK(only_problem_of("probe[0].name=a") == "--set probe[0].name=a: 'probe[0]' is not a key that --set can change");
+  CHECK(only_problem_of("probe[7].name=a") ==
+        "--set probe[7].name=a: there is no 'probe'[7] in the scene, which has 1 of them");
+  CHECK(only_problem_of("probe[x].name=a") ==
+        "--set probe[x].name=a: 'probe[x].name' is not a key; expected, for example, probe[0].name");
+  CHECK(only_problem_of("probe[0]=a") ==
+        "--set probe[0]=a: 'probe[0]' is not a key; expected, for example, probe[0].name");
   CHECK(only_problem_of("probe.name=a") ==
-        "--set probe.name=a: probe: is an array; --set can replace it but not reach into it");
+        "--set probe.name=a: probe: is an array; --set can replace it, or reach into it with an index");
   CHECK(only_problem_of("damping.d=1") ==
         "--set damping.d=1: damping: unknown key 'd'; expected one of strategy, c, alpha");
   CHECK(only_problem_of("damping.c=pi/") ==

@@ -72,3 +72,45 @@ TEST_CASE("random points give the exact bar wherever their volumes integrate deg
   }
   CHECK(exact >= 3);
 }
+
+TEST_CASE("an adaptive step is capped by the stability limit whatever integrator.step says, unless a reason is given") {
+  const Summary s =
+      run(scenes::bar({"integrator.method=erk:dormand-prince-7-4-5", "integrator.rtol=1e-3", "integrator.step=100",
+                       "damping.strategy=viscous", "damping.c=critical", "stop.steps=20000"}));
+  CHECK(s.status == RunStatus::equilibrium);
+}
+
+TEST_CASE("a face that misses a grid line by a sliver does not shorten the step; a thin cell is noted") {
+  const std::vector<std::string> base{"grid.basis=linear", "grid.cells=4", "probe=[]", "force=[]",
+                                      "traction=[{face='right', value='P0'}]"};
+  const auto with_end = [&](const std::string& end) {
+    std::vector<std::string> overrides = base;
+    overrides.push_back("body.max=" + end);
+    return make_model(scenes::bar(overrides));
+  };
+  const Model whole = with_end("7.5");
+  CHECK(*with_end("7.5000001").critical_step == Approx(*whole.critical_step).epsilon(1e-6));
+  CHECK(whole.notes.empty());
+  CHECK_THAT(with_end("7.51").notes.at(0), Catch::Contains("covers only"));
+}
+
+TEST_CASE("without tolerances from the user an adaptive run is as accurate as rtol says, on coarse and fine grids") {
+  for (const char* cells : {"4", "60"}) {
+    for (const char* rtol : {"1e-4", "1e-6", "1e-8"}) {
+      const auto u_end = [&](const std::vector<std::string>& overrides) {
+        std::vector<std::string> all{"damping.strategy=viscous",
+                                     "stop.time=20",
+                                     "stop.residual=0",
+                                     "output.every=20",
+                                     "probe=[{name='end', at=10.0, fields=['u']}]",
+                                     std::string("grid.cells=") + cells,
+                                     "integrator.method=erk:dormand-prince-7-4-5"};
+        all.insert(all.end(), overrides.begin(), overrides.end());
+        return scenes::probe(run(scenes::bar(all)), "end", "u");
+      };
+      const double reference = u_end({"integrator.rtol=1e-11", "integrator.atol_u=1e-14", "integrator.atol_v=1e-14"});
+      CAPTURE(cells, rtol);
+      CHECK(std::abs(u_end({std::string("integrator.rtol=") + rtol}) / reference - 1) < 10 * std::stod(rtol));
+    }
+  }
+}

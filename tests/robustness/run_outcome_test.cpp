@@ -189,6 +189,65 @@ TEST_CASE("Ctrl-C ends the command in good order with status 3") {
   CHECK_FALSE(leftovers(folder.path()));
 }
 
-TEST_CASE("a folder that cannot be written is an error, not a silent success") {
-  CHECK_THROWS_AS(run(bar(), {.out = "/proc/nowhere"}), std::filesystem::filesystem_error);
+TEST_CASE("a folder that cannot be written is bad input, found before anything runs") {
+  CHECK_THROWS_WITH(run(bar(), {.out = "/proc/nowhere"}), Catch::Contains("--out /proc/nowhere: cannot be written"));
+}
+
+TEST_CASE("a row that rounding puts next to the end is the row at the end") {
+  const TemporaryFolder folder;
+  for (const char* method : {"erk:sofroniou-spaletta-5-3-4", "leapfrog"}) {  // 7 times 0.7 is not 4.9
+    std::vector<std::string> overrides{"stop.residual=0", "stop.time=4.9", "output.every=0.7",
+                                       std::string("integrator.method=") + method};
+    if (std::string(method) != "leapfrog") overrides.push_back("integrator.rtol=1e-6");
+    const Summary s = run(bar(overrides), {.out = folder.path()});
+    CAPTURE(method, s.reason);
+    CHECK(s.status == RunStatus::end_time);
+    CHECK(s.t == 4.9);
+    CHECK(s.dt > 1e-3);
+    CHECK(lines(folder.path() / "history.csv").size() == 1 + 8);
+  }
+}
+
+TEST_CASE("a failed run reports its last good state, the same in summary and history") {
+  const TemporaryFolder folder;
+  const Summary s = run(bar({"material.bar.law=neo-hookean", "force=[{at=10.0, value=-50.0}]", "output.every=1000"}),
+                        {.out = folder.path()});
+  CHECK(s.status == RunStatus::diverged);
+  const auto history = lines(folder.path() / "history.csv");
+  REQUIRE(history.size() == 3);
+  CHECK(std::stod(history.back()) == s.t);
+  CHECK(s.kinetic_energy > 0);
+  CHECK(scenes::probe(s, "p12", "stress") != 0);
+}
+
+TEST_CASE("a body that starts in equilibrium is found to be in it after one period") {
+  const Summary s = run(bar({"initial.u=P0*x", "stop.steps=5000"}));
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.t < 50);
+}
+
+TEST_CASE("a body unloaded to nothing is found at rest") {
+  for (const auto& overrides : std::vector<std::vector<std::string>>{
+           {"force=[]", "initial.u=0.01*x"}, {"force=[{at=10.0, value='P0*max(0, 1-t/10)'}]", "stop.time=2000"}}) {
+    std::vector<std::string> all{"stop.residual=1e-6", "damping.strategy=viscous", "damping.c=critical"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const Summary s = run(bar(all));
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.t < 250);
+  }
+}
+
+TEST_CASE("equilibrium is not declared before a delayed load has acted") {
+  const Summary s = run(bar({"force=[{at=10.0, value='P0*(t>200)'}]", "stop.time=1000"}));
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.t > 200);
+  CHECK(s.error->u_rel_max < 1e-8);
+  const Summary open = run(bar({"force=[{at=10.0, value='P0*(t>200)'}]"}));
+  REQUIRE_FALSE(open.notes.empty());
+  CHECK_THAT(open.notes.back(), Catch::Contains("stop.time is not set"));
+}
+
+TEST_CASE("an initial state that cannot be evaluated or is unstable is refused before anything is written") {
+  CHECK_THROWS_WITH(make_model(bar({"material.bar.law=neo-hookean", "initial.u=-2*x"})),
+                    Catch::Contains("cannot be evaluated"));
 }

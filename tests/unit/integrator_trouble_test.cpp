@@ -134,3 +134,14 @@ TEST_CASE("an exception in the force passes through the C libraries as it is", "
 }
 
 }  // namespace
+
+TEST_CASE("half a million fixed steps of ARKODE keep to the time that they are given", "[integrator]") {
+  stillpoint::test::Setup setup("erk:rk4", 1e-3);
+  setup.start();
+  stillpoint::StepReport report;
+  while (report.t < 500 && report.status == stillpoint::StepReport::Status::ok) report = setup.integrator->step(500);
+  CAPTURE(report.message);
+  CHECK(report.status == stillpoint::StepReport::Status::ok);
+  CHECK(report.t == 500);
+  CHECK(setup.integrator->steps() == 500'000);
+}

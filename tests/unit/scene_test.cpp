@@ -194,3 +194,14 @@ TEST_CASE("an override of the step replaces the file's fraction of the critical 
   CHECK_FALSE(fraction.integrator.step);
   CHECK(fraction.integrator.step_fraction == 0.5);
 }
+
+TEST_CASE("an override that a variant could not take is no fault of the scene") {
+  CHECK(load_scene(STILLPOINT_PROBLEMS "/bar.toml", {"integrator.damping=lagged"}).integrator.treatment ==
+        DampingTreatment::lagged);
+}
+
+TEST_CASE("an override reaches into an array of tables by index") {
+  const Scene scene = load_scene(STILLPOINT_PROBLEMS "/bar.toml", {"force[0].value=0.002", "probe[1].name=tip"});
+  CHECK(scene.forces[0].value[0]({}, 0) == 0.002);
+  CHECK(scene.probes[1].name == "tip");
+}

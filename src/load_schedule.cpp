@@ -1,0 +1,41 @@
+#include "load_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stillpoint {
+
+bool pulls_vary(const Scene& scene) {
+  const auto varies = [](const Expression& formula) { return formula.uses('t'); };
+  const auto any = [&](const std::vector<Expression>& formulas) { return std::ranges::any_of(formulas, varies); };
+  return any(scene.body_force) || std::ranges::any_of(scene.forces, [&](const auto& f) { return any(f.value); }) ||
+         std::ranges::any_of(scene.tractions, [&](const auto& f) { return any(f.value); }) ||
+         std::ranges::any_of(scene.supports, [&](const auto& s) { return varies(s.motion); });
+}
+
+std::vector<double> pull_at(const SemiDiscrete& system, double t) {
+  const std::vector<double> rest(system.size(), 0.0);
+  std::vector<double> Q(system.size()), R(system.size());
+  system.external_force(t, Q);
+  system.internal_force(t, rest, R);
+  for (std::size_t i = 0; i < Q.size(); ++i) Q[i] -= R[i];
+  return Q;
+}
+
+LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time) : system_(system) {
+  if (end_time > 0 && pulls_vary(scene)) at_end_ = pull_at(system, end_time);
+}
+
+bool LoadSchedule::settled(double t) const {
+  if (at_end_.empty()) return true;
+  constexpr double rounding = 1e-9;
+  const std::vector<double> now = pull_at(system_, t);
+  double difference = 0, scale = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    difference = std::max(difference, std::abs(now[i] - at_end_[i]));
+    scale = std::max({scale, std::abs(now[i]), std::abs(at_end_[i])});
+  }
+  return difference <= rounding * scale;
+}
+
+}  // namespace stillpoint
