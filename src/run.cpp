@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include "exact_error.hpp"
@@ -65,7 +66,8 @@ History open_history(const std::filesystem::path& out, const std::vector<std::st
   try {
     return History(out, columns);
   } catch (const std::filesystem::filesystem_error& error) {
-    throw SceneError({{{"--out " + out.string(), 0, 0}, "cannot be written: " + error.code().message()}});
+    throw SceneError({{{fmt::format("--out {}", out.string()), 0, 0},
+                       fmt::format("cannot be written: {}", error.code().message())}});
   }
 }
 

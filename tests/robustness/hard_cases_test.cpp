@@ -81,8 +81,8 @@ TEST_CASE("an adaptive step is capped by the stability limit whatever integrator
 }
 
 TEST_CASE("a face that misses a grid line by a sliver does not shorten the step; a thin cell is noted") {
-  const std::vector<std::string> base{"grid.basis=linear", "grid.cells=4", "probe=[]", "force=[]",
-                                      "traction=[{face='right', value='P0'}]"};
+  const std::vector<std::string> base{"grid.basis=linear", "mass.kind=lumped", "grid.cells=4",
+                                      "probe=[]",          "force=[]",         "traction=[{face='right', value='P0'}]"};
   const auto with_end = [&](const std::string& end) {
     std::vector<std::string> overrides = base;
     overrides.push_back("body.max=" + end);
@@ -110,7 +110,7 @@ TEST_CASE("without tolerances from the user an adaptive run is as accurate as rt
       };
       const double reference = u_end({"integrator.rtol=1e-11", "integrator.atol_u=1e-14", "integrator.atol_v=1e-14"});
       CAPTURE(cells, rtol);
-      CHECK(std::abs(u_end({std::string("integrator.rtol=") + rtol}) / reference - 1) < 10 * std::stod(rtol));
+      CHECK(std::abs(u_end({std::string("integrator.rtol=") + rtol}) / reference - 1) < std::stod(rtol));
     }
   }
 }
