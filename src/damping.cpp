@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "parallel_loop.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -40,7 +42,7 @@ class OneSided final : public Damping {
   bool is_local() const override { return alpha_ > 0; }
   // D_i = −α Q_i where v_i Q_i > 0, else 0
   void add_local(ConstVec v, Vec Q) const override {
-    for (std::size_t i = 0; i < Q.size(); ++i) Q[i] *= v[i] * Q[i] > 0 ? 1 - alpha_ : 1.0;
+    for_each_index(Q.size(), [=, kept = 1 - alpha_](std::size_t i) { Q[i] *= v[i] * Q[i] > 0 ? kept : 1.0; });
   }
 
  private:
@@ -54,10 +56,10 @@ class Cundall final : public Damping {
   bool is_local() const override { return alpha_ > 0; }
   // D_i = −α |Q_i| sgn v_i, sgn 0 = 0
   void add_local(ConstVec v, Vec Q) const override {
-    for (std::size_t i = 0; i < Q.size(); ++i) {
+    for_each_index(Q.size(), [=, alpha = alpha_](std::size_t i) {
       const double sign = v[i] > 0 ? 1.0 : v[i] < 0 ? -1.0 : 0.0;
-      Q[i] -= alpha_ * std::abs(Q[i]) * sign;
-    }
+      Q[i] -= alpha * std::abs(Q[i]) * sign;
+    });
   }
   double stiffness_factor() const override { return 1 + alpha_; }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "parallel_loop.hpp"
 #include "power_iteration.hpp"
 
 namespace stillpoint {
@@ -74,7 +75,7 @@ SparseMatrix Mass::matrix() const {
 
 void Mass::apply(ConstVec x, Vec y) const {
   if (is_lumped()) {
-    std::transform(x.begin(), x.end(), diagonal_.begin(), y.begin(), std::multiplies<>());
+    for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { y[i] = m[i] * x[i]; });
   } else {  // M = Mᵀ: by rows, y_i = Σ_j M_ij x_j, which writes each y_i once
     Map(y.data(), index(y.size())).noalias() = matrix_.transpose() * ConstMap(x.data(), index(x.size()));
   }
@@ -82,7 +83,7 @@ void Mass::apply(ConstVec x, Vec y) const {
 
 void Mass::solve(ConstVec b, Vec x) const {
   if (is_lumped()) {
-    std::transform(b.begin(), b.end(), diagonal_.begin(), x.begin(), std::divides<>());
+    for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { x[i] = b[i] / m[i]; });
   } else {
     factor_->solve(b, x);
   }

@@ -13,6 +13,7 @@
 #include "degrees_of_freedom.hpp"
 #include "nodal_force.hpp"
 #include "nodal_loads.hpp"
+#include "parallel_loop.hpp"
 #include "point_weights.hpp"
 #include "prescribed_motion.hpp"
 
@@ -209,7 +210,8 @@ class MaterialPointPhase final : public LagrangianPhase {
     return grid[static_cast<std::size_t>(s_.dofs.prescribed[s])];
   }
   void spread_free(ConstVec u, std::vector<double>& grid) const {
-    for (std::size_t k = 0; k < u.size(); ++k) grid[static_cast<std::size_t>(s_.dofs.free[k])] = u[k];
+    for_each_index(u.size(),
+                   [u, to = grid.data(), number = s_.dofs.free.data()](std::size_t k) { to[number[k]] = u[k]; });
   }
   // The grid's displacements from the free unknowns and the supports at time t.
   void spread(double t, ConstVec u) const {

@@ -4,9 +4,10 @@
 #include <stillpoint/expression.hpp>
 #include <stillpoint/types.hpp>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
+
+#include "parallel_loop.hpp"
 
 namespace stillpoint {
 
@@ -27,7 +28,7 @@ class NodalLoads {
   void add_constant(int dof, double force) { constant_[static_cast<std::size_t>(dof)] += force; }
 
   void evaluate(double t, Vec F) const {
-    std::copy(constant_.begin(), constant_.end(), F.begin());
+    for_each_index(F.size(), [F, constant = constant_.data()](std::size_t i) { F[i] = constant[i]; });
     for (const auto& [value, weights] : varying_) {
       const double force = value({}, t);
       for (const auto& [dof, weight] : weights) F[static_cast<std::size_t>(dof)] += weight * force;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "parallel_loop.hpp"
+
 namespace stillpoint {
 
 RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors)
@@ -24,13 +26,13 @@ bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
   if (!out_of_balance(t, u, v_dot)) return false;
   if (damping_.is_local()) damping_.add_local(v, v_dot);
   if (linear_.identity != 0) {
-    for (std::size_t i = 0; i < n; ++i) v_dot[i] -= linear_.identity * v[i];
+    for_each_index(n, [=, c = linear_.identity](std::size_t i) { v_dot[i] -= c * v[i]; });
   }
   system_.mass().solve(v_dot, v_dot);
-  for (std::size_t i = 0; i < n; ++i) {
+  for_each_index(n, [=, c = linear_.mass](std::size_t i) {
     u_dot[i] = v[i];
-    v_dot[i] -= linear_.mass * v[i];
-  }
+    v_dot[i] -= c * v[i];
+  });
   return true;
 }
 
@@ -44,7 +46,7 @@ bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
   const Vec F = F_.span(), R = R_.span();
   system_.external_force(t, F);
   if (!system_.internal_force(t, u, R)) return false;
-  for (std::size_t i = 0; i < Q.size(); ++i) Q[i] = F[i] - R[i];
+  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
   system_.add_support_inertia(t, linear_.mass, Q);
   return true;
 }
@@ -57,7 +59,7 @@ double RelaxationSystem::residual(double t, ConstVec u) {
 double RelaxationSystem::last_residual() {
   const ConstVec F = F_.span(), R = R_.span();
   const Vec Q = Q_.span();
-  for (std::size_t i = 0; i < Q.size(); ++i) Q[i] = F[i] - R[i];
+  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
   const double unbalanced = norm(Q_), loads = norm(F_);
   force_scale_ = std::max({force_scale_, loads, loads > 0 ? 0 : system_.reaction_norm()});
   if (unbalanced == 0) return 0;
