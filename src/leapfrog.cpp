@@ -38,13 +38,14 @@ class Leapfrog final : public SteppingIntegrator {
         a_(system.vectors().make(system.size())),
         next_a_(system.vectors().make(system.size())) {}
 
-  // A step ends with the force at its end.
-  bool force_is_current() const override { return true; }
+  // A step ends with the force at its end, unless it was refused.
+  bool force_is_current() const override { return force_is_current_; }
 
  private:
   // M a_0 = Q_0 + D(v_0, Q_0) − C v_0
   void begin(double t, const Vector& y) override {
     admissible_ = evaluate(t, y.span(), initial_acceleration_, 0, a_.span());
+    force_is_current_ = true;
   }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
@@ -56,6 +57,7 @@ class Leapfrog final : public SteppingIntegrator {
       v_new[i] = v[i] + h / 2 * a[i];
       u_new[i] = u[i] + h * v_new[i];
     });
+    force_is_current_ = false;
     if (!evaluate(t + h, trial.span(), acceleration_, h, a_new)) {
       return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
     }
@@ -63,7 +65,10 @@ class Leapfrog final : public SteppingIntegrator {
     return {.h = h};
   }
 
-  void accepted() override { std::swap(a_, next_a_); }
+  void accepted() override {
+    std::swap(a_, next_a_);
+    force_is_current_ = true;
+  }
 
   // M a = Q + D(v, Q) − C (v + θ h a),  Q = F(t) − R(u)
   bool evaluate(double t, ConstVec y, DampedAcceleration& acceleration, double h, Vec a) {
@@ -77,6 +82,7 @@ class Leapfrog final : public SteppingIntegrator {
   DampedAcceleration initial_acceleration_, acceleration_;
   Vector a_, next_a_;  // (n) at t_n and at the trial's time
   bool admissible_ = true;
+  bool force_is_current_ = false;
 };
 
 }  // namespace

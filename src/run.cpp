@@ -12,6 +12,7 @@
 #include "exact_error.hpp"
 #include "history.hpp"
 #include "load_schedule.hpp"
+#include "stiffening_step.hpp"
 #include "stopwatch.hpp"
 
 namespace stillpoint {
@@ -87,12 +88,13 @@ class Run {
         schedule_(scene, *model_.phase, scene.stop.residual > 0 ? scene.stop.time : 0),
         probes_(scene, *model_.phase),
         history_(open_history(options.out, probes_.columns())),
-        interval_(output_interval(scene, model_)),
-        follows_stiffening_(model_.phase->nonlinear() && !scene.integrator.step),
-        initial_stiffening_(model_.phase->stiffening(0, model_.u)),
-        ahead_(follows_stiffening_ ? model_.phase->size() : 0) {
+        interval_(output_interval(scene, model_)) {
     std::ranges::copy(model_.u, first_half(y_.span()).begin());
     std::ranges::copy(model_.v, second_half(y_.span()).begin());
+    // A step that was asked for as such is left alone.
+    if (model_.phase->nonlinear() && !scene.integrator.step) {
+      stiffening_.emplace(*model_.phase, model_.u, model_.integrator.max_step);
+    }
   }
 
   Summary relax() {
@@ -111,7 +113,7 @@ class Run {
       }
       step_ = step.h;
       if (model_.phase->history_dependent()) model_.phase->commit(t_, u());
-      if (follows_stiffening_) follow_stiffening();
+      if (stiffening_) integrator_->set_max_step(stiffening_->longest(t_, u(), v()));
       watch();
       if (t_ >= t_row || status_ != RunStatus::running) record();
       report_progress();
@@ -129,23 +131,6 @@ class Run {
   double next_row_time() const {
     const double t_row = static_cast<double>(rows_) * interval_, end = scene_.stop.time;
     return end > 0 && t_row > end - 1e-9 * interval_ ? end : t_row;
-  }
-
-  // The critical step falls as 1/omega_max where the material stiffens: the longest step h (in notches, since an
-  // implicit damping is factorised for each new one) that is below the critical one at u and at u + h v, where the step
-  // leads. A collapse would shrink it without end; past a ten-thousandth the integrator is left to report it.
-  void follow_stiffening() {
-    constexpr double notch = 1.1;
-    constexpr int most_notches = 97;
-    const double full = model_.integrator.max_step;
-    const double here = model_.phase->stiffening(t_, u());
-    for (notches_ = std::max(0, notches_ - 1); notches_ < most_notches; ++notches_) {
-      const double h = full * std::pow(notch, -notches_);
-      for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = u()[i] + h * v()[i];
-      const double there = model_.phase->stiffening(t_ + h, ahead_);
-      if (h * std::sqrt(std::max(here, there) / initial_stiffening_) <= full * notch) break;
-    }
-    integrator_->set_max_step(full * std::pow(notch, -notches_));
   }
 
   void measure() {
@@ -235,11 +220,8 @@ class Run {
   LoadSchedule schedule_;
   Probes probes_;
   History history_;
-  double interval_;          // between rows [s]
-  bool follows_stiffening_;  // a step that was asked for as such is left alone
-  double initial_stiffening_;
-  std::vector<double> ahead_;  // u + h v, (n) where it follows
-  int notches_ = 0;
+  double interval_;  // between rows [s]
+  std::optional<StiffeningStep> stiffening_;
 
   double t_ = 0, step_ = 0;
   long rows_ = 0;  // number of the next row: it is due at rows_ · interval_

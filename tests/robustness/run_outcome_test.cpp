@@ -251,3 +251,9 @@ TEST_CASE("an initial state that cannot be evaluated or is unstable is refused b
   CHECK_THROWS_WITH(make_model(bar({"material.bar.law=neo-hookean", "initial.u=-2*x"})),
                     Catch::Contains("cannot be evaluated"));
 }
+
+TEST_CASE("the residual of a failed run is that of its last good state, not of the trial that failed") {
+  const Summary s = run(bar({"material.bar.law=neo-hookean", "force=[{at=10.0, value=-50.0}]", "output.every=1000"}));
+  REQUIRE(s.status == RunStatus::diverged);
+  CHECK(std::isfinite(s.residual));
+}
