@@ -67,8 +67,8 @@ History open_history(const std::filesystem::path& out, const std::vector<std::st
   try {
     return History(out, columns);
   } catch (const std::filesystem::filesystem_error& error) {
-    throw SceneError({{{fmt::format("--out {}", out.string()), 0, 0},
-                       fmt::format("cannot be written: {}", error.code().message())}});
+    const Location where{fmt::format("--out {}", out.string()), 0, 0};
+    throw SceneError(std::vector<Problem>(1, {where, fmt::format("cannot be written: {}", error.code().message())}));
   }
 }
 
