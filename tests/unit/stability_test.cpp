@@ -19,7 +19,7 @@ using stillpoint::test::Chain;
 
 namespace {
 
-// Limits as /work/shared/SUNDIALS.md prints them: to two digits after the point.
+// Limits as measured before, to two digits after the point.
 Approx printed(double value) { return Approx(value).epsilon(0).margin(0.005 + 1e-9); }
 
 const ButcherTable heun_euler = {"Heun-Euler", 2, 2, 1, {0, 0, 1, 0}, {0.5, 0.5}, {0, 1}, {1, 0}};
