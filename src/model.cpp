@@ -10,15 +10,12 @@
 #include <fmt/format.h>
 
 #include "load_schedule.hpp"
+#include "reject.hpp"
 
 namespace stillpoint {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-
-[[noreturn]] void reject(const Scene& scene, const std::string& key, const std::string& message) {
-  throw SceneError({{scene.location(key), message}});
-}
 
 // ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
 double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {

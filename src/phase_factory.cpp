@@ -10,13 +10,10 @@
 #include <fmt/format.h>
 
 #include "material_point_phase.hpp"
+#include "reject.hpp"
 
 namespace stillpoint {
 namespace {
-
-[[noreturn]] void reject(const Scene& scene, const std::string& key, const std::string& message) {
-  throw SceneError({{scene.location(key), message}});
-}
 
 template <int Dim>
 Grid<Dim> make_grid(const GridSpec& spec) {
