@@ -40,7 +40,8 @@ class PhaseBuilder {
       : scene_(scene),
         law_(law),
         grid_(make_grid<Dim>(scene.grid)),
-        body_(place_body<Dim>(scene.body, grid_, scene.materials.at(scene.body.material).parameters.at("rho"))),
+        body_(
+            place_body<Dim>(scene.bodies[0], grid_, scene.materials.at(scene.bodies[0].material).parameters.at("rho"))),
         weights_(grid_, body_.points) {}
 
   std::unique_ptr<LagrangianPhase> build() const {
@@ -77,7 +78,7 @@ class PhaseBuilder {
     for (const Axis& axis : grid_.axes) {
       for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
     }
-    const double density = scene_.materials.at(scene_.body.material).parameters.at("rho");
+    const double density = scene_.materials.at(scene_.bodies[0].material).parameters.at("rho");
     return h / 2 * std::sqrt(density / law_.moduli({})[0]);
   }
 
@@ -109,7 +110,7 @@ class PhaseBuilder {
 
   Mass make_mass(const DegreesOfFreedom& dofs, const SparseMatrix& consistent) const {
     try {
-      if (scene_.mass == MassKind::consistent) return Mass::consistent(consistent);
+      if (scene_.mass.kind == MassKind::consistent) return Mass::consistent(consistent);
       return Mass::lumped(lumped_mass<B, Dim>(body_.points, weights_, dofs));
     } catch (const std::invalid_argument& error) {
       reject(scene_, "mass.kind", error.what());
@@ -119,7 +120,7 @@ class PhaseBuilder {
   // Initial values are fitted with the consistent mass, whatever the motion uses.
   void check_projection(const SparseMatrix& consistent) const {
     const bool projects = !scene_.initial_u.empty() || !scene_.initial_v.empty();
-    if (!projects || scene_.mass == MassKind::consistent || SparseCholesky(consistent).positive_definite()) return;
+    if (!projects || scene_.mass.kind == MassKind::consistent || SparseCholesky(consistent).positive_definite()) return;
     reject(scene_, "initial",
            "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
   }
@@ -151,9 +152,9 @@ class PhaseBuilder {
     for (std::size_t f = 0; f < scene_.tractions.size(); ++f) {
       static_assert(Dim == 1, "a face of the body is a point in one dimension only");
       const auto& traction = scene_.tractions[f];
-      const Point<Dim> face{traction.upper ? scene_.body.max[0] : scene_.body.min[0]};
+      const Point<Dim> face{is_upper(traction.face) ? scene_.bodies[0].max[0] : scene_.bodies[0].min[0]};
       auto weights = weights_at(face, 0, dofs, fmt::format("traction[{}].face", f));
-      for (auto& [dof, weight] : weights) weight *= scene_.body.area;
+      for (auto& [dof, weight] : weights) weight *= scene_.bodies[0].area;
       loads.add(traction.value[0], std::move(weights));
     }
     return loads;
@@ -198,7 +199,7 @@ std::unique_ptr<LagrangianPhase> with_law(const Scene& scene, const Law& law) {
 
 template <StressState State>
 std::unique_ptr<LagrangianPhase> with_state(const Scene& scene) {
-  const MaterialSpec& material = scene.materials.at(scene.body.material);
+  const MaterialSpec& material = scene.materials.at(scene.bodies[0].material);
   const auto lame = LameParameters::from(material.parameters.at("E"), material.parameters.at("nu"));
   if (material.law == "linear-elastic") return with_law(scene, LinearElastic<State>(lame));
   if (material.law == "neo-hookean") return with_law(scene, NeoHookean<State>(lame));
@@ -208,11 +209,13 @@ std::unique_ptr<LagrangianPhase> with_state(const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<LagrangianPhase> make_phase(const Scene& scene) {
-  switch (scene.body.state) {
+  switch (scene.state) {
     case StressState::uniaxial_stress:
       return with_state<StressState::uniaxial_stress>(scene);
     case StressState::uniaxial_strain:
       return with_state<StressState::uniaxial_strain>(scene);
+    default:
+      break;
   }
   throw std::logic_error("a stress state without an instantiation");
 }

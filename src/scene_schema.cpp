@@ -45,15 +45,15 @@ void read_grid(TableReader grid, Scene& scene) {
 
 void read_body(TableReader body, Scene& scene) {
   const std::size_t axes = count_of_axes(scene);
-  BodySpec& spec = scene.body;
+  BodySpec& spec = scene.bodies.emplace_back();
   body.require({"material"});
   if (!body.has("min")) spec.min = scene.grid.min;
   if (!body.has("max")) spec.max = scene.grid.max;
   assign(spec.min, body.numbers("min", axes));
   assign(spec.max, body.numbers("max", axes));
   assign(spec.material, body.name("material"));
-  assign(spec.state, body.choice("state", Words<StressState>{{"uniaxial-stress", StressState::uniaxial_stress},
-                                                             {"uniaxial-strain", StressState::uniaxial_strain}}));
+  assign(scene.state, body.choice("state", Words<StressState>{{"uniaxial-stress", StressState::uniaxial_stress},
+                                                              {"uniaxial-strain", StressState::uniaxial_strain}}));
   assign(spec.area, body.number("area", kPositive));
   assign(spec.placement, body.choice("placement", Words<Placement>{{"uniform", Placement::uniform},
                                                                    {"gauss", Placement::gauss},
@@ -103,7 +103,7 @@ void read_loads(TableReader& root, Scene& scene) {
   for (TableReader& traction : root.tables("traction")) {
     TractionSpec& spec = scene.tractions.emplace_back();
     traction.require({"face", "value"});
-    assign(spec.upper, traction.choice("face", Words<bool>{{"left", false}, {"right", true}}));
+    assign(spec.face, traction.choice("face", Words<Face>{{"left", Face::left}, {"right", Face::right}}));
     assign(spec.value, traction.formulas("value", axes, "t"));
     traction.report_unknown_keys();
   }
@@ -219,7 +219,7 @@ bool read_schema(TableReader& root, Scene& scene) {
   read_body(root.required_table("body", "a scene has a body with a material"), scene);
   for (auto& [name, material] : root.named_tables("material")) read_material(name, std::move(material), scene);
   TableReader mass = root.table("mass");
-  assign(scene.mass,
+  assign(scene.mass.kind,
          mass.choice("kind", Words<MassKind>{{"consistent", MassKind::consistent}, {"lumped", MassKind::lumped}}));
   mass.report_unknown_keys();
   read_loads(root, scene);

@@ -27,7 +27,8 @@ class Validation {
     check_material();
     check_supports(grid);
     for (std::size_t k = 0; k < scene_.forces.size() && body; ++k)
-      check_inside(scene_.forces[k].at, scene_.body.min, scene_.body.max, "body", fmt::format("force[{}].at", k));
+      check_inside(scene_.forces[k].at, scene_.bodies[0].min, scene_.bodies[0].max, "body",
+                   fmt::format("force[{}].at", k));
     check_probes(body);
     check_integrator();
     check_variant_names();
@@ -66,7 +67,7 @@ class Validation {
   }
 
   bool check_body() {
-    BodySpec& body = scene_.body;
+    BodySpec& body = scene_.bodies[0];
     if (body.min.empty() || body.max.empty()) return false;
     const bool min_inside = check_inside(body.min, scene_.grid.min, scene_.grid.max, "grid", "body.min");
     const bool max_inside = check_inside(body.max, scene_.grid.min, scene_.grid.max, "grid", "body.max");
@@ -104,10 +105,10 @@ class Validation {
     constexpr double most = 5e7;  // about 10 GB of material points
     double points = 1;
     for (std::size_t axis = 0; axis < scene_.grid.cells.size(); ++axis) {
-      const double share = body_in_order ? (scene_.body.max[axis] - scene_.body.min[axis]) /
+      const double share = body_in_order ? (scene_.bodies[0].max[axis] - scene_.bodies[0].min[axis]) /
                                                (scene_.grid.max[axis] - scene_.grid.min[axis])
                                          : 1;
-      points *= share * scene_.grid.cells[axis] * scene_.body.points_per_cell[axis];
+      points *= share * scene_.grid.cells[axis] * scene_.bodies[0].points_per_cell[axis];
     }
     if (points > most)
       add("body.points_per_cell",
@@ -120,16 +121,16 @@ class Validation {
     long points = 1;
     for (std::size_t axis = 0; axis < scene_.grid.cells.size(); ++axis) {
       const double h = cell_length(axis);
-      const double first = (scene_.body.min[axis] - scene_.grid.min[axis]) / h;
-      const double last = (scene_.body.max[axis] - scene_.grid.min[axis]) / h;
+      const double first = (scene_.bodies[0].min[axis] - scene_.grid.min[axis]) / h;
+      const double last = (scene_.bodies[0].max[axis] - scene_.grid.min[axis]) / h;
       if (std::abs(first - std::round(first)) > kSliver || std::abs(last - std::round(last)) > kSliver) return 0;
-      points *= std::lround(std::round(last) - std::round(first)) * scene_.body.points_per_cell[axis];
+      points *= std::lround(std::round(last) - std::round(first)) * scene_.bodies[0].points_per_cell[axis];
     }
     return points;
   }
 
   void check_material() {
-    const std::string& name = scene_.body.material;
+    const std::string& name = scene_.bodies[0].material;
     if (name.empty() || scene_.materials.contains(name)) return;
     std::vector<std::string> names;
     for (const auto& material : scene_.materials) names.push_back(material.first);
@@ -155,7 +156,7 @@ class Validation {
     for (std::size_t k = 0; k < scene_.probes.size(); ++k) {
       ProbeSpec& probe = scene_.probes[k];
       const std::string key = fmt::format("probe[{}]", k);
-      if (body) check_inside(probe.at, scene_.body.min, scene_.body.max, "body", key + ".at");
+      if (body) check_inside(probe.at, scene_.bodies[0].min, scene_.bodies[0].max, "body", key + ".at");
       if (body && probe.point) {
         const long points = known_points();
         if (points > 0 && *probe.point > points)
@@ -204,7 +205,7 @@ class Validation {
                                             : euler  ? "automatic, lagged, implicit or exact"
                                                      : "automatic only"));
     if (fits && spec.treatment == DampingTreatment::exact && scene_.damping.strategy == "identity" &&
-        scene_.mass == MassKind::consistent)
+        scene_.mass.kind == MassKind::consistent)
       add("integrator.damping",
           "'exact' needs C and M diagonal together: take mass.kind = \"lumped\" or damping.strategy = \"viscous\"");
     const Method method = find_method(spec.method);

@@ -17,10 +17,18 @@
 namespace stillpoint {
 
 enum class BasisKind { linear, quadratic, cubic, hermite };
-enum class StressState { uniaxial_stress, uniaxial_strain };
+/// What happens across the coordinates that are computed: the first two in one dimension, the others in two. The
+/// coordinates of an axisymmetric scene are the radius r and the axis z.
+enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric };
 enum class Placement { uniform, gauss, random };
 enum class VolumeRule { equal, consistent };
 enum class MassKind { consistent, lumped };
+enum class MassScaling { uniform, gershgorin };
+enum class Transfer { flip, pic, apic, xpic };
+/// A face of a box, named for a picture with x to the right and y upwards.
+enum class Face { left, right, bottom, top };
+constexpr int axis_of(Face face) { return face == Face::left || face == Face::right ? 0 : 1; }
+constexpr bool is_upper(Face face) { return face == Face::right || face == Face::top; }
 
 /// Where something stands: a file with line and column (1-based), or an override, "--set key=value", with line 0.
 struct Location {
@@ -50,28 +58,41 @@ struct GridSpec {                // [grid]
   std::vector<double> min, max;  // [m]
   std::vector<int> cells;
   BasisKind basis = BasisKind::linear;
+  std::string follow;  // the [[wall]] whose face of the grid moves with it; empty: the grid stays where it is
 };
 
-struct BodySpec {                // [body]: a box of material points
-  std::vector<double> min, max;  // [m], inside the grid
-  std::string material;          // a [material.<name>]
-  StressState state = StressState::uniaxial_stress;
-  double area = 1;  // cross-section [m²]
+struct BodySpec {                // [body], or several [[body]]: material points in a box, in a polygon or from a file
+  std::vector<double> min, max;  // the box [m], inside the grid; of a polygon, its bounding box
+  std::vector<std::vector<double>> polygon;  // corners in order, (corners × 2) [m]; empty: the whole box
+  std::filesystem::path file;                // CSV of points: x, y, volume; empty: the body is filled with points here
+  std::string material;                      // a [material.<name>]
+  double area = 1;                           // cross-section in one dimension [m²], thickness in two [m]
   Placement placement = Placement::uniform;
-  std::vector<int> points_per_cell = {2};
+  std::vector<int> points_per_cell = {2};  // along each coordinate
+  double jitter = 0;                       // each point is moved by up to this share of its spacing, seeded
   VolumeRule volumes = VolumeRule::consistent;
-  unsigned long seed = 1;  // of placement = "random"
+  unsigned long seed = 1;  // of placement = "random" and of jitter
 };
 
 struct MaterialSpec {  // [material.<name>]
   std::string name, law;
-  std::map<std::string, double> parameters;  // complete: defaults filled in
+  std::map<std::string, double> parameters;    // complete: defaults filled in
+  std::map<std::string, std::string> choices;  // likewise, those that are words (cone = "mean")
 };
 
-struct SupportSpec {       // [[support]]: u(at) = motion(t)
-  std::vector<double> at;  // [m]
-  int component = 0;
-  Expression motion;  // of t [m]; 0: fixed
+struct SupportSpec {         // [[support]]: u = motion(t) at a place, or on a face of the grid
+  std::vector<double> at;    // [m]; empty: on the face
+  std::optional<Face> face;  // of the grid
+  bool roller = false;       // on a face: only the normal component is held, otherwise the tangential one too (at 0)
+  int component = 0;         // at a place; on a face its normal
+  Expression motion;         // of t [m]; 0: fixed
+};
+
+struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, that pushes and never pulls
+  std::string name;
+  Face face = Face::right;
+  Expression motion;    // of t [m], along the face's coordinate
+  double friction = 0;  // Coulomb's coefficient: |T| ≤ friction · N; infinite: rough
 };
 
 struct PointForceSpec {           // [[force]]
@@ -79,10 +100,10 @@ struct PointForceSpec {           // [[force]]
   std::vector<Expression> value;  // of t [N]
 };
 
-struct TractionSpec {             // [[traction]]: a dead load on a face of the body
-  int axis = 0;                   // 0: left/right
-  bool upper = true;              // right
-  std::vector<Expression> value;  // of t [Pa]
+struct TractionSpec {  // [[traction]]: a load on a face of the body's box
+  Face face = Face::right;
+  std::vector<Expression> value;       // of t, per undeformed area [Pa]; it keeps its direction
+  std::optional<Expression> pressure;  // of t, per deformed area [Pa], instead of value: it follows the face's normal
 };
 
 struct DampingSpec {  // [damping]
@@ -110,12 +131,39 @@ struct StopSpec {                // [stop]: a test set to 0 is off
   double wall_time = 0;  // [s]
 };
 
-struct OutputSpec {  // [output]
-  double every = 0;  // time between rows of the history [s]; 0: chosen
+struct OutputSpec {            // [output]
+  double every = 0;            // time between rows of the history [s]; 0: chosen
+  std::vector<double> stages;  // times at which the fields of all points are written [s]
+  double fields_every = 0;     // or the time between them [s]; 0: at the stages only
 };
+
+struct PhaseSpec {  // [phase]: when the points move on and the grid starts afresh
+  /// A phase ends where some point has moved by this share of a cell; 0: after every step (classical MPM); empty:
+  /// never.
+  std::optional<double> max_motion;
+  std::optional<double> max_strain;  // or where some component of ∂u/∂x exceeds this; empty: not asked
+  Transfer transfer = Transfer::flip;
+  double flip_share = 1;  // of "flip": 1 takes increments of the nodal velocity, 0 the velocity itself
+  int xpic_order = 5;     // of "xpic": m
+};
+
+struct MassSpec {  // [mass]
+  MassKind kind = MassKind::consistent;
+  MassScaling scaling = MassScaling::uniform;
+  double factor = 1;  // of the inertia, not of the weight
+};
+
+struct GeostaticSpec {  // [initial.geostatic]: stress under a level surface
+  double K0 = 0;        // σ_yy = −ρ b_y (surface − y) with the body force b, σ_xx = σ_zz = K0 σ_yy
+  double surface = 0;   // [m]
+};
+
+enum class ProbeKind { point, slope_angle };
 
 struct ProbeSpec {  // [[probe]]
   std::string name;
+  ProbeKind kind = ProbeKind::point;
+  // of a point:
   std::optional<int> point;         // 1-based number of a material point, in order of place
   std::vector<double> at;           // or the material point nearest to this place [m]
   std::vector<std::string> fields;  // of "u", "v", "strain", "stress"
@@ -133,16 +181,20 @@ struct Scene {
   int dim = 1;
   Constants constants;
   GridSpec grid;
-  BodySpec body;
+  StressState state = StressState::uniaxial_stress;
+  std::vector<BodySpec> bodies;
   std::map<std::string, MaterialSpec> materials;
-  MassKind mass = MassKind::consistent;
+  MassSpec mass;
+  PhaseSpec phase;
   std::vector<SupportSpec> supports;
+  std::vector<WallSpec> walls;
   std::vector<PointForceSpec> forces;
   std::vector<TractionSpec> tractions;
   std::vector<Expression> body_force;            // of x, y, z, t; per mass [m/s²]; empty: none
   std::vector<Expression> initial_u, initial_v;  // of x, y, z [m], [m/s]; empty: 0
-  std::vector<Expression> exact_u;               // of x, y, z, t [m]; empty: not known
-  std::optional<Expression> exact_stress;        // of x, y, z, t [Pa]
+  std::optional<GeostaticSpec> geostatic;
+  std::vector<Expression> exact_u;         // of x, y, z, t [m]; empty: not known
+  std::optional<Expression> exact_stress;  // of x, y, z, t [Pa]
   DampingSpec damping;
   IntegratorSpec integrator;
   StopSpec stop;

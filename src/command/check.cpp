@@ -24,9 +24,9 @@ int check(const SceneArguments& arguments) {
   fmt::print("  space            {} dimension, {} basis, {} cells of which {} hold material\n", scene.dim,
              basis_names[static_cast<std::size_t>(scene.grid.basis)], scene.grid.cells[0], phase.occupied_cells());
   fmt::print("  body             {} material points, mass {:.6g} kg, law {}\n", phase.points(), phase.total_mass(),
-             scene.materials.at(scene.body.material).law);
+             scene.materials.at(scene.bodies[0].material).law);
   fmt::print("  volumes          {} integrate polynomials up to degree {}\n",
-             scene.body.volumes == VolumeRule::equal ? "equal ones" : "consistent ones", phase.quadrature().degree);
+             scene.bodies[0].volumes == VolumeRule::equal ? "equal ones" : "consistent ones", phase.quadrature().degree);
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.supported_degrees_of_freedom(),
              phase.mass().is_lumped() ? "lumped" : "consistent");
   fmt::print("  damping          {}{}\n", model.damping->name(), model.c ? fmt::format(", c = {:.8g}", *model.c) : "");

@@ -131,7 +131,7 @@ TEST_CASE("body force, traction and point force are in balance with the supports
   Scene scene = scenes::bar({"grid.basis=cubic", "body.points_per_cell=4", "body.area=2", "material.bar.rho=3",
                              "body_force.value=0.5*(1+t)"});
   scene.supports.clear();
-  scene.tractions.push_back({.axis = 0, .upper = true, .value = {Expression(0.25)}});
+  scene.tractions.push_back({.face = Face::right, .value = {Expression(0.25)}, .pressure = {}});
   const auto phase = make_phase(scene);
   std::vector<double> F(phase->size());
   for (const double t : {0.0, 2.0}) {

@@ -45,8 +45,8 @@ TEST_CASE("the bar of the paper loads with the values of its file") {
   CHECK(bar.grid.max == std::vector{10.0});
   CHECK(bar.grid.cells == std::vector{4});
   CHECK(bar.grid.basis == BasisKind::hermite);
-  CHECK(bar.body.max == std::vector{10.0});
-  CHECK(bar.body.points_per_cell == std::vector{3});
+  CHECK(bar.bodies.at(0).max == std::vector{10.0});
+  CHECK(bar.bodies.at(0).points_per_cell == std::vector{3});
   CHECK(bar.materials.at("bar").parameters.at("E") == 1);
   CHECK(bar.forces.at(0).value.at(0)({}, 0) == 0.001);
   CHECK(bar.damping.c == 0.45);
@@ -72,13 +72,13 @@ TEST_CASE("what a scene leaves out has its default") {
   const Scene scene = load_smallest();
   CHECK(scene.title.empty());
   CHECK(scene.grid.basis == BasisKind::linear);
-  CHECK(scene.body.min == std::vector{0.0});
-  CHECK(scene.body.max == std::vector{2.0});
-  CHECK(scene.body.placement == Placement::uniform);
-  CHECK(scene.body.volumes == VolumeRule::consistent);
-  CHECK(scene.body.points_per_cell == std::vector{2});
+  CHECK(scene.bodies.at(0).min == std::vector{0.0});
+  CHECK(scene.bodies.at(0).max == std::vector{2.0});
+  CHECK(scene.bodies.at(0).placement == Placement::uniform);
+  CHECK(scene.bodies.at(0).volumes == VolumeRule::consistent);
+  CHECK(scene.bodies.at(0).points_per_cell == std::vector{2});
   CHECK(scene.materials.at("steel").parameters.at("nu") == 0);
-  CHECK(scene.mass == MassKind::consistent);
+  CHECK(scene.mass.kind == MassKind::consistent);
   CHECK(scene.damping.strategy == "viscous");
   CHECK_FALSE(scene.damping.c);
   CHECK(scene.integrator.method == "leapfrog");
@@ -114,7 +114,7 @@ value = "-9.81*x*t"
 v = "2*x"
 )");
   CHECK(scene.supports.at(0).motion({}, 2) == Approx(0.2));
-  CHECK_FALSE(scene.tractions.at(0).upper);
+  CHECK_FALSE(scene.tractions.at(0).face == Face::right);
   CHECK(scene.tractions.at(0).value.at(0)({}, 5) == 1);
   CHECK(scene.body_force.at(0)(std::array{2.0}, 1) == Approx(-19.62));
   CHECK(scene.initial_v.at(0)(std::array{2.0}, 0) == 4);
@@ -133,7 +133,7 @@ TEST_CASE("an override replaces a value, adds a key, or makes a table") {
   CHECK(load_scene(kBar, {"damping.c=pi/10"}).damping.c == Approx(std::numbers::pi / 10));
   CHECK(load_scene(kBar, {"damping.c=\"P0*2\""}).damping.c == 0.002);
   CHECK_FALSE(load_scene(kBar, {"damping.c=critical"}).damping.c);
-  CHECK(load_scene(kBar, {"body.placement = gauss"}).body.placement == Placement::gauss);
+  CHECK(load_scene(kBar, {"body.placement = gauss"}).bodies.at(0).placement == Placement::gauss);
   CHECK(load_scene(kBar, {"title=A bar, again"}).title == "A bar, again");
   CHECK(load_scene(kBar, {"body_force.value=-9.81"}).body_force.size() == 1);
   CHECK(load_scene(kBar, {"constants.P0=0.002"}).forces.at(0).value.at(0)({}, 0) == 0.002);
