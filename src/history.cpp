@@ -1,21 +1,22 @@
 #include "history.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
+
+#include "point_fields.hpp"
 
 namespace stillpoint {
 namespace {
 
-std::size_t nearest_point(const LagrangianPhase& phase, const std::vector<double>& at) {
+std::size_t nearest_point(const std::vector<double>& places, std::size_t dim, const std::vector<double>& at) {
   std::size_t best = 0;
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < phase.points(); ++p) {
-    const std::vector<double> x = phase.place(p);
+  for (std::size_t p = 0; p < places.size() / dim; ++p) {
     double square = 0;
-    for (std::size_t d = 0; d < x.size(); ++d) square += (x[d] - at[d]) * (x[d] - at[d]);
+    for (std::size_t d = 0; d < dim; ++d) square += (places[dim * p + d] - at[d]) * (places[dim * p + d] - at[d]);
     if (square < smallest) smallest = square, best = p;
   }
   return best;
@@ -24,31 +25,36 @@ std::size_t nearest_point(const LagrangianPhase& phase, const std::vector<double
 }  // namespace
 
 Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : phase_(phase), specs_(scene.probes) {
-  assert(phase.dim() == 1);  // a field of one component a column; make_model() has checked the numbers of points
+  const std::vector<double> places = phase.places();
+  const auto dim = static_cast<std::size_t>(phase.dim());
   for (const ProbeSpec& probe : specs_) {
-    point_.push_back(probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(phase, probe.at));
+    const std::size_t point =
+        probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(places, dim, probe.at);
+    place_.emplace_back(places.begin() + static_cast<std::ptrdiff_t>(dim * point),
+                        places.begin() + static_cast<std::ptrdiff_t>(dim * (point + 1)));
     for (const std::string& field : probe.fields) {
       columns_.push_back(probe.name + "." + field);
-      if (field == "u") displacement_.resize(phase.points());
-      if (field == "v") velocity_.resize(phase.points());
-      if (field == "strain") strain_.resize(phase.points());
+      const auto [name, component, components] = find_point_field(phase, field);
+      sources_.push_back({name, component, components, point});
     }
+  }
+  for (const WallReaction& wall : phase.wall_reactions(0)) {
+    columns_.push_back(wall.name + ".normal");
+    columns_.push_back(wall.name + ".shear");
   }
 }
 
 std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
-  if (!displacement_.empty()) phase_.point_displacement(t, u, displacement_);
-  if (!velocity_.empty()) phase_.point_velocity(t, v, velocity_);
-  if (!strain_.empty()) phase_.point_strain(t, u, strain_);
+  std::map<std::string, std::vector<double>> fields;  // each asked for once
   std::vector<double> values;
-  for (std::size_t k = 0; k < specs_.size(); ++k) {
-    for (const std::string& field : specs_[k].fields) {
-      const ConstVec source = field == "u"        ? ConstVec(displacement_)
-                              : field == "v"      ? ConstVec(velocity_)
-                              : field == "strain" ? ConstVec(strain_)
-                                                  : phase_.point_stress();
-      values.push_back(source[point_[k]]);
-    }
+  for (const Source& source : sources_) {
+    auto [field, missing] = fields.try_emplace(source.field);
+    if (missing) field->second = point_field(phase_, source.field, t, u, v);
+    values.push_back(field->second[source.components * source.point + source.component]);
+  }
+  for (const WallReaction& wall : phase_.wall_reactions(t)) {
+    values.push_back(wall.normal);
+    values.push_back(wall.shear);
   }
   return values;
 }

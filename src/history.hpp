@@ -21,24 +21,31 @@ struct HistoryRow {
   double residual, kinetic_energy;
 };
 
-/// Looks at the scene's probes in a phase.
+/// Looks at what the scene's probes ask for: fields at material points, and the forces on its walls.
 class Probes {
  public:
   Probes(const Scene& scene, const LagrangianPhase& phase);
 
   const std::vector<std::string>& columns() const { return columns_; }  // "<probe>.<field>"
   const std::vector<ProbeSpec>& specs() const { return specs_; }
-  /// Where probe k's material point was when the phase began, (dim) [m].
-  std::vector<double> place(std::size_t k) const { return phase_.place(point_[k]); }
-  /// Values at (t, u, v), in the order of columns(); commits nothing: stress is that of the last commit.
+  /// Where probe k's material point was when the run began, (dim) [m]; empty for a probe of another kind.
+  const std::vector<double>& place(std::size_t k) const { return place_[k]; }
+  /// Values at (t, u, v), in the order of columns(); the state is that of the last commit.
   std::vector<double> read(double t, ConstVec u, ConstVec v);
 
  private:
+  struct Source {
+    std::string field;      // as point_field() knows it
+    std::size_t component;  // of how many
+    std::size_t components;
+    std::size_t point;
+  };
+
   const LagrangianPhase& phase_;
   std::vector<ProbeSpec> specs_;
-  std::vector<std::size_t> point_;  // of each probe
+  std::vector<std::vector<double>> place_;
   std::vector<std::string> columns_;
-  std::vector<double> displacement_, velocity_, strain_;  // at all points; empty where no probe asks
+  std::vector<Source> sources_;  // of the first columns
 };
 
 class History {

@@ -48,6 +48,13 @@ class Leapfrog final : public SteppingIntegrator {
     force_is_current_ = true;
   }
 
+  void restart(double t, const Vector& y) override {
+    system().last_out_of_balance(t, a_.span());
+    const ConstVec v = second_half(y.span());
+    system().damping().add_local(v, a_.span());
+    initial_acceleration_(0, v, a_.span());
+  }
+
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
     if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span()), a = a_.span();

@@ -8,7 +8,10 @@ namespace stillpoint {
 bool pulls_vary(const Scene& scene) {
   const auto varies = [](const Expression& formula) { return formula.uses('t'); };
   const auto any = [&](const std::vector<Expression>& formulas) { return std::ranges::any_of(formulas, varies); };
-  return any(scene.body_force) || std::ranges::any_of(scene.forces, [&](const auto& f) { return any(f.value); }) ||
+  const auto pressure_varies = [&](const TractionSpec& f) { return f.pressure && varies(*f.pressure); };
+  return any(scene.body_force) || std::ranges::any_of(scene.tractions, pressure_varies) ||
+         std::ranges::any_of(scene.walls, [&](const WallSpec& w) { return varies(w.motion); }) ||
+         std::ranges::any_of(scene.forces, [&](const auto& f) { return any(f.value); }) ||
          std::ranges::any_of(scene.tractions, [&](const auto& f) { return any(f.value); }) ||
          std::ranges::any_of(scene.supports, [&](const auto& s) { return varies(s.motion); });
 }
@@ -17,18 +20,24 @@ std::vector<double> pull_at(const SemiDiscrete& system, double t) {
   const std::vector<double> rest(system.size(), 0.0);
   std::vector<double> Q(system.size()), R(system.size());
   system.external_force(t, Q);
+  system.add_following_force(t, rest, Q);
   system.internal_force(t, rest, R);
   for (std::size_t i = 0; i < Q.size(); ++i) Q[i] -= R[i];
   return Q;
 }
 
-LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time) : system_(system) {
+LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time)
+    : scene_(scene), system_(system), end_time_(end_time) {
   if (end_time > 0 && pulls_vary(scene)) at_end_ = pull_at(system, end_time);
 }
 
 bool LoadSchedule::settled(double t) const {
   if (at_end_.empty()) return true;
   constexpr double rounding = 1e-9;
+  for (const WallSpec& wall : scene_.walls) {
+    const double end = wall.motion({}, end_time_), left = std::abs(end - wall.motion({}, t));
+    if (left > rounding * std::abs(end - wall.motion({}, 0))) return false;
+  }
   const std::vector<double> now = pull_at(system_, t);
   double difference = 0, scale = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {

@@ -17,13 +17,15 @@ std::vector<double> pull_at(const SemiDiscrete& system, double t);
 /// Tells a plateau of the loads from their end, so that equilibrium is not declared before a load has acted.
 class LoadSchedule {
  public:
-  /// end_time 0: open; then every moment counts as the end.
+  /// For one phase. end_time 0: open; then every moment counts as the end.
   LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time);
   /// Whether everything pulls at t as it will at the end.
   bool settled(double t) const;
 
  private:
+  const Scene& scene_;
   const SemiDiscrete& system_;
+  double end_time_;
   std::vector<double> at_end_;  // empty: nothing to wait for
 };
 

@@ -1,242 +1,746 @@
-// A Lagrangian phase for one dimension, basis and material law: the loops over material points.
+// Lagrangian phases for one basis and one kind of kinematics.
 #pragma once
 
 #include <stillpoint/lagrangian_phase.hpp>
-#include <stillpoint/material.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
+#include <fmt/format.h>
+
+#include "body.hpp"
+#include "boundary.hpp"
 #include "cell_assembly.hpp"
 #include "degrees_of_freedom.hpp"
 #include "nodal_force.hpp"
 #include "nodal_loads.hpp"
-#include "parallel_loop.hpp"
-#include "point_weights.hpp"
+#include "nodal_sum.hpp"
 #include "prescribed_motion.hpp"
+#include "reject.hpp"
+#include "scene_grid.hpp"
+#include "surface_of_body.hpp"
+#include "velocity_transfer.hpp"
+#include "wall_contact.hpp"
 
 namespace stillpoint {
 
-/// Where the parts of a phase come from; make_phase() puts them together.
-template <AxisBasis B, MaterialLaw Law>
-struct PhaseParts {
-  static constexpr int dim = Law::dim;
-  MaterialPoints<dim> points;
-  QuadratureReport quadrature;
-  PointWeights<B, dim> weights;
-  DegreesOfFreedom dofs;
-  Mass mass;
-  SplitMatrix consistent;  // M as assembled, for projections and moving supports
-  NodalLoads loads;
-  std::vector<PrescribedMotion> motions;  // of the supports
-  std::vector<Expression> body_force;     // of x and t, where it depends on t; otherwise part of loads
-  std::vector<Expression> initial_u, initial_v;
-  Law law;
-  int grid_functions;
-};
-
-template <AxisBasis B, MaterialLaw Law>
+template <AxisBasis B, Kinematics K>
 class MaterialPointPhase final : public LagrangianPhase {
-  static constexpr int Dim = Law::dim;
-  static constexpr int per_cell = PointWeights<B, Dim>::per_cell;
-  static constexpr int corners = Dim * per_cell;  // a cell's corner forces
-  static constexpr std::size_t tensor = Dim * Dim;
+  static constexpr int Dim = dimensions(K);
+  static constexpr int per_cell = PointWeights<B, K>::per_cell;
+  static constexpr int components = stillpoint::gradient_components(K);
+  using Basis = TensorBasis<B, Dim>;
+  using Block = PointBlock<K>;
 
  public:
-  explicit MaterialPointPhase(PhaseParts<B, Law> parts)
-      : s_(std::move(parts)),
-        nodal_force_(s_.points, s_.weights, s_.dofs),
-        grid_u_(static_cast<std::size_t>(Dim * s_.grid_functions), 0.0),
-        grid_du_(grid_u_.size(), 0.0),
-        stress_(tensor * points(), 0.0) {}
+  explicit MaterialPointPhase(const Scene& scene)
+      : scene_(scene),
+        moves_on_(scene.phase.max_motion || scene.phase.max_strain),
+        grid_(grid_at<Dim>(scene, 0)),
+        body_(make_body<K>(scene, grid_, moves_on_)),
+        transfer_(scene.phase),
+        boundary_(scene, time_scale()) {
+    for (const auto& material : body_.materials) {
+      history_dependent_ = history_dependent_ || material->history_dependent();
+      finite_strain_ = finite_strain_ || material->finite_strain();
+    }
+    initial_mass_ = total_mass();
+    origin_ = places();
+    if (scene_.geostatic) set_geostatic_stress();
+    if (moves_on_) set_initial_point_velocity();
+    surface_ = make_surface_loads<B, K>(scene_, grid_);
+    begin_phase(0);
+  }
 
   // --- SemiDiscrete -------------------------------------------------------------------------------
-  std::size_t size() const override { return s_.dofs.size(); }
-  const Mass& mass() const override { return s_.mass; }
-  bool history_dependent() const override { return Law::history_dependent; }
+  std::size_t size() const override { return dofs_->size(); }
+  const Mass& mass() const override { return *mass_; }
+  bool history_dependent() const override { return history_dependent_; }
 
   void external_force(double t, Vec F) const override {
-    s_.loads.evaluate(t, F);
-    if (!s_.body_force.empty()) add_body_force(t, F);
+    loads_->evaluate(t, F);
+    if (varying_body_force()) add_body_force(t, F);
+    surface_.add_dead(t, *dofs_, F);
+  }
+  void add_following_force(double t, ConstVec u, Vec F) const override {
+    if (!surface_.follows()) return;
+    spread(t, u, grid_u_);
+    surface_.add_following(t, grid_u_.data(), *dofs_, F);
   }
 
   bool internal_force(double t, ConstVec u, Vec R) const override {
-    spread(t, u);
-    const bool admissible = nodal_force_.gather(s_.points, s_.weights, [&](std::size_t p) {
-      return s_.law.first_piola(s_.weights.gradient(grid_u_.data(), p));
-    });
-    nodal_force_.sum(R);
+    bool admissible = false;
+    if (history_dependent_) {
+      const double dt = t - committed_t_;
+      spread_increments(t, u);
+      admissible = nodal_force_.template evaluate<true>(grid_u_du_.data(), [&](std::size_t m, Block& block) {
+        return body_.materials[m]->stress(block, body_.points.volume.data(), dt);
+      });
+      last_t_ = t;
+    } else {
+      spread(t, u, grid_u_);
+      admissible = nodal_force_.template evaluate<false>(grid_u_.data(), [&](std::size_t m, Block& block) {
+        return body_.materials[m]->stress(block, body_.points.volume.data(), 0);
+      });
+    }
+    const double* force = nodal_force_.force().data();
+    for_each_index(R.size(), [R, force, number = dofs_->free.data()](std::size_t k) { R[k] = force[number[k]]; });
     return admissible;
   }
 
-  // dP_ij = ∂P_ij/∂H_kl dH_kl
   void tangent(double t, ConstVec u, ConstVec du, Vec dR) const override {
-    spread(t, u);
-    for (std::size_t k = 0; k < size(); ++k) grid_du_[static_cast<std::size_t>(s_.dofs.free[k])] = du[k];
-    nodal_force_.gather(s_.points, s_.weights, [&](std::size_t p) {
-      const Moduli<Dim> A = s_.law.moduli(s_.weights.gradient(grid_u_.data(), p));
-      const Tensor<Dim> dH = s_.weights.gradient(grid_du_.data(), p);
-      Tensor<Dim> dP{};
-      for (std::size_t ij = 0; ij < tensor; ++ij) {
-        for (std::size_t kl = 0; kl < tensor; ++kl) dP[ij] += A[tensor * ij + kl] * dH[kl];
-      }
-      return dP;
+    for (double& value : grid_u_du_) value = 0;
+    spread(t, u, grid_u_);
+    for (std::size_t f = 0; f < grid_u_.size() / Dim; ++f) {
+      for (int i = 0; i < Dim; ++i) grid_u_du_[2 * Dim * f + i] = grid_u_[Dim * f + i];
+    }
+    for (std::size_t k = 0; k < size(); ++k) {
+      const auto unknown = static_cast<std::size_t>(dofs_->free[k]);
+      grid_u_du_[2 * Dim * (unknown / Dim) + Dim + unknown % Dim] = du[k];
+    }
+    nodal_force_.template evaluate<true>(grid_u_du_.data(), [&](std::size_t m, Block& block) {
+      body_.materials[m]->tangent(block, body_.points.volume.data());
+      return 0.0;
     });
-    nodal_force_.sum(dR);
+    for (std::size_t k = 0; k < dR.size(); ++k) dR[k] = nodal_force_.force()[static_cast<std::size_t>(dofs_->free[k])];
   }
 
-  // K_ai,bk = Σ_p V_p ∂N_a/∂x_j (∂P_ij/∂H_kl) ∂N_b/∂x_l
+  // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
   SparseMatrix tangent_matrix(double t, ConstVec u) const override {
-    spread(t, u);
-    const auto add_point = [&](std::size_t p, CellMatrix<Dim, per_cell>& K) {
-      const Moduli<Dim> A = s_.law.moduli(s_.weights.gradient(grid_u_.data(), p));
-      for (int row = 0; row < corners; ++row) {
-        for (int column = 0; column < corners; ++column) {
-          const int a = row / Dim, i = row % Dim, b = column / Dim, k = column % Dim;
-          for (int j = 0; j < Dim; ++j) {
-            for (int l = 0; l < Dim; ++l) {
-              K[row][column] += s_.points.volume[p] * s_.weights.dN(j, a, p) * A[tensor * (Dim * i + j) + Dim * k + l] *
-                                s_.weights.dN(l, b, p);
-            }
-          }
+    spread(t, u, grid_u_);
+    const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<Dim, per_cell>& matrix) {
+      const auto A = material_of(k).moduli(weights_.gradient(grid_u_.data(), k, p), p);
+      std::array<TensorOf<K>, Dim * per_cell> G{};
+      const double* dN = weights_.dN(p);
+      for (int a = 0; a < per_cell; ++a) {
+        for (int i = 0; i < Dim; ++i) {
+          for (int j = 0; j < Dim; ++j) G[Dim * a + i][Dim * i + j] = dN[per_cell * j + a];
+        }
+        if constexpr (K == Kinematics::axisymmetric) G[Dim * a][Dim * Dim] = dN[per_cell * Dim + a];
+      }
+      for (int row = 0; row < Dim * per_cell; ++row) {
+        TensorOf<K> left{};  // V G A
+        for (int c = 0; c < components; ++c) {
+          if (G[row][c] == 0) continue;
+          for (int d = 0; d < components; ++d) left[d] += body_.points.volume[p] * G[row][c] * A[components * c + d];
+        }
+        for (int column = 0; column < Dim * per_cell; ++column) {
+          for (int d = 0; d < components; ++d) matrix[row][column] += left[d] * G[column][d];
         }
       }
     };
-    return assemble_cells<B, Dim>(s_.points, s_.weights, s_.dofs, add_point, [](std::size_t, auto&) {}).free;
+    return assemble_cells<B, K>(body_.points, weights_, *dofs_, add_point).free;
   }
 
   void commit(double t, ConstVec u) override {
-    spread(t, u);
-    for (std::size_t p = 0; p < points(); ++p) {
-      const Tensor<Dim> sigma = s_.law.cauchy(s_.weights.gradient(grid_u_.data(), p));
-      std::copy(sigma.begin(), sigma.end(), stress_.begin() + static_cast<std::ptrdiff_t>(tensor * p));
-    }
+    if (!history_dependent_) return;
+    std::vector<double> R(size());
+    internal_force(t, u, R);
+    commit_last();
+  }
+  // What internal_force() was last evaluated at is in grid_u_du_.
+  void commit_last() override {
+    if (!history_dependent_) return;
+    for (const auto& material : body_.materials) material->commit();
+    for_each_index(committed_u_.size(), [to = committed_u_.data(), from = grid_u_du_.data()](std::size_t unknown) {
+      to[unknown] = from[2 * Dim * (unknown / Dim) + unknown % Dim];
+    });
+    committed_t_ = last_t_;
   }
 
   void add_support_inertia(double t, double c, Vec Q) const override {
-    if (s_.consistent.prescribed.nonZeros() == 0 || s_.mass.is_lumped()) return;
-    for (std::size_t support = 0; support < s_.motions.size(); ++support) {
-      if (!s_.motions[support].moves()) continue;
-      const double pull = s_.motions[support].acceleration(t) + c * s_.motions[support].velocity(t);
-      for (SparseMatrix::InnerIterator m(s_.consistent.prescribed, static_cast<Eigen::Index>(support)); m; ++m) {
+    if (consistent_.prescribed.nonZeros() == 0 || mass_->is_lumped()) return;
+    for (std::size_t s = 0; s < boundary_.prescribed().size(); ++s) {
+      const PrescribedMotion& motion = boundary_.motion_of(s);
+      if (!motion.moves()) continue;
+      const double pull = motion.acceleration(t) + c * motion.velocity(t);
+      for (SparseMatrix::InnerIterator m(consistent_.prescribed, static_cast<Eigen::Index>(s)); m; ++m) {
         Q[static_cast<std::size_t>(m.row())] -= m.value() * pull;
       }
     }
   }
+  bool has_contact() const override { return !boundary_.walls().empty(); }
+  void add_contact_force(double t, const LinearDamping& C, Vec Q) const override {
+    for (const WallContact& wall : boundary_.walls()) wall.add_force(t, C, *mass_, Q);
+  }
+  bool update_contact(double t, ConstVec u, Vec v) override {
+    bool changed = false;
+    for (WallContact& wall : boundary_.walls()) changed = wall.update(t, u, v) || changed;
+    return changed;
+  }
 
   double reaction_norm() const override {
     double sum = 0;
-    for (std::size_t s = 0; s < s_.dofs.prescribed.size(); ++s) {
-      const double reaction = nodal_force_.at(size() + s);
+    for (const int unknown : dofs_->prescribed) {
+      const double reaction = nodal_force_.force()[static_cast<std::size_t>(unknown)];
       sum += reaction * reaction;
     }
+    for (const WallContact& wall : boundary_.walls()) sum += wall.square_of_forces();
     return std::sqrt(sum);
   }
 
   // --- LagrangianPhase ----------------------------------------------------------------------------
   int dim() const override { return Dim; }
-  std::size_t points() const override { return s_.points.size(); }
-  std::vector<double> place(std::size_t p) const override {
-    const Point<Dim> at = s_.points.place(p);
-    return {at.begin(), at.end()};
+  int gradient_components() const override { return components; }
+  int stress_components() const override { return stillpoint::stress_components(K); }
+  std::size_t points() const override { return body_.points.size(); }
+  std::vector<double> places() const override {
+    std::vector<double> out(Dim * points());
+    for_points([&](std::size_t, std::size_t p, std::size_t number) {
+      for (int d = 0; d < Dim; ++d) out[Dim * number + d] = body_.points.x[d][p];
+    });
+    return out;
   }
-  ConstVec volumes() const override { return s_.points.volume; }
+  std::vector<double> volumes() const override {
+    std::vector<double> out(points());
+    for_points([&](std::size_t, std::size_t p, std::size_t number) { out[number] = body_.points.volume[p]; });
+    return out;
+  }
+  std::vector<int> materials() const override {
+    std::vector<int> out(points());
+    for_points([&](std::size_t k, std::size_t, std::size_t number) { out[number] = body_.points.material_of_cell(k); });
+    return out;
+  }
   double total_mass() const override {
-    double sum = 0;
-    for (const double m : s_.points.mass) sum += m;
-    return sum;
+    // in the order of the points' numbers, which does not change
+    std::vector<double> m(points());
+    for_points([&](std::size_t, std::size_t p, std::size_t number) { m[number] = body_.points.mass[p]; });
+    return sum_over(m.size(), [&](std::size_t p) { return m[p]; });
   }
 
   void point_displacement(double t, ConstVec u, Vec out) const override {
-    spread(t, u);
-    gather(out, [&](std::size_t p) { return s_.weights.value(grid_u_.data(), p); });
+    spread(t, u, grid_u_);
+    for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto u_p = weights_.value(grid_u_.data(), k, p);
+      for (int i = 0; i < Dim; ++i) {
+        out[Dim * number + i] = moves_on_ ? body_.points.x[i][p] - origin_[Dim * number + i] + u_p[i] : u_p[i];
+      }
+    });
   }
   void point_velocity(double t, ConstVec v, Vec out) const override {
-    spread_free(v, grid_du_);
-    for (std::size_t s = 0; s < s_.motions.size(); ++s) prescribed(grid_du_, s) = s_.motions[s].velocity(t);
-    gather(out, [&](std::size_t p) { return s_.weights.value(grid_du_.data(), p); });
-    for (std::size_t s = 0; s < s_.motions.size(); ++s) prescribed(grid_du_, s) = 0;
+    const std::vector<double> grid_v = nodal_velocity(t, v);
+    for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto v_p = weights_.value(grid_v.data(), k, p);
+      std::copy(v_p.begin(), v_p.end(), out.begin() + static_cast<std::ptrdiff_t>(Dim * number));
+    });
   }
   void point_strain(double t, ConstVec u, Vec out) const override {
-    spread(t, u);
-    gather(out, [&](std::size_t p) { return s_.weights.gradient(grid_u_.data(), p); });
+    spread(t, u, grid_u_);
+    for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto H = weights_.gradient(grid_u_.data(), k, p);
+      std::copy(H.begin(), H.end(), out.begin() + static_cast<std::ptrdiff_t>(components * number));
+    });
   }
-  ConstVec point_stress() const override { return stress_; }
+  void point_stress(double t, ConstVec u, Vec out) const override {
+    spread(t, u, grid_u_);
+    for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto sigma = material_of(k).cauchy(weights_.gradient(grid_u_.data(), k, p), p);
+      std::copy(sigma.begin(), sigma.end(), out.begin() + static_cast<std::ptrdiff_t>(sigma.size() * number));
+    });
+  }
+  std::vector<std::string> history_names() const override {
+    std::set<std::string> names;
+    for (const auto& material : body_.materials) {
+      for (const auto& [name, values] : material->shown_history()) names.insert(name);
+    }
+    return {names.begin(), names.end()};
+  }
+  void point_history(const std::string& name, Vec out) const override {
+    std::ranges::fill(out, 0.0);
+    for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+      const auto begin = static_cast<std::size_t>(body_.points.material_begin[m]);
+      for (const auto& [shown, values] : body_.materials[m]->shown_history()) {
+        if (shown != name) continue;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+          out[static_cast<std::size_t>(body_.points.number[begin + k])] = values[k];
+        }
+      }
+    }
+  }
 
   std::vector<double> initial_displacement(double t) const override {
     std::vector<double> held;
-    for (const auto& motion : s_.motions) held.push_back(motion.displacement(t));
-    return project(s_.initial_u, held);
+    for (std::size_t s = 0; s < boundary_.prescribed().size(); ++s)
+      held.push_back(boundary_.motion_of(s).displacement(t));
+    return project(scene_.initial_u, held);
   }
-  std::vector<double> initial_velocity(double t) const override {
+  std::vector<double> initial_velocity(double t) override {
+    if (moves_on_) return velocity_from_points(t);
     std::vector<double> held;
-    for (const auto& motion : s_.motions) held.push_back(motion.velocity(t));
-    return project(s_.initial_v, held);
+    for (std::size_t s = 0; s < boundary_.prescribed().size(); ++s) held.push_back(boundary_.motion_of(s).velocity(t));
+    std::vector<double> v = project(scene_.initial_v, held);
+    begin_contact(t, v);
+    return v;
+  }
+
+  bool moves_on() const override { return moves_on_; }
+
+  double share_of_phase(double t, ConstVec u) const override {
+    if (!moves_on_) return 0;
+    if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
+    double share = 0;
+    if (scene_.phase.max_motion) share = largest_motion(u) / *scene_.phase.max_motion;
+    constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
+    if (scene_.phase.max_strain && ++looks_ % between_looks == 0) {
+      spread(t, u, grid_u_);
+      share = std::max(share, largest_strain() / *scene_.phase.max_strain);
+    }
+    return share;
+  }
+
+  std::vector<double> begin_next_phase(double t, ConstVec u, ConstVec v) override {
+    end_phase(t, u, v);
+    grid_ = grid_at<Dim>(scene_, boundary_.displacement_of(scene_.grid.follow, t));
+    check_inside(t);
+    order_.sort(body_.points, grid_);
+    for (const auto& material : body_.materials) material->reorder(order_.order());
+    begin_phase(t);
+    return velocity_from_points(t);
+  }
+  TransferErrors transfer_errors() const override { return errors_; }
+
+  std::vector<WallReaction> wall_reactions(double t) const override {
+    std::vector<WallReaction> reactions;
+    for (const WallContact& wall : boundary_.walls()) {
+      const WallForce force = wall.force();
+      reactions.push_back({wall.name(), force.normal, force.shear, wall.power(t)});
+    }
+    return reactions;
   }
 
   std::vector<PointArray> point_arrays() const override {
     constexpr double real = sizeof(double);
-    return {{"place", Dim * real},
-            {"mass", real},
-            {"volume", real},
-            {"first function", sizeof(int)},
-            {"weights N", per_cell * real},
-            {"gradients of N", Dim * per_cell * real},
-            {"trial stress", tensor * real},
-            {"stress", tensor * real}};
-  }
-  std::size_t supported_degrees_of_freedom() const override { return s_.dofs.prescribed.size(); }
-  std::size_t occupied_cells() const override { return s_.points.cell.size(); }
-  QuadratureReport quadrature() const override { return s_.quadrature; }
-  double stiffening(double t, ConstVec u) const override {
-    static_assert(Dim == 1, "a modulus is one number in one dimension only");
-    if (!nonlinear()) return 1;
-    spread(t, u);
-    const double undeformed = s_.law.moduli({})[0];
-    double largest = 0;
-    for (std::size_t p = 0; p < points(); ++p) {
-      const double modulus = s_.law.moduli(s_.weights.gradient(grid_u_.data(), p))[0];
-      if (!std::isfinite(modulus)) return std::numeric_limits<double>::infinity();
-      largest = std::max(largest, modulus);
+    std::vector<PointArray> arrays = {{"place", Dim * real},
+                                      {"mass", real},
+                                      {"volume", real},
+                                      {"number", sizeof(int)},
+                                      {"weights N", per_cell * real},
+                                      {"gradients of N", PointWeights<B, K>::rows * per_cell * real}};
+    if (moves_on_) {
+      arrays.push_back({"velocity", Dim * real});
+      arrays.push_back({"place at the start", Dim * real});
+      if (scene_.phase.transfer == Transfer::apic) arrays.push_back({"affine velocity", Dim * Dim * real});
     }
-    return largest / undeformed;
+    // What a law keeps counts for the share of points that have it.
+    for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+      const double share =
+          (body_.points.material_begin[m + 1] - body_.points.material_begin[m]) / static_cast<double>(points());
+      for (PointArray array : body_.materials[m]->arrays()) {
+        array.bytes_per_point *= share;
+        arrays.push_back(array);
+      }
+    }
+    return arrays;
   }
-  bool nonlinear() const override { return Law::finite_strain || Law::history_dependent; }
+  std::size_t supported_degrees_of_freedom() const override { return dofs_->prescribed.size(); }
+  std::vector<int> grid_cells() const override {
+    std::vector<int> cells;
+    for (const Axis& axis : grid_.axes) cells.push_back(axis.cells());
+    return cells;
+  }
+  std::size_t occupied_cells() const override {
+    return std::set<int>(body_.points.cell.begin(), body_.points.cell.end()).size();
+  }
+  QuadratureReport quadrature() const override { return body_.quadrature; }
+  bool nonlinear() const override { return finite_strain_ || history_dependent_; }
+  // With history the elastic part is small, and what it yields only softens.
+  bool stiffens() const override { return finite_strain_ && !history_dependent_; }
+  double stiffening(double t, ConstVec u) const override {
+    if (!stiffens()) return 1;
+    const auto largest_bound = [&] {
+      double largest = 0;
+      nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
+        const double bound = body_.materials[m]->stiffness_bound(block);
+#pragma omp critical(stillpoint_stiffening)
+        largest = bound <= largest ? largest : bound;
+      });
+      return largest;
+    };
+    if (!(undeformed_bound_ > 0)) {
+      std::ranges::fill(grid_u_, 0.0);
+      undeformed_bound_ = largest_bound();
+    }
+    spread(t, u, grid_u_);
+    return largest_bound() / undeformed_bound_;
+  }
 
  private:
-  double& prescribed(std::vector<double>& grid, std::size_t s) const {
-    return grid[static_cast<std::size_t>(s_.dofs.prescribed[s])];
-  }
-  void spread_free(ConstVec u, std::vector<double>& grid) const {
-    for_each_index(u.size(),
-                   [u, to = grid.data(), number = s_.dofs.free.data()](std::size_t k) { to[number[k]] = u[k]; });
-  }
-  // The grid's displacements from the free unknowns and the supports at time t.
-  void spread(double t, ConstVec u) const {
-    spread_free(u, grid_u_);
-    for (std::size_t s = 0; s < s_.motions.size(); ++s) prescribed(grid_u_, s) = s_.motions[s].displacement(t);
+  // --- a phase begins -----------------------------------------------------------------------------
+  void begin_phase(double t) {
+    weights_.rebuild(grid_, body_.points);
+    const std::size_t functions = static_cast<std::size_t>(Basis::count(grid_));
+    nodal_force_.rebuild(body_.points, weights_, functions);
+    boundary_.template begin_phase<Basis>(scene_, grid_, reached_functions(), t);
+    dofs_.emplace(reached_unknowns(), boundary_.prescribed());
+    grid_u_.assign(Dim * functions, 0);
+    grid_u_du_.assign(2 * Dim * functions, 0);
+    committed_u_.assign(Dim * functions, 0);
+    spread_prescribed(t, committed_u_);
+    committed_t_ = last_t_ = t;
+    make_mass();
+    make_loads();
   }
 
-  template <class Value>
-  void gather(Vec out, const Value& value_at) const {
-    for (std::size_t p = 0; p < points(); ++p) {
-      const auto value = value_at(p);
-      std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(value.size() * p));
+  // Every function that a point gives mass to; where nodes get inertia anyhow, every one of a cell with material.
+  std::vector<char> reached_functions() const {
+    std::vector<char> reached(static_cast<std::size_t>(Basis::count(grid_)), 0);
+    for (std::size_t k = 0; k < body_.points.cells(); ++k) {
+      for (int a = 0; a < per_cell; ++a) {
+        char& of_function = reached[static_cast<std::size_t>(weights_.function(k, a))];
+        for (std::size_t p = body_.points.begin(k); p < body_.points.end(k) && !of_function; ++p) {
+          of_function = moves_on_ || weights_.N(p)[a] != 0;
+        }
+      }
     }
+    return reached;
+  }
+  std::vector<char> reached_unknowns() const {
+    const std::vector<char> functions = reached_functions();
+    std::vector<char> unknowns(Dim * functions.size());
+    for (std::size_t unknown = 0; unknown < unknowns.size(); ++unknown) unknowns[unknown] = functions[unknown / Dim];
+    return unknowns;
+  }
+
+  // A wave's time through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max [s].
+  double time_scale() const {
+    double h = std::numeric_limits<double>::infinity(), shortest = h;
+    for (const Axis& axis : grid_.axes) {
+      for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
+    }
+    for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+      const double density = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
+      shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->wave_modulus()));
+    }
+    return shortest;
+  }
+
+  // Inertia is the mass, scaled where the scene says so. In a body that moves on, points come to lie next to a cell's
+  // edge and give nodes across it stiffness but hardly any mass: such a node gets as much inertia as its stiffness
+  // bound needs for the frequency bound of the body as a whole, so that it neither shortens the step nor blows the run
+  // up. Its weight and momentum stay those of its mass.
+  void make_mass() {
+    const auto try_to = [&](auto&& make) {
+      try {
+        mass_.emplace(make());
+      } catch (const std::invalid_argument& error) {
+        reject(scene_, "mass.kind", error.what());
+      }
+    };
+    node_mass_ = nodal_mass(body_.points, weights_, nodal_force_.corner_sum());
+    if (!moves_on_) {
+      consistent_ = consistent_mass<B, K>(body_.points, weights_, *dofs_);
+      check_projection();
+    }
+    if (scene_.mass.kind == MassKind::consistent) return try_to([&] { return Mass::consistent(consistent_.free); });
+
+    std::vector<double> inertia = node_mass_;
+    const bool gershgorin = scene_.mass.scaling == MassScaling::gershgorin;
+    if (moves_on_ || gershgorin) {
+      std::vector<double> A;
+      for (const auto& material : body_.materials) A.push_back(material->wave_modulus());
+      const std::vector<double> G = stiffness_bound(body_.points, weights_, nodal_force_.corner_sum(), A);
+      const double all_mass = sum_over(node_mass_.size(), [&](std::size_t f) { return node_mass_[f]; });
+      const double all_stiffness = sum_over(G.size(), [&](std::size_t f) { return G[f]; });
+      // ω² bound of the body as a whole, kept from its first phase
+      if (!(omega_squared_bound_ > 0)) omega_squared_bound_ = all_stiffness / all_mass;
+      double added = 0;
+      for (std::size_t f = 0; f < inertia.size(); ++f) {
+        const double needed = G[f] / omega_squared_bound_;
+        added += std::max(0.0, needed - inertia[f]);
+        inertia[f] = gershgorin ? needed : std::max(inertia[f], needed);
+      }
+      errors_.added_inertia = std::max(errors_.added_inertia, added / all_mass);
+    }
+    try_to([&] {
+      std::vector<double> diagonal(size());
+      for (std::size_t k = 0; k < diagonal.size(); ++k) {
+        diagonal[k] = scene_.mass.factor * inertia[static_cast<std::size_t>(dofs_->free[k] / Dim)];
+      }
+      return Mass::lumped(std::move(diagonal));
+    });
+  }
+
+  // Initial values are fitted with the consistent mass, whatever the motion uses.
+  void check_projection() const {
+    const bool projects = !scene_.initial_u.empty() || !scene_.initial_v.empty();
+    if (!projects || scene_.mass.kind == MassKind::consistent || SparseCholesky(consistent_.free).positive_definite())
+      return;
+    reject(scene_, "initial",
+           "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
+  }
+
+  void make_loads() {
+    loads_.emplace(size());
+    for (std::size_t f = 0; f < scene_.forces.size(); ++f) {
+      const auto& force = scene_.forces[f];
+      for (int i = 0; i < Dim; ++i) {
+        loads_->add(force.value[static_cast<std::size_t>(i)], weights_at(force.at, i, fmt::format("force[{}].at", f)));
+      }
+    }
+    if (!surface_.empty() && !surface_.begin_phase(grid_, *dofs_)) {
+      reject(scene_, "traction", "there is no material at this face");
+    }
+    if (scene_.body_force.empty() || varying_body_force()) return;
+    // F_i = Σ_p N_ip m_p b(x_p); a uniform b acts on the nodes' masses
+    const auto uniform = [](const Expression& b) { return !b.uses('x') && !b.uses('y') && !b.uses('z'); };
+    if (B::partition_of_unity && std::ranges::all_of(scene_.body_force, uniform)) {
+      for (std::size_t k = 0; k < size(); ++k) {
+        const int unknown = dofs_->free[k];
+        const double b = scene_.body_force[static_cast<std::size_t>(unknown % Dim)]({}, 0);
+        loads_->add_constant(static_cast<int>(k), node_mass_[static_cast<std::size_t>(unknown / Dim)] * b);
+      }
+      return;
+    }
+    std::vector<double> F(size(), 0.0);
+    add_body_force(0, F);
+    for (std::size_t k = 0; k < size(); ++k) loads_->add_constant(static_cast<int>(k), F[k]);
+  }
+
+  // Weights N_i(x) of the free degrees of freedom at a place.
+  NodalLoads::Weights weights_at(const std::vector<double>& at, int component, const std::string& key) const {
+    Point<Dim> x;
+    std::copy_n(at.begin(), Dim, x.begin());
+    const auto cell = grid_.cell_of(x);
+    const auto values = Basis::evaluate(grid_, cell, x);
+    const auto offset = Basis::offsets(grid_);
+    NodalLoads::Weights weights;
+    for (int a = 0; a < per_cell; ++a) {
+      const int dof =
+          dofs_->number[static_cast<std::size_t>(Dim * (Basis::first(grid_, cell) + offset[a]) + component)];
+      if (dof < 0 && std::abs(values.N[a]) > 1e-12) reject(scene_, key, "there is no material at this place");
+      if (dofs_->is_free(dof) && values.N[a] != 0) weights.emplace_back(dof, values.N[a]);
+    }
+    return weights;
+  }
+
+  bool varying_body_force() const {
+    return std::ranges::any_of(scene_.body_force, [](const Expression& b) { return b.uses('t'); });
   }
 
   // F_i += Σ_p N_ip m_p b(x_p, t)
   void add_body_force(double t, Vec F) const {
-    for (std::size_t p = 0; p < points(); ++p) {
-      const Point<Dim> at = s_.points.place(p);
+    for_points([&](std::size_t k, std::size_t p, std::size_t) {
       for (int i = 0; i < Dim; ++i) {
-        const double force = s_.points.mass[p] * s_.body_force[static_cast<std::size_t>(i)](at, t);
-        for (int a = 0; a < per_cell; ++a) {
-          const int dof = s_.dofs.number[static_cast<std::size_t>(Dim * s_.weights.function(p, a) + i)];
-          if (s_.dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += force * s_.weights.N(a, p);
+        const double force =
+            body_.points.mass[p] * scene_.body_force[static_cast<std::size_t>(i)](body_.points.place(p), t);
+        add_at_functions(k, p, i, force, F);
+      }
+    });
+  }
+  void add_at_functions(std::size_t k, std::size_t p, int component, double value, Vec F) const {
+    for (int a = 0; a < per_cell; ++a) {
+      const int dof = dofs_->number[static_cast<std::size_t>(Dim * weights_.function(k, a) + component)];
+      if (dofs_->is_free(dof)) F[static_cast<std::size_t>(dof)] += value * weights_.N(p)[a];
+    }
+  }
+
+  // σ_yy = −ρ b_y (surface − y)  from  ∂σ_yy/∂y + ρ b_y = 0,  σ_xx = σ_zz = K0 σ_yy
+  void set_geostatic_stress() {
+    if constexpr (Dim == 2) {
+      const double b_y = scene_.body_force.at(1)({}, 0);
+      for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+        const double rho = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
+        std::vector<std::array<double, stillpoint::stress_components(K)>> stress;
+        for (int p = body_.points.material_begin[m]; p < body_.points.material_begin[m + 1]; ++p) {
+          const double depth = scene_.geostatic->surface - body_.points.x[1][static_cast<std::size_t>(p)];
+          const double vertical = rho * b_y * std::max(0.0, depth), side = scene_.geostatic->K0 * vertical;
+          stress.push_back({side, vertical, side, 0});
         }
+        body_.materials[m]->set_stress(stress);
+      }
+    }
+  }
+
+  // --- velocities ---------------------------------------------------------------------------------
+  void set_initial_point_velocity() {
+    if (scene_.initial_v.empty()) return;
+    for (std::size_t p = 0; p < points(); ++p) {
+      for (int i = 0; i < Dim; ++i) {
+        body_.points.v[i][p] = scene_.initial_v[static_cast<std::size_t>(i)](body_.points.place(p), 0);
+      }
+    }
+  }
+
+  // v_i = Σ_p m_p N_ip v_p/m_i. A node whose mass is next to nothing takes the velocity of its cells' points.
+  std::vector<double> velocity_from_points(double t) {
+    constexpr double next_to_nothing = 1e-12;
+    const std::vector<double> momentum =
+        transfer_.nodal_momentum(grid_, body_.points, weights_, nodal_force_.corner_sum());
+    const std::vector<double> of_cells = nodal_sum<Dim + 1>(
+        body_.points, weights_, nodal_force_.corner_sum(), [&](std::size_t k, Corners<Dim + 1, per_cell>& corner) {
+          for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+            for (int a = 0; a < per_cell; ++a) {
+              corner[(Dim + 1) * a] += body_.points.mass[p];
+              for (int i = 0; i < Dim; ++i) {
+                corner[(Dim + 1) * a + 1 + i] += body_.points.mass[p] * body_.points.v[i][p];
+              }
+            }
+          }
+        });
+    note_transfer_errors(momentum);
+    std::vector<double> v(size());
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const auto f = static_cast<std::size_t>(dofs_->free[k] / Dim), i = static_cast<std::size_t>(dofs_->free[k] % Dim);
+      v[k] = (momentum[Dim * f + i] + next_to_nothing * of_cells[(Dim + 1) * f + 1 + i]) /
+             (node_mass_[f] + next_to_nothing * of_cells[(Dim + 1) * f]);
+    }
+    begin_contact(t, v);
+    start_velocity_ = nodal_velocity(t, v);
+    return v;
+  }
+  void begin_contact(double t, Vec v) { boundary_.begin_contact(t, *dofs_, v); }
+
+  // v over the grid's functions.
+  std::vector<double> nodal_velocity(double t, ConstVec v) const {
+    std::vector<double> grid_v(grid_u_.size(), 0.0);
+    for (std::size_t k = 0; k < v.size(); ++k) grid_v[static_cast<std::size_t>(dofs_->free[k])] = v[k];
+    for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
+      grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = boundary_.motion_of(s).velocity(t);
+    }
+    return grid_v;
+  }
+
+  void note_transfer_errors(const std::vector<double>& momentum) {
+    const double mass_at_nodes = sum_over(node_mass_.size(), [&](std::size_t f) { return node_mass_[f]; });
+    errors_.mass = std::max(errors_.mass, std::abs(mass_at_nodes - initial_mass_) / initial_mass_);
+    compare_momentum(point_momentum(), momentum);
+  }
+  struct Momentum {
+    std::array<double, Dim> sum{};
+    double scale = 0;
+  };
+  Momentum point_momentum() const {
+    Momentum momentum;
+    const auto& m = body_.points.mass;
+    for (int i = 0; i < Dim; ++i) {
+      const auto& v = body_.points.v[i];
+      momentum.sum[i] = sum_over(points(), [&](std::size_t p) { return m[p] * v[p]; });
+      momentum.scale += sum_over(points(), [&](std::size_t p) { return m[p] * std::abs(v[p]); });
+    }
+    return momentum;
+  }
+  void compare_momentum(const Momentum& of_points, const std::vector<double>& at_nodes) {
+    if (!(of_points.scale > 0)) return;
+    for (int i = 0; i < Dim; ++i) {
+      const double at_grid = sum_over(at_nodes.size() / Dim, [&](std::size_t f) { return at_nodes[Dim * f + i]; });
+      errors_.momentum = std::max(errors_.momentum, std::abs(at_grid - of_points.sum[i]) / of_points.scale);
+    }
+  }
+
+  // --- a phase ends -------------------------------------------------------------------------------
+  // x_p += Σ N_ip u_i,  V_p *= det f_p, and velocities by the scene's transfer
+  void end_phase(double t, ConstVec u, ConstVec v) {
+    spread(t, u, grid_u_);
+    const std::vector<double> grid_v = nodal_velocity(t, v);
+    const Momentum before = point_momentum();
+    transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), node_mass_, grid_u_.data(),
+                        grid_v.data(), start_velocity_.data());
+    check_momentum_of_increment(before, grid_v);
+    nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
+      if (!body_.materials[m]->finite_strain()) return;
+      body_.materials[m]->end_phase(block);
+      double* V = body_.points.volume.data() + block.first;
+      for (std::size_t q = 0; q < block.count; ++q) V[q] *= determinant<K>(plus_identity<K>(block.H_at(q)));
+    });
+    for_each_block(body_.points.cells(), [&](std::size_t k) {
+      for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+        const auto u_p = weights_.value(grid_u_.data(), k, p);
+        for (int d = 0; d < Dim; ++d) body_.points.x[d][p] += u_p[d];
+      }
+    });
+    surface_.end_phase(grid_u_.data());
+  }
+
+  // Σ_p m_p v_p has changed by Σ_i m_i (v_i − v_i at the start) in flip and xpic, and is Σ_i m_i v_i in pic and apic.
+  void check_momentum_of_increment(const Momentum& before, const std::vector<double>& grid_v) {
+    const double share = scene_.phase.transfer == Transfer::flip   ? scene_.phase.flip_share
+                         : scene_.phase.transfer == Transfer::xpic ? 1
+                                                                   : 0;
+    std::vector<double> expected(grid_v.size());
+    for (std::size_t unknown = 0; unknown < expected.size(); ++unknown) {
+      expected[unknown] = node_mass_[unknown / Dim] * (grid_v[unknown] - share * start_velocity_[unknown]);
+    }
+    Momentum after = point_momentum();
+    for (int i = 0; i < Dim; ++i) after.sum[i] -= share * before.sum[i];
+    after.scale = std::max(after.scale, before.scale);
+    compare_momentum(after, expected);
+  }
+
+  void check_inside(double t) const {
+    for (std::size_t p = 0; p < points(); ++p) {
+      for (int d = 0; d < Dim; ++d) {
+        const double x = body_.points.x[d][p];
+        if (x >= grid_.axes[d].min() && x <= grid_.axes[d].max()) continue;
+        throw PointLost(
+            fmt::format("at t = {:.6g} s material point {} left the grid at {} = {:.6g}, outside {:.6g} to "
+                        "{:.6g}; expected a larger grid, a support or a wall",
+                        t, body_.points.number[p] + 1, "xyz"[d], x, grid_.axes[d].min(), grid_.axes[d].max()));
+      }
+    }
+  }
+
+  // Largest |u_i| over a cell's width; no point moves further than the nodes around it where N_i ≥ 0 and Σ N_i = 1.
+  double largest_motion(ConstVec u) const {
+    std::array<double, Dim> h;
+    for (std::size_t d = 0; d < Dim; ++d) h[d] = (scene_.grid.max[d] - scene_.grid.min[d]) / scene_.grid.cells[d];
+    const int* number = dofs_->free.data();
+    return reduce(
+        u.size(), 0.0, [&](std::size_t k) { return std::abs(u[k]) / h[number[k] % Dim]; },
+        [](double a, double b) { return a > b ? a : b; });
+  }
+  double largest_strain() const {
+    double largest = 0;
+    nodal_force_.visit(grid_u_.data(), [&](std::size_t, const Block& block) {
+      double of_block = 0;
+      for (const auto& row : block.H) {
+        for (std::size_t q = 0; q < block.count; ++q) of_block = std::max(of_block, std::abs(row[q]));
+      }
+#pragma omp critical(stillpoint_largest_strain)
+      largest = std::max(largest, of_block);
+    });
+    return largest;
+  }
+
+  // --- grid values --------------------------------------------------------------------------------
+  const PointMaterial<K>& material_of(std::size_t k) const {
+    return *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(k))];
+  }
+  void spread_prescribed(double t, std::vector<double>& grid) const {
+    for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
+      grid[static_cast<std::size_t>(dofs_->prescribed[s])] = boundary_.displacement_in_phase(s, t);
+    }
+  }
+  // The grid's displacements from the free unknowns and the supports at time t.
+  void spread(double t, ConstVec u, std::vector<double>& grid) const {
+    for_each_index(u.size(),
+                   [u, to = grid.data(), number = dofs_->free.data()](std::size_t k) { to[number[k]] = u[k]; });
+    spread_prescribed(t, grid);
+  }
+  // [u, u − u committed] at each function.
+  void spread_increments(double t, ConstVec u) const {
+    const double* committed = committed_u_.data();
+    double* to = grid_u_du_.data();
+    for_each_index(u.size(), [u, to, committed, number = dofs_->free.data()](std::size_t k) {
+      const int unknown = number[k], at = 2 * Dim * (unknown / Dim) + unknown % Dim;
+      to[at] = u[k];
+      to[at + Dim] = u[k] - committed[unknown];
+    });
+    for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
+      const int unknown = dofs_->prescribed[s], at = 2 * Dim * (unknown / Dim) + unknown % Dim;
+      to[at] = boundary_.displacement_in_phase(s, t);
+      to[at + Dim] = to[at] - committed[unknown];
+    }
+  }
+
+  /// visit(occupied cell, point, number of the point)
+  template <class Visit>
+  void for_points(const Visit& visit) const {
+    for (std::size_t k = 0; k < body_.points.cells(); ++k) {
+      for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+        visit(k, p, static_cast<std::size_t>(body_.points.number[p]));
       }
     }
   }
@@ -246,33 +750,53 @@ class MaterialPointPhase final : public LagrangianPhase {
   std::vector<double> project(const std::vector<Expression>& field, const std::vector<double>& held) const {
     std::vector<double> u(size(), 0.0);
     if (field.empty()) return u;
-    for (std::size_t p = 0; p < points(); ++p) {
-      const Point<Dim> at = s_.points.place(p);
+    for_points([&](std::size_t k, std::size_t p, std::size_t) {
       for (int i = 0; i < Dim; ++i) {
-        const double moment = s_.points.mass[p] * field[static_cast<std::size_t>(i)](at, 0);
-        for (int a = 0; a < per_cell; ++a) {
-          const int dof = s_.dofs.number[static_cast<std::size_t>(Dim * s_.weights.function(p, a) + i)];
-          if (s_.dofs.is_free(dof)) u[static_cast<std::size_t>(dof)] += moment * s_.weights.N(a, p);
-        }
+        add_at_functions(k, p, i, body_.points.mass[p] * field[static_cast<std::size_t>(i)](body_.points.place(p), 0),
+                         u);
       }
-    }
+    });
+    const SplitMatrix M = moves_on_ ? consistent_mass<B, K>(body_.points, weights_, *dofs_) : consistent_;
     if (!held.empty()) {
       const Eigen::Map<const Eigen::VectorXd> u_s(held.data(), static_cast<Eigen::Index>(held.size()));
-      Eigen::Map<Eigen::VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())) -= s_.consistent.prescribed * u_s;
+      Eigen::Map<Eigen::VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())) -= M.prescribed * u_s;
     }
-    if (s_.mass.is_lumped()) {
-      SparseCholesky(s_.consistent.free).solve(u, u);
-    } else {
-      s_.mass.solve(u, u);
-    }
+    SparseCholesky(M.free).solve(u, u);
     return u;
   }
 
-  PhaseParts<B, Law> s_;
-  // Work arrays, sized once; evaluations of one phase are not for several threads at once.
-  mutable NodalForce<B, Dim> nodal_force_;
-  mutable std::vector<double> grid_u_, grid_du_;  // (Dim × functions of the grid); grid_du_ is 0 at supports
-  std::vector<double> stress_;                    // Cauchy, committed, (P × tensor)
+  const Scene scene_;
+  bool moves_on_;
+  bool history_dependent_ = false, finite_strain_ = false;
+  Grid<Dim> grid_;
+  Body<K> body_;
+  VelocityTransfer<B, K> transfer_;
+  Boundary boundary_;
+  SurfaceLoads<B, K> surface_;
+  PointOrder<Dim> order_;
+  std::vector<double> origin_;  // places at the start of the run, in the points' order of then, (P × Dim)
+  double initial_mass_ = 0;
+  TransferErrors errors_;
+
+  // Of the present phase:
+  PointWeights<B, K> weights_;
+  std::optional<DegreesOfFreedom> dofs_;
+  std::vector<double> node_mass_;  // m_i, (functions)
+  SplitMatrix consistent_;         // M as assembled, for projections and moving supports; of a single phase only
+  std::optional<Mass> mass_;
+  std::optional<NodalLoads> loads_;
+  std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)
+  std::vector<double> committed_u_;     // likewise
+  double committed_t_ = 0;
+  double omega_squared_bound_ = 0;
+
+  // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
+  mutable NodalForce<B, K> nodal_force_;
+  mutable std::vector<double> grid_u_;     // (functions × Dim)
+  mutable std::vector<double> grid_u_du_;  // (functions × 2 Dim)
+  mutable double last_t_ = 0;
+  mutable double undeformed_bound_ = 0;
+  mutable long looks_ = 0;
 };
 
 }  // namespace stillpoint

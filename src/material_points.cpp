@@ -64,7 +64,7 @@ class CellPlaces {
 }  // namespace
 
 template <int Dim>
-PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density) {
+PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState) {
   PlacedBody<Dim> placed;
   MaterialPoints<Dim>& points = placed.points;
   CellPlaces<Dim> places(body);
@@ -110,6 +110,7 @@ PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double d
   return placed;
 }
 
-template PlacedBody<1> place_body<1>(const BodySpec&, const Grid<1>&, double);
+template PlacedBody<1> place_body<1>(const BodySpec&, const Grid<1>&, double, StressState);
+template PlacedBody<2> place_body<2>(const BodySpec&, const Grid<2>&, double, StressState);
 
 }  // namespace stillpoint

@@ -75,7 +75,8 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureRe
   }
   const int needed = 2 * degree_of(scene.grid.basis) - 2;
   if (quadrature.degree < needed) {
-    const bool equal = scene.bodies[0].volumes == VolumeRule::equal;
+    const bool equal =
+        std::ranges::any_of(scene.bodies, [](const BodySpec& body) { return body.volumes == VolumeRule::equal; });
     notes.push_back(fmt::format("the points integrate degree {}, this basis needs {} for its full order: {}",
                                 quadrature.degree, needed,
                                 equal ? "take consistent volumes" : "take more points per cell or Gauss points"));
@@ -88,7 +89,10 @@ std::vector<std::string> support_notes(const Scene& scene) {
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     for (std::size_t d = 0; d < scene.supports[k].at.size(); ++d) {
       const double at = scene.supports[k].at[d];
-      if (at >= scene.bodies[0].min[d] && at <= scene.bodies[0].max[d]) continue;
+      const bool inside = std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
+        return body.file.empty() ? at >= body.min[d] && at <= body.max[d] : true;
+      });
+      if (inside) continue;
       notes.push_back(fmt::format(
           "support[{}] at {:.6g} lies outside the body: it holds the cell that the body shares with it", k, at));
     }

@@ -22,6 +22,14 @@ inline void for_each_index(std::size_t n, const Body& body) {
   }
 }
 
+/// body(k) for k = 0 … n−1, a body that is itself a loop over the points of a cell: threaded from a thousand on.
+template <class Body>
+inline void for_each_block(std::size_t n, const Body& body) {
+  constexpr std::size_t blocks_for_threads = 1024;
+#pragma omp parallel for schedule(static) if (n >= blocks_for_threads)
+  for (std::size_t k = 0; k < n; ++k) body(k);
+}
+
 /// join over term(0) … term(n−1), join associative up to rounding. The order is fixed by n alone: at most 64 blocks,
 /// each in 16 lanes, lanes and then blocks joined in order; neither threads nor the compiler's vectors change it.
 template <class Value, class Term, class Join>

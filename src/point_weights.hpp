@@ -1,73 +1,81 @@
-// The frozen weights N_ip and gradients ∇N_ip of a phase, as structure of arrays over points.
+// The frozen weights N_ip and gradients ∇N_ip of a phase.
 #pragma once
 
 #include <stillpoint/basis.hpp>
 #include <stillpoint/material.hpp>
 #include <stillpoint/material_points.hpp>
 
+#include <array>
 #include <vector>
+
+#include "deformation.hpp"
+#include "parallel_loop.hpp"
 
 namespace stillpoint {
 
-template <AxisBasis B, int Dim>
+/// All weights of a point lie together: the loops over cells go from point to point and take the local functions of one
+/// at a time. A row of gradients is ∂N_a/∂x_j for one j, and where axisymmetric the last row is N_a/r.
+template <AxisBasis B, Kinematics K>
 class PointWeights {
  public:
-  using Basis = TensorBasis<B, Dim>;
+  static constexpr int dim = dimensions(K);
+  using Basis = TensorBasis<B, dim>;
   static constexpr int per_cell = Basis::per_cell;
+  static constexpr int rows = K == Kinematics::axisymmetric ? dim + 1 : dim;
 
-  PointWeights(const Grid<Dim>& grid, const MaterialPoints<Dim>& points) : offset_(Basis::offsets(grid)) {
-    const std::size_t n = points.size();
-    first_.resize(n);
-    for (auto& N : N_) N.resize(n);
-    for (auto& direction : dN_) {
-      for (auto& dN : direction) dN.resize(n);
-    }
-    for (std::size_t k = 0; k < points.cell.size(); ++k) {
+  void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
+    offset_ = Basis::offsets(grid);
+    first_.resize(points.cells());
+    N_.resize(per_cell * points.size());
+    dN_.resize(rows * per_cell * points.size());
+    for_each_block(points.cells(), [&](std::size_t k) {
       const auto cell = grid.cell_at(points.cell[k]);
-      for (int q = points.cell_begin[k]; q < points.cell_begin[k + 1]; ++q) {
-        const auto p = static_cast<std::size_t>(q);
+      first_[k] = Basis::first(grid, cell);
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         const auto values = Basis::evaluate(grid, cell, points.place(p));
-        first_[p] = Basis::first(grid, cell);
+        double* N = N_.data() + per_cell * p;
+        double* dN = dN_.data() + rows * per_cell * p;
         for (int a = 0; a < per_cell; ++a) {
-          N_[a][p] = values.N[a];
-          for (int d = 0; d < Dim; ++d) dN_[d][a][p] = values.dN[d][a];
+          N[a] = values.N[a];
+          for (int j = 0; j < dim; ++j) dN[per_cell * j + a] = values.dN[j][a];
+          if constexpr (rows > dim) dN[per_cell * dim + a] = values.N[a] / points.x[0][p];
         }
       }
-    }
+    });
   }
 
-  /// Global number of point p's local function a.
-  int function(std::size_t p, int a) const {
-    if constexpr (Dim == 1) return first_[p] + a;  // contiguous: known to the compiler
-    return first_[p] + offset_[a];
-  }
-  double N(int a, std::size_t p) const { return N_[a][p]; }
-  double dN(int d, int a, std::size_t p) const { return dN_[d][a][p]; }
+  /// Grid number of local function a in occupied cell k.
+  int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
+  /// (per_cell) and (rows × per_cell) of point p.
+  const double* N(std::size_t p) const { return N_.data() + per_cell * p; }
+  const double* dN(std::size_t p) const { return dN_.data() + rows * per_cell * p; }
 
-  /// Σ_a N_ap u_a; u over the grid's functions, component i at [Dim function + i].
-  std::array<double, Dim> value(const double* u, std::size_t p) const {
-    std::array<double, Dim> sum{};
+  /// Σ_a N_ap u_a at point p of cell k; u over the grid's functions, component i at [dim function + i].
+  std::array<double, dim> value(const double* u, std::size_t k, std::size_t p) const {
+    std::array<double, dim> sum{};
     for (int a = 0; a < per_cell; ++a) {
-      for (int i = 0; i < Dim; ++i) sum[i] += u[Dim * function(p, a) + i] * N_[a][p];
+      for (int i = 0; i < dim; ++i) sum[i] += u[dim * function(k, a) + i] * N(p)[a];
     }
     return sum;
   }
-  /// H_ij = Σ_a u_a,i ∂N_a/∂x_j
-  Tensor<Dim> gradient(const double* u, std::size_t p) const {
-    Tensor<Dim> H{};
+  /// H_ij = Σ_a u_a,i ∂N_a/∂x_j, and H_θθ = Σ_a u_a,r N_a/r
+  TensorOf<K> gradient(const double* u, std::size_t k, std::size_t p) const {
+    TensorOf<K> H{};
     for (int a = 0; a < per_cell; ++a) {
-      for (int i = 0; i < Dim; ++i) {
-        for (int j = 0; j < Dim; ++j) H[Dim * i + j] += u[Dim * function(p, a) + i] * dN_[j][a][p];
+      const double* of_function = u + dim * function(k, a);
+      for (int i = 0; i < dim; ++i) {
+        for (int j = 0; j < dim; ++j) H[dim * i + j] += of_function[i] * dN(p)[per_cell * j + a];
       }
+      if constexpr (rows > dim) H[dim * dim] += of_function[0] * dN(p)[per_cell * dim + a];
     }
     return H;
   }
 
  private:
   std::array<int, per_cell> offset_;
-  std::vector<int> first_;                                         // (P)
-  std::array<std::vector<double>, per_cell> N_;                    // (per_cell × P)
-  std::array<std::array<std::vector<double>, per_cell>, Dim> dN_;  // (Dim × per_cell × P) [1/m]
+  std::vector<int> first_;  // (occupied cells)
+  std::vector<double> N_;   // (P × per_cell)
+  std::vector<double> dN_;  // (P × rows × per_cell) [1/m]
 };
 
 }  // namespace stillpoint

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "parallel_loop.hpp"
 
@@ -41,14 +42,30 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
   return balance(t, u, Q);
 }
 
-// Q = F − R − M_fs (a_s + c_m v_s)
+// Q = F − R − M_fs (a_s + c_m v_s) + contact forces
 bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
   const Vec F = F_.span(), R = R_.span();
   system_.external_force(t, F);
+  system_.add_following_force(t, u, F);
+  last_t_ = t;
   if (!system_.internal_force(t, u, R)) return false;
+  last_out_of_balance(t, Q);
+  return true;
+}
+
+void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
+  const ConstVec F = F_.span(), R = R_.span();
   for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
   system_.add_support_inertia(t, linear_.mass, Q);
-  return true;
+  system_.add_contact_force(t, linear_, Q);
+}
+
+bool RelaxationSystem::accept(double t, Vec y, bool force_is_current) {
+  if (!system_.history_dependent() && !system_.has_contact()) return false;
+  const ConstVec u = first_half(y);
+  if (!force_is_current && !balance(t, u, Q_.span())) throw std::logic_error("an accepted state cannot be evaluated");
+  system_.commit_last();
+  return system_.update_contact(t, u, second_half(y));
 }
 
 double RelaxationSystem::residual(double t, ConstVec u) {
@@ -60,6 +77,7 @@ double RelaxationSystem::last_residual() {
   const ConstVec F = F_.span(), R = R_.span();
   const Vec Q = Q_.span();
   for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
+  system_.add_contact_force(last_t_, linear_, Q);
   const double unbalanced = norm(Q_), loads = norm(F_);
   force_scale_ = std::max({force_scale_, loads, loads > 0 ? 0 : system_.reaction_norm()});
   if (unbalanced == 0) return 0;

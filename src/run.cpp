@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 
 #include "exact_error.hpp"
 #include "history.hpp"
+#include "inertia.hpp"
 #include "load_schedule.hpp"
 #include "stiffening_step.hpp"
 #include "stopwatch.hpp"
@@ -72,6 +74,28 @@ History open_history(const std::filesystem::path& out, const std::vector<std::st
   }
 }
 
+/// The motion through one phase: its unknowns and what integrates them.
+struct Motion {
+  Motion(Model& model, const VectorSpace& vectors, double t, ConstVec u0, ConstVec v0)
+      : relaxation(*model.phase, *model.damping, vectors),
+        y(vectors.make(2 * model.phase->size())),
+        u(vectors.view(first_half(y.span()))),
+        v(vectors.view(second_half(y.span()))),
+        integrator(make_integrator(model.integrator, relaxation)) {
+    std::ranges::copy(u0, first_half(y.span()).begin());
+    std::ranges::copy(v0, second_half(y.span()).begin());
+    integrator->start(t, y);
+  }
+  Motion(const Motion&) = delete;
+  Motion& operator=(const Motion&) = delete;
+
+  RelaxationSystem relaxation;
+  Vector y;     // [u; v]
+  Vector u, v;  // its halves, in place
+  std::unique_ptr<Integrator> integrator;
+  std::optional<StiffeningStep> stiffening;
+};
+
 /// One relaxation, from the scene's initial values to its end.
 class Run {
  public:
@@ -79,44 +103,36 @@ class Run {
       : scene_(scene),
         options_(options),
         model_(make_model(scene)),
-        relaxation_(*model_.phase, *model_.damping, vectors_),
-        y_(vectors_.make(2 * model_.phase->size())),
-        u_(vectors_.view(first_half(y_.span()))),
-        v_(vectors_.view(second_half(y_.span()))),
-        integrator_(make_integrator(model_.integrator, relaxation_)),
         monitor_(monitor_options(scene, model_)),
-        schedule_(scene, *model_.phase, scene.stop.residual > 0 ? scene.stop.time : 0),
         probes_(scene, *model_.phase),
-        history_(open_history(options.out, probes_.columns())),
+        inertia_(*model_.phase),
+        history_(open_history(options.out, columns())),
         interval_(output_interval(scene, model_)) {
-    std::ranges::copy(model_.u, first_half(y_.span()).begin());
-    std::ranges::copy(model_.v, second_half(y_.span()).begin());
     // A step that was asked for as such is left alone.
-    if (model_.phase->nonlinear() && !scene.integrator.step) {
-      stiffening_.emplace(*model_.phase, model_.u, model_.integrator.max_step);
-    }
+    if (model_.phase->stiffens() && !scene.integrator.step) initial_stiffening_ = model_.phase->stiffening(0, model_.u);
+    begin_phase(model_.u, model_.v);
   }
 
   Summary relax() {
-    integrator_->start(t_, y_);
     record();
     const Stopwatch stepping;
     while (status_ == RunStatus::running) {
       const double t_row = next_row_time();
-      const StepReport step = integrator_->step(t_row);
+      const StepReport step = motion_->integrator->step(t_row);
       t_ = step.t;
       if (step.status != StepReport::Status::ok) {
+        if (step.status == StepReport::Status::inadmissible && try_next_phase()) continue;
         status_ = status_of(step.status);
         reason_ = step.message;
         record();  // the last good state
         break;
       }
       step_ = step.h;
-      if (model_.phase->history_dependent()) model_.phase->commit(t_, u());
-      if (stiffening_) integrator_->set_max_step(stiffening_->longest(t_, u(), v()));
+      accept();
       watch();
       if (t_ >= t_row || status_ != RunStatus::running) record();
       report_progress();
+      if (status_ == RunStatus::running && model_.phase->share_of_phase(t_, u()) >= 1) next_phase();
     }
     stepping_s_ = stepping.seconds();
     history_.finish();
@@ -124,8 +140,55 @@ class Run {
   }
 
  private:
-  ConstVec u() const { return first_half(y_.span()); }
-  ConstVec v() const { return second_half(y_.span()); }
+  ConstVec u() const { return first_half(motion_->y.span()); }
+  ConstVec v() const { return second_half(motion_->y.span()); }
+  long steps() const { return earlier_steps_ + motion_->integrator->steps(); }
+  long evaluations() const { return earlier_evaluations_ + motion_->relaxation.evaluations(); }
+  long rejected_steps() const { return earlier_rejected_ + motion_->integrator->rejected_steps(); }
+
+  std::vector<std::string> columns() const {
+    std::vector<std::string> all = probes_.columns();
+    std::ranges::copy(inertia_.columns(), std::back_inserter(all));
+    return all;
+  }
+
+  void begin_phase(ConstVec u0, ConstVec v0) {
+    motion_.emplace(model_, vectors_, t_, u0, v0);
+    if (initial_stiffening_) {
+      motion_->stiffening.emplace(*model_.phase, model_.phase->size(), model_.integrator.max_step,
+                                  *initial_stiffening_);
+    }
+    schedule_.emplace(scene_, *model_.phase, scene_.stop.residual > 0 ? scene_.stop.time : 0);
+  }
+  void next_phase() {
+    inertia_.advance(t_, motion_->relaxation.last_external_force(), u());
+    try {
+      const std::vector<double> v0 = model_.phase->begin_next_phase(t_, u(), v());
+      earlier_steps_ = steps();
+      earlier_evaluations_ = evaluations();
+      earlier_rejected_ = rejected_steps();
+      motion_.reset();
+      begin_phase(std::vector<double>(v0.size(), 0.0), v0);
+      inertia_.begin_phase(motion_->relaxation.last_external_force());
+      ++phases_;
+    } catch (const PointLost& lost) {
+      status_ = RunStatus::failed;
+      reason_ = lost.what();
+    }
+  }
+  // A cell that is about to turn inside out is good again in the next phase.
+  bool try_next_phase() {
+    if (!model_.phase->moves_on() || motion_->integrator->steps() == 0) return false;
+    next_phase();
+    return status_ == RunStatus::running;
+  }
+
+  void accept() {
+    if (motion_->relaxation.accept(t_, motion_->y.span(), motion_->integrator->force_is_current())) {
+      motion_->integrator->velocity_changed();
+    }
+    if (motion_->stiffening) motion_->integrator->set_max_step(motion_->stiffening->longest(t_, u(), v()));
+  }
 
   // A row that rounding puts next to the end is the row at the end.
   double next_row_time() const {
@@ -136,17 +199,18 @@ class Run {
   void measure() {
     if (measured_at_ == t_) return;
     measured_at_ = t_;
-    residual_ = integrator_->force_is_current() ? relaxation_.last_residual() : relaxation_.residual(t_, u());
-    work_scale_ = relaxation_.work_scale(u_);
-    kinetic_energy_ = relaxation_.kinetic_energy(v_);
+    residual_ = motion_->integrator->force_is_current() ? motion_->relaxation.last_residual()
+                                                        : motion_->relaxation.residual(t_, u());
+    work_scale_ = motion_->relaxation.work_scale(motion_->u);
+    kinetic_energy_ = motion_->relaxation.kinetic_energy(motion_->v);
   }
 
   void watch() {
     if (monitor_.due(t_)) {
       measure();
-      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_));
+      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_->settled(t_));
     }
-    if (status_ == RunStatus::running) status_ = monitor_.check_limits(t_, integrator_->steps(), wall_.seconds());
+    if (status_ == RunStatus::running) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
     reason_ = monitor_.reason();
     if (status_ == RunStatus::running && options_.interrupted && options_.interrupted()) {
       status_ = RunStatus::interrupted;
@@ -156,9 +220,10 @@ class Run {
 
   void record() {
     measure();
-    model_.phase->commit(t_, u());
-    history_.add({t_, integrator_->steps(), relaxation_.evaluations(), residual_, kinetic_energy_},
-                 probes_.read(t_, u(), v()));
+    inertia_.advance(t_, motion_->relaxation.last_external_force(), u());
+    std::vector<double> values = probes_.read(t_, u(), v());
+    std::ranges::copy(inertia_.values(kinetic_energy_), std::back_inserter(values));
+    history_.add({t_, steps(), evaluations(), residual_, kinetic_energy_}, values);
     while (static_cast<double>(rows_) * interval_ <= t_) ++rows_;
   }
 
@@ -166,7 +231,7 @@ class Run {
     constexpr double seconds_between = 0.2;
     if (!options_.progress || wall_.seconds() < next_progress_) return;
     next_progress_ = wall_.seconds() + seconds_between;
-    options_.progress({t_, scene_.stop.time, integrator_->steps(), residual_, scene_.stop.residual, wall_.seconds()});
+    options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
   }
 
   Summary summary() {
@@ -177,15 +242,17 @@ class Run {
     s.reason = reason_;
     s.exit_status = exit_status_of(status_, scene_);
     s.t = t_;
-    s.steps = integrator_->steps();
-    s.rejected_steps = integrator_->rejected_steps();
-    s.rhs_evaluations = relaxation_.evaluations();
+    s.steps = steps();
+    s.rejected_steps = rejected_steps();
+    s.rhs_evaluations = evaluations();
+    s.phases = phases_;
     s.points = model_.phase->points();
     s.dofs = model_.phase->size();
     s.threads = omp_get_max_threads();
     s.wall_s = wall_.seconds();
     if (s.steps > 0)
       s.ns_per_point_step = 1e9 * stepping_s_ / (static_cast<double>(s.steps) * static_cast<double>(s.points));
+    for (const PointArray& array : model_.phase->point_arrays()) s.bytes_per_point += array.bytes_per_point;
     s.residual = residual_;
     s.kinetic_energy = kinetic_energy_;
     s.omega_1 = model_.omega_1;
@@ -197,12 +264,17 @@ class Run {
     s.damping = model_.damping->name();
     s.notes = model_.notes;
     s.error = exact_error(scene_, *model_.phase, t_, u());
+    if (model_.phase->moves_on()) s.transfer = model_.phase->transfer_errors();
+    if (inertia_.watches()) s.external_work = inertia_.external_work();
     const std::vector<double> values = probes_.read(t_, u(), v());
     std::size_t column = 0;
     for (std::size_t k = 0; k < probes_.specs().size(); ++k) {
       const ProbeSpec& probe = probes_.specs()[k];
-      s.probe_places[probe.name] = probes_.place(k);
-      for (const std::string& field : probe.fields) s.probes[probe.name].emplace_back(field, values[column++]);
+      if (!probes_.place(k).empty()) s.probe_places[probe.name] = probes_.place(k);
+    }
+    for (const std::string& name : probes_.columns()) {
+      const std::size_t dot = name.find('.');
+      s.probes[name.substr(0, dot)].emplace_back(name.substr(dot + 1), values[column++]);
     }
     return s;
   }
@@ -212,21 +284,22 @@ class Run {
   Stopwatch wall_;
   VectorSpace vectors_;
   Model model_;
-  RelaxationSystem relaxation_;
-  Vector y_;      // [u; v]
-  Vector u_, v_;  // its halves, in place
-  std::unique_ptr<Integrator> integrator_;
   Monitor monitor_;
-  LoadSchedule schedule_;
   Probes probes_;
+  Inertia inertia_;
   History history_;
   double interval_;  // between rows [s]
-  std::optional<StiffeningStep> stiffening_;
+  std::optional<double> initial_stiffening_;
+
+  std::optional<Motion> motion_;  // of the present phase
+  std::optional<LoadSchedule> schedule_;
+  int phases_ = 1;
+  long earlier_steps_ = 0, earlier_evaluations_ = 0, earlier_rejected_ = 0;  // of the phases before
 
   double t_ = 0, step_ = 0;
   long rows_ = 0;  // number of the next row: it is due at rows_ · interval_
   double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0;
-  std::optional<double> measured_at_;  // the t of both
+  std::optional<double> measured_at_;  // the t of these
   double stepping_s_ = 0, next_progress_ = 0;
   RunStatus status_ = RunStatus::running;
   std::string reason_;

@@ -18,6 +18,7 @@ class SteppingIntegrator : public Integrator {
   void start(double t, Vector& y) final;
   StepReport step(double t_stop) final;
   void set_max_step(double h) final;
+  void velocity_changed() final { restart(t_, *y_); }
   long steps() const final { return steps_; }
   long rejected_steps() const final { return rejected_; }
 
@@ -33,6 +34,8 @@ class SteppingIntegrator : public Integrator {
 
   /// Begins at (t, y).
   virtual void begin(double t, const Vector& y) = 0;
+  /// Begins again at (t, y) where only v has changed; the last force evaluation was there.
+  virtual void restart(double t, const Vector& y) { begin(t, y); }
   /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
   /// read.
   virtual Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) = 0;

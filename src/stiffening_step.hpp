@@ -14,9 +14,9 @@ namespace stillpoint {
 /// time. A collapse would shrink it without end; past a ten-thousandth the integrator is left to report it.
 class StiffeningStep {
  public:
-  /// full_step [s]: what is right for the initial state u, (n).
-  StiffeningStep(const LagrangianPhase& phase, ConstVec u, double full_step)
-      : phase_(phase), full_step_(full_step), initial_(phase.stiffening(0, u)), ahead_(u.size()) {}
+  /// full_step [s]: what is right where the stiffening is `initial`; n: unknowns of the phase.
+  StiffeningStep(const LagrangianPhase& phase, std::size_t n, double full_step, double initial)
+      : phase_(phase), full_step_(full_step), initial_(initial), ahead_(n) {}
 
   /// The step to take from (t, u, v); u, v: (n).
   double longest(double t, ConstVec u, ConstVec v) {

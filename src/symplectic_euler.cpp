@@ -32,10 +32,15 @@ class SymplecticEuler final : public SteppingIntegrator {
         next_Q_(system.vectors().make(system.size())),
         a_(system.vectors().make(system.size())) {}
 
+  // A step ends with the force at its end, unless it was refused.
+  bool force_is_current() const override { return force_is_current_; }
+
  private:
   void begin(double t, const Vector& y) override {
     admissible_ = system().out_of_balance(t, first_half(y.span()), Q_.span());
+    force_is_current_ = true;
   }
+  void restart(double t, const Vector& /*y*/) override { system().last_out_of_balance(t, Q_.span()); }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
     if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
@@ -49,18 +54,23 @@ class SymplecticEuler final : public SteppingIntegrator {
       v_new[i] = v[i] + h * a[i];
       u_new[i] = u[i] + h * v_new[i];
     });
+    force_is_current_ = false;
     if (!system().out_of_balance(t + h, u_new, next_Q_.span())) {
       return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
     }
     return {.h = h};
   }
 
-  void accepted() override { std::swap(Q_, next_Q_); }
+  void accepted() override {
+    std::swap(Q_, next_Q_);
+    force_is_current_ = true;
+  }
 
   DampedAcceleration acceleration_;
   Vector Q_, next_Q_;  // (n) at t_n and at the trial's time
   Vector a_;           // (n)
   bool admissible_ = true;
+  bool force_is_current_ = false;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <concepts>
 #include <optional>
+#include <vector>
 
 namespace stillpoint {
 
@@ -140,6 +141,32 @@ struct TensorBasis {
       }
     }
     return values;
+  }
+  /// The functions that are not zero on a face of the grid, ascending; face_values() leaves out slopes along the face.
+  static std::vector<int> face_functions(const Grid<Dim>& grid, int axis, bool upper) {
+    // Across the face the one value there is: the last function, or the last but one where a slope follows it.
+    const int count = B::count(grid.axes[static_cast<std::size_t>(axis)]);
+    const int across = !upper ? 0 : B::is_value(B::per_cell - 1) ? count - 1 : count - 2;
+    std::vector<int> found;
+    for (int number = 0; number < TensorBasis::count(grid); ++number) {
+      if (index_along(grid, number, axis) == across) found.push_back(number);
+    }
+    return found;
+  }
+  static std::vector<int> face_values(const Grid<Dim>& grid, int axis, bool upper) {
+    std::vector<int> values = face_functions(grid, axis, upper);
+    std::erase_if(values, [&](int number) {
+      for (int d = 0; d < Dim; ++d) {
+        if (!B::is_value(index_along(grid, number, d))) return true;
+      }
+      return false;
+    });
+    return values;
+  }
+  /// Index along an axis of a function by its global number.
+  static int index_along(const Grid<Dim>& grid, int number, int axis) {
+    for (int d = 0; d < axis; ++d) number /= B::count(grid.axes[static_cast<std::size_t>(d)]);
+    return number % B::count(grid.axes[static_cast<std::size_t>(axis)]);
   }
   /// The function that alone carries the value at x (1 there, all others 0), by its global number; none inside a
   /// spline.

@@ -62,6 +62,8 @@ class Integrator {
   virtual StepReport step(double t_stop) = 0;
   /// Lowers or raises max_step from the next step on, where the critical step changes with the state. h > 0 [s].
   virtual void set_max_step(double h) = 0;
+  /// v in y was changed at the present t, as by a contact that closed; u was not.
+  virtual void velocity_changed() = 0;
   /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
   virtual bool force_is_current() const { return false; }
   virtual long steps() const = 0;           // accepted

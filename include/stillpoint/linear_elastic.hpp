@@ -5,24 +5,53 @@
 
 namespace stillpoint {
 
-template <StressState State>
+template <StressState S>
 class LinearElastic {
  public:
-  static constexpr int dim = dimensions(State);
-  static constexpr bool history_dependent = false;
+  static constexpr StressState state = S;
   static constexpr bool finite_strain = false;
 
-  explicit LinearElastic(const LameParameters& m) requires(dim == 1)
-      : stiffness_{State == StressState::uniaxial_stress ? m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu)  // E
-                                                         : m.lambda + 2 * m.mu} {}
+  explicit LinearElastic(const LameParameters& m) : lambda_(m.lambda), mu_(m.mu) {
+    if (S == StressState::uniaxial_stress)
+      young_ = m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu);
+    else
+      young_ = m.lambda + 2 * m.mu;
+  }
 
-  // σ_xx = E ε_xx where the section is free to contract, (λ + 2μ) ε_xx where it is not
-  Tensor<dim> first_piola(const Tensor<dim>& H) const { return {stiffness_[0] * H[0]}; }
-  Tensor<dim> cauchy(const Tensor<dim>& H) const { return first_piola(H); }
-  Moduli<dim> moduli(const Tensor<dim>&) const { return stiffness_; }
+  Gradient<S> first_piola(const Gradient<S>& H) const {
+    if constexpr (dimensions(S) == 1) {
+      return {young_ * H[0]};
+    } else {
+      const double tr = lambda_ * (H[0] + H[3]);
+      const double xy = mu_ * (H[1] + H[2]);
+      Gradient<S> P{};
+      P[0] = tr + 2 * mu_ * H[0];
+      P[1] = P[2] = xy;
+      P[3] = tr + 2 * mu_ * H[3];
+      return P;
+    }
+  }
+  Stress<S> cauchy(const Gradient<S>& H) const {
+    const Gradient<S> P = first_piola(H);
+    if constexpr (dimensions(S) == 1)
+      return {P[0]};
+    else
+      return {P[0], P[3], lambda_ * (H[0] + H[3]), P[1]};
+  }
+  Moduli<S> moduli(const Gradient<S>&) const {
+    Moduli<S> A{};
+    constexpr int n = gradient_components(S);
+    for (int b = 0; b < n; ++b) {
+      Gradient<S> H{};
+      H[b] = 1;
+      const Gradient<S> P = first_piola(H);
+      for (int a = 0; a < n; ++a) A[n * a + b] = P[a];
+    }
+    return A;
+  }
 
  private:
-  Moduli<dim> stiffness_;  // [Pa]
+  double lambda_, mu_, young_;  // [Pa]
 };
 
 }  // namespace stillpoint

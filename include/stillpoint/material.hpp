@@ -1,21 +1,49 @@
 // What the loops over material points need of a material law.
+//
+// A law is a value type in a header of its own, inlined into a loop over points that the compiler vectorises: no branch
+// that differs from point to point (write a select, "a ? x : y" of computed values), no call that is not inlined, no
+// allocation. A trial that cannot be evaluated (det f ≤ 0) gives NaN.
 #pragma once
 
 #include <stillpoint/scene.hpp>
 
 #include <array>
 #include <concepts>
+#include <string_view>
 
 namespace stillpoint {
 
-/// T_ij at [Dim i + j].
-template <int Dim>
-using Tensor = std::array<double, static_cast<std::size_t>(Dim* Dim)>;
-/// ∂P_ij/∂F_kl at [Dim² (Dim i + j) + Dim k + l].
-template <int Dim>
-using Moduli = std::array<double, static_cast<std::size_t>(Dim* Dim* Dim* Dim)>;
+/// Which components a displacement gradient has; what happens across them is the law's affair.
+enum class Kinematics { line, plane, axisymmetric };
 
-constexpr int dimensions(StressState) { return 1; }
+constexpr Kinematics kinematics(StressState state) {
+  switch (state) {
+    case StressState::uniaxial_stress:
+    case StressState::uniaxial_strain:
+      return Kinematics::line;
+    case StressState::axisymmetric:
+      return Kinematics::axisymmetric;
+    default:
+      return Kinematics::plane;
+  }
+}
+constexpr int dimensions(Kinematics k) { return k == Kinematics::line ? 1 : 2; }
+constexpr int dimensions(StressState state) { return dimensions(kinematics(state)); }
+/// Of a displacement gradient H: in one dimension (xx); in the plane (xx, xy, yx, yy), H_ij = ∂u_i/∂x_j; axisymmetric
+/// (rr, rz, zr, zz, θθ) with H_θθ = u_r/r. Of the first Piola–Kirchhoff stress likewise.
+constexpr int gradient_components(Kinematics k) { return k == Kinematics::line ? 1 : k == Kinematics::plane ? 4 : 5; }
+constexpr int gradient_components(StressState state) { return gradient_components(kinematics(state)); }
+/// Of a Cauchy stress: in one dimension (xx); otherwise (xx, yy, zz, xy), for r, z, θ (rr, zz, θθ, rz).
+constexpr int stress_components(Kinematics k) { return k == Kinematics::line ? 1 : 4; }
+constexpr int stress_components(StressState state) { return stress_components(kinematics(state)); }
+
+template <StressState S>
+using Gradient = std::array<double, gradient_components(S)>;
+template <StressState S>
+using Stress = std::array<double, stress_components(S)>;
+/// ∂P_a/∂H_b at [components · a + b].
+template <StressState S>
+using Moduli = std::array<double, gradient_components(S) * gradient_components(S)>;
 
 struct LameParameters {
   double lambda, mu;  // [Pa]
@@ -24,15 +52,31 @@ struct LameParameters {
   static LameParameters from(double E, double nu) { return {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))}; }
 };
 
-/// A value type, inlined into the loops. H = ∂u/∂x since the phase began; a trial that cannot be evaluated gives NaN.
+/// A law whose stress is a function of the deformation alone. H = F − I from the undeformed state.
 template <class L>
-concept MaterialLaw = requires(const L law, const Tensor<L::dim>& H) {
-  { L::dim } -> std::convertible_to<int>;
-  { L::history_dependent } -> std::convertible_to<bool>;
+concept ElasticLaw = requires(const L law, const Gradient<L::state>& H) {
+  { L::state } -> std::convertible_to<StressState>;
   { L::finite_strain } -> std::convertible_to<bool>;
-  { law.first_piola(H) } -> std::same_as<Tensor<L::dim>>;  // P = det(f) σ f⁻ᵀ [Pa]
-  { law.cauchy(H) } -> std::same_as<Tensor<L::dim>>;       // σ [Pa]
-  { law.moduli(H) } -> std::same_as<Moduli<L::dim>>;       // ∂P/∂H [Pa]
+  { law.first_piola(H) } -> std::same_as<Gradient<L::state>>;  // P = det(F) σ F⁻ᵀ [Pa]
+  { law.cauchy(H) } -> std::same_as<Stress<L::state>>;         // σ [Pa]
+  { law.moduli(H) } -> std::same_as<Moduli<L::state>>;         // ∂P/∂H [Pa]
 };
+
+/// A law that remembers: `history` numbers a point, among them its stress. H = ∂u/∂x since the phase began (f = I + H),
+/// dH the part of it since history was committed, dt the time since then [s], ≥ 0.
+template <class L>
+concept HistoryLaw = requires(const L law, const Gradient<L::state>& H, double dt, typename L::History& next) {
+  { L::state } -> std::convertible_to<StressState>;
+  requires std::same_as<typename L::History, std::array<double, L::history>>;
+  { L::history_names } -> std::convertible_to<std::array<std::string_view, L::history>>;  // for output; "" is not shown
+  // P = det(f) σ f⁻ᵀ after the increment; next: the committed history, which is advanced
+  { law.first_piola(H, H, dt, next) } -> std::same_as<Gradient<L::state>>;
+  { law.cauchy(next) } -> std::same_as<Stress<L::state>>;
+  { law.moduli(H, next) } -> std::same_as<Moduli<L::state>>;  // elastic ∂P/∂H: no trial is stiffer
+  { law.initial_history(law.cauchy(next)) } -> std::same_as<typename L::History>;  // of a point under this stress
+};
+
+template <class L>
+concept MaterialLaw = ElasticLaw<L> || HistoryLaw<L>;
 
 }  // namespace stillpoint

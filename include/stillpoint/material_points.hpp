@@ -9,7 +9,8 @@
 
 namespace stillpoint {
 
-/// Structure of arrays; n points. Points of one cell are contiguous.
+/// Structure of arrays; n points, sorted by material and then by cell. A cell that holds points of two materials is
+/// listed once for each.
 template <int Dim>
 struct MaterialPoints {
   std::array<std::vector<double>, Dim> x;  // places [m], each (n)
@@ -17,8 +18,24 @@ struct MaterialPoints {
   std::vector<double> mass;                // m_p [kg], (n)
   std::vector<int> cell_begin;             // first point of occupied cell k, and n at its end: (occupied cells + 1)
   std::vector<int> cell;                   // grid number of occupied cell k
+  std::vector<int> material_begin;         // first point of each material, and n at the end
+  std::vector<int> number;                 // of each point when the body was placed, (n)
+  // Only in a body that moves on from phase to phase:
+  std::array<std::vector<double>, Dim> v;             // velocity [m/s], each (n)
+  std::array<std::vector<double>, Dim * Dim> B_apic;  // Σ_i N_ip v_i ⊗ (x_i − x_p) [m²/s], each (n); APIC alone
 
   std::size_t size() const { return volume.size(); }
+  std::size_t cells() const { return cell.size(); }
+  /// Points of occupied cell k.
+  std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(cell_begin[k]); }
+  std::size_t end(std::size_t k) const { return static_cast<std::size_t>(cell_begin[k + 1]); }
+  std::size_t materials() const { return material_begin.size() - 1; }
+  /// Number of the material of occupied cell k, by name.
+  int material_of_cell(std::size_t k) const {
+    int m = 0;
+    while (material_begin[static_cast<std::size_t>(m) + 1] <= cell_begin[k]) ++m;
+    return m;
+  }
   Point<Dim> place(std::size_t p) const {
     Point<Dim> at;
     for (int d = 0; d < Dim; ++d) at[d] = x[d][p];
@@ -43,6 +60,6 @@ struct PlacedBody {
 /// coordinate (uniform, at Gauss-Legendre places, or seeded random); volumes equal or fitted to moments.
 /// density [kg/m³].
 template <int Dim>
-PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density);
+PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state);
 
 }  // namespace stillpoint

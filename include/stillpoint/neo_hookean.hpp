@@ -8,30 +8,27 @@
 
 namespace stillpoint {
 
-template <StressState State>
+template <StressState S>
 class NeoHookean {
  public:
-  static constexpr int dim = dimensions(State);
-  static constexpr bool history_dependent = false;
+  static constexpr StressState state = S;
   static constexpr bool finite_strain = true;
 
   explicit NeoHookean(const LameParameters& m) : lambda_(m.lambda), mu_(m.mu) {}
 
   // With the stretch F = 1 + H and the section's area ratio w (1 where it cannot contract), J = F w:
   //   P = μ (F − 1/F) + λ ln J / F     (NaN where F ≤ 0: not admissible)
-  Tensor<dim> first_piola(const Tensor<dim>& H) const requires(dim == 1) {
+  Gradient<S> first_piola(const Gradient<S>& H) const {
     const double F = 1 + H[0], log_J = std::log(F) + log_area_ratio(F);
     return {mu_ * (F - 1 / F) + lambda_ * log_J / F};
   }
   // σ = P/w: the force on the section that there is now
-  Tensor<dim> cauchy(const Tensor<dim>& H) const requires(dim == 1) {
-    return {first_piola(H)[0] * std::exp(-log_area_ratio(1 + H[0]))};
-  }
+  Stress<S> cauchy(const Gradient<S>& H) const { return {first_piola(H)[0] * std::exp(-log_area_ratio(1 + H[0]))}; }
   // dP/dF = μ (1 + 1/F²) + λ (1 − ln J + F w'/w)/F²
-  Moduli<dim> moduli(const Tensor<dim>& H) const requires(dim == 1) {
+  Moduli<S> moduli(const Gradient<S>& H) const {
     const double F = 1 + H[0], s = log_area_ratio(F);
     // g(s) = 0 below gives ds/dF = −(λ/F)/(μ w + λ)
-    const double ds_dF = State == StressState::uniaxial_stress ? -lambda_ / F / (mu_ * std::exp(s) + lambda_) : 0;
+    const double ds_dF = S == StressState::uniaxial_stress ? -lambda_ / F / (mu_ * std::exp(s) + lambda_) : 0;
     return {mu_ * (1 + 1 / (F * F)) + lambda_ * (1 + F * ds_dF - std::log(F) - s) / (F * F)};
   }
 
@@ -39,7 +36,7 @@ class NeoHookean {
   // s = ln w from the free side, μ (w − 1) + λ ln(F w) = 0:  g(s) = μ (eˢ − 1) + λ (ln F + s) = 0.
   // g is convex and increasing, so Newton's method from s = 0 converges from any F > 0.
   double log_area_ratio(double F) const {
-    if constexpr (State == StressState::uniaxial_strain) return 0;
+    if constexpr (S == StressState::uniaxial_strain) return 0;
     const double log_F = std::log(F);
     double s = 0;
     for (int iteration = 0; iteration < 100; ++iteration) {

@@ -22,8 +22,14 @@ class RelaxationSystem {
 
   /// ydot = f(t, y); y, ydot: (2n). False where the trial y cannot be evaluated: retry with a smaller step.
   bool operator()(double t, ConstVec y, Vec ydot);
-  /// Q = F(t) − R(u) (− inertia of moving supports), damping left out; u, Q: (n). False as above.
+  /// Q = F(t) − R(u) + contact forces (− inertia of moving supports), damping left out; u, Q: (n). False as above.
   bool out_of_balance(double t, ConstVec u, Vec Q);
+  /// The same from the last evaluation, at no cost, where contacts have opened or closed since.
+  void last_out_of_balance(double t, Vec Q) const;
+
+  /// After an accepted step to (t, y), y: (2n): laws remember, contacts open and close. force_is_current: whether the
+  /// last evaluation was there. True where velocities were changed by it.
+  bool accept(double t, Vec y, bool force_is_current);
 
   /// ‖F − R‖/‖F‖ over the free degrees of freedom. Where F = 0, over the largest ‖reactions‖ or ‖F‖ seen here so far:
   /// those of the moment fall with the residual itself when a body is unloaded. 0 where nothing pulls.
@@ -32,6 +38,8 @@ class RelaxationSystem {
   double last_residual();
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);
+  /// F of the last evaluation, (n) [N].
+  ConstVec last_external_force() const { return F_.span(); }
   /// ½ vᵀ M v [J]; v: (n).
   double kinetic_energy(const Vector& v);
 
@@ -46,6 +54,7 @@ class RelaxationSystem {
   LinearDamping linear_;
   VectorSpace vectors_;
   Vector F_, R_, Q_;
+  double last_t_ = 0;
   double force_scale_ = 0;  // largest ‖F‖ or ‖reactions‖ of residual() and last_residual()
   long evaluations_ = 0;
 };

@@ -1,6 +1,7 @@
 // Runs a scene: relaxes it, watches it, writes what was asked.
 #pragma once
 
+#include <stillpoint/lagrangian_phase.hpp>
 #include <stillpoint/monitor.hpp>
 #include <stillpoint/scene.hpp>
 
@@ -47,6 +48,7 @@ struct Summary {
   std::size_t points = 0, dofs = 0;
   int threads = 1;
   double wall_s = 0, ns_per_point_step = 0;
+  double bytes_per_point = 0;
   double residual = 0, kinetic_energy = 0;
   std::optional<double> omega_1;
   double omega_max = 0;
@@ -54,7 +56,9 @@ struct Summary {
   double dt = 0;  // the last step [s]
   std::optional<double> critical_step;
   std::string integrator, damping;
-  std::vector<std::string> notes;  // of Model
+  std::vector<std::string> notes;          // of Model
+  std::optional<TransferErrors> transfer;  // of a body that moves on
+  std::optional<double> external_work;     // [J]
   std::optional<ExactError> error;
   std::map<std::string, std::vector<double>> probe_places;  // of each probe's material point when the phase began [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)

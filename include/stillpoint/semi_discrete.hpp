@@ -2,6 +2,7 @@
 // discretised in space, continuous in time. LagrangianPhase is the one that MPM makes; a test may bring its own.
 #pragma once
 
+#include <stillpoint/damping.hpp>
 #include <stillpoint/mass.hpp>
 #include <stillpoint/types.hpp>
 
@@ -28,12 +29,23 @@ class SemiDiscrete {
 
   /// Accepts u: writes stress and history of every point. Once an accepted step where history_dependent().
   virtual void commit(double t, ConstVec u) = 0;
+  /// The same for the state of the last internal_force(), at no cost.
+  virtual void commit_last() {}
   /// Whether R(u) depends on what was committed, so that every accepted step has to commit.
   virtual bool history_dependent() const { return false; }
 
   /// Q −= M_fs (a_s(t) + c v_s(t)): what moving supports s do to the free degrees of freedom f. Nothing where none
   /// moves.
   virtual void add_support_inertia(double /*t*/, double /*c*/, Vec /*Q*/) const {}
+  /// F += loads that follow the deformation; u, F: (n).
+  virtual void add_following_force(double /*t*/, ConstVec /*u*/, Vec /*F*/) const {}
+  /// Whether something touches the body that may open or close.
+  virtual bool has_contact() const { return false; }
+  /// Q += contact forces for the damping C, Q: (n). What is closed only changes in update_contact().
+  virtual void add_contact_force(double /*t*/, const LinearDamping& /*C*/, Vec /*Q*/) const {}
+  /// After an accepted step whose forces were the last ones evaluated: opens and closes contacts. True where v, (n),
+  /// was changed by it.
+  virtual bool update_contact(double /*t*/, ConstVec /*u*/, Vec /*v*/) { return false; }
   /// ‖reactions of the supports‖ at the last internal_force, the force scale where F = 0.
   virtual double reaction_norm() const { return 0; }
 };

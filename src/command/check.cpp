@@ -11,6 +11,7 @@
 namespace stillpoint::command {
 namespace {
 
+constexpr std::array state_names{"uniaxial stress", "uniaxial strain", "plane strain", "plane stress", "axisymmetric"};
 constexpr std::array basis_names{"linear B-spline", "quadratic B-spline", "cubic B-spline", "cubic Hermite"};
 
 }  // namespace
@@ -21,12 +22,17 @@ int check(const SceneArguments& arguments) {
   const LagrangianPhase& phase = *model.phase;
 
   fmt::print("{}\n", scene.title.empty() ? scene.name : scene.title);
-  fmt::print("  space            {} dimension, {} basis, {} cells of which {} hold material\n", scene.dim,
-             basis_names[static_cast<std::size_t>(scene.grid.basis)], scene.grid.cells[0], phase.occupied_cells());
-  fmt::print("  body             {} material points, mass {:.6g} kg, law {}\n", phase.points(), phase.total_mass(),
-             scene.materials.at(scene.bodies[0].material).law);
-  fmt::print("  volumes          {} integrate polynomials up to degree {}\n",
-             scene.bodies[0].volumes == VolumeRule::equal ? "equal ones" : "consistent ones", phase.quadrature().degree);
+  fmt::print("  space            {} dimension{}, {}, {} basis, {} cells of which {} hold material\n", scene.dim,
+             scene.dim == 1 ? "" : "s", state_names[static_cast<std::size_t>(scene.state)],
+             basis_names[static_cast<std::size_t>(scene.grid.basis)], fmt::join(phase.grid_cells(), " x "),
+             phase.occupied_cells());
+  for (const BodySpec& body : scene.bodies) {
+    fmt::print("  body             of {}: {}, {} volumes\n", body.material, scene.materials.at(body.material).law,
+               body.volumes == VolumeRule::equal ? "equal" : "consistent");
+  }
+  fmt::print("  points           {}, mass {:.6g} kg; they integrate polynomials up to degree {}\n", phase.points(),
+             phase.total_mass(), phase.quadrature().degree);
+  fmt::print("  phases           {}\n", phase.moves_on() ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.supported_degrees_of_freedom(),
              phase.mass().is_lumped() ? "lumped" : "consistent");
   fmt::print("  damping          {}{}\n", model.damping->name(), model.c ? fmt::format(", c = {:.8g}", *model.c) : "");

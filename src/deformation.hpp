@@ -1,0 +1,52 @@
+// Products of displacement gradients' tensors in the components of a Kinematics: a 1 × 1 or 2 × 2 matrix, row by row,
+// and where axisymmetric the hoop's component beside it.
+#pragma once
+
+#include <stillpoint/material.hpp>
+
+namespace stillpoint {
+
+template <Kinematics K>
+using TensorOf = std::array<double, gradient_components(K)>;
+
+/// I + H
+template <Kinematics K>
+TensorOf<K> plus_identity(TensorOf<K> H) {
+  constexpr int dim = dimensions(K);
+  for (int i = 0; i < dim; ++i) H[(dim + 1) * i] += 1;
+  if constexpr (K == Kinematics::axisymmetric) H[4] += 1;
+  return H;
+}
+
+/// A B
+template <Kinematics K>
+TensorOf<K> product(const TensorOf<K>& A, const TensorOf<K>& B) {
+  constexpr int dim = dimensions(K);
+  TensorOf<K> C{};
+  for (int i = 0; i < dim; ++i) {
+    for (int j = 0; j < dim; ++j) {
+      for (int k = 0; k < dim; ++k) C[dim * i + j] += A[dim * i + k] * B[dim * k + j];
+    }
+  }
+  if constexpr (K == Kinematics::axisymmetric) C[4] = A[4] * B[4];
+  return C;
+}
+
+/// Aᵀ
+template <Kinematics K>
+TensorOf<K> transposed(TensorOf<K> A) {
+  if constexpr (dimensions(K) == 2) std::swap(A[1], A[2]);
+  return A;
+}
+
+template <Kinematics K>
+double determinant(const TensorOf<K>& A) {
+  if constexpr (K == Kinematics::line)
+    return A[0];
+  else if constexpr (K == Kinematics::plane)
+    return A[0] * A[3] - A[1] * A[2];
+  else
+    return (A[0] * A[3] - A[1] * A[2]) * A[4];
+}
+
+}  // namespace stillpoint

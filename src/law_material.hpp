@@ -1,0 +1,268 @@
+// A material law applied to blocks of points: the loops that the compiler vectorises.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "point_material.hpp"
+
+namespace stillpoint {
+
+template <class Law>
+class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
+ protected:
+  static constexpr Kinematics K = kinematics(Law::state);
+  static constexpr int components = gradient_components(K);
+  using Block = PointBlock<K>;
+  using Tensor = TensorOf<K>;
+  using typename PointMaterial<K>::ModuliMatrix;
+
+  static constexpr double real = sizeof(double);
+
+  LawMaterialBase(const Law& law, std::size_t begin, std::size_t count) : law_(law), begin_(begin), count_(count) {}
+
+  static Tensor contract(const ModuliMatrix& A, const Tensor& dH) {
+    Tensor dP{};
+    for (int a = 0; a < components; ++a) {
+      for (int b = 0; b < components; ++b) dP[a] += A[components * a + b] * dH[b];
+    }
+    return dP;
+  }
+  static double row_sum_bound(const ModuliMatrix& A) {
+    double largest = 0;
+    for (int a = 0; a < components; ++a) {
+      double sum = 0;
+      for (int b = 0; b < components; ++b) sum += std::abs(A[components * a + b]);
+      largest = sum <= largest ? largest : sum;  // NaN stays
+    }
+    return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
+  }
+
+  Law law_;
+  std::size_t begin_, count_;
+};
+
+/// A law without history. Once the body has moved on it keeps the deformation gradient F_0 with which the phase began:
+///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began.
+template <ElasticLaw Law>
+class ElasticMaterial final : public LawMaterialBase<Law> {
+  using Base = LawMaterialBase<Law>;
+  using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
+  using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
+
+ public:
+  ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool moves_on) : Base(law, begin, count) {
+    if (!moves_on || !Law::finite_strain) return;
+    const Tensor I = plus_identity<K>({});
+    for (int c = 0; c < components; ++c) F0_[c].assign(count, I[c]);
+  }
+
+  bool history_dependent() const override { return false; }
+  bool finite_strain() const override { return Law::finite_strain; }
+
+  double stress(Block& block, const double* V, double /*dt*/) override {
+    return moved() ? loop(block, V, [this](const Tensor& H, std::size_t p) { return stress_from(F0(p), H); })
+                   : loop(block, V, [this](const Tensor& H, std::size_t) { return law_.first_piola(H); });
+  }
+  void commit() override {}
+
+  void tangent(Block& block, const double* V) const override {
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const std::size_t p = block.first + q;
+      const Tensor dP = Base::contract(moduli(block.H_at(q), p), block.dH_at(q));
+      for (int c = 0; c < components; ++c) block.VP[c][q] = V[p] * dP[c];
+    }
+  }
+
+  ModuliMatrix moduli(const Tensor& H, std::size_t p) const override {
+    if (!moved()) return law_.moduli(H);
+    // Column b: the answer to a unit dH_b, dF = dH F_0
+    const Tensor F_0 = F0(p);
+    const ModuliMatrix A = law_.moduli(total(F_0, H));
+    ModuliMatrix pushed{};
+    for (int b = 0; b < components; ++b) {
+      Tensor dH{};
+      dH[b] = 1;
+      const Tensor dP = push(F_0, Base::contract(A, product<K>(dH, F_0)));
+      for (int a = 0; a < components; ++a) pushed[components * a + b] = dP[a];
+    }
+    return pushed;
+  }
+  Stresses cauchy(const Tensor& H, std::size_t p) const override { return law_.cauchy(moved() ? total(F0(p), H) : H); }
+  double stiffness_bound(const Block& block) const override {
+    double largest = 0;
+    for (std::size_t q = 0; q < block.count; ++q) {
+      largest = std::max(largest, Base::row_sum_bound(moduli(block.H_at(q), block.first + q)));
+    }
+    return largest;
+  }
+  double wave_modulus() const override { return law_.moduli({})[0]; }
+
+  void end_phase(const Block& block) override {
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const std::size_t p = block.first + q;
+      const Tensor F = product<K>(plus_identity<K>(block.H_at(q)), F0(p));
+      for (int c = 0; c < components; ++c) F0_[c][p - begin_] = F[c];
+    }
+  }
+  void reorder(const std::vector<int>& order) override {
+    if (!moved()) return;
+    for (auto& component : F0_) {
+      std::vector<double> sorted(count_);
+      for (std::size_t k = 0; k < count_; ++k)
+        sorted[k] = component[static_cast<std::size_t>(order[begin_ + k]) - begin_];
+      component.swap(sorted);
+    }
+  }
+  void set_stress(const std::vector<Stresses>&) override {
+    throw std::logic_error("an elastic law has no stress of its own");
+  }
+
+  std::vector<PointArray> arrays() const override {
+    if (!moved()) return {};
+    return {{"deformation gradient", components * Base::real}};
+  }
+  std::vector<std::pair<std::string, ConstVec>> shown_history() const override { return {}; }
+
+ private:
+  bool moved() const { return !F0_[0].empty(); }
+  Tensor F0(std::size_t p) const {
+    Tensor F;
+    for (int c = 0; c < components; ++c) F[c] = F0_[c][p - begin_];
+    return F;
+  }
+  // H of f F_0
+  static Tensor total(const Tensor& F_0, const Tensor& H) {
+    Tensor F = product<K>(plus_identity<K>(H), F_0);
+    const Tensor I = plus_identity<K>({});
+    for (int c = 0; c < components; ++c) F[c] -= I[c];
+    return F;
+  }
+  static Tensor push(const Tensor& F_0, const Tensor& P) {
+    Tensor pushed = product<K>(P, transposed<K>(F_0));
+    const double J = determinant<K>(F_0);
+    for (double& component : pushed) component /= J;
+    return pushed;
+  }
+  Tensor stress_from(const Tensor& F_0, const Tensor& H) const { return push(F_0, law_.first_piola(total(F_0, H))); }
+
+  template <class StressAt>
+  double loop(Block& block, const double* V, const StressAt& stress_at) const {
+    double bad = 0;  // 0·P is 0 or NaN, so the loop needs no branch
+#pragma omp simd reduction(+ : bad)
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const Tensor P = stress_at(block.H_at(q), block.first + q);
+      for (int c = 0; c < components; ++c) {
+        block.VP[c][q] = V[block.first + q] * P[c];
+        bad += 0 * P[c];
+      }
+    }
+    return bad;
+  }
+
+  std::array<std::vector<double>, components> F0_;  // (components × points); empty in a body that never moves on
+};
+
+/// A law with history: two copies, so that a trial leaves what was committed alone and to commit is to swap them.
+template <HistoryLaw Law>
+class HistoryMaterial final : public LawMaterialBase<Law> {
+  using Base = LawMaterialBase<Law>;
+  using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
+  using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
+  using History = typename Law::History;
+
+ public:
+  HistoryMaterial(const Law& law, std::size_t begin, std::size_t count) : Base(law, begin, count) {
+    set_stress(std::vector<Stresses>(count, Stresses{}));
+  }
+
+  bool history_dependent() const override { return true; }
+  bool finite_strain() const override { return true; }
+
+  double stress(Block& block, const double* V, double dt) override {
+    const std::size_t first = block.first - begin_;
+    std::array<const double*, Law::history> from;
+    std::array<double*, Law::history> to;
+    for (int h = 0; h < Law::history; ++h) {
+      from[h] = committed_[h].data() + first;
+      to[h] = trial_[h].data() + first;
+    }
+    const double* volume = V + block.first;
+    const Law law = law_;
+    double bad = 0;
+#pragma omp simd reduction(+ : bad)
+    for (std::size_t q = 0; q < block.count; ++q) {
+      History next;
+      for (int h = 0; h < Law::history; ++h) next[h] = from[h][q];
+      const Tensor P = law.first_piola(block.H_at(q), block.dH_at(q), dt, next);
+      for (int h = 0; h < Law::history; ++h) to[h][q] = next[h];
+      for (int c = 0; c < components; ++c) {
+        block.VP[c][q] = volume[q] * P[c];
+        bad += 0 * P[c];
+      }
+    }
+    return bad;
+  }
+  void commit() override { committed_.swap(trial_); }
+
+  void tangent(Block& block, const double* V) const override {
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const std::size_t p = block.first + q;
+      const Tensor dP = Base::contract(moduli(block.H_at(q), p), block.dH_at(q));
+      for (int c = 0; c < components; ++c) block.VP[c][q] = V[p] * dP[c];
+    }
+  }
+  ModuliMatrix moduli(const Tensor& H, std::size_t p) const override { return law_.moduli(H, history(p)); }
+  Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
+  double stiffness_bound(const Block& block) const override {
+    double largest = 0;
+    for (std::size_t q = 0; q < block.count; ++q) {
+      largest = std::max(largest, Base::row_sum_bound(moduli(block.H_at(q), block.first + q)));
+    }
+    return largest;
+  }
+  double wave_modulus() const override { return law_.moduli({}, law_.initial_history({}))[0]; }
+
+  void end_phase(const Block&) override {}
+  void reorder(const std::vector<int>& order) override {
+    for (int h = 0; h < Law::history; ++h) {
+      const double* from = committed_[h].data();
+      double* to = trial_[h].data();  // free until the next stress()
+      for (std::size_t k = 0; k < count_; ++k) to[k] = from[static_cast<std::size_t>(order[begin_ + k]) - begin_];
+    }
+    committed_.swap(trial_);
+  }
+  void set_stress(const std::vector<Stresses>& stress) override {
+    for (int h = 0; h < Law::history; ++h) {
+      committed_[h].resize(count_);
+      trial_[h].resize(count_);
+    }
+    for (std::size_t k = 0; k < count_; ++k) {
+      const History of_point = law_.initial_history(stress[k]);
+      for (int h = 0; h < Law::history; ++h) committed_[h][k] = of_point[h];
+    }
+  }
+
+  std::vector<PointArray> arrays() const override {
+    return {{"history, committed", Law::history * Base::real}, {"history, trial", Law::history * Base::real}};
+  }
+  std::vector<std::pair<std::string, ConstVec>> shown_history() const override {
+    std::vector<std::pair<std::string, ConstVec>> shown;
+    for (int h = 0; h < Law::history; ++h) {
+      if (!Law::history_names[h].empty()) shown.emplace_back(Law::history_names[h], committed_[h]);
+    }
+    return shown;
+  }
+
+ private:
+  History history(std::size_t p) const {
+    History of_point;
+    for (int h = 0; h < Law::history; ++h) of_point[h] = committed_[h][p - begin_];
+    return of_point;
+  }
+
+  std::array<std::vector<double>, Law::history> committed_, trial_;  // (history × points)
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,53 @@
+// Which law goes with which stress state: the instantiations.
+#include "point_material.hpp"
+
+#include <stillpoint/linear_elastic.hpp>
+#include <stillpoint/neo_hookean.hpp>
+
+#include <stdexcept>
+
+#include "law_material.hpp"
+
+namespace stillpoint {
+namespace {
+
+template <Kinematics K>
+using Made = std::unique_ptr<PointMaterial<K>>;
+
+template <StressState S>
+Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::size_t count, bool moves_on) {
+  const auto lame = LameParameters::from(material.parameters.at("E"), material.parameters.at("nu"));
+  const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
+    return std::make_unique<ElasticMaterial<Law>>(law, begin, count, moves_on);
+  };
+  if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame));
+  if constexpr (dimensions(S) == 1) {
+    if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
+  }
+  throw std::logic_error("a material law without an instantiation for this stress state");
+}
+
+}  // namespace
+
+template <>
+Made<Kinematics::line> make_point_material(const MaterialSpec& material, StressState state, std::size_t begin,
+                                           std::size_t count, bool moves_on) {
+  if (state == StressState::uniaxial_stress)
+    return make<StressState::uniaxial_stress>(material, begin, count, moves_on);
+  return make<StressState::uniaxial_strain>(material, begin, count, moves_on);
+}
+
+template <>
+Made<Kinematics::plane> make_point_material(const MaterialSpec& material, StressState state, std::size_t begin,
+                                            std::size_t count, bool moves_on) {
+  if (state == StressState::plane_stress) return make<StressState::plane_stress>(material, begin, count, moves_on);
+  return make<StressState::plane_strain>(material, begin, count, moves_on);
+}
+
+template <>
+Made<Kinematics::axisymmetric> make_point_material(const MaterialSpec& material, StressState, std::size_t begin,
+                                                   std::size_t count, bool moves_on) {
+  return make<StressState::axisymmetric>(material, begin, count, moves_on);
+}
+
+}  // namespace stillpoint

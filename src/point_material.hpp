@@ -1,0 +1,89 @@
+// The material of a range of points: what a block of them answers to its deformation, and what it remembers.
+#pragma once
+
+#include <stillpoint/lagrangian_phase.hpp>
+#include <stillpoint/material.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deformation.hpp"
+
+namespace stillpoint {
+
+/// Work space for a block of consecutive points of one material, as structure of arrays that stays in the first-level
+/// cache.
+template <Kinematics K>
+struct PointBlock {
+  static constexpr std::size_t size = 256;
+  static constexpr int components = gradient_components(K);
+  using Rows = std::array<std::array<double, size>, components>;
+
+  std::size_t first = 0, count = 0;  // points first … first + count − 1
+  alignas(64) Rows H;                // ∂u/∂x since the phase began
+  alignas(64) Rows dH;               // the part of it since commit, or the direction of a tangent
+  alignas(64) Rows VP;               // V_p P_p, the answer [J]
+
+  TensorOf<K> H_at(std::size_t q) const { return row(H, q); }
+  TensorOf<K> dH_at(std::size_t q) const { return row(dH, q); }
+
+ private:
+  static TensorOf<K> row(const Rows& rows, std::size_t q) {
+    TensorOf<K> tensor;
+    for (int c = 0; c < components; ++c) tensor[c] = rows[c][q];
+    return tensor;
+  }
+};
+
+/// One virtual call serves a block of points, so that the loop over them knows its law and is vectorised, while the
+/// loops over cells are compiled once for all laws. Points have their numbers in the whole body.
+template <Kinematics K>
+class PointMaterial {
+ public:
+  using Stresses = std::array<double, stress_components(K)>;
+  using ModuliMatrix = std::array<double, gradient_components(K) * gradient_components(K)>;
+
+  virtual ~PointMaterial() = default;
+  virtual bool history_dependent() const = 0;
+  virtual bool finite_strain() const = 0;
+
+  /// block.VP = V_p P_p for the deformation in block.H (and dH, over dt, where history_dependent()); what the points
+  /// would remember becomes the trial history. V: volumes when the phase began, of all points.
+  /// Returns 0, or NaN where some P is not finite.
+  virtual double stress(PointBlock<K>& block, const double* V, double dt) = 0;
+  /// The trial history becomes the committed one; every block has had its stress() since the last commit.
+  virtual void commit() = 0;
+  /// block.VP = V_p (∂P/∂H at block.H) : block.dH.
+  virtual void tangent(PointBlock<K>& block, const double* V) const = 0;
+
+  /// At point p under H: ∂P/∂H, and the Cauchy stress (of the committed history where there is one).
+  virtual ModuliMatrix moduli(const TensorOf<K>& H, std::size_t p) const = 0;
+  virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
+  /// The largest absolute row sum of ∂P/∂H in the block, a bound of its stiffness; infinite where it is not finite.
+  virtual double stiffness_bound(const PointBlock<K>& block) const = 0;
+  /// λ + 2μ or its like in the undeformed state [Pa].
+  virtual double wave_modulus() const = 0;
+
+  /// The phase ends with the deformation in block.H: it becomes part of what the next phase starts from.
+  virtual void end_phase(const PointBlock<K>& block) = 0;
+  /// Points change places: the one that was number order[k] becomes number begin + k.
+  virtual void reorder(const std::vector<int>& order) = 0;
+  /// Points start under these Cauchy stresses, (points × stress components).
+  virtual void set_stress(const std::vector<Stresses>& stress) = 0;
+
+  /// What is kept for each point.
+  virtual std::vector<PointArray> arrays() const = 0;
+  /// Committed history that a user may want to see: name and values in order of the points.
+  virtual std::vector<std::pair<std::string, ConstVec>> shown_history() const = 0;
+};
+
+/// The material of points begin … begin + count − 1. moves_on: whether there will be another phase, which an elastic
+/// law meets with the deformation so far.
+template <Kinematics K>
+std::unique_ptr<PointMaterial<K>> make_point_material(const MaterialSpec& material, StressState state,
+                                                      std::size_t begin, std::size_t count, bool moves_on);
+
+}  // namespace stillpoint

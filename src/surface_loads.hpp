@@ -1,0 +1,151 @@
+// Tractions on faces of the body, as points on its surface that move with it.
+#pragma once
+
+#include <stillpoint/basis.hpp>
+#include <stillpoint/expression.hpp>
+#include <stillpoint/material.hpp>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "deformation.hpp"
+#include "degrees_of_freedom.hpp"
+
+namespace stillpoint {
+
+/// A load over part of the surface: dead, per undeformed area, or a pressure that follows the deformed one.
+struct SurfaceTraction {
+  std::vector<Expression> value;       // of t [Pa]; or
+  std::optional<Expression> pressure;  // of t [Pa]
+};
+
+template <AxisBasis B, Kinematics K>
+class SurfaceLoads {
+  static constexpr int dim = dimensions(K);
+  using Basis = TensorBasis<B, dim>;
+
+ public:
+  /// A piece of surface round x with undeformed area dA and the outward unit normal n.
+  void add(std::size_t traction, const Point<dim>& x, const std::array<double, dim>& n, double dA) {
+    Piece piece{.traction = traction, .x = x, .area = dA, .vector = {}};
+    for (int i = 0; i < dim; ++i) piece.vector[i] = n[i] * dA;
+    pieces_.push_back(piece);
+  }
+  std::size_t add_traction(SurfaceTraction traction) {
+    tractions_.push_back(std::move(traction));
+    return tractions_.size() - 1;
+  }
+  bool empty() const { return pieces_.empty(); }
+  bool follows() const {
+    for (const auto& traction : tractions_) {
+      if (traction.pressure) return true;
+    }
+    return false;
+  }
+
+  /// Freezes the weights for a phase. False where a piece reaches no material.
+  bool begin_phase(const Grid<dim>& grid, const DegreesOfFreedom& dofs) {
+    constexpr double inwards = 1e-9;  // a face on a grid line belongs to the cell that the body is in
+    for (Piece& piece : pieces_) {
+      Point<dim> inside = piece.x;
+      const auto here = grid.cell_of(piece.x);
+      for (int d = 0; d < dim; ++d) {
+        const auto& nodes = grid.axes[d].nodes;
+        const double h = nodes[static_cast<std::size_t>(here[d]) + 1] - nodes[static_cast<std::size_t>(here[d])];
+        inside[d] -= inwards * h * (piece.vector[d] > 0 ? 1 : piece.vector[d] < 0 ? -1 : 0);
+      }
+      const auto cell = grid.cell_of(inside);
+      piece.values = Basis::evaluate(grid, cell, piece.x);
+      const auto offset = Basis::offsets(grid);
+      double reached = 0;
+      for (int a = 0; a < Basis::per_cell; ++a) {
+        piece.function[a] = Basis::first(grid, cell) + offset[a];
+        const bool has_material = dofs.number[static_cast<std::size_t>(dim * piece.function[a])] >= 0;
+        if (!has_material) piece.function[a] = -1;
+        reached += has_material ? piece.values.N[a] : 0;
+      }
+      if (!(reached > 1e-12)) return false;
+      // Detached from some of the cell's nodes, it loads the others with all of its force.
+      if constexpr (B::partition_of_unity) {
+        for (double& N : piece.values.N) N /= reached;
+      }
+    }
+    return true;
+  }
+
+  /// F += dead loads, t dA; F: (n).
+  void add_dead(double t, const DegreesOfFreedom& dofs, Vec F) const {
+    for (const Piece& piece : pieces_) {
+      const SurfaceTraction& traction = tractions_[piece.traction];
+      if (traction.pressure) continue;
+      for (int i = 0; i < dim; ++i)
+        add_force(piece, dofs, i, traction.value[static_cast<std::size_t>(i)]({}, t) * piece.area, F);
+    }
+  }
+  /// F += −p n da = −p cof(f) N dA for the displacements u over the grid's functions; F: (n).
+  void add_following(double t, const double* u, const DegreesOfFreedom& dofs, Vec F) const {
+    for (const Piece& piece : pieces_) {
+      const SurfaceTraction& traction = tractions_[piece.traction];
+      if (!traction.pressure) continue;
+      const auto area = deformed_area(piece, u);
+      for (int i = 0; i < dim; ++i) add_force(piece, dofs, i, -(*traction.pressure)({}, t) * area[i], F);
+    }
+  }
+  /// The phase ends with u: the pieces go with the body.
+  void end_phase(const double* u) {
+    for (Piece& piece : pieces_) {
+      const auto area = deformed_area(piece, u);
+      for (int i = 0; i < dim; ++i) {
+        for (int a = 0; a < Basis::per_cell; ++a) {
+          if (piece.function[a] >= 0) piece.x[i] += piece.values.N[a] * u[dim * piece.function[a] + i];
+        }
+      }
+      piece.vector = area;
+    }
+  }
+
+ private:
+  struct Piece {
+    std::size_t traction;
+    Point<dim> x;                    // where it is when the phase begins [m]
+    double area;                     // undeformed [m²]
+    std::array<double, dim> vector;  // n da when the phase begins [m²]
+    typename Basis::Values values{};
+    std::array<int, Basis::per_cell> function{};  // −1 where no material reaches
+  };
+
+  // cof(f) n da; cof(f) = [f_yy, −f_yx; −f_xy, f_xx] in the plane, times f_θθ where axisymmetric
+  std::array<double, dim> deformed_area(const Piece& piece, const double* u) const {
+    if constexpr (dim == 1) {
+      return piece.vector;
+    } else {
+      std::array<double, 4> f{1, 0, 0, 1};
+      double u_r = 0;
+      for (int a = 0; a < Basis::per_cell; ++a) {
+        if (piece.function[a] < 0) continue;
+        const double* of_function = u + dim * piece.function[a];
+        u_r += piece.values.N[a] * of_function[0];
+        for (int i = 0; i < 2; ++i) {
+          for (int j = 0; j < 2; ++j) f[2 * i + j] += of_function[i] * piece.values.dN[j][a];
+        }
+      }
+      const double hoop = K == Kinematics::axisymmetric && piece.x[0] > 0 ? 1 + u_r / piece.x[0] : 1;
+      const auto& n = piece.vector;
+      return {hoop * (f[3] * n[0] - f[2] * n[1]), hoop * (-f[1] * n[0] + f[0] * n[1])};
+    }
+  }
+
+  void add_force(const Piece& piece, const DegreesOfFreedom& dofs, int component, double force, Vec F) const {
+    for (int a = 0; a < Basis::per_cell; ++a) {
+      if (piece.function[a] < 0) continue;
+      const int dof = dofs.number[static_cast<std::size_t>(dim * piece.function[a] + component)];
+      if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += force * piece.values.N[a];
+    }
+  }
+
+  std::vector<SurfaceTraction> tractions_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace stillpoint
