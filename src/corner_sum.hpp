@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
+
+#include "lanes.hpp"
 
 namespace stillpoint {
 
@@ -24,13 +27,18 @@ class CornerSum {
   std::size_t functions() const { return begin_.size() - 1; }
   bool reaches(std::size_t function) const { return begin_[function] < begin_[function + 1]; }
 
-  /// Σ over the corners of a function of values, (corners × Components).
+  /// Σ over the corners of a function of values, (corners × Components); [i] is component i.
   template <int Components>
-  std::array<double, Components> sum(std::size_t function, const double* values) const {
-    std::array<double, Components> total{};
+  auto sum(std::size_t function, const double* values) const {
+    constexpr bool together = Components == 1 || Components == 2 || Components == 4;
+    std::conditional_t<together, Lanes<together ? Components : 1>, std::array<double, Components>> total{};
     for (int c = begin_[function]; c < begin_[function + 1]; ++c) {
       const double* at = values + Components * static_cast<std::ptrdiff_t>(corner_[static_cast<std::size_t>(c)]);
-      for (int i = 0; i < Components; ++i) total[i] += at[i];
+      if constexpr (together) {
+        total.add(1, Lanes<Components>::load(at));
+      } else {
+        for (int i = 0; i < Components; ++i) total[i] += at[i];
+      }
     }
     return total;
   }

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "parallel_loop.hpp"
 #include "point_material.hpp"
+#include "unroll.hpp"
 
 namespace stillpoint {
 
@@ -149,15 +151,14 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
 
   template <class StressAt>
   double loop(Block& block, const double* V, const StressAt& stress_at) const {
-    double bad = 0;  // 0·P is 0 or NaN, so the loop needs no branch
+    const double* volume = V + block.first;
+    const std::size_t count = block.count, first = block.first;
+    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+      return block.answer(q, volume[q], stress_at(block.H_at(q), first + q));
+    };
+    double bad = 0;
 #pragma omp simd reduction(+ : bad)
-    for (std::size_t q = 0; q < block.count; ++q) {
-      const Tensor P = stress_at(block.H_at(q), block.first + q);
-      for (int c = 0; c < components; ++c) {
-        block.VP[c][q] = V[block.first + q] * P[c];
-        bad += 0 * P[c];
-      }
-    }
+    for (std::size_t q = 0; q < count; ++q) bad += point(q);
     return bad;
   }
 
@@ -181,27 +182,21 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   bool finite_strain() const override { return true; }
 
   double stress(Block& block, const double* V, double dt) override {
-    const std::size_t first = block.first - begin_;
-    std::array<const double*, Law::history> from;
-    std::array<double*, Law::history> to;
-    for (int h = 0; h < Law::history; ++h) {
-      from[h] = committed_[h].data() + first;
-      to[h] = trial_[h].data() + first;
-    }
+    const double* from = committed_.data() + block.first - begin_;
+    double* to = trial_.data() + block.first - begin_;
     const double* volume = V + block.first;
     const Law law = law_;
+    const std::size_t count = block.count, n = count_;
+    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+      History next;
+      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { next[h] = from[n * h + q]; });
+      const Tensor P = law.first_piola(block.H_at(q), block.dH_at(q), dt, next);
+      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { to[n * h + q] = next[h]; });
+      return block.answer(q, volume[q], P);
+    };
     double bad = 0;
 #pragma omp simd reduction(+ : bad)
-    for (std::size_t q = 0; q < block.count; ++q) {
-      History next;
-      for (int h = 0; h < Law::history; ++h) next[h] = from[h][q];
-      const Tensor P = law.first_piola(block.H_at(q), block.dH_at(q), dt, next);
-      for (int h = 0; h < Law::history; ++h) to[h][q] = next[h];
-      for (int c = 0; c < components; ++c) {
-        block.VP[c][q] = volume[q] * P[c];
-        bad += 0 * P[c];
-      }
-    }
+    for (std::size_t q = 0; q < count; ++q) bad += point(q);  // a body of its own, or its locals keep it from vectors
     return bad;
   }
   void commit() override { committed_.swap(trial_); }
@@ -226,21 +221,21 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
 
   void end_phase(const Block&) override {}
   void reorder(const std::vector<int>& order) override {
-    for (int h = 0; h < Law::history; ++h) {
-      const double* from = committed_[h].data();
-      double* to = trial_[h].data();  // free until the next stress()
-      for (std::size_t k = 0; k < count_; ++k) to[k] = from[static_cast<std::size_t>(order[begin_ + k]) - begin_];
+    for (std::size_t h = 0; h < Law::history; ++h) {
+      const double* from = committed_.data() + count_ * h;
+      double* to = trial_.data() + count_ * h;  // free until the next stress()
+      for_each_index(count_, [=, begin = begin_, at = order.data() + begin_](std::size_t k) {
+        to[k] = from[static_cast<std::size_t>(at[k]) - begin];
+      });
     }
     committed_.swap(trial_);
   }
   void set_stress(const std::vector<Stresses>& stress) override {
-    for (int h = 0; h < Law::history; ++h) {
-      committed_[h].resize(count_);
-      trial_[h].resize(count_);
-    }
+    committed_.resize(Law::history * count_);
+    trial_.resize(committed_.size());
     for (std::size_t k = 0; k < count_; ++k) {
       const History of_point = law_.initial_history(stress[k]);
-      for (int h = 0; h < Law::history; ++h) committed_[h][k] = of_point[h];
+      for (std::size_t h = 0; h < Law::history; ++h) committed_[count_ * h + k] = of_point[h];
     }
   }
 
@@ -249,8 +244,9 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   }
   std::vector<std::pair<std::string, ConstVec>> shown_history() const override {
     std::vector<std::pair<std::string, ConstVec>> shown;
-    for (int h = 0; h < Law::history; ++h) {
-      if (!Law::history_names[h].empty()) shown.emplace_back(Law::history_names[h], committed_[h]);
+    for (std::size_t h = 0; h < Law::history; ++h) {
+      if (Law::history_names[h].empty()) continue;
+      shown.emplace_back(Law::history_names[h], ConstVec(committed_).subspan(count_ * h, count_));
     }
     return shown;
   }
@@ -258,11 +254,11 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
  private:
   History history(std::size_t p) const {
     History of_point;
-    for (int h = 0; h < Law::history; ++h) of_point[h] = committed_[h][p - begin_];
+    for (std::size_t h = 0; h < Law::history; ++h) of_point[h] = committed_[count_ * h + p - begin_];
     return of_point;
   }
 
-  std::array<std::vector<double>, Law::history> committed_, trial_;  // (history × points)
+  std::vector<double> committed_, trial_;  // (history × points)
 };
 
 }  // namespace stillpoint

@@ -51,7 +51,7 @@ class Leapfrog final : public SteppingIntegrator {
   void restart(double t, const Vector& y) override {
     system().last_out_of_balance(t, a_.span());
     const ConstVec v = second_half(y.span());
-    system().damping().add_local(v, a_.span());
+    system().add_local_damping(v, a_.span());
     initial_acceleration_(0, v, a_.span());
   }
 
@@ -81,7 +81,7 @@ class Leapfrog final : public SteppingIntegrator {
   bool evaluate(double t, ConstVec y, DampedAcceleration& acceleration, double h, Vec a) {
     const ConstVec u = first_half(y), v = second_half(y);
     if (!system().out_of_balance(t, u, a)) return false;
-    system().damping().add_local(v, a);
+    system().add_local_damping(v, a);
     acceleration(h, v, a);
     return true;
   }

@@ -166,6 +166,9 @@ class MaterialPointPhase final : public LagrangianPhase {
   void add_contact_force(double t, const LinearDamping& C, Vec Q) const override {
     for (const WallContact& wall : boundary_.walls()) wall.add_force(t, C, *mass_, Q);
   }
+  void hold_contact(Vec Q) const override {
+    for (const WallContact& wall : boundary_.walls()) wall.hold(Q);
+  }
   bool update_contact(double t, ConstVec u, Vec v) override {
     bool changed = false;
     for (WallContact& wall : boundary_.walls()) changed = wall.update(t, u, v) || changed;

@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "corner_sum.hpp"
+#include "lanes.hpp"
 #include "parallel_loop.hpp"
 #include "point_material.hpp"
 #include "point_weights.hpp"
+#include "unroll.hpp"
 
 namespace stillpoint {
 
@@ -116,27 +118,23 @@ class NodalForce {
   template <bool Increments>
   void gather(std::size_t k, const double* u, Block& block) const {
     constexpr int width = Increments ? 2 * dim : dim;
-    std::array<std::array<double, width>, per_cell> of_corner;
-    for (int a = 0; a < per_cell; ++a) {
-      const double* from = u + width * static_cast<std::ptrdiff_t>(weights_->function(k, a));
-      for (int w = 0; w < width; ++w) of_corner[a][w] = from[w];
-    }
+    std::array<Lanes<width>, per_cell> of_corner;
+    unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+      of_corner[a] = Lanes<width>::load(u + width * static_cast<std::ptrdiff_t>(weights_->function(k, a)));
+    });
     const std::size_t begin = points_->begin(k), end = points_->end(k);
     for (std::size_t p = begin; p < end; ++p) {
-      const std::size_t q = p - block.first;
       const double* dN = weights_->dN(p);
-      std::array<std::array<double, width>, rows> h{};
-      for (int a = 0; a < per_cell; ++a) {
-        for (int j = 0; j < rows; ++j) {
-          for (int w = 0; w < width; ++w) h[j][w] += dN[per_cell * j + a] * of_corner[a][w];
-        }
-      }
-      for (int i = 0; i < dim; ++i) {
-        for (int j = 0; j < dim; ++j) {
-          block.H[dim * i + j][q] = h[j][i];
-          if constexpr (Increments) block.dH[dim * i + j][q] = h[j][dim + i];
-        }
-      }
+      std::array<Lanes<width>, rows> h{};
+      unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+        unroll<rows>([&](auto j) __attribute__((always_inline)) { h[j].add(dN[per_cell * j + a], of_corner[a]); });
+      });
+      const std::size_t q = p - block.first;
+      unroll<dim * dim>([&](auto ij) __attribute__((always_inline)) {
+        constexpr int i = ij / dim, j = ij % dim;
+        block.H[ij][q] = h[j][i];
+        if constexpr (Increments) block.dH[ij][q] = h[j][dim + i];
+      });
       if constexpr (rows > dim) {
         block.H[dim * dim][q] = h[dim][0];
         if constexpr (Increments) block.dH[dim * dim][q] = h[dim][dim];
@@ -144,28 +142,29 @@ class NodalForce {
     }
   }
 
-  // corner_[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points
+  // corner_[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points. Local functions are taken a few at a time;
+  // lanes past the last of them read on into what follows, and are dropped.
   void scatter(std::size_t k, const Block& block) {
-    std::array<std::array<double, per_cell>, dim> force{};
+    constexpr int lanes = per_cell < 4 ? 2 : 4, chunks = (per_cell + lanes - 1) / lanes;
+    std::array<std::array<Lanes<lanes>, chunks>, dim> force{};
     const std::size_t begin = points_->begin(k), end = points_->end(k);
     for (std::size_t p = begin; p < end; ++p) {
       const std::size_t q = p - block.first;
       const double* dN = weights_->dN(p);
-      for (int i = 0; i < dim; ++i) {
-        for (int j = 0; j < dim; ++j) {
-          const double VP = block.VP[dim * i + j][q];
-          for (int a = 0; a < per_cell; ++a) force[i][a] += VP * dN[per_cell * j + a];
+      unroll<dim * chunks>([&](auto ic) __attribute__((always_inline)) {
+        constexpr int i = ic / chunks, c = ic % chunks;
+        unroll<dim>([&](auto j) __attribute__((always_inline)) {
+          force[i][c].add(block.VP[dim * i + j][q], Lanes<lanes>::load(dN + per_cell * j + lanes * c));
+        });
+        if constexpr (rows > dim && i == 0) {
+          force[0][c].add(block.VP[dim * dim][q], Lanes<lanes>::load(dN + per_cell * dim + lanes * c));
         }
-      }
-      if constexpr (rows > dim) {
-        const double VP = block.VP[dim * dim][q];
-        for (int a = 0; a < per_cell; ++a) force[0][a] += VP * dN[per_cell * dim + a];
-      }
+      });
     }
     double* corner = corner_.data() + dim * per_cell * k;
-    for (int a = 0; a < per_cell; ++a) {
-      for (int i = 0; i < dim; ++i) corner[dim * a + i] = force[i][a];
-    }
+    unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+      unroll<dim>([&](auto i) __attribute__((always_inline)) { corner[dim * a + i] = force[i][a / lanes][a % lanes]; });
+    });
   }
 
   const MaterialPoints<dim>* points_ = nullptr;

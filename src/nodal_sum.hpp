@@ -28,7 +28,7 @@ std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const
   std::vector<double> sums(Components * corner_sum.functions());
   for_each_block(corner_sum.functions(), [&](std::size_t f) {
     const auto total = corner_sum.sum<Components>(f, of_corners.data());
-    std::copy(total.begin(), total.end(), sums.begin() + static_cast<std::ptrdiff_t>(Components * f));
+    for (int i = 0; i < Components; ++i) sums[Components * f + i] = total[i];
   });
   return sums;
 }

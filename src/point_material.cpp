@@ -2,6 +2,7 @@
 #include "point_material.hpp"
 
 #include <stillpoint/linear_elastic.hpp>
+#include <stillpoint/drucker_prager.hpp>
 #include <stillpoint/neo_hookean.hpp>
 
 #include <stdexcept>
@@ -21,6 +22,13 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
     return std::make_unique<ElasticMaterial<Law>>(law, begin, count, moves_on);
   };
   if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame));
+  if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric) {
+    if (material.law == "drucker-prager") {
+      const auto& number = material.parameters;
+      DruckerPragerParameters m{.E = number.at("E"), .nu = number.at("nu"), .phi = number.at("phi"), .psi = number.at("psi"), .c = number.at("c")};
+      return std::make_unique<HistoryMaterial<DruckerPrager<S>>>(DruckerPrager<S>(m), begin, count);
+    }
+  }
   if constexpr (dimensions(S) == 1) {
     if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deformation.hpp"
+#include "unroll.hpp"
 
 namespace stillpoint {
 
@@ -27,13 +28,22 @@ struct PointBlock {
   alignas(64) Rows dH;               // the part of it since commit, or the direction of a tangent
   alignas(64) Rows VP;               // V_p P_p, the answer [J]
 
-  TensorOf<K> H_at(std::size_t q) const { return row(H, q); }
-  TensorOf<K> dH_at(std::size_t q) const { return row(dH, q); }
+  [[gnu::always_inline]] TensorOf<K> H_at(std::size_t q) const { return row(H, q); }
+  [[gnu::always_inline]] TensorOf<K> dH_at(std::size_t q) const { return row(dH, q); }
+  /// VP = V P at point q; 0, or NaN where P is not finite: a sum of these needs no branch.
+  [[gnu::always_inline]] double answer(std::size_t q, double V, const TensorOf<K>& P) {
+    double bad = 0;
+    unroll<components>([&](auto c) __attribute__((always_inline)) {
+      VP[c][q] = V * P[c];
+      bad += 0 * P[c];
+    });
+    return bad;
+  }
 
  private:
-  static TensorOf<K> row(const Rows& rows, std::size_t q) {
+  [[gnu::always_inline]] static TensorOf<K> row(const Rows& rows, std::size_t q) {
     TensorOf<K> tensor;
-    for (int c = 0; c < components; ++c) tensor[c] = rows[c][q];
+    unroll<components>([&](auto c) __attribute__((always_inline)) { tensor[c] = rows[c][q]; });
     return tensor;
   }
 };

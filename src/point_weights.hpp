@@ -21,13 +21,14 @@ class PointWeights {
   static constexpr int dim = dimensions(K);
   using Basis = TensorBasis<B, dim>;
   static constexpr int per_cell = Basis::per_cell;
+  static constexpr int slack = 4;  // entries after the last, for who reads a few at a time
   static constexpr int rows = K == Kinematics::axisymmetric ? dim + 1 : dim;
 
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
     offset_ = Basis::offsets(grid);
     first_.resize(points.cells());
     N_.resize(per_cell * points.size());
-    dN_.resize(rows * per_cell * points.size());
+    dN_.resize(rows * per_cell * points.size() + slack);
     for_each_block(points.cells(), [&](std::size_t k) {
       const auto cell = grid.cell_at(points.cell[k]);
       first_[k] = Basis::first(grid, cell);

@@ -25,7 +25,7 @@ bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
   const std::size_t n = u.size();
 
   if (!out_of_balance(t, u, v_dot)) return false;
-  if (damping_.is_local()) damping_.add_local(v, v_dot);
+  add_local_damping(v, v_dot);
   if (linear_.identity != 0) {
     for_each_index(n, [=, c = linear_.identity](std::size_t i) { v_dot[i] -= c * v[i]; });
   }
@@ -58,6 +58,12 @@ void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
   for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
   system_.add_support_inertia(t, linear_.mass, Q);
   system_.add_contact_force(t, linear_, Q);
+}
+
+void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
+  if (!damping_.is_local()) return;
+  damping_.add_local(v, Q);
+  system_.hold_contact(Q);
 }
 
 bool RelaxationSystem::accept(double t, Vec y, bool force_is_current) {

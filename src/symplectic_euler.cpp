@@ -48,7 +48,7 @@ class SymplecticEuler final : public SteppingIntegrator {
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
 
     std::ranges::copy(std::as_const(Q_).span(), a.begin());
-    system().damping().add_local(v, a);
+    system().add_local_damping(v, a);
     acceleration_(h, v, a);
     for_each_index(u.size(), [=](std::size_t i) {
       v_new[i] = v[i] + h * a[i];

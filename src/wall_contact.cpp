@@ -14,6 +14,7 @@ void WallContact::begin_phase(double t, std::vector<Node> nodes, Vec v) {
   tangential_.resize(nodes_.size(), Tangential::stick);
   normal_force_.assign(nodes_.size(), 0);
   shear_force_.assign(nodes_.size(), 0);
+  held_.assign(nodes_.size(), 0);
   start_ = motion_.displacement(t);
   const double velocity = motion_.velocity(t);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -51,8 +52,9 @@ void WallContact::add_force(double t, const LinearDamping& C, const Mass& mass, 
     normal_force_[k] = shear_force_[k] = 0;
     if (!closed_[k]) continue;
     const auto n = static_cast<std::size_t>(nodes_[k].normal);
-    normal_force_[k] = m[n] * a + (C.mass * m[n] + C.identity) * w - Q[n];
-    Q[n] += normal_force_[k];
+    held_[k] = m[n] * a + (C.mass * m[n] + C.identity) * w;
+    normal_force_[k] = held_[k] - Q[n];
+    Q[n] = held_[k];
     if (nodes_[k].tangential < 0 || friction_ == 0) continue;
     double& Q_t = Q[static_cast<std::size_t>(nodes_[k].tangential)];
     if (tangential_[k] == Tangential::stick) {
@@ -62,6 +64,12 @@ void WallContact::add_force(double t, const LinearDamping& C, const Mass& mass, 
       shear_force_[k] = -limit * static_cast<double>(tangential_[k]);
     }
     Q_t += shear_force_[k];
+  }
+}
+
+void WallContact::hold(Vec Q) const {
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    if (closed_[k]) Q[static_cast<std::size_t>(nodes_[k].normal)] = held_[k];
   }
 }
 

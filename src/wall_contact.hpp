@@ -41,6 +41,8 @@ class WallContact {
 
   /// Q += contact forces, for C = c_m M + c_i I; Q: (n). A pure function of what is closed.
   void add_force(double t, const LinearDamping& C, const Mass& mass, Vec Q) const;
+  /// Q of the closed nodes' normals as the last add_force() left it.
+  void hold(Vec Q) const;
   /// Opens and closes nodes after an accepted step at t. Q: the last one given to add_force, without contact. True
   /// where an entry of v was changed.
   bool update(double t, ConstVec u, Vec v);
@@ -68,6 +70,7 @@ class WallContact {
   std::vector<char> closed_;
   std::vector<Tangential> tangential_;
   double start_ = 0;                                        // the wall's displacement when the phase began [m]
+  mutable std::vector<double> held_;                        // m (w' + c w) of closed nodes at the last add_force()
   mutable std::vector<double> normal_force_, shear_force_;  // F_n, F_t on the body's nodes at the last add_force()
 };
 

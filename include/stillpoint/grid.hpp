@@ -21,6 +21,12 @@ struct Axis {
   double max() const { return nodes.back(); }
   /// The cell that holds x: at a node the one above it, at the ends (and past them) the end cell.
   int cell_of(double x) const {
+    // Where the lines are evenly spaced, or nearly so, the guess is right.
+    const double guess = (x - min()) / (max() - min()) * cells();
+    if (guess >= 0 && guess < cells()) {
+      const auto c = static_cast<std::size_t>(guess);
+      if (nodes[c] <= x && x < nodes[c + 1]) return static_cast<int>(c);
+    }
     const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
     return static_cast<int>(above - nodes.begin()) - 1;
   }

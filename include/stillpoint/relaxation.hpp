@@ -26,6 +26,8 @@ class RelaxationSystem {
   bool out_of_balance(double t, ConstVec u, Vec Q);
   /// The same from the last evaluation, at no cost, where contacts have opened or closed since.
   void last_out_of_balance(double t, Vec Q) const;
+  /// Q += D(v, Q) of local damping, except where a contact holds; v, Q: (n), Q as the two above leave it.
+  void add_local_damping(ConstVec v, Vec Q) const;
 
   /// After an accepted step to (t, y), y: (2n): laws remember, contacts open and close. force_is_current: whether the
   /// last evaluation was there. True where velocities were changed by it.

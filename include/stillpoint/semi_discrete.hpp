@@ -43,6 +43,9 @@ class SemiDiscrete {
   virtual bool has_contact() const { return false; }
   /// Q += contact forces for the damping C, Q: (n). What is closed only changes in update_contact().
   virtual void add_contact_force(double /*t*/, const LinearDamping& /*C*/, Vec /*Q*/) const {}
+  /// Local damping, which acts on the sum of all other forces, must leave a closed contact to its wall: sets Q there as
+  /// the last add_contact_force() did; Q: (n).
+  virtual void hold_contact(Vec /*Q*/) const {}
   /// After an accepted step whose forces were the last ones evaluated: opens and closes contacts. True where v, (n),
   /// was changed by it.
   virtual bool update_contact(double /*t*/, ConstVec /*u*/, Vec /*v*/) { return false; }
