@@ -12,8 +12,9 @@ namespace {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), partial_(file_) {
-  partial_ += ".partial";
+std::filesystem::path partial_name(std::filesystem::path file) { return file += ".partial"; }
+
+AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), partial_(partial_name(file_)) {
   if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
   stream_.open(partial_, std::ios::trunc | std::ios::binary);
   if (!stream_) fail("cannot write", partial_);

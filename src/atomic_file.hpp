@@ -7,6 +7,9 @@
 
 namespace stillpoint {
 
+/// Where a file is written until it is whole: NAME.partial.
+std::filesystem::path partial_name(std::filesystem::path file);
+
 class AtomicFile {
  public:
   /// Creates the folder if need be. Throws std::filesystem::filesystem_error where the file cannot be written.

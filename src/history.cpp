@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "point_fields.hpp"
+#include "stages.hpp"
 
 namespace stillpoint {
 namespace {
@@ -24,10 +25,16 @@ std::size_t nearest_point(const std::vector<double>& places, std::size_t dim, co
 
 }  // namespace
 
-Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : phase_(phase), specs_(scene.probes) {
+Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase), specs_(scene.probes) {
   const std::vector<double> places = phase.places();
   const auto dim = static_cast<std::size_t>(phase.dim());
   for (const ProbeSpec& probe : specs_) {
+    if (probe.kind == ProbeKind::slope_angle) {
+      place_.emplace_back();
+      columns_.push_back(probe.name + ".slope_angle");
+      sources_.push_back({"slope_angle", 0, 0, 0});
+      continue;
+    }
     const std::size_t point =
         probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(places, dim, probe.at);
     place_.emplace_back(places.begin() + static_cast<std::ptrdiff_t>(dim * point),
@@ -48,6 +55,10 @@ std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
   std::map<std::string, std::vector<double>> fields;  // each asked for once
   std::vector<double> values;
   for (const Source& source : sources_) {
+    if (source.components == 0) {
+      values.push_back(slope_angle_of(scene_, phase_, t, u));
+      continue;
+    }
     auto [field, missing] = fields.try_emplace(source.field);
     if (missing) field->second = point_field(phase_, source.field, t, u, v);
     values.push_back(field->second[source.components * source.point + source.component]);

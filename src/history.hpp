@@ -35,12 +35,13 @@ class Probes {
 
  private:
   struct Source {
-    std::string field;      // as point_field() knows it
-    std::size_t component;  // of how many
-    std::size_t components;
+    std::string field;  // as point_field() knows it
+    std::size_t component;
+    std::size_t components;  // 0: the angle of the slope
     std::size_t point;
   };
 
+  const Scene& scene_;
   const LagrangianPhase& phase_;
   std::vector<ProbeSpec> specs_;
   std::vector<std::vector<double>> place_;

@@ -197,6 +197,7 @@ class MaterialPointPhase final : public LagrangianPhase {
     });
     return out;
   }
+  std::vector<double> places_at_start() const override { return origin_; }
   std::vector<double> volumes() const override {
     std::vector<double> out(points());
     for_points([&](std::size_t, std::size_t p, std::size_t number) { out[number] = body_.points.volume[p]; });

@@ -14,6 +14,7 @@
 #include "history.hpp"
 #include "inertia.hpp"
 #include "load_schedule.hpp"
+#include "stages.hpp"
 #include "stiffening_step.hpp"
 #include "stopwatch.hpp"
 
@@ -65,9 +66,10 @@ RunStatus status_of(StepReport::Status status) {
 }
 
 // A folder that cannot be written is bad input: nothing has run yet.
-History open_history(const std::filesystem::path& out, const std::vector<std::string>& columns) {
+template <class Open>
+auto open_output(const std::filesystem::path& out, const Open& open) {
   try {
-    return History(out, columns);
+    return open();
   } catch (const std::filesystem::filesystem_error& error) {
     const Location where{fmt::format("--out {}", out.string()), 0, 0};
     throw SceneError(std::vector<Problem>(1, {where, fmt::format("cannot be written: {}", error.code().message())}));
@@ -106,7 +108,8 @@ class Run {
         monitor_(monitor_options(scene, model_)),
         probes_(scene, *model_.phase),
         inertia_(*model_.phase),
-        history_(open_history(options.out, columns())),
+        history_(open_output(options.out, [&] { return History(options.out, columns()); })),
+        stages_(open_output(options.out, [&] { return Stages(scene, *model_.phase, options.out); })),
         interval_(output_interval(scene, model_)) {
     // A step that was asked for as such is left alone.
     if (model_.phase->stiffens() && !scene.integrator.step) initial_stiffening_ = model_.phase->stiffening(0, model_.u);
@@ -115,10 +118,11 @@ class Run {
 
   Summary relax() {
     record();
+    stages_.look(t_, u(), v());
     const Stopwatch stepping;
     while (status_ == RunStatus::running) {
       const double t_row = next_row_time();
-      const StepReport step = motion_->integrator->step(t_row);
+      const StepReport step = motion_->integrator->step(std::min(t_row, next_stage_time()));
       t_ = step.t;
       if (step.status != StepReport::Status::ok) {
         if (step.status == StepReport::Status::inadmissible && try_next_phase()) continue;
@@ -131,10 +135,12 @@ class Run {
       accept();
       watch();
       if (t_ >= t_row || status_ != RunStatus::running) record();
+      stages_.look(t_, u(), v());
       report_progress();
       if (status_ == RunStatus::running && model_.phase->share_of_phase(t_, u()) >= 1) next_phase();
     }
     stepping_s_ = stepping.seconds();
+    stages_.finish(t_, u(), v());
     history_.finish();
     return summary();
   }
@@ -194,6 +200,11 @@ class Run {
   double next_row_time() const {
     const double t_row = static_cast<double>(rows_) * interval_, end = scene_.stop.time;
     return end > 0 && t_row > end - 1e-9 * interval_ ? end : t_row;
+  }
+
+  double next_stage_time() const {
+    const double next = stages_.next_time(), end = scene_.stop.time;
+    return end > 0 ? std::min(next, end) : next;
   }
 
   void measure() {
@@ -267,6 +278,7 @@ class Run {
     if (model_.phase->moves_on()) s.transfer = model_.phase->transfer_errors();
     if (inertia_.watches()) s.external_work = inertia_.external_work();
     const std::vector<double> values = probes_.read(t_, u(), v());
+    s.stages = stages_.taken();
     std::size_t column = 0;
     for (std::size_t k = 0; k < probes_.specs().size(); ++k) {
       const ProbeSpec& probe = probes_.specs()[k];
@@ -274,6 +286,7 @@ class Run {
     }
     for (const std::string& name : probes_.columns()) {
       const std::size_t dot = name.find('.');
+      if (name.substr(dot + 1) == "slope_angle") s.slope_angle = values[column];
       s.probes[name.substr(0, dot)].emplace_back(name.substr(dot + 1), values[column++]);
     }
     return s;
@@ -288,6 +301,7 @@ class Run {
   Probes probes_;
   Inertia inertia_;
   History history_;
+  Stages stages_;
   double interval_;  // between rows [s]
   std::optional<double> initial_stiffening_;
 

@@ -28,6 +28,8 @@ std::string to_json(const Summary& s) {
   for (const auto& [name, fields] : s.probes) {
     for (const auto& [field, value] : fields) probes[name][field] = number(value);
   }
+  Json stages = Json::array();
+  for (const Stage& stage : s.stages) stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
   Json versions = Json::object();
   for (const auto& [name, version] : library_versions()) versions[name] = version;
 
@@ -53,6 +55,8 @@ std::string to_json(const Summary& s) {
                      {"mass_error", s.transfer ? number(s.transfer->mass) : Json(nullptr)},
                      {"momentum_error", s.transfer ? number(s.transfer->momentum) : Json(nullptr)},
                      {"added_inertia", s.transfer ? number(s.transfer->added_inertia) : Json(nullptr)},
+                     {"slope_angle", number(s.slope_angle)},
+                     {"stages", stages},
                      {"integrator", s.integrator},
                      {"damping", s.damping},
                      {"omega_1", number(s.omega_1)},

@@ -46,6 +46,7 @@ class LagrangianPhase : public SemiDiscrete {
   virtual int stress_components() const = 0;    // of a Cauchy stress
   virtual std::size_t points() const = 0;
   virtual std::vector<double> places() const = 0;   // when the phase began, (P × dim) [m]
+  virtual std::vector<double> places_at_start() const = 0;  // when the run began, likewise
   virtual std::vector<double> volumes() const = 0;  // V_p when the phase began, (P) [m³]
   virtual std::vector<int> materials() const = 0;   // number of each point's material, by name, (P)
   virtual double total_mass() const = 0;            // Σ m_p [kg]

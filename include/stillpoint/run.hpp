@@ -30,6 +30,12 @@ struct RunOptions {
   std::function<void(const Progress&)> progress{};  // told a few times a second
 };
 
+/// A moment at which all fields were written.
+struct Stage {
+  double t = 0;            // [s]
+  double slope_angle = 0;  // of the free surface [degrees]; NaN where there is no slope
+};
+
 /// Error against the scene's exact solution, over the material points with weights V_p.
 struct ExactError {
   double u_rel_l2 = 0, u_rel_max = 0;
@@ -59,6 +65,8 @@ struct Summary {
   std::vector<std::string> notes;          // of Model
   std::optional<TransferErrors> transfer;  // of a body that moves on
   std::optional<double> external_work;     // [J]
+  std::optional<double> slope_angle;       // at the end, where a probe asks for it [degrees]
+  std::vector<Stage> stages;
   std::optional<ExactError> error;
   std::map<std::string, std::vector<double>> probe_places;  // of each probe's material point when the phase began [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)

@@ -15,7 +15,8 @@ find_dependency(OpenMP COMPONENTS CXX)
 find_dependency(GSL)
 find_dependency(SUNDIALS CONFIG COMPONENTS arkode nvecserial)
 
-# SuiteSparse and ARPACK bring no CMake package in Debian: a target for each.
+# SuiteSparse, ARPACK and HDF5 bring no CMake package in Debian: a target for each. (CMake's own FindHDF5 compiles a C
+# program, so that a project in C++ alone could not find stillpoint.)
 if(NOT TARGET stillpoint::cholmod)
   find_library(STILLPOINT_CHOLMOD cholmod REQUIRED)
   find_path(STILLPOINT_CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
@@ -26,4 +27,10 @@ if(NOT TARGET stillpoint::cholmod)
   find_library(STILLPOINT_ARPACK arpack REQUIRED)
   add_library(stillpoint::arpack UNKNOWN IMPORTED)
   set_target_properties(stillpoint::arpack PROPERTIES IMPORTED_LOCATION ${STILLPOINT_ARPACK})
+
+  find_library(STILLPOINT_HDF5 NAMES hdf5_serial hdf5 REQUIRED)
+  find_path(STILLPOINT_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
+  add_library(stillpoint::hdf5 UNKNOWN IMPORTED)
+  set_target_properties(stillpoint::hdf5 PROPERTIES
+    IMPORTED_LOCATION ${STILLPOINT_HDF5} INTERFACE_INCLUDE_DIRECTORIES ${STILLPOINT_HDF5_INCLUDE})
 endif()

@@ -1,0 +1,54 @@
+// fields.h5 and fields.xdmf: the material points at some times of a run, for ParaView and for scripts.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+/// A field at the points, (points × components) row by row. ParaView sees 1 component as a scalar, 2 or 3 as a vector,
+/// and the 4 of a stress in the plane, xx, yy, zz, xy, as scalars NAME_xx, NAME_yy, NAME_zz, NAME_xy.
+struct PointField {
+  std::string name;  // letters, digits and _
+  int components;
+  std::vector<double> values;
+};
+
+/// What the points are like at time t [s].
+struct FieldFrame {
+  double t;
+  int dim;
+  std::size_t points;         // > 0
+  std::vector<double> place;  // (points × dim) [m], deformed
+  std::vector<PointField> fields;
+  std::vector<int> material;  // (points), or empty: not written
+};
+
+/// Writes frame by frame. Frame k of fields.h5 is the group /frame_000k with the attributes t and dim: `place` and
+/// every vector in 3 columns (0 beyond dim), scalars in one; /vertex/P counts 0 … P − 1 for frames of P points.
+/// fields.xdmf makes each dataset an attribute of the same name. Equal frames give equal bytes.
+///
+/// Both files are written as NAME.partial. finish() gives them their names; without it the destructor removes them.
+/// After each frame they are flushed, so that a killed process leaves all its frames in fields.h5.partial. The
+/// constructor creates the folder if need be. It, add() and finish() throw std::filesystem::filesystem_error where a
+/// file cannot be written, in HDF5's words where it is HDF5 that cannot.
+class FieldWriter {
+ public:
+  explicit FieldWriter(const std::filesystem::path& folder);
+  ~FieldWriter();
+  FieldWriter(const FieldWriter&) = delete;
+  FieldWriter& operator=(const FieldWriter&) = delete;
+
+  /// Throws std::invalid_argument for a frame whose parts are not of the shapes above; nothing is written then.
+  void add(const FieldFrame& frame);
+  /// To be called at the end of every run, and of one that went wrong, too: what was added is kept.
+  void finish();
+
+ private:
+  class Files;
+  std::unique_ptr<Files> files_;  // none after finish()
+};
+
+}  // namespace stillpoint

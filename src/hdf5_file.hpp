@@ -1,0 +1,56 @@
+// The one boundary to HDF5: a file that is written, dataset by dataset.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+/// The columns of an array (rows × width) that make a dataset: `count` of them from `first` on become the first ones of
+/// the dataset's `columns`, and the rest of those is 0. A dataset of one column is of rank 1.
+struct Columns {
+  std::size_t width, first, count, columns;
+};
+
+/// Every function throws std::filesystem::filesystem_error, in the library's words, where the library fails.
+/// Numbers are little-endian float64 and int32. Equal calls make equal files: no times are kept.
+class Hdf5File {
+ public:
+  /// Replaces a file that is there.
+  explicit Hdf5File(std::filesystem::path path);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  void make_group(const std::string& name);
+  /// Takes a group or a dataset out again, if it is there and that is possible.
+  void remove(const std::string& name) noexcept;
+  void write_attribute(const std::string& group, const std::string& name, double value);
+  void write_attribute(const std::string& group, const std::string& name, int value);
+  /// At least one row. Chunked, and compressed where the library can, a chunk at a time.
+  void write(const std::string& name, const std::vector<double>& values, const Columns& columns);
+  void write(const std::string& name, const std::vector<int>& values);
+
+  /// From here on the file holds what was written even if the process is killed.
+  void flush();
+  /// Whatever could not be written throws here at the latest.
+  void close();
+
+ private:
+  template <class Code>
+  Code check(Code code) const;
+  void write_attribute(const std::string& group, const std::string& name, std::int64_t type, std::int64_t native_type,
+                       const void* value);
+  template <class Number>
+  void write(const std::string& name, std::int64_t type, std::int64_t native_type, const std::vector<Number>& values,
+             const Columns& columns);
+
+  std::filesystem::path path_;
+  std::int64_t file_;  // HDF5's hid_t; negative when closed
+  bool can_deflate_ = false;
+};
+
+}  // namespace stillpoint
