@@ -15,13 +15,12 @@
 #include "boundary.hpp"
 #include "cell_assembly.hpp"
 #include "degrees_of_freedom.hpp"
+#include "external_loads.hpp"
 #include "nodal_force.hpp"
-#include "nodal_loads.hpp"
-#include "nodal_sum.hpp"
+#include "nodal_inertia.hpp"
 #include "prescribed_motion.hpp"
 #include "reject.hpp"
 #include "scene_grid.hpp"
-#include "surface_of_body.hpp"
 #include "velocity_transfer.hpp"
 #include "wall_contact.hpp"
 
@@ -42,6 +41,8 @@ class MaterialPointPhase final : public LagrangianPhase {
         grid_(grid_at<Dim>(scene, 0)),
         body_(make_body<K>(scene, grid_, moves_on_)),
         transfer_(scene.phase),
+        inertia_(scene.mass, moves_on_),
+        loads_(scene_, grid_),
         boundary_(scene, time_scale()) {
     for (const auto& material : body_.materials) {
       history_dependent_ = history_dependent_ || material->history_dependent();
@@ -51,7 +52,6 @@ class MaterialPointPhase final : public LagrangianPhase {
     origin_ = places();
     if (scene_.geostatic) set_geostatic_stress();
     if (moves_on_) set_initial_point_velocity();
-    surface_ = make_surface_loads<B, K>(scene_, grid_);
     begin_phase(0);
   }
 
@@ -60,15 +60,11 @@ class MaterialPointPhase final : public LagrangianPhase {
   const Mass& mass() const override { return *mass_; }
   bool history_dependent() const override { return history_dependent_; }
 
-  void external_force(double t, Vec F) const override {
-    loads_->evaluate(t, F);
-    if (varying_body_force()) add_body_force(t, F);
-    surface_.add_dead(t, *dofs_, F);
-  }
+  void external_force(double t, Vec F) const override { loads_.evaluate(t, body_.points, weights_, *dofs_, F); }
   void add_following_force(double t, ConstVec u, Vec F) const override {
-    if (!surface_.follows()) return;
+    if (!loads_.follow()) return;
     spread(t, u, grid_u_);
-    surface_.add_following(t, grid_u_.data(), *dofs_, F);
+    loads_.add_following(t, grid_u_.data(), *dofs_, F);
   }
 
   bool internal_force(double t, ConstVec u, Vec R) const override {
@@ -304,7 +300,9 @@ class MaterialPointPhase final : public LagrangianPhase {
     begin_phase(t);
     return velocity_from_points(t);
   }
-  TransferErrors transfer_errors() const override { return errors_; }
+  TransferErrors transfer_errors() const override {
+    return {transfer_.audit().mass(), transfer_.audit().momentum(), inertia_.largest_added_share()};
+  }
 
   std::vector<WallReaction> wall_reactions(double t) const override {
     std::vector<WallReaction> reactions;
@@ -385,7 +383,7 @@ class MaterialPointPhase final : public LagrangianPhase {
     spread_prescribed(t, committed_u_);
     committed_t_ = last_t_ = t;
     make_mass();
-    make_loads();
+    loads_.begin_phase(grid_, body_.points, weights_, *dofs_, inertia_.mass());
   }
 
   // Every function that a point gives mass to; where nodes get inertia anyhow, every one of a cell with material.
@@ -421,50 +419,27 @@ class MaterialPointPhase final : public LagrangianPhase {
     return shortest;
   }
 
-  // Inertia is the mass, scaled where the scene says so. In a body that moves on, points come to lie next to a cell's
-  // edge and give nodes across it stiffness but hardly any mass: such a node gets as much inertia as its stiffness
-  // bound needs for the frequency bound of the body as a whole, so that it neither shortens the step nor blows the run
-  // up. Its weight and momentum stay those of its mass.
   void make_mass() {
-    const auto try_to = [&](auto&& make) {
-      try {
-        mass_.emplace(make());
-      } catch (const std::invalid_argument& error) {
-        reject(scene_, "mass.kind", error.what());
-      }
-    };
-    node_mass_ = nodal_mass(body_.points, weights_, nodal_force_.corner_sum());
+    std::vector<double> wave_modulus;
+    for (const auto& material : body_.materials) wave_modulus.push_back(material->wave_modulus());
+    inertia_.begin_phase(body_.points, weights_, nodal_force_.corner_sum(), wave_modulus);
     if (!moves_on_) {
       consistent_ = consistent_mass<B, K>(body_.points, weights_, *dofs_);
       check_projection();
     }
-    if (scene_.mass.kind == MassKind::consistent) return try_to([&] { return Mass::consistent(consistent_.free); });
-
-    std::vector<double> inertia = node_mass_;
-    const bool gershgorin = scene_.mass.scaling == MassScaling::gershgorin;
-    if (moves_on_ || gershgorin) {
-      std::vector<double> A;
-      for (const auto& material : body_.materials) A.push_back(material->wave_modulus());
-      const std::vector<double> G = stiffness_bound(body_.points, weights_, nodal_force_.corner_sum(), A);
-      const double all_mass = sum_over(node_mass_.size(), [&](std::size_t f) { return node_mass_[f]; });
-      const double all_stiffness = sum_over(G.size(), [&](std::size_t f) { return G[f]; });
-      // ω² bound of the body as a whole, kept from its first phase
-      if (!(omega_squared_bound_ > 0)) omega_squared_bound_ = all_stiffness / all_mass;
-      double added = 0;
-      for (std::size_t f = 0; f < inertia.size(); ++f) {
-        const double needed = G[f] / omega_squared_bound_;
-        added += std::max(0.0, needed - inertia[f]);
-        inertia[f] = gershgorin ? needed : std::max(inertia[f], needed);
+    try {
+      if (scene_.mass.kind == MassKind::consistent) {
+        mass_.emplace(Mass::consistent(consistent_.free));
+      } else {
+        std::vector<double> diagonal(size());
+        for (std::size_t k = 0; k < diagonal.size(); ++k) {
+          diagonal[k] = inertia_.inertia()[static_cast<std::size_t>(dofs_->free[k] / Dim)];
+        }
+        mass_.emplace(Mass::lumped(std::move(diagonal)));
       }
-      errors_.added_inertia = std::max(errors_.added_inertia, added / all_mass);
+    } catch (const std::invalid_argument& error) {
+      reject(scene_, "mass.kind", error.what());
     }
-    try_to([&] {
-      std::vector<double> diagonal(size());
-      for (std::size_t k = 0; k < diagonal.size(); ++k) {
-        diagonal[k] = scene_.mass.factor * inertia[static_cast<std::size_t>(dofs_->free[k] / Dim)];
-      }
-      return Mass::lumped(std::move(diagonal));
-    });
   }
 
   // Initial values are fitted with the consistent mass, whatever the motion uses.
@@ -474,71 +449,6 @@ class MaterialPointPhase final : public LagrangianPhase {
       return;
     reject(scene_, "initial",
            "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
-  }
-
-  void make_loads() {
-    loads_.emplace(size());
-    for (std::size_t f = 0; f < scene_.forces.size(); ++f) {
-      const auto& force = scene_.forces[f];
-      for (int i = 0; i < Dim; ++i) {
-        loads_->add(force.value[static_cast<std::size_t>(i)], weights_at(force.at, i, fmt::format("force[{}].at", f)));
-      }
-    }
-    if (!surface_.empty() && !surface_.begin_phase(grid_, *dofs_)) {
-      reject(scene_, "traction", "there is no material at this face");
-    }
-    if (scene_.body_force.empty() || varying_body_force()) return;
-    // F_i = Σ_p N_ip m_p b(x_p); a uniform b acts on the nodes' masses
-    const auto uniform = [](const Expression& b) { return !b.uses('x') && !b.uses('y') && !b.uses('z'); };
-    if (B::partition_of_unity && std::ranges::all_of(scene_.body_force, uniform)) {
-      for (std::size_t k = 0; k < size(); ++k) {
-        const int unknown = dofs_->free[k];
-        const double b = scene_.body_force[static_cast<std::size_t>(unknown % Dim)]({}, 0);
-        loads_->add_constant(static_cast<int>(k), node_mass_[static_cast<std::size_t>(unknown / Dim)] * b);
-      }
-      return;
-    }
-    std::vector<double> F(size(), 0.0);
-    add_body_force(0, F);
-    for (std::size_t k = 0; k < size(); ++k) loads_->add_constant(static_cast<int>(k), F[k]);
-  }
-
-  // Weights N_i(x) of the free degrees of freedom at a place.
-  NodalLoads::Weights weights_at(const std::vector<double>& at, int component, const std::string& key) const {
-    Point<Dim> x;
-    std::copy_n(at.begin(), Dim, x.begin());
-    const auto cell = grid_.cell_of(x);
-    const auto values = Basis::evaluate(grid_, cell, x);
-    const auto offset = Basis::offsets(grid_);
-    NodalLoads::Weights weights;
-    for (int a = 0; a < per_cell; ++a) {
-      const int dof =
-          dofs_->number[static_cast<std::size_t>(Dim * (Basis::first(grid_, cell) + offset[a]) + component)];
-      if (dof < 0 && std::abs(values.N[a]) > 1e-12) reject(scene_, key, "there is no material at this place");
-      if (dofs_->is_free(dof) && values.N[a] != 0) weights.emplace_back(dof, values.N[a]);
-    }
-    return weights;
-  }
-
-  bool varying_body_force() const {
-    return std::ranges::any_of(scene_.body_force, [](const Expression& b) { return b.uses('t'); });
-  }
-
-  // F_i += Σ_p N_ip m_p b(x_p, t)
-  void add_body_force(double t, Vec F) const {
-    for_points([&](std::size_t k, std::size_t p, std::size_t) {
-      for (int i = 0; i < Dim; ++i) {
-        const double force =
-            body_.points.mass[p] * scene_.body_force[static_cast<std::size_t>(i)](body_.points.place(p), t);
-        add_at_functions(k, p, i, force, F);
-      }
-    });
-  }
-  void add_at_functions(std::size_t k, std::size_t p, int component, double value, Vec F) const {
-    for (int a = 0; a < per_cell; ++a) {
-      const int dof = dofs_->number[static_cast<std::size_t>(Dim * weights_.function(k, a) + component)];
-      if (dofs_->is_free(dof)) F[static_cast<std::size_t>(dof)] += value * weights_.N(p)[a];
-    }
   }
 
   // σ_yy = −ρ b_y (surface − y)  from  ∂σ_yy/∂y + ρ b_y = 0,  σ_xx = σ_zz = K0 σ_yy
@@ -568,29 +478,12 @@ class MaterialPointPhase final : public LagrangianPhase {
     }
   }
 
-  // v_i = Σ_p m_p N_ip v_p/m_i. A node whose mass is next to nothing takes the velocity of its cells' points.
   std::vector<double> velocity_from_points(double t) {
-    constexpr double next_to_nothing = 1e-12;
-    const std::vector<double> momentum =
-        transfer_.nodal_momentum(grid_, body_.points, weights_, nodal_force_.corner_sum());
-    const std::vector<double> of_cells = nodal_sum<Dim + 1>(
-        body_.points, weights_, nodal_force_.corner_sum(), [&](std::size_t k, Corners<Dim + 1, per_cell>& corner) {
-          for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
-            for (int a = 0; a < per_cell; ++a) {
-              corner[(Dim + 1) * a] += body_.points.mass[p];
-              for (int i = 0; i < Dim; ++i) {
-                corner[(Dim + 1) * a + 1 + i] += body_.points.mass[p] * body_.points.v[i][p];
-              }
-            }
-          }
-        });
-    note_transfer_errors(momentum);
+    transfer_.audit().compare_mass(initial_mass_, inertia_.mass());
+    const std::vector<double> grid_v =
+        transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
     std::vector<double> v(size());
-    for (std::size_t k = 0; k < v.size(); ++k) {
-      const auto f = static_cast<std::size_t>(dofs_->free[k] / Dim), i = static_cast<std::size_t>(dofs_->free[k] % Dim);
-      v[k] = (momentum[Dim * f + i] + next_to_nothing * of_cells[(Dim + 1) * f + 1 + i]) /
-             (node_mass_[f] + next_to_nothing * of_cells[(Dim + 1) * f]);
-    }
+    for (std::size_t k = 0; k < v.size(); ++k) v[k] = grid_v[static_cast<std::size_t>(dofs_->free[k])];
     begin_contact(t, v);
     start_velocity_ = nodal_velocity(t, v);
     return v;
@@ -607,42 +500,13 @@ class MaterialPointPhase final : public LagrangianPhase {
     return grid_v;
   }
 
-  void note_transfer_errors(const std::vector<double>& momentum) {
-    const double mass_at_nodes = sum_over(node_mass_.size(), [&](std::size_t f) { return node_mass_[f]; });
-    errors_.mass = std::max(errors_.mass, std::abs(mass_at_nodes - initial_mass_) / initial_mass_);
-    compare_momentum(point_momentum(), momentum);
-  }
-  struct Momentum {
-    std::array<double, Dim> sum{};
-    double scale = 0;
-  };
-  Momentum point_momentum() const {
-    Momentum momentum;
-    const auto& m = body_.points.mass;
-    for (int i = 0; i < Dim; ++i) {
-      const auto& v = body_.points.v[i];
-      momentum.sum[i] = sum_over(points(), [&](std::size_t p) { return m[p] * v[p]; });
-      momentum.scale += sum_over(points(), [&](std::size_t p) { return m[p] * std::abs(v[p]); });
-    }
-    return momentum;
-  }
-  void compare_momentum(const Momentum& of_points, const std::vector<double>& at_nodes) {
-    if (!(of_points.scale > 0)) return;
-    for (int i = 0; i < Dim; ++i) {
-      const double at_grid = sum_over(at_nodes.size() / Dim, [&](std::size_t f) { return at_nodes[Dim * f + i]; });
-      errors_.momentum = std::max(errors_.momentum, std::abs(at_grid - of_points.sum[i]) / of_points.scale);
-    }
-  }
-
   // --- a phase ends -------------------------------------------------------------------------------
   // x_p += Σ N_ip u_i,  V_p *= det f_p, and velocities by the scene's transfer
   void end_phase(double t, ConstVec u, ConstVec v) {
     spread(t, u, grid_u_);
     const std::vector<double> grid_v = nodal_velocity(t, v);
-    const Momentum before = point_momentum();
-    transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), node_mass_, grid_u_.data(),
-                        grid_v.data(), start_velocity_.data());
-    check_momentum_of_increment(before, grid_v);
+    transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), grid_u_.data(),
+                        grid_v, start_velocity_);
     nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
       if (!body_.materials[m]->finite_strain()) return;
       body_.materials[m]->end_phase(block);
@@ -655,22 +519,7 @@ class MaterialPointPhase final : public LagrangianPhase {
         for (int d = 0; d < Dim; ++d) body_.points.x[d][p] += u_p[d];
       }
     });
-    surface_.end_phase(grid_u_.data());
-  }
-
-  // Σ_p m_p v_p has changed by Σ_i m_i (v_i − v_i at the start) in flip and xpic, and is Σ_i m_i v_i in pic and apic.
-  void check_momentum_of_increment(const Momentum& before, const std::vector<double>& grid_v) {
-    const double share = scene_.phase.transfer == Transfer::flip   ? scene_.phase.flip_share
-                         : scene_.phase.transfer == Transfer::xpic ? 1
-                                                                   : 0;
-    std::vector<double> expected(grid_v.size());
-    for (std::size_t unknown = 0; unknown < expected.size(); ++unknown) {
-      expected[unknown] = node_mass_[unknown / Dim] * (grid_v[unknown] - share * start_velocity_[unknown]);
-    }
-    Momentum after = point_momentum();
-    for (int i = 0; i < Dim; ++i) after.sum[i] -= share * before.sum[i];
-    after.scale = std::max(after.scale, before.scale);
-    compare_momentum(after, expected);
+    loads_.end_phase(grid_u_.data());
   }
 
   void check_inside(double t) const {
@@ -756,8 +605,8 @@ class MaterialPointPhase final : public LagrangianPhase {
     if (field.empty()) return u;
     for_points([&](std::size_t k, std::size_t p, std::size_t) {
       for (int i = 0; i < Dim; ++i) {
-        add_at_functions(k, p, i, body_.points.mass[p] * field[static_cast<std::size_t>(i)](body_.points.place(p), 0),
-                         u);
+        const double moment = body_.points.mass[p] * field[static_cast<std::size_t>(i)](body_.points.place(p), 0);
+        weights_.add_at_functions(k, p, i, moment, *dofs_, u);
       }
     });
     const SplitMatrix M = moves_on_ ? consistent_mass<B, K>(body_.points, weights_, *dofs_) : consistent_;
@@ -775,24 +624,21 @@ class MaterialPointPhase final : public LagrangianPhase {
   Grid<Dim> grid_;
   Body<K> body_;
   VelocityTransfer<B, K> transfer_;
+  NodalInertia<B, K> inertia_;
+  ExternalLoads<B, K> loads_;
   Boundary boundary_;
-  SurfaceLoads<B, K> surface_;
   PointOrder<Dim> order_;
   std::vector<double> origin_;  // places at the start of the run, in the points' order of then, (P × Dim)
   double initial_mass_ = 0;
-  TransferErrors errors_;
 
   // Of the present phase:
   PointWeights<B, K> weights_;
   std::optional<DegreesOfFreedom> dofs_;
-  std::vector<double> node_mass_;  // m_i, (functions)
-  SplitMatrix consistent_;         // M as assembled, for projections and moving supports; of a single phase only
+  SplitMatrix consistent_;  // M as assembled, for projections and moving supports; of a single phase only
   std::optional<Mass> mass_;
-  std::optional<NodalLoads> loads_;
   std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)
   std::vector<double> committed_u_;     // likewise
   double committed_t_ = 0;
-  double omega_squared_bound_ = 0;
 
   // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
   mutable NodalForce<B, K> nodal_force_;

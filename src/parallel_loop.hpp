@@ -33,7 +33,7 @@ inline void for_each_block(std::size_t n, const Body& body) {
 /// join over term(0) … term(n−1), join associative up to rounding. The order is fixed by n alone: at most 64 blocks,
 /// each in 16 lanes, lanes and then blocks joined in order; neither threads nor the compiler's vectors change it.
 template <class Value, class Term, class Join>
-inline Value reduce(std::size_t n, Value identity, const Term& term, const Join& join) {
+inline Value reduce(std::size_t n, Value neutral, const Term& term, const Join& join) {
   constexpr std::size_t lanes = 16, most_blocks = 64, shortest_block = 1024;
   const std::size_t share = (n + most_blocks - 1) / most_blocks;
   const std::size_t block = std::max(shortest_block, (share + lanes - 1) / lanes * lanes);
@@ -42,7 +42,7 @@ inline Value reduce(std::size_t n, Value identity, const Term& term, const Join&
 
   const auto reduce_block = [&](std::size_t b) {
     std::array<Value, lanes> of_lane;
-    of_lane.fill(identity);
+    of_lane.fill(neutral);
     const std::size_t begin = b * block, end = std::min(n, begin + block);
     const std::size_t whole = begin + (end - begin) / lanes * lanes;
     for (std::size_t i = begin; i < whole; i += lanes) {
@@ -50,7 +50,7 @@ inline Value reduce(std::size_t n, Value identity, const Term& term, const Join&
       for (std::size_t k = 0; k < lanes; ++k) of_lane[k] = join(of_lane[k], term(i + k));
     }
     for (std::size_t i = whole; i < end; ++i) of_lane[i - whole] = join(of_lane[i - whole], term(i));
-    Value all = identity;
+    Value all = neutral;
     for (const Value& one : of_lane) all = join(all, one);
     of_block[b] = all;
   };
@@ -61,7 +61,7 @@ inline Value reduce(std::size_t n, Value identity, const Term& term, const Join&
     for (std::size_t b = 0; b < blocks; ++b) reduce_block(b);
   }
 
-  Value all = identity;
+  Value all = neutral;
   for (std::size_t b = 0; b < blocks; ++b) all = join(all, of_block[b]);
   return all;
 }

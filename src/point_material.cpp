@@ -1,8 +1,8 @@
 // Which law goes with which stress state: the instantiations.
 #include "point_material.hpp"
 
-#include <stillpoint/linear_elastic.hpp>
 #include <stillpoint/drucker_prager.hpp>
+#include <stillpoint/linear_elastic.hpp>
 #include <stillpoint/neo_hookean.hpp>
 
 #include <stdexcept>
@@ -25,7 +25,11 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
   if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric) {
     if (material.law == "drucker-prager") {
       const auto& number = material.parameters;
-      DruckerPragerParameters m{.E = number.at("E"), .nu = number.at("nu"), .phi = number.at("phi"), .psi = number.at("psi"), .c = number.at("c")};
+      DruckerPragerParameters m{.E = number.at("E"),
+                                .nu = number.at("nu"),
+                                .phi = number.at("phi"),
+                                .psi = number.at("psi"),
+                                .c = number.at("c")};
       return std::make_unique<HistoryMaterial<DruckerPrager<S>>>(DruckerPrager<S>(m), begin, count);
     }
   }

@@ -4,11 +4,13 @@
 #include <stillpoint/basis.hpp>
 #include <stillpoint/material.hpp>
 #include <stillpoint/material_points.hpp>
+#include <stillpoint/types.hpp>
 
 #include <array>
 #include <vector>
 
 #include "deformation.hpp"
+#include "degrees_of_freedom.hpp"
 #include "parallel_loop.hpp"
 
 namespace stillpoint {
@@ -51,6 +53,14 @@ class PointWeights {
   const double* N(std::size_t p) const { return N_.data() + per_cell * p; }
   const double* dN(std::size_t p) const { return dN_.data() + rows * per_cell * p; }
 
+  /// F_a += N_ap value, in one component, at the free degrees of freedom; F: (n).
+  void add_at_functions(std::size_t k, std::size_t p, int component, double value, const DegreesOfFreedom& dofs,
+                        Vec F) const {
+    for (int a = 0; a < per_cell; ++a) {
+      const int dof = dofs.number[static_cast<std::size_t>(dim * function(k, a) + component)];
+      if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += value * N(p)[a];
+    }
+  }
   /// Σ_a N_ap u_a at point p of cell k; u over the grid's functions, component i at [dim function + i].
   std::array<double, dim> value(const double* u, std::size_t k, std::size_t p) const {
     std::array<double, dim> sum{};

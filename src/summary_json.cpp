@@ -29,7 +29,8 @@ std::string to_json(const Summary& s) {
     for (const auto& [field, value] : fields) probes[name][field] = number(value);
   }
   Json stages = Json::array();
-  for (const Stage& stage : s.stages) stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
+  for (const Stage& stage : s.stages)
+    stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
   Json versions = Json::object();
   for (const auto& [name, version] : library_versions()) versions[name] = version;
 

@@ -12,7 +12,8 @@ template <int N, class Body>
 [[gnu::always_inline]] inline void unroll(const Body& body) {
   [&]<int... c>(std::integer_sequence<int, c...>) __attribute__((always_inline)) {
     (body(std::integral_constant<int, c>{}), ...);
-  }(std::make_integer_sequence<int, N>{});
+  }
+  (std::make_integer_sequence<int, N>{});
 }
 
 }  // namespace stillpoint

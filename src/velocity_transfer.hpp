@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "nodal_sum.hpp"
+#include "transfer_audit.hpp"
 
 namespace stillpoint {
 
@@ -31,6 +32,33 @@ class VelocityTransfer {
 
  public:
   explicit VelocityTransfer(const PhaseSpec& spec) : spec_(spec) {}
+
+  /// v_i from the points, (functions × dim). A node whose mass is next to nothing takes the velocity of its cells'
+  /// points. mass: m_i, (functions).
+  std::vector<double> to_grid(const Grid<dim>& grid, const Points& points, const Weights& weights,
+                              const CornerSum& corner_sum, const std::vector<double>& mass) {
+    constexpr double next_to_nothing = 1e-12;
+    std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
+    audit_.compare_momentum(TransferAudit<dim>::of_points(points), v);
+    const std::vector<double> of_cells =
+        nodal_sum<dim + 1>(points, weights, corner_sum, [&](std::size_t k, Corners<dim + 1, per_cell>& corner) {
+          std::array<double, dim + 1> of_cell{};
+          for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+            of_cell[dim] += points.mass[p];
+            for (int i = 0; i < dim; ++i) of_cell[i] += points.mass[p] * points.v[i][p];
+          }
+          for (int a = 0; a < per_cell; ++a) std::copy(of_cell.begin(), of_cell.end(), corner.begin() + (dim + 1) * a);
+        });
+    for_each_block(mass.size(), [&](std::size_t f) {
+      const double* cells = of_cells.data() + (dim + 1) * f;
+      const double m = mass[f] + next_to_nothing * cells[dim];
+      for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? (v[dim * f + i] + next_to_nothing * cells[i]) / m : 0;
+    });
+    return v;
+  }
+
+  const TransferAudit<dim>& audit() const { return audit_; }
+  TransferAudit<dim>& audit() { return audit_; }
 
   /// Σ_p m_p (N_ip v_p + …), (functions × dim) [kg m/s].
   std::vector<double> nodal_momentum(const Grid<dim>& grid, const Points& points, const Weights& weights,
@@ -58,7 +86,19 @@ class VelocityTransfer {
   /// Moves velocities to the points at a phase's end. u, v, v_start: over the grid's functions, (functions × dim);
   /// mass: (functions). Places are still those of the phase's start.
   void to_points(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
-                 const std::vector<double>& mass, const double* u, const double* v, const double* v_start) const {
+                 const std::vector<double>& mass, const double* u, const std::vector<double>& v_end,
+                 const std::vector<double>& v_start) {
+    const auto before = TransferAudit<dim>::of_points(points);
+    move(grid, points, weights, corner_sum, mass, u, v_end.data(), v_start.data());
+    check_momentum(before, points, mass, v_end, v_start);
+  }
+
+ private:
+  using Centres = std::array<std::array<double, per_cell>, dim>;
+  using AffineWeights = std::array<std::array<double, per_cell>, dim>;
+
+  void move(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
+            const std::vector<double>& mass, const double* u, const double* v, const double* v_start) const {
     const std::array<std::vector<double>, dim> noise =
         spec_.transfer == Transfer::xpic ? null_space_part(points, weights, corner_sum, mass) : decltype(noise){};
     // Share of the increment in flip; the rest is the velocity itself.
@@ -77,9 +117,18 @@ class VelocityTransfer {
     });
   }
 
- private:
-  using Centres = std::array<std::array<double, per_cell>, dim>;
-  using AffineWeights = std::array<std::array<double, per_cell>, dim>;
+  // Σ_p m_p v_p has changed by Σ_i m_i (v_i − v_i at the start) in flip and xpic, and is Σ_i m_i v_i in pic and apic.
+  void check_momentum(const typename TransferAudit<dim>::Momentum& before, const Points& points,
+                      const std::vector<double>& mass, const std::vector<double>& v,
+                      const std::vector<double>& v_start) {
+    const double share = spec_.transfer == Transfer::flip ? spec_.flip_share : spec_.transfer == Transfer::xpic ? 1 : 0;
+    std::vector<double> expected(v.size());
+    for_each_index(v.size(), [&](std::size_t i) { expected[i] = mass[i / dim] * (v[i] - share * v_start[i]); });
+    auto change = TransferAudit<dim>::of_points(points);
+    for (int i = 0; i < dim; ++i) change.sum[i] -= share * before.sum[i];
+    change.scale = std::max(change.scale, before.scale);
+    audit_.compare_momentum(change, expected);
+  }
 
   Centres centres(const Grid<dim>& grid, int cell_number) const {
     Centres of_cell{};
@@ -164,6 +213,7 @@ class VelocityTransfer {
   }
 
   PhaseSpec spec_;
+  TransferAudit<dim> audit_;
 };
 
 }  // namespace stillpoint

@@ -1,21 +1,21 @@
 // Drucker–Prager plasticity, rate-independent or viscous, with a tension cut-off that opens a gap. Tension is positive.
 //   f = √J₂ + η p − ξ c,   p = tr σ/3,   flow by √J₂ + η̄ p:   dᵖ = γ̇ᵖ (s/(2 √J₂) + η̄/3 I)
-// γᵖ, the plastic strain, is conjugate to √J₂ (s : dᵖ = √J₂ γ̇ᵖ): in simple shear the plastic part of γ. Either f ≤ 0, or
-// γ̇ᵖ = β f [Perzyna 1966] with the fluidity β. Return mapping: [de Souza Neto, Perić and Owen 2008, §8.3].
+// γᵖ, the plastic strain, is conjugate to √J₂ (s : dᵖ = √J₂ γ̇ᵖ): in simple shear the plastic part of γ. Either f ≤ 0,
+// or γ̇ᵖ = β f [Perzyna 1966] with the fluidity β. Return mapping: [de Souza Neto, Perić and Owen 2008, §8.3].
 //
 // An increment [Hughes and Winget 1980], f = I + H from the last to the next, g = f − dH/2 between them:
 //   l = dH g⁻¹ = d + w,   σ_trial = R½ (R½ σ R½ᵀ + C : d) R½ᵀ,   R½ R½ = R the Cayley transform of w,
 // so that a rotation turns the stress exactly and the error of any other path is of second order.
 //
 // Volume. Where the cone has returned a trial to more tension than p_cut ≤ ξ c/η (the apex), p stays at p_cut, and what
-// opens is kept as a gap, a volumetric strain that closes before p can fall again. With σ = 0 in it, a cohesionless point
-// flies apart and comes back without having grown. All volume is accounted for:
+// opens is kept as a gap, a volumetric strain that closes before p can fall again. With σ = 0 in it, a cohesionless
+// point flies apart and comes back without having grown. All volume is accounted for:
 //   tr d = Δp/K + Δgap + η̄ Δγᵖ.
-// So dilatancy first takes its volume out of an open gap, and presses only when that is closed. The edge between cone and
-// cut-off is Koiter's: the apex is the edge at p_cut = ξ c/η, √J₂ = 0.
+// So dilatancy first takes its volume out of an open gap, and presses only when that is closed. The edge between cone
+// and cut-off is Koiter's: the apex is the edge at p_cut = ξ c/η, √J₂ = 0.
 //
-// Softening: η and ξ c fall linearly with γᵖ from their peak to their residual values at γᵖ = softening_strain. The strength
-// is that of the committed γᵖ, one increment late, so that the return stays closed.
+// Softening: η and ξ c fall linearly with γᵖ from their peak to their residual values at γᵖ = softening_strain. The
+// strength is that of the committed γᵖ, one increment late, so that the return stays closed.
 #pragma once
 
 #include <stillpoint/drucker_prager_parameters.hpp>

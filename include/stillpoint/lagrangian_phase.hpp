@@ -45,11 +45,11 @@ class LagrangianPhase : public SemiDiscrete {
   virtual int gradient_components() const = 0;  // of a displacement gradient (material.hpp)
   virtual int stress_components() const = 0;    // of a Cauchy stress
   virtual std::size_t points() const = 0;
-  virtual std::vector<double> places() const = 0;   // when the phase began, (P × dim) [m]
+  virtual std::vector<double> places() const = 0;           // when the phase began, (P × dim) [m]
   virtual std::vector<double> places_at_start() const = 0;  // when the run began, likewise
-  virtual std::vector<double> volumes() const = 0;  // V_p when the phase began, (P) [m³]
-  virtual std::vector<int> materials() const = 0;   // number of each point's material, by name, (P)
-  virtual double total_mass() const = 0;            // Σ m_p [kg]
+  virtual std::vector<double> volumes() const = 0;          // V_p when the phase began, (P) [m³]
+  virtual std::vector<int> materials() const = 0;           // number of each point's material, by name, (P)
+  virtual double total_mass() const = 0;                    // Σ m_p [kg]
 
   /// Values at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain
   /// ∂u/∂x since the phase began, (P × gradient_components); Cauchy stress, (P × stress_components) [Pa], where the law
