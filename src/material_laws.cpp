@@ -1,3 +1,4 @@
+#include <stillpoint/drucker_prager_cone.hpp>
 #include <stillpoint/material_laws.hpp>
 
 #include <limits>
@@ -6,24 +7,69 @@ namespace stillpoint {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr ParameterInfo youngs_modulus{"E", "Pa", "Young's modulus", 0, infinity, true, 0};
-constexpr ParameterInfo poissons_ratio{"nu", "1", "Poisson's ratio", -1, 0.5, false, 0};
+
+constexpr ParameterInfo positive(std::string_view name, std::string_view unit, std::string_view meaning) {
+  return {name, unit, meaning, 0, infinity, false, true, 0};
+}
+constexpr ParameterInfo optional(std::string_view name, std::string_view unit, std::string_view meaning, double upper,
+                                 double fallback) {
+  return {name, unit, meaning, 0, upper, true, false, fallback};
+}
+constexpr ParameterInfo same_as(std::string_view other, ParameterInfo parameter) {
+  parameter.same_as = other;
+  parameter.fallback = std::numeric_limits<double>::quiet_NaN();
+  return parameter;
+}
+
+constexpr ParameterInfo youngs_modulus = positive("E", "Pa", "Young's modulus");
+constexpr ParameterInfo poissons_ratio{"nu", "1", "Poisson's ratio", -1, 0.5, false, false, 0};
 // A strongly auxetic neo-Hookean section has no unique lateral stretch in compression.
-constexpr ParameterInfo neo_hookean_poissons_ratio{"nu", "1", "Poisson's ratio", -0.2, 0.5, false, 0};
-constexpr ParameterInfo density{"rho", "kg/m3", "density", 0, infinity, true, 0};
+constexpr ParameterInfo neo_hookean_poissons_ratio{"nu", "1", "Poisson's ratio", -0.2, 0.5, false, false, 0};
+constexpr ParameterInfo density = positive("rho", "kg/m3", "density");
+
+std::vector<std::string_view> cone_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, cone] : cone_words) names.push_back(name);
+  return names;
+}
 
 }  // namespace
 
 const std::vector<LawInfo>& material_laws() {
+  using enum StressState;
+  static const std::vector<StressState> all = {uniaxial_stress, uniaxial_strain, plane_strain, plane_stress,
+                                               axisymmetric};
   static const std::vector<LawInfo> laws = {
       {"linear-elastic",
        "sigma = lambda tr(eps) I + 2 mu eps, small strain",
        "Hooke's law",
-       {youngs_modulus, poissons_ratio, density}},
+       all,
+       {youngs_modulus, poissons_ratio, density},
+       {}},
       {"neo-hookean",
        "W = mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2, finite strain",
        "Bonet and Wood 2008, eq. 6.27",
-       {youngs_modulus, neo_hookean_poissons_ratio, density}},
+       all,
+       {youngs_modulus, neo_hookean_poissons_ratio, density},
+       {}},
+      {"hencky",
+       "W = mu tr(e^2) + lambda/2 (tr e)^2, e = 1/2 ln(F F^T), finite strain",
+       "Anand 1979",
+       all,
+       {youngs_modulus, poissons_ratio, density},
+       {}},
+      {"drucker-prager",
+       "sqrt(J2) + eta p - xi c <= 0, flow by sqrt(J2) + eta_bar p, tension cut-off with a gap, finite strain",
+       "de Souza Neto, Peric and Owen 2008, section 8.3",
+       {plane_strain, axisymmetric},
+       {youngs_modulus, poissons_ratio, density, optional("phi", "degrees", "angle of internal friction", 90, 0),
+        optional("psi", "degrees", "angle of dilatancy", 90, 0), optional("c", "Pa", "cohesion", infinity, 0),
+        optional("fluidity", "1/(Pa s)", "Perzyna's beta; 0: rate-independent", infinity, 0),
+        optional("tension", "Pa", "largest mean stress; never above the apex", infinity, infinity),
+        same_as("phi", optional("phi_residual", "degrees", "phi after softening", 90, 0)),
+        same_as("c", optional("c_residual", "Pa", "cohesion after softening", infinity, 0)),
+        optional("softening_strain", "1", "plastic strain of full softening; 0: none", infinity, 0)},
+       {{"cone", "match to Mohr-Coulomb", cone_names(), "plane-strain"}}},
   };
   return laws;
 }

@@ -2,6 +2,7 @@
 #include "point_material.hpp"
 
 #include <stillpoint/drucker_prager.hpp>
+#include <stillpoint/hencky.hpp>
 #include <stillpoint/linear_elastic.hpp>
 #include <stillpoint/neo_hookean.hpp>
 
@@ -22,19 +23,15 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
     return std::make_unique<ElasticMaterial<Law>>(law, begin, count, moves_on);
   };
   if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame));
+  if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
+  if constexpr (S != StressState::plane_stress) {
+    if (material.law == "hencky") return elastic(Hencky<S>(lame));
+  }
   if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric) {
     if (material.law == "drucker-prager") {
-      const auto& number = material.parameters;
-      DruckerPragerParameters m{.E = number.at("E"),
-                                .nu = number.at("nu"),
-                                .phi = number.at("phi"),
-                                .psi = number.at("psi"),
-                                .c = number.at("c")};
-      return std::make_unique<HistoryMaterial<DruckerPrager<S>>>(DruckerPrager<S>(m), begin, count);
+      const DruckerPrager<S> law(DruckerPragerParameters::from(material));
+      return std::make_unique<HistoryMaterial<DruckerPrager<S>>>(law, begin, count);
     }
-  }
-  if constexpr (dimensions(S) == 1) {
-    if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
   }
   throw std::logic_error("a material law without an instantiation for this stress state");
 }

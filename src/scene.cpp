@@ -57,6 +57,12 @@ Location Scene::location(const std::string& key) const {
   return {file.string(), 0, 0};
 }
 
+std::vector<std::string> probe_fields(int dim) {
+  if (dim == 1) return {"u", "v", "strain", "stress"};
+  return {"u.x",       "u.y",       "v.x",       "v.y",       "stress.xx", "stress.yy",     "stress.zz",
+          "stress.xy", "strain.xx", "strain.xy", "strain.yx", "strain.yy", "plastic_strain"};
+}
+
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 100;  // longer words are no slips of the pen
   if (word.size() > longest) return {};

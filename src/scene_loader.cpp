@@ -23,6 +23,19 @@ void drop_what_it_replaces(toml::table& table, const std::string& override_text)
   if (key == "integrator.step_fraction") integrator->erase("step");
 }
 
+/// A transfer given by --set leaves the keys of the file's own one without meaning.
+void drop_keys_of_other_transfers(toml::table& table) {
+  toml::table* const phase = table["phase"].as_table();
+  const toml::node* const transfer = phase ? phase->get("transfer") : nullptr;
+  if (!transfer || location_of(transfer->source()).line > 0) return;
+  const auto drop = [&](const char* key, const char* owner) {
+    const toml::node* const node = phase->get(key);
+    if (node && location_of(node->source()).line > 0 && transfer->value<std::string>() != owner) phase->erase(key);
+  };
+  drop("flip_share", "flip");
+  drop("xpic_order", "xpic");
+}
+
 /// The scene in a file's text under overrides; complete only where problems stays empty.
 Scene read_scene(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  std::vector<Problem>& problems) {
@@ -35,6 +48,7 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file, con
     drop_what_it_replaces(*table, text_of_override);
     apply_override(*table, text_of_override, problems);
   }
+  drop_keys_of_other_transfers(*table);
   scene.where = locations_of(*table);
 
   Reading reading;
@@ -80,10 +94,13 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     check_variants(scene, *text, problems);
   }
   if (problems.empty()) return scene;
-  // In the order of the file, overrides first.
-  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
-    return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
-  });
+  // In the order of the file, overrides first, other files last.
+  const auto place = [&](const Problem& problem) {
+    const Location& where = problem.where;
+    return std::tuple(where.line > 0 && where.file != file.string(), where.line, where.column);
+  };
+  std::stable_sort(problems.begin(), problems.end(),
+                   [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
   throw SceneError(std::move(problems));
 }
 

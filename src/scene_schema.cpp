@@ -2,33 +2,16 @@
 
 #include <stillpoint/damping.hpp>
 #include <stillpoint/integrator.hpp>
-#include <stillpoint/material_laws.hpp>
-
-#include <algorithm>
 
 #include <fmt/format.h>
+
+#include "scene_schema_parts.hpp"
 
 namespace stillpoint {
 namespace {
 
-template <class T>
-using Words = std::vector<std::pair<std::string, T>>;
-
-constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostCells = 10'000'000;  // along an axis; a larger count is a slip, not a grid
-constexpr int kMostPointsPerCell = 1000;
-
-template <class Infos>
-std::vector<std::string> names_of(const Infos& infos) {
-  std::vector<std::string> names;
-  for (const auto& info : infos) names.emplace_back(info.name);
-  return names;
-}
-
-std::size_t count_of_axes(const Scene& scene) { return static_cast<std::size_t>(scene.dim); }
-
-/// The coordinates that formulas of this scene may use: "x", "xy" or "xyz".
-std::string coordinates(const Scene& scene) { return std::string("xyz").substr(0, count_of_axes(scene)); }
+constexpr int kMostXpicOrder = 20;
 
 void read_grid(TableReader grid, Scene& scene) {
   const std::size_t axes = count_of_axes(scene);
@@ -40,90 +23,44 @@ void read_grid(TableReader grid, Scene& scene) {
                                                                  {"quadratic", BasisKind::quadratic},
                                                                  {"cubic", BasisKind::cubic},
                                                                  {"hermite", BasisKind::hermite}}));
+  assign(scene.grid.follow, grid.name("follow"));
   grid.report_unknown_keys();
 }
 
-void read_body(TableReader body, Scene& scene) {
-  const std::size_t axes = count_of_axes(scene);
-  BodySpec& spec = scene.bodies.emplace_back();
-  body.require({"material"});
-  if (!body.has("min")) spec.min = scene.grid.min;
-  if (!body.has("max")) spec.max = scene.grid.max;
-  assign(spec.min, body.numbers("min", axes));
-  assign(spec.max, body.numbers("max", axes));
-  assign(spec.material, body.name("material"));
-  assign(scene.state, body.choice("state", Words<StressState>{{"uniaxial-stress", StressState::uniaxial_stress},
-                                                              {"uniaxial-strain", StressState::uniaxial_strain}}));
-  assign(spec.area, body.number("area", kPositive));
-  assign(spec.placement, body.choice("placement", Words<Placement>{{"uniform", Placement::uniform},
-                                                                   {"gauss", Placement::gauss},
-                                                                   {"random", Placement::random}}));
-  assign(spec.points_per_cell, body.integers("points_per_cell", axes, 1, kMostPointsPerCell));
-  assign(spec.volumes, body.choice("volumes", Words<VolumeRule>{{"equal", VolumeRule::equal},
-                                                                {"consistent", VolumeRule::consistent}}));
-  assign(spec.seed, body.integer("seed", 0, kNoLimit));
-  body.report_unknown_keys();
+void read_mass(TableReader mass, Scene& scene) {
+  MassSpec& spec = scene.mass;
+  if (scene.dim > 1) spec.kind = MassKind::lumped;
+  const auto kind =
+      mass.choice("kind", Words<MassKind>{{"consistent", MassKind::consistent}, {"lumped", MassKind::lumped}});
+  if (kind) spec.kind = *kind;
+  if (mass.is_word("scaling", "gershgorin")) {
+    spec.scaling = MassScaling::gershgorin;
+  } else {
+    assign(spec.factor, mass.number("scaling", kPositive));
+  }
+  const bool scaled = spec.scaling == MassScaling::gershgorin || spec.factor != 1;
+  if (scaled && spec.kind != MassKind::lumped && (kind || !mass.has("kind")))
+    mass.problem("scaling", "needs mass.kind = \"lumped\"");
+  mass.report_unknown_keys();
 }
 
-void read_material(const std::string& name, TableReader material, Scene& scene) {
-  MaterialSpec& spec = scene.materials[name];
-  spec.name = name;
-  material.require({"law"});
-  const auto law = material.choice("law", names_of(material_laws()));
-  if (!law) return;  // which other keys belong here is not known
-  spec.law = *law;
-  const auto info = std::find_if(material_laws().begin(), material_laws().end(),
-                                 [&](const LawInfo& one) { return one.name == *law; });
-  for (const ParameterInfo& parameter : info->parameters) {
-    const std::string key(parameter.name);
-    if (parameter.required) material.require({key.c_str()});
-    const auto value = material.number(key, {parameter.lower, parameter.upper, false, false});
-    spec.parameters[key] = value.value_or(parameter.fallback);
-  }
-  material.report_unknown_keys();
-}
-
-void read_loads(TableReader& root, Scene& scene) {
-  const std::size_t axes = count_of_axes(scene);
-  for (TableReader& support : root.tables("support")) {
-    SupportSpec& spec = scene.supports.emplace_back();
-    support.require({"at"});
-    assign(spec.at, support.numbers("at", axes));
-    assign(spec.component, support.integer("component", 0, scene.dim - 1));
-    assign(spec.motion, support.formula("u", "t"));
-    support.report_unknown_keys();
-  }
-  for (TableReader& force : root.tables("force")) {
-    PointForceSpec& spec = scene.forces.emplace_back();
-    force.require({"at", "value"});
-    assign(spec.at, force.numbers("at", axes));
-    assign(spec.value, force.formulas("value", axes, "t"));
-    force.report_unknown_keys();
-  }
-  for (TableReader& traction : root.tables("traction")) {
-    TractionSpec& spec = scene.tractions.emplace_back();
-    traction.require({"face", "value"});
-    assign(spec.face, traction.choice("face", Words<Face>{{"left", Face::left}, {"right", Face::right}}));
-    assign(spec.value, traction.formulas("value", axes, "t"));
-    traction.report_unknown_keys();
-  }
-  TableReader body_force = root.table("body_force");
-  body_force.require({"value"});
-  assign(scene.body_force, body_force.formulas("value", axes, coordinates(scene) + "t"));
-  body_force.report_unknown_keys();
-}
-
-void read_fields(TableReader& root, Scene& scene) {
-  const std::size_t axes = count_of_axes(scene);
-  TableReader initial = root.table("initial");
-  assign(scene.initial_u, initial.formulas("u", axes, coordinates(scene)));
-  assign(scene.initial_v, initial.formulas("v", axes, coordinates(scene)));
-  initial.report_unknown_keys();
-  TableReader exact = root.table("exact");
-  assign(scene.exact_u, exact.formulas("u", axes, coordinates(scene) + "t"));
-  assign(scene.exact_stress, exact.formula("stress", coordinates(scene) + "t"));
-  if (exact.has("stress") && !exact.has("u")) exact.problem("stress", "needs exact.u beside it");
-  exact.report_unknown_keys();
+void read_phase(TableReader phase, Scene& scene) {
+  PhaseSpec& spec = scene.phase;
+  if (!phase.is_word("max_motion", "none")) assign(spec.max_motion, phase.number("max_motion", {0, 1, true, false}));
+  assign(spec.max_strain, phase.number("max_strain", kPositive));
+  const auto transfer = phase.choice(
+      "transfer",
+      Words<Transfer>{
+          {"flip", Transfer::flip}, {"pic", Transfer::pic}, {"apic", Transfer::apic}, {"xpic", Transfer::xpic}});
+  const bool known = transfer || !phase.has("transfer");
+  if (transfer) spec.transfer = *transfer;
+  assign(spec.flip_share, phase.number("flip_share", {0, 1, true, true}));
+  assign(spec.xpic_order, phase.integer("xpic_order", 1, kMostXpicOrder));
+  if (known && phase.has("flip_share") && spec.transfer != Transfer::flip)
+    phase.problem("flip_share", "goes with transfer = \"flip\" only");
+  if (known && phase.has("xpic_order") && spec.transfer != Transfer::xpic)
+    phase.problem("xpic_order", "goes with transfer = \"xpic\" only");
+  phase.report_unknown_keys();
 }
 
 void read_damping(TableReader damping, Scene& scene) {
@@ -179,19 +116,37 @@ void read_stop(TableReader stop, Scene& scene) {
   stop.report_unknown_keys();
 }
 
+void read_output(TableReader output, Scene& scene) {
+  OutputSpec& spec = scene.output;
+  assign(spec.every, output.number("every", kNotNegative));
+  assign(spec.stages, output.numbers("stages"));
+  assign(spec.fields_every, output.number("fields_every", kNotNegative));
+  output.report_unknown_keys();
+}
+
 void read_probes(TableReader& root, Scene& scene) {
   for (TableReader& probe : root.tables("probe")) {
     ProbeSpec& spec = scene.probes.emplace_back();
-    probe.require({"name", "fields"});
+    probe.require({"name"});
     assign(spec.name, probe.name("name"));
+    const auto kind =
+        probe.choice("kind", Words<ProbeKind>{{"point", ProbeKind::point}, {"slope_angle", ProbeKind::slope_angle}});
+    if (kind) spec.kind = *kind;
     assign(spec.point, probe.integer("point", 1, std::numeric_limits<int>::max()));
     assign(spec.at, probe.numbers("at", count_of_axes(scene)));
     assign(spec.fields, probe.texts("fields"));
-    if (probe.has("fields") && spec.fields.empty())
-      probe.problem("fields", "name at least one of u, v, strain, stress");
-    if (probe.has("point") && probe.has("at")) probe.problem("at", "give either point or at, not both");
-    if (!probe.has("point") && !probe.has("at"))
-      probe.problem("", "give point, the number of a material point, or at, a place");
+    if (spec.kind == ProbeKind::slope_angle) {
+      if (scene.dim == 1) probe.problem("kind", "a slope has an angle in two dimensions only");
+      for (const char* key : {"point", "at", "fields"})
+        if (probe.has(key)) probe.problem(key, "goes with a point only; the angle of a slope has nothing but a name");
+    } else if (kind || !probe.has("kind")) {
+      probe.require({"fields"});
+      if (probe.has("fields") && spec.fields.empty())
+        probe.problem("fields", fmt::format("name at least one of {}", fmt::join(probe_fields(scene.dim), ", ")));
+      if (probe.has("point") && probe.has("at")) probe.problem("at", "give either point or at, not both");
+      if (!probe.has("point") && !probe.has("at"))
+        probe.problem("", "give point, the number of a material point, or at, a place");
+    }
     probe.report_unknown_keys();
   }
 }
@@ -209,27 +164,25 @@ void read_variants(TableReader& root, Scene& scene) {
 }  // namespace
 
 bool read_schema(TableReader& root, Scene& scene) {
-  if (const auto dim = root.integer("dim", 1, 3); (dim && *dim != 1) || (root.has("dim") && !dim)) {
-    if (dim) root.problem("dim", fmt::format("this version computes in 1 dimension only, not in {}", *dim));
-    return false;
+  if (root.has("dim")) {
+    const auto dim = root.integer("dim", 1, 3);
+    if (dim == 3) root.problem("dim", "this version computes in 1 or 2 dimensions, not in 3");
+    if (!dim || dim == 3) return false;
+    scene.dim = static_cast<int>(*dim);
   }
   assign(scene.title, root.text("title"));
   root.table("constants");  // resolved already
   read_grid(root.required_table("grid", "a scene has a background grid with min, max and cells"), scene);
-  read_body(root.required_table("body", "a scene has a body with a material"), scene);
-  for (auto& [name, material] : root.named_tables("material")) read_material(name, std::move(material), scene);
-  TableReader mass = root.table("mass");
-  assign(scene.mass.kind,
-         mass.choice("kind", Words<MassKind>{{"consistent", MassKind::consistent}, {"lumped", MassKind::lumped}}));
-  mass.report_unknown_keys();
+  read_bodies(root, scene);
+  read_materials(root, scene);
+  read_mass(root.table("mass"), scene);
+  read_phase(root.table("phase"), scene);
   read_loads(root, scene);
   read_fields(root, scene);
   read_damping(root.table("damping"), scene);
   read_integrator(root.table("integrator"), scene);
   read_stop(root.table("stop"), scene);
-  TableReader output = root.table("output");
-  assign(scene.output.every, output.number("every", kNotNegative));
-  output.report_unknown_keys();
+  read_output(root.table("output"), scene);
   read_probes(root, scene);
   read_variants(root, scene);
   root.report_unknown_keys();

@@ -63,6 +63,15 @@ std::vector<TableReader> TableReader::tables(const std::string& key) {
   return result;
 }
 
+std::vector<TableReader> TableReader::one_or_more_tables(const std::string& key, const std::string& purpose) {
+  std::vector<TableReader> result;
+  if (is_array(key)) result = tables(key);
+  if (is_array(key) && find(key)->as_array()->empty()) problem(key, fmt::format("none is given: {}", purpose));
+  if (result.empty())
+    result.push_back(is_array(key) ? TableReader(nullptr, key, where_, reading_) : required_table(key, purpose));
+  return result;
+}
+
 std::vector<std::pair<std::string, TableReader>> TableReader::named_tables(const std::string& key) {
   std::vector<std::pair<std::string, TableReader>> result;
   TableReader parent = table(key);
@@ -124,6 +133,39 @@ std::optional<std::vector<double>> TableReader::numbers(const std::string& key, 
   return list<double>(key, count, [this](const toml::node& node, const std::string& path) {
     return read_number(node, path, kAnyNumber, reading_);
   });
+}
+
+std::optional<std::vector<double>> TableReader::numbers(const std::string& key) {
+  if (has(key) && !is_array(key)) {
+    problem(key, fmt::format("expected an array of numbers, found {}", kind_of(*find(key))));
+    return std::nullopt;
+  }
+  return numbers(key, is_array(key) ? find(key)->as_array()->size() : 0);
+}
+
+std::optional<std::vector<std::vector<double>>> TableReader::places(const std::string& key, std::size_t dim) {
+  using Place = std::vector<double>;
+  const toml::node* const node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_array()) {
+    problem(key, fmt::format("expected an array of places, found {}", kind_of(*node)));
+    return std::nullopt;
+  }
+  const auto place = [&](const toml::node& entry, const std::string& path) -> std::optional<Place> {
+    const toml::array* const array = entry.as_array();
+    if (!array || array->size() != dim) {
+      const std::string found = array ? fmt::format("{}", array->size()) : kind_of(entry);
+      reading_.problem(location_of(entry.source()), path,
+                       fmt::format("expected an array of {} coordinates, found {}", dim, found));
+      return std::nullopt;
+    }
+    Place result;
+    for (std::size_t d = 0; d < dim; ++d)
+      if (const auto x = read_number(*array->get(d), fmt::format("{}[{}]", path, d), kAnyNumber, reading_))
+        result.push_back(*x);
+    return result.size() == dim ? std::optional(result) : std::nullopt;
+  };
+  return list<Place>(key, node->as_array()->size(), place);
 }
 
 std::optional<std::vector<int>> TableReader::integers(const std::string& key, std::size_t count, int lower, int upper) {

@@ -26,6 +26,7 @@ class TableReader {
 
   bool written() const { return table_ != nullptr; }
   bool has(const std::string& key) const { return table_ && table_->get(key); }
+  bool is_array(const std::string& key) const { return has(key) && table_->get(key)->is_array(); }
 
   /// [key] below this table, not written where absent.
   TableReader table(const std::string& key);
@@ -33,6 +34,8 @@ class TableReader {
   TableReader required_table(const std::string& key, const std::string& purpose);
   /// [[key]] below this table.
   std::vector<TableReader> tables(const std::string& key);
+  /// [key] or every [[key]], at least one; not written and a problem where there is none.
+  std::vector<TableReader> one_or_more_tables(const std::string& key, const std::string& purpose);
   /// [key.<name>]: every table below [key], by its name.
   std::vector<std::pair<std::string, TableReader>> named_tables(const std::string& key);
 
@@ -47,7 +50,11 @@ class TableReader {
   bool is_word(const std::string& key, const std::string& word);
   /// One value for each dimension: an array of count, or a plain value where count = 1.
   std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count);
+  /// An array of any length.
+  std::optional<std::vector<double>> numbers(const std::string& key);
   std::optional<std::vector<int>> integers(const std::string& key, std::size_t count, int lower, int upper);
+  /// An array of places, each an array of dim coordinates.
+  std::optional<std::vector<std::vector<double>>> places(const std::string& key, std::size_t dim);
   std::optional<std::vector<Expression>> formulas(const std::string& key, std::size_t count,
                                                   const std::string& variables);
   /// A string that is one of names.

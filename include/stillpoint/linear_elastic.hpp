@@ -1,4 +1,4 @@
-// Linear elasticity at small strain: σ = λ tr(ε) I + 2 μ ε, P = σ.
+// Linear elasticity at small strain: σ = λ tr(ε) I + 2 μ ε, ε = (H + Hᵀ)/2, P = σ.
 #pragma once
 
 #include <stillpoint/material.hpp>
@@ -11,47 +11,52 @@ class LinearElastic {
   static constexpr StressState state = S;
   static constexpr bool finite_strain = false;
 
-  explicit LinearElastic(const LameParameters& m) : lambda_(m.lambda), mu_(m.mu) {
-    if (S == StressState::uniaxial_stress)
-      young_ = m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu);
-    else
-      young_ = m.lambda + 2 * m.mu;
-  }
+  explicit LinearElastic(const LameParameters& m)
+      : uniaxial_(S == StressState::uniaxial_stress ? m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu)  // E
+                                                    : m.lambda + 2 * m.mu),
+        // σ_zz = 0 where ε_zz = −λ/(λ + 2μ) (ε_xx + ε_yy); what is left of λ is 2 λ μ/(λ + 2μ)
+        lambda_(S == StressState::plane_stress ? 2 * m.lambda * m.mu / (m.lambda + 2 * m.mu) : m.lambda),
+        mu_(m.mu) {}
 
   Gradient<S> first_piola(const Gradient<S>& H) const {
+    const Stress<S> sigma = cauchy(H);
     if constexpr (dimensions(S) == 1) {
-      return {young_ * H[0]};
+      return sigma;
+    } else if constexpr (S == StressState::axisymmetric) {
+      return {sigma[0], sigma[3], sigma[3], sigma[1], sigma[2]};
     } else {
-      const double tr = lambda_ * (H[0] + H[3]);
-      const double xy = mu_ * (H[1] + H[2]);
-      Gradient<S> P{};
-      P[0] = tr + 2 * mu_ * H[0];
-      P[1] = P[2] = xy;
-      P[3] = tr + 2 * mu_ * H[3];
-      return P;
+      return {sigma[0], sigma[3], sigma[3], sigma[1]};
     }
   }
+
   Stress<S> cauchy(const Gradient<S>& H) const {
-    const Gradient<S> P = first_piola(H);
-    if constexpr (dimensions(S) == 1)
-      return {P[0]};
-    else
-      return {P[0], P[3], lambda_ * (H[0] + H[3]), P[1]};
+    if constexpr (dimensions(S) == 1) {
+      // σ_xx = E ε_xx where the section is free to contract, (λ + 2μ) ε_xx where it is not
+      return {uniaxial_ * H[0]};
+    } else {
+      const double e_zz = S == StressState::axisymmetric ? H[H.size() - 1] : 0;
+      const double all_round = lambda_ * (H[0] + H[3] + e_zz);  // λ tr(ε)
+      const double sigma_zz = S == StressState::plane_stress ? 0 : all_round + 2 * mu_ * e_zz;
+      return {all_round + 2 * mu_ * H[0], all_round + 2 * mu_ * H[3], sigma_zz, mu_ * (H[1] + H[2])};
+    }
   }
+
+  // σ is linear in H: column b is the stress of H_b = 1.
   Moduli<S> moduli(const Gradient<S>&) const {
+    constexpr int components = gradient_components(S);
     Moduli<S> A{};
-    constexpr int n = gradient_components(S);
-    for (int b = 0; b < n; ++b) {
-      Gradient<S> H{};
-      H[b] = 1;
-      const Gradient<S> P = first_piola(H);
-      for (int a = 0; a < n; ++a) A[n * a + b] = P[a];
+    for (int b = 0; b < components; ++b) {
+      Gradient<S> one{};
+      one[b] = 1;
+      const Gradient<S> P = first_piola(one);
+      for (int a = 0; a < components; ++a) A[components * a + b] = P[a];
     }
     return A;
   }
 
  private:
-  double lambda_, mu_, young_;  // [Pa]
+  double uniaxial_;     // of one dimension [Pa]
+  double lambda_, mu_;  // of two [Pa]
 };
 
 }  // namespace stillpoint

@@ -45,7 +45,7 @@ struct MaterialPoints {
 
 /// What the volumes of a body can integrate, the worst over its cells.
 struct QuadratureReport {
-  int degree = 0;                 // polynomials up to this power in each coordinate are integrated exactly
+  int degree = 0;                 // polynomials up to this power in each coordinate are integrated exactly over areas
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells where a higher degree would need a negative volume
 };
@@ -56,9 +56,15 @@ struct PlacedBody {
   QuadratureReport quadrature;
 };
 
-/// Fills the body's box with points cell by cell: in each cell's part of the box, points_per_cell of them along each
-/// coordinate (uniform, at Gauss-Legendre places, or seeded random); volumes equal or fitted to moments.
-/// density [kg/m³].
+/// The material points of a body, cell by cell.
+/// - A box: in each cell's part of it, points_per_cell of them along each coordinate (uniform, at Gauss-Legendre
+/// places,
+///   seeded random, jittered), with volumes equal or fitted to moments.
+/// - A polygon: cells that lie inside are filled in the same way. A cell that its border cuts keeps those of the cell's
+///   points that lie inside, or else has one at the centroid of the part inside; they share its area equally. Parts
+///   below 1e-6 of a cell are left out.
+/// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError where it is wrong.
+/// A volume is an area times the thickness, in an axisymmetric body times 2π r, all the way round. density [kg/m³].
 template <int Dim>
 PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state);
 

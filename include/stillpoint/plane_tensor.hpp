@@ -3,8 +3,6 @@
 
 #include <stillpoint/material.hpp>
 
-#include <limits>
-
 namespace stillpoint {
 
 struct PlaneTensor {
@@ -28,8 +26,9 @@ constexpr PlaneTensor operator*(const PlaneTensor& A, const PlaneTensor& B) {
 }
 constexpr PlaneTensor transpose(const PlaneTensor& A) { return {A.xx, A.yx, A.xy, A.yy, A.zz}; }
 constexpr double trace(const PlaneTensor& A) { return A.xx + A.yy + A.zz; }
-/// Of the part in the plane; det A = det₂ A · A_zz.
+/// Of the part in the plane, det₂ A.
 constexpr double plane_determinant(const PlaneTensor& A) { return A.xx * A.yy - A.xy * A.yx; }
+constexpr double determinant(const PlaneTensor& A) { return plane_determinant(A) * A.zz; }
 constexpr PlaneTensor inverse(const PlaneTensor& A) {
   const double r = 1 / plane_determinant(A);
   return {r * A.yy, -r * A.xy, -r * A.yx, r * A.xx, 1 / A.zz};
@@ -43,12 +42,6 @@ constexpr PlaneTensor deformation_gradient(const Gradient<S>& H) {
   } else {
     return {1 + H[0], H[1], H[2], 1 + H[3], 1};
   }
-}
-
-/// J = det F, and NaN where the plane or the hoop is turned inside out: such a trial is refused.
-constexpr double volume_ratio(const PlaneTensor& F) {
-  const double plane = plane_determinant(F);
-  return plane > 0 && F.zz > 0 ? plane * F.zz : std::numeric_limits<double>::quiet_NaN();
 }
 
 template <StressState S>

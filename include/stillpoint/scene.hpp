@@ -64,12 +64,12 @@ struct GridSpec {                // [grid]
 struct BodySpec {                // [body], or several [[body]]: material points in a box, in a polygon or from a file
   std::vector<double> min, max;  // the box [m], inside the grid; of a polygon, its bounding box
   std::vector<std::vector<double>> polygon;  // corners in order, (corners × 2) [m]; empty: the whole box
-  std::filesystem::path file;                // CSV of points: x, y, volume; empty: the body is filled with points here
+  std::filesystem::path file;                // CSV of points: x, y, volume; empty: the body is filled with points
   std::string material;                      // a [material.<name>]
   double area = 1;                           // cross-section in one dimension [m²], thickness in two [m]
   Placement placement = Placement::uniform;
   std::vector<int> points_per_cell = {2};  // along each coordinate
-  double jitter = 0;                       // each point is moved by up to this share of its spacing, seeded
+  double jitter = 0;                       // each point is moved by up to this share of half its spacing, seeded
   VolumeRule volumes = VolumeRule::consistent;
   unsigned long seed = 1;  // of placement = "random" and of jitter
 };
@@ -166,8 +166,10 @@ struct ProbeSpec {  // [[probe]]
   // of a point:
   std::optional<int> point;         // 1-based number of a material point, in order of place
   std::vector<double> at;           // or the material point nearest to this place [m]
-  std::vector<std::string> fields;  // of "u", "v", "strain", "stress"
+  std::vector<std::string> fields;  // of probe_fields(dim)
 };
+/// The fields that a probe of a point may name: "u", "v", "strain", "stress" in one dimension, their components in two.
+std::vector<std::string> probe_fields(int dim);
 
 struct VariantSpec {  // [[variant]]: the same scene with other values, drawn beside it
   std::string name;

@@ -10,16 +10,14 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using stillpoint::testing::BadScene;
 using stillpoint::testing::broken;
+using stillpoint::testing::check_each;
 using stillpoint::testing::kGoodScene;
+using stillpoint::testing::problems_of;
 using stillpoint::testing::TemporaryFolder;
 
 namespace {
-
-struct BadScene {
-  const char *name, *from, *to;  // the good scene with `from` replaced by `to`
-  const char *where, *message;   // "line:column", part of the message
-};
 
 const std::vector<BadScene> kBadScenes = {
     {"not TOML", "cells = 4", "cells = ", "6:9", "not valid TOML"},
@@ -99,23 +97,33 @@ const std::vector<BadScene> kBadScenes = {
     {"constants in a circle", "P0 = 1.0", "P0 = \"2*Q\"\nQ = \"P0\"", "2:6", "is defined by itself: P0 → Q → P0"},
     {"constant called x", "P0 = 1.0", "P0 = 1.0\nx = 2.0", "3:1", "x, y, z and t are the variables"},
     {"constant called sin", "P0 = 1.0", "P0 = 1.0\nsin = 2.0", "3:1", "a function has this name"},
-    {"two dimensions", "[constants]", "dim = 2\n[constants]", "1:7",
-     "this version computes in 1 dimension only, not in 2"},
+    {"three dimensions", "[constants]", "dim = 3\n[constants]", "1:7",
+     "this version computes in 1 or 2 dimensions, not in 3"},
+    {"dimension 0", "[constants]", "dim = 0\n[constants]", "1:7", "dim: must be a whole number from 1 to 3, not 0"},
+    {"a plane's state", "[body]", "[body]\nstate = \"plane-strain\"", "8:9", "expected one of uniaxial-stress"},
+    {"a plane's law", "\"linear-elastic\"", "\"drucker-prager\"\nphi = 30", "8:12",
+     "law 'drucker-prager' has no state 'uniaxial-stress'; it has plane-strain, axisymmetric"},
+    {"no body", "[body]\nmaterial = \"steel\"\npoints_per_cell = 3", "[[body]]\nmaterial = \"steel\"\n[[body]]", "9:1",
+     "body[1]: the key 'material' is missing"},
+    {"scaled consistent mass", "[damping]", "[mass]\nscaling = 4\n[damping]", "21:11",
+     "mass.scaling: needs mass.kind = \"lumped\""},
+    {"scaled by its bound", "[damping]", "[mass]\nscaling = \"gershgorin\"\n[damping]", "21:11",
+     "mass.scaling: needs mass.kind = \"lumped\""},
+    {"a wall's friction", "[damping]",
+     "[mass]\nkind = \"lumped\"\n[[wall]]\nname = \"w\"\nface = \"left\"\nfriction = "
+     "0.1\n[damping]",
+     "25:12", "wall[0].friction: there is none in one dimension"},
+    {"a wall and a full mass", "[damping]", "[[wall]]\nname = \"w\"\nface = \"left\"\n[damping]", "20:1",
+     "a wall stops node by node, which needs mass.kind = \"lumped\""},
+    {"a slope on a line", "point = 12\nfields = [\"u\"]", "kind = \"slope_angle\"", "31:8",
+     "a slope has an angle in two dimensions only"},
+    {"phases of hooke", "[damping]", "[mass]\nkind = \"lumped\"\n[phase]\nmax_strain = 0.1\n[damping]", "23:14",
+     "phase.max_strain: 'linear-elastic' is a law of small strain"},
     {"force that is a pair", "[damping]", "[body_force]\nvalue = [1, 2]\n[damping]", "21:9",
      "expected 1 value, found 2"},
     {"bad variant", "[[probe]]", "[[variant]]\nname = \"v\"\nset = [\"damping.c=-1\"]\n[[probe]]", "31:7",
      "variant 'v': damping.c: must be at least 0, not -1"},
 };
-
-/// The problems of a scene; empty where it loads.
-std::vector<Problem> problems_of(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}) {
-  try {
-    load_scene(file, overrides);
-  } catch (const SceneError& error) {
-    return error.problems();
-  }
-  return {};
-}
 
 std::string only_problem_of(const std::string& override_text) {
   const TemporaryFolder folder;
@@ -133,17 +141,7 @@ TEST_CASE("the scene that the tests break is good") {
 
 TEST_CASE("each of over 70 broken scenes gives one problem, with what is wrong, its line and its column") {
   REQUIRE(kBadScenes.size() >= 70);
-  const TemporaryFolder folder;
-  for (const BadScene& bad : kBadScenes) {
-    INFO(bad.name);
-    const auto file = folder.write("bad.toml", broken(bad.from, bad.to));
-    const auto problems = problems_of(file);
-    for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem.where) + ": " + problem.message);
-    CHECK(problems.size() == 1);
-    if (problems.empty()) continue;
-    CHECK(to_string(problems[0].where) == file.string() + ":" + bad.where);
-    CHECK_THAT(problems[0].message, Catch::Contains(bad.message));
-  }
+  check_each(kBadScenes, kGoodScene);
 }
 
 TEST_CASE("five mistakes are reported at once, in the order of the file") {
@@ -204,6 +202,10 @@ TEST_CASE("a wrong override is shown as it was typed") {
         "--set damping.d=1: damping: unknown key 'd'; expected one of strategy, c, alpha");
   CHECK(only_problem_of("damping.c=pi/") ==
         "--set damping.c=pi/: damping.c: the formula ends too early (at character 4 of 'pi/')");
+  CHECK(only_problem_of("body=[]") == "--set body=[]: body: none is given: a scene has a body with a material");
+  CHECK(only_problem_of("body=3") == "--set body=3: body: expected a table, found the number 3");
+  CHECK(only_problem_of("initial.geostatic={K0=1, surface=2}") ==
+        "--set initial.geostatic={K0=1, surface=2}: initial.geostatic: a level surface needs two dimensions");
   CHECK(only_problem_of("damping.c=") == "--set damping.c=: damping.c: the formula is empty");
 }
 

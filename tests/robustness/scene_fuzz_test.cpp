@@ -9,9 +9,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "broken_scene.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using stillpoint::testing::broken;
+using stillpoint::testing::kGoodPlane;
 using stillpoint::testing::TemporaryFolder;
 
 namespace {
@@ -76,6 +79,10 @@ std::string with_lines_changed(const std::string& text, Random& random) {
                                                   "\"é\"",
                                                   "\"1,2\"",
                                                   "\"x=1\"",
+                                                  "[1, 2]",
+                                                  "[[0, 0], [1, 0], [0, 1]]",
+                                                  "\"none\"",
+                                                  "\"/dev/zero\"",
                                                   "\"critical\""};
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -126,6 +133,25 @@ TEST_CASE("3000 mutations of the bar either load or are refused with a reason") 
     const std::string text = k % 2 == 0 ? with_bytes_changed(bar, random) : with_lines_changed(bar, random);
     INFO("mutation " << k << ":\n" << text);
     REQUIRE(ends_well(folder.write("bar.toml", text)));
+  }
+}
+
+TEST_CASE("3000 mutations of a plane scene either load or are refused with a reason") {
+  const TemporaryFolder folder;
+  folder.write("points.csv", "x,y,volume\n1,1,1\n");
+  const std::string bodies = broken(
+      "[body_force]",
+      "[[traction]]\nface = \"top\"\npressure = 1\n[[support]]\nat = [8, 4]\ncomponent = 1\n[body_force]", kGoodPlane);
+  const std::vector<std::string> scenes = {
+      bodies, broken("max = [8, 3]", "polygon = [[0, 0], [8, 0], [8, 3], [0, 2]]", kGoodPlane),
+      broken("max = [8, 3]\nmaterial = \"sand\"\npoints_per_cell = 4", "material = \"sand\"\nfile = \"points.csv\"",
+             kGoodPlane)};
+  Random random(20113);
+  for (std::size_t k = 0; k < 3000; ++k) {
+    const std::string& scene = scenes[k % 3];
+    const std::string text = k % 2 == 0 ? with_bytes_changed(scene, random) : with_lines_changed(scene, random);
+    INFO("mutation " << k << ":\n" << text);
+    REQUIRE(ends_well(folder.write("plane.toml", text)));
   }
 }
 

@@ -1,0 +1,34 @@
+// The natural logarithm without a call, so that a loop over material points with a logarithm in it is vectorised.
+// Method and constants: fdlibm's e_log.c [Sun Microsystems 1993], error below 1 ulp.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+namespace stillpoint {
+
+/// ln x; NaN where x is not positive and finite, or below the smallest normal number.
+inline double logarithm(double x) {
+  // x = 2ᵏ m, √½ ≤ m < √2: with the bits of √½ as its zero, the exponent field counts k + 1023
+  constexpr std::uint64_t sqrt_half = 0x3FE6A09E667F3BCD, one = 0x3FF0000000000000, mantissa = 0x000FFFFFFFFFFFFF;
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) + (one - sqrt_half);
+  const double m = std::bit_cast<double>((bits & mantissa) + sqrt_half);
+  // an integer below 2⁵² put into the mantissa of 2⁵² is 2⁵² + that integer
+  const double k = std::bit_cast<double>((bits >> 52) | 0x4330000000000000) - (4503599627370496.0 + 1023);
+
+  // ln m = ln(1 + f) = f − f²/2 + s (f²/2 + R(s²)),  s = f/(2 + f)
+  const double f = m - 1, s = f / (2 + f), z = s * s, half_square = 0.5 * f * f;
+  const double R = z * (6.666666666666735130e-01 +
+                        z * (3.999999999940941908e-01 +
+                             z * (2.857142874366239149e-01 +
+                                  z * (2.222219843214978396e-01 +
+                                       z * (1.818357216161805012e-01 +
+                                            z * (1.531383769920937332e-01 + z * 1.479819860511658591e-01))))));
+  constexpr double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
+  const double ln = k * ln2_high - ((half_square - (s * (half_square + R) + k * ln2_low)) - f);
+  using Limits = std::numeric_limits<double>;
+  return x >= Limits::min() && x <= Limits::max() ? ln : Limits::quiet_NaN();
+}
+
+}  // namespace stillpoint

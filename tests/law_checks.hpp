@@ -1,0 +1,68 @@
+// What every elastic law must satisfy, and the deformations to see it at.
+#pragma once
+
+#include <stillpoint/plane_tensor.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace stillpoint::checks {
+
+/// Displacement gradients of a state: none, small, equal stretches (equal eigenvalues of F Fᵀ), shear and large ones.
+template <StressState S>
+std::vector<Gradient<S>> deformations() {
+  if constexpr (dimensions(S) == 1) {
+    return {{-0.6}, {-0.1}, {0.0}, {0.2}, {1.5}, {4.0}};
+  } else {
+    const std::vector<PlaneTensor> all = {
+        {0, 0, 0, 0, 0},        {1e-4, 2e-4, -1e-4, 3e-4, 1e-4}, {0.3, 0, 0, 0.3, 0.3},      {0, 0.1, 0, 0, -0.2},
+        {0, -0.5, 0.5, 0, 0.1}, {1.5, 0.4, -0.3, -0.5, 0.8},     {-0.6, 0.2, 0.1, 0.3, -0.5}};
+    std::vector<Gradient<S>> gradients;
+    for (const PlaneTensor& H : all) gradients.push_back(gradient_part<S>(H));
+    return gradients;
+  }
+}
+
+/// ∂P/∂H of P(H) by central differences.
+template <StressState S, class FirstPiola>
+Moduli<S> differences(const FirstPiola& P, const Gradient<S>& H) {
+  constexpr int components = gradient_components(S);
+  constexpr double d = 1e-6;
+  Moduli<S> A{};
+  for (int b = 0; b < components; ++b) {
+    Gradient<S> above = H, below = H;
+    above[b] += d;
+    below[b] -= d;
+    const Gradient<S> P_above = P(above), P_below = P(below);
+    for (int a = 0; a < components; ++a) A[components * a + b] = (P_above[a] - P_below[a]) / (2 * d);
+  }
+  return A;
+}
+
+/// max |A − B| over max |B|.
+template <class Array>
+double relative_distance(const Array& A, const Array& B) {
+  double distance = 0, size = 0;
+  for (std::size_t i = 0; i < A.size(); ++i) {
+    if (!std::isfinite(A[i])) return A[i];
+    distance = std::max(distance, std::abs(A[i] - B[i]));
+    size = std::max(size, std::abs(B[i]));
+  }
+  return size > 0 ? distance / size : distance;
+}
+
+/// A rotation of the plane by an angle.
+inline PlaneTensor rotation(double angle) {
+  return {std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle), 1};
+}
+template <StressState S>
+PlaneTensor stress_tensor(const Stress<S>& sigma) {
+  return {sigma[0], sigma[3], sigma[3], sigma[1], sigma[2]};
+}
+/// Q σ Qᵀ
+template <StressState S>
+Stress<S> turned(const PlaneTensor& Q, const Stress<S>& sigma) {
+  return stress_part<S>(Q * stress_tensor<S>(sigma) * transpose(Q));
+}
+
+}  // namespace stillpoint::checks

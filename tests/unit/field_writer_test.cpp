@@ -1,0 +1,217 @@
+// The files of the fields as files; tests/scripts/fields_test.py reads them back.
+#include "field_writer.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <catch2/catch.hpp>
+#include <sys/resource.h>
+
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using stillpoint::testing::TemporaryFolder;
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+namespace {
+
+// Numbers that no compression makes small.
+FieldFrame a_frame(double t, std::size_t points = 3) {
+  FieldFrame frame{t, 2, points, {}, {{"u", 2, {}}, {"stress", 4, {}}, {"plastic_strain", 1, {}}}, {}};
+  unsigned long state = 1;
+  const auto fill = [&](std::vector<double>& values, std::size_t size) {
+    for (std::size_t k = 0; k < size; ++k) {
+      state = state * 6364136223846793005u + 1442695040888963407u;
+      values.push_back(static_cast<double>(state));
+    }
+  };
+  fill(frame.place, 2 * points);
+  for (PointField& field : frame.fields) fill(field.values, static_cast<std::size_t>(field.components) * points);
+  frame.material.assign(points, 1);
+  return frame;
+}
+
+Names names_in(const fs::path& folder) {
+  Names names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::size_t frames_in_xdmf(const fs::path& folder) {
+  const std::string text = bytes_of(folder / "fields.xdmf");
+  std::size_t frames = 0;
+  for (std::size_t at = text.find("<Time"); at != std::string::npos; at = text.find("<Time", at + 1)) ++frames;
+  return frames;
+}
+
+// Files below a folder that this process holds open.
+int open_in(const fs::path& folder) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
+    std::error_code ignored;
+    if (fs::read_symlink(entry, ignored).string().starts_with(folder.string())) ++count;
+  }
+  return count;
+}
+
+// No file of this process grows beyond some size, as on a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+}  // namespace
+
+TEST_CASE("the files of the fields have their names once they are whole") {
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path() / "new" / "folder";
+  FieldWriter writer(folder);
+  writer.add(a_frame(0));
+  CHECK(names_in(folder) == Names{"fields.h5.partial", "fields.xdmf.partial"});
+  writer.finish();
+  CHECK(names_in(folder) == Names{"fields.h5", "fields.xdmf"});
+  CHECK(frames_in_xdmf(folder) == 1);
+  CHECK(open_in(folder) == 0);
+  writer.finish();  // once more is no harm
+  CHECK(names_in(folder) == Names{"fields.h5", "fields.xdmf"});
+  CHECK_THROWS_AS(writer.add(a_frame(1)), std::logic_error);
+}
+
+TEST_CASE("a writer that is never finished leaves nothing behind, and an earlier run's files alone") {
+  const TemporaryFolder folder;
+  {
+    FieldWriter writer(folder.path());
+    writer.add(a_frame(0));
+    CHECK(open_in(folder.path()) == 2);
+  }
+  CHECK(names_in(folder.path()).empty());
+  CHECK(open_in(folder.path()) == 0);
+
+  folder.write("fields.h5", "earlier");
+  folder.write("fields.xdmf", "earlier");
+  { FieldWriter(folder.path()).add(a_frame(0)); }
+  CHECK(names_in(folder.path()) == Names{"fields.h5", "fields.xdmf"});
+  CHECK(bytes_of(folder.path() / "fields.h5") == "earlier");
+}
+
+TEST_CASE("fields that cannot be written are a filesystem error, and leave nothing behind") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(FieldWriter(folder.write("a file", "")), fs::filesystem_error);
+
+  fs::create_directories(folder.path() / "fields.h5.partial" / "in the way");
+  try {
+    FieldWriter writer(folder.path());
+    FAIL("a folder was taken for a file");
+  } catch (const fs::filesystem_error& error) {
+    CHECK(error.code() == std::errc::is_a_directory);
+    CHECK(error.path1() == folder.path() / "fields.h5.partial");
+    CHECK_THAT(error.what(), Catch::Contains("unable to open file"));  // the words of HDF5
+  }
+  CHECK(names_in(folder.path()) == Names{"a file", "fields.h5.partial"});
+}
+
+TEST_CASE("what HDF5 alone refuses is told in its words, without the system's error of something earlier") {
+  const TemporaryFolder folder;
+  FieldWriter writer(folder.path());
+  FieldFrame frame = a_frame(0);
+  frame.fields[2].name = "stress_xx";  // as the first component of stress is called
+  errno = ENOENT;
+  try {
+    writer.add(frame);
+    FAIL("two datasets of one name were written");
+  } catch (const fs::filesystem_error& error) {
+    CHECK(error.code() == std::errc::io_error);
+    CHECK_THAT(error.what(), Catch::Contains("name already exists"));
+  }
+}
+
+TEST_CASE("on a full disk a frame is refused as a whole, and the frames before it are kept") {
+  const std::size_t points = 100000;
+  for (const bool room_for_a_part : {true, false}) {
+    const TemporaryFolder folder, other;
+    FieldWriter writer(folder.path()), expected(other.path());
+    writer.add(a_frame(0));
+    expected.add(a_frame(0));
+    {
+      const FullDisk full(room_for_a_part ? 1 << 20 : fs::file_size(folder.path() / "fields.h5.partial"));
+      try {
+        writer.add(a_frame(1, points));
+        FAIL("the frame was written");
+      } catch (const fs::filesystem_error& error) {
+        CHECK(error.code() == std::errc::file_too_large);
+        CHECK_THAT(error.what(), Catch::Contains("cannot write: ") && Catch::Contains("fields.h5.partial"));
+      }
+    }
+    for (FieldWriter* each : {&writer, &expected}) each->add(a_frame(1, points));  // there is room again
+    writer.finish();
+    expected.finish();
+    CHECK(open_in(folder.path()) == 0);
+    CHECK(frames_in_xdmf(folder.path()) == 2);
+    CHECK(bytes_of(folder.path() / "fields.xdmf") == bytes_of(other.path() / "fields.xdmf"));
+  }
+}
+
+TEST_CASE("equal frames give equal bytes") {
+  const TemporaryFolder first, second;
+  for (const TemporaryFolder* folder : {&first, &second}) {
+    FieldWriter writer(folder->path());
+    writer.add(a_frame(0, 20000));
+    writer.add(a_frame(0.1, 20));
+    writer.finish();
+  }
+  for (const char* name : {"fields.h5", "fields.xdmf"}) {
+    CHECK(bytes_of(first.path() / name) == bytes_of(second.path() / name));
+  }
+}
+
+TEST_CASE("a frame whose parts do not fit is refused, and nothing of it is written") {
+  const TemporaryFolder folder, other;
+  FieldWriter writer(folder.path()), expected(other.path());
+  const auto refuses = [&](const std::string& words, auto&& spoil) {
+    FieldFrame frame = a_frame(0);
+    spoil(frame);
+    CHECK_THROWS_WITH(writer.add(frame), Catch::Contains(words));
+  };
+  refuses("place has 6 values, expected 8", [](FieldFrame& frame) { frame.points = 4; });
+  refuses("no points", [](FieldFrame& frame) { frame = {0, 2, 0, {}, {}, {}}; });
+  refuses("dimension 4", [](FieldFrame& frame) { frame.dim = 4; });
+  refuses("u has 5 values, expected 6", [](FieldFrame& frame) { frame.fields[0].values.pop_back(); });
+  refuses("material has 2 values, expected 3", [](FieldFrame& frame) { frame.material.pop_back(); });
+  refuses("u has 5 components", [](FieldFrame& frame) { frame.fields[0].components = 5; });
+  refuses("u has 0 components", [](FieldFrame& frame) { frame.fields[0].components = 0; });
+  refuses("'v/x' is no name", [](FieldFrame& frame) { frame.fields[0].name = "v/x"; });
+  refuses("'' is no name", [](FieldFrame& frame) { frame.fields[0].name = ""; });
+  refuses("more than one 'place'", [](FieldFrame& frame) { frame.fields[0].name = "place"; });
+  refuses("more than one 'u'", [](FieldFrame& frame) { frame.fields.push_back(frame.fields[0]); });
+
+  for (FieldWriter* each : {&writer, &expected}) each->add(a_frame(0)), each->finish();
+  CHECK(bytes_of(folder.path() / "fields.h5") == bytes_of(other.path() / "fields.h5"));
+  CHECK(bytes_of(folder.path() / "fields.xdmf") == bytes_of(other.path() / "fields.xdmf"));
+}
