@@ -24,9 +24,7 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
   };
   if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame));
   if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
-  if constexpr (S != StressState::plane_stress) {
-    if (material.law == "hencky") return elastic(Hencky<S>(lame));
-  }
+  if (material.law == "hencky") return elastic(Hencky<S>(lame));
   if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric) {
     if (material.law == "drucker-prager") {
       const DruckerPrager<S> law(DruckerPragerParameters::from(material));

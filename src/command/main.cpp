@@ -2,10 +2,12 @@
 #include <stillpoint/scene.hpp>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "commands.hpp"
 
@@ -62,9 +64,18 @@ int dispatch(int argc, char** argv) {
   return list(topic);
 }
 
+// OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and
+// ten times slower than one thread where another program wants a core. So they wait for microseconds here, unless the
+// user has said otherwise. The library reads its environment before main(): the program starts itself once more.
+void wait_briefly(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
+  if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", argv);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_briefly(argv);
   try {
     return dispatch(argc, argv);
   } catch (const stillpoint::SceneError& error) {

@@ -1,6 +1,7 @@
 // stillpoint run: relaxes a scene and ends in a short table.
 #include <stillpoint/run.hpp>
 
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace stillpoint::command {
 namespace {
 
-void print_table(const Scene& scene, const Summary& s, const std::filesystem::path& out) {
+void print_table(const Summary& s, const std::filesystem::path& out) {
   const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<18}{}\n", what, value); };
   fmt::print("{}\n", s.title.empty() ? s.scene : s.title);
   row("status", fmt::format("{}: {}", to_string(s.status), s.reason));
@@ -30,10 +31,20 @@ void print_table(const Scene& scene, const Summary& s, const std::filesystem::pa
   }
   row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {} thread{}", s.wall_s, s.ns_per_point_step,
                                s.threads, s.threads == 1 ? "" : "s"));
-  for (const ProbeSpec& probe : scene.probes) {
+  if (s.transfer) {
+    row("conserved", fmt::format("mass to {:.1e}, momentum to {:.1e}; {:.1f} % inertia added at nodes of little mass",
+                                 s.transfer->mass, s.transfer->momentum, 100 * s.transfer->added_inertia));
+  }
+  if (s.external_work) {
+    row("external work", fmt::format("{:.6g} J; kinetic energy is {:.1e} of it", *s.external_work,
+                                     s.kinetic_energy / std::abs(*s.external_work)));
+  }
+  for (const auto& [name, fields] : s.probes) {
     std::string values;
-    for (const auto& [field, value] : s.probes.at(probe.name)) values += fmt::format("{} = {:.9g}  ", field, value);
-    row("probe " + probe.name, fmt::format("{} at x = {:.6g}", values, fmt::join(s.probe_places.at(probe.name), ", ")));
+    for (const auto& [field, value] : fields) values += fmt::format("{} = {:.9g}  ", field, value);
+    const auto place = s.probe_places.find(name);
+    if (place != s.probe_places.end()) values += fmt::format(" at x = {:.6g}", fmt::join(place->second, ", "));
+    row((fields.front().first == "normal" ? "force on " : "probe ") + name, values);
   }
   for (const std::string& note : s.notes) row("note", note);
   row("written", fmt::format("{}", out.string()));
@@ -50,7 +61,7 @@ int run(const RunArguments& arguments) {
   if (!arguments.quiet) options.progress = [&line](const Progress& progress) { line.show(progress); };
   const Summary summary = stillpoint::run(scene, options);
   line.finish();
-  if (!arguments.quiet) print_table(scene, summary, out);
+  if (!arguments.quiet) print_table(summary, out);
   if (summary.exit_status != 0) {
     fmt::print(stderr, "stillpoint: {}: {}\n", to_string(summary.status), summary.reason);
   }
