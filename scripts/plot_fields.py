@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""plot_fields.py DIR [DIR…] [--field NAME] [--out FILE] [--stages N]: draws the material points from each DIR/fields.h5.
+"""plot_fields.py DIR [DIR…] [--field NAME] [--out FILE] [--stages N]: draws the points of DIR/fields.h5 by a field.
 
-In the plane a panel a stage: the points at their deformed places, coloured by a field; several runs have a row each. A
-bar has a panel a run, with a line a stage. NAME is what fields.h5 has (plastic_strain, stress_xy, …); of a vector its
-length (u) or a component (u_x); or `layers`: the points by the layers and columns of the undeformed body that they were in.
-Without --field: plastic_strain, or u. N stages are drawn, evenly spread over those in the file (6, or 3 of each of several
-runs). FILE is DIR/fields.png if not given. Exit status 2 and a message where there is nothing to draw.
+In the plane a panel a stage: the points at their deformed places, coloured by the field; several runs have a row each.
+A bar has a panel a run, with a line a stage. NAME is what fields.h5 has (plastic_strain, stress_xy, …); of a vector its
+length (u) or a component (u_x); or `layers`: alternating layers and columns of the undeformed body, to show what
+became of them. Without --field: plastic_strain, or u. N stages are drawn, evenly spread over those in the file: at most
+6, or 3 of each of several runs. FILE is DIR/fields.png if not given. Exit status 2 and a message where there is nothing
+to draw.
 """
 
 import argparse
@@ -115,9 +116,10 @@ def evenly_spread(count, wanted):
 def slope_angles(summary, folder):
     """{t: angle} of the stages in summary.json."""
     try:
-        return {float(stage["t"]): stage["slope_angle"] for stage in summary.get("stages") or []}
+        stages = [(float(stage["t"]), stage["slope_angle"]) for stage in summary.get("stages") or []]
+        return {t: float(angle) for t, angle in stages if angle is not None}
     except (TypeError, KeyError, ValueError):
-        raise Refused(f"{folder / 'summary.json'}: expected stages of t and slope_angle") from None
+        raise Refused(f"{folder / 'summary.json'}: expected stages of numbers t and slope_angle") from None
 
 
 def read_stages(frames, field, angles):
@@ -192,7 +194,7 @@ def name_of(field, dim):
 
 
 def colours_of(stages):
-    """(colour map, its range, and to which side values lie outside of that). A few extreme points do not set the range."""
+    """(colour map, its range, on which side values lie outside of it). A few extreme points do not set the range."""
     values = np.concatenate([stage.values for stage in stages])
     if values.dtype.kind in "iu":  # a material: a colour a number
         numbers = np.unique(values)
@@ -203,7 +205,7 @@ def colours_of(stages):
     if len(values) == 0:
         return plt.get_cmap("viridis"), Normalize(0, 1), "neither"
     low, high = np.percentile(values, [0.2, 99.8])
-    if np.ptp(values) <= 10 * max(high - low, 0):  # nothing that is extreme
+    if low == high or np.ptp(values) <= 10 * (high - low):  # nothing that is extreme
         low, high = values.min(), values.max()
     cmap = "viridis"
     if low < 0 < high and min(-low, high) > 0.2 * max(-low, high):
@@ -225,6 +227,41 @@ def heading(run, stage, many_runs):
     return ",  ".join(parts)
 
 
+class Sheet:
+    """The figure, and where its panels are in it, all in inches. 7 wide: legible at half a page's width, too."""
+
+    LEFT, RIGHT, GAP, LARGEST = 0.78, 0.15, 0.2, 6
+
+    def __init__(self, rows, columns, shape, title, bar):
+        """shape: height/width of a panel."""
+        self.small = columns > 2
+        plt.rcParams.update(STYLE | {"font.size": 9.5 if self.small else 13})
+        self.line = 0.22 if self.small else 0.28  # the height of a line of text
+        self.panel_width = min((7 - self.LEFT - self.RIGHT - (columns - 1) * self.GAP) / columns, self.LARGEST / shape)
+        self.panel_height = self.panel_width * shape
+        self.top = self.line * (2.4 if title else 1.3)
+        self.pitch = self.panel_height + 1.6 * self.line  # from row to row
+        bottom = self.line * (5.3 if bar else 2.4)
+        self.width = self.LEFT + columns * self.panel_width + (columns - 1) * self.GAP + self.RIGHT
+        self.height = self.top + (rows - 1) * self.pitch + self.panel_height + bottom
+        self.figure = plt.figure(figsize=(self.width, self.height))
+        if title:
+            self.figure.suptitle(title, y=1 - 0.4 * self.line / self.height, va="top", fontsize="medium")
+
+    def panel(self, row, column):
+        x = self.LEFT + column * (self.panel_width + self.GAP)
+        y = self.height - self.top - row * self.pitch - self.panel_height
+        return self.axes(x, y, self.panel_width, self.panel_height)
+
+    def bar(self):
+        length = min(4, 0.7 * self.width)
+        middle = (self.LEFT + self.width - self.RIGHT) / 2
+        return self.axes(middle - length / 2, 2 * self.line, length, 0.5 * self.line)
+
+    def axes(self, x, y, width, height):
+        return self.figure.add_axes((x / self.width, y / self.height, width / self.width, height / self.height))
+
+
 def draw_plane(runs, field):
     stages = [stage for run in runs for stage in run.stages]
     bodies = [body(stage.place) for stage in stages]
@@ -234,53 +271,29 @@ def draw_plane(runs, field):
     (x_low, y_low), (x_high, y_high) = low - margin, high + margin
     shape = (y_high - y_low) / (x_high - x_low)
 
-    # All in inches: a figure 7 wide, at half a page's width still legible, with the panels as large as that leaves.
     if len(runs) > 1:
+        places = [(row, column) for row, run in enumerate(runs) for column in range(len(run.stages))]
         columns = max(len(run.stages) for run in runs)
     else:
         columns = min(len(stages), 2 if shape < 1 or len(stages) == 4 else 3)
-    small = columns > 2
-    plt.rcParams.update(STYLE | {"font.size": 9.5 if small else 13})
-    line = 0.22 if small else 0.28  # the height of a line of text
-    left, right, gap = 0.5 + line, 0.15, 0.2
-    width = (7 - left - right - (columns - 1) * gap) / columns
-    height = width * shape
-    if height > 6:
-        width, height = 6 / shape, 6
-    rows = len(runs) if len(runs) > 1 else -(-len(stages) // columns)
-    title = plain(runs[0].title)
-    top, bottom = line * (2.4 if title else 1.3), 2.4 * line + (2.9 * line if field != "layers" else 0)
-    pitch = height + 1.6 * line
-    total = top + rows * pitch - 1.6 * line + bottom
-    figure = plt.figure(figsize=(left + right + columns * width + (columns - 1) * gap, total))
-    figure_width = figure.get_figwidth()
-    if title:
-        figure.suptitle(title, y=1 - 0.4 * line / total, va="top", fontsize="medium")
-
-    cmap, norm, extend = (None, None, None) if field == "layers" else colours_of(stages)
-    spots = []
-    for number, run in enumerate(runs):
-        for k, stage in enumerate(run.stages):
-            spots.append((run, stage, *((number, k) if len(runs) > 1 else divmod(k, columns))))
-    taken = {(row, column) for _, _, row, column in spots}
-    for run, stage, row, column in spots:
-        corner = (left + column * (width + gap)) / figure_width, (total - top - row * pitch - height) / total
-        axis = figure.add_axes((*corner, width / figure_width, height / total))
+        places = [divmod(k, columns) for k in range(len(stages))]
+    sheet = Sheet(places[-1][0] + 1, columns, shape, plain(runs[0].title), bar=field != "layers")
+    cmap, norm, extend = colours_of(stages) if field != "layers" else (None, None, None)
+    scale = 72 * sheet.panel_width / (x_high - x_low)  # of points, each 1/72 inch
+    for (row, column), (run, stage) in zip(places, [(run, stage) for run in runs for stage in run.stages]):
+        axis, lowest = sheet.panel(row, column), (row + 1, column) not in places
         axis.set(xlim=(x_low, x_high), ylim=(y_low, y_high))
         axis.set_title(heading(run, stage, len(runs) > 1), fontsize="medium", pad=3)
         for ticks in (axis.xaxis, axis.yaxis):
-            ticks.set_major_locator(MaxNLocator(4 if small else 5, steps=[1, 2, 5, 10]))
-        axis.tick_params(labelbottom=(row + 1, column) not in taken, labelleft=column == 0)
-        axis.set(xlabel="$x$" if (row + 1, column) not in taken else "", ylabel="$y$" if column == 0 else "")
-        spacing = spacing_of(stage.place) * 72 * width / (x_high - x_low)  # in 1/72 inch
+            ticks.set_major_locator(MaxNLocator(4 if sheet.small else 5, steps=[1, 2, 5, 10]))
+        axis.tick_params(labelbottom=lowest, labelleft=column == 0)
+        axis.set(xlabel="$x$" if lowest else "", ylabel="$y$" if column == 0 else "")
+        spacing = scale * spacing_of(stage.place)
         diameter = max(spacing, min(1.4 * spacing, 2.5), 0.9)  # fine ones overlap: gaps as fine as pixels make moirés
-        colour = {"c": stage.values} if field == "layers" else {"c": stage.values, "cmap": cmap, "norm": norm}
-        axis.scatter(*stage.place.T, s=diameter**2, linewidths=0, rasterized=True, **colour)
-    if field != "layers":
-        span = min(0.7, 4 / figure_width)
-        bar = figure.add_axes((0.5 + left / figure_width / 4 - span / 2, 2 * line / total, span, 0.5 * line / total))
-        add_colour_bar(figure, bar, cmap, norm, extend, name_of(field, 2))
-    return figure
+        axis.scatter(*stage.place.T, c=stage.values, s=diameter**2, cmap=cmap, norm=norm, linewidths=0, rasterized=True)
+    if norm:
+        add_colour_bar(sheet.figure, sheet.bar(), cmap, norm, extend, name_of(field, 2))
+    return sheet.figure
 
 
 def add_colour_bar(figure, axis, cmap, norm, extend, label):
@@ -291,7 +304,7 @@ def add_colour_bar(figure, axis, cmap, norm, extend, label):
         bar.set_ticklabels([f"{edge + 0.5:.0f}" for edge in norm.boundaries[:-1]])
         bar.ax.tick_params(length=0)
     else:
-        bar.locator = MaxNLocator(5)
+        bar.locator = MaxNLocator(5, steps=[1, 2, 5, 10])
         bar.formatter.set_powerlimits((-2, 4))
         bar.formatter.set_useMathText(True)
         bar.update_ticks()

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """plot_history.py DIR [DIR…] [--out FILE]: draws the probes of runs against time, from each DIR/history.csv.
 
-A panel a field, a colour a run, a line style a probe; in the plane, also one for each component, and panels that differ
-in their lines explain them each for itself. A DIR whose subfolders hold runs too (the variants of its scene) is not drawn
-itself: its variants are, and where its run ended in equilibrium, that is a grey line. FILE is DIR/history.png if not
-given. Exit status 2 and a message where there is nothing to draw.
+A panel a field, a colour a run, a line style a probe or a component of it; where the panels differ in their lines, each
+has a key of its own. A DIR whose subfolders hold runs too (the variants of its scene) is not drawn itself: its variants
+are, and where its run ended in equilibrium, that is a grey line. FILE is DIR/history.png if not given. Exit status 2 and
+a message where there is nothing to draw.
 """
 
 import argparse

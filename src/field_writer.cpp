@@ -162,16 +162,17 @@ class FieldWriter::Files {
   // and one another's in those of XDMF 3: these take xx, xy, xz, yy, yz, zz for xx, yy, zz, xy, yz, xz.
   void write(const PointField& field, const std::string& group, GridText& grid) {
     const auto width = static_cast<std::size_t>(field.components);
+    const auto in_group = [&](const std::string& name) { return fmt::format("{}/{}", group, name); };
     if (width == 1) {
-      hdf5_.write(group + "/" + field.name, field.values, {1, 0, 1, 1});
+      hdf5_.write(in_group(field.name), field.values, {1, 0, 1, 1});
       grid.add_scalar(field.name);
     } else if (width <= 3) {
-      hdf5_.write(group + "/" + field.name, field.values, {width, 0, width, 3});
+      hdf5_.write(in_group(field.name), field.values, {width, 0, width, 3});
       grid.add_vector(field.name);
     } else {
       for (std::size_t k = 0; k < width; ++k) {
         const std::string name = fmt::format("{}_{}", field.name, plane_tensor[k]);
-        hdf5_.write(group + "/" + name, field.values, {width, k, 1, 1});
+        hdf5_.write(in_group(name), field.values, {width, k, 1, 1});
         grid.add_scalar(name);
       }
     }

@@ -1,6 +1,7 @@
 // fields.h5 and fields.xdmf: the material points at some times of a run, for ParaView and for scripts.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>

@@ -64,7 +64,7 @@ struct GridSpec {                // [grid]
 struct BodySpec {                // [body], or several [[body]]: material points in a box, in a polygon or from a file
   std::vector<double> min, max;  // the box [m], inside the grid; of a polygon, its bounding box
   std::vector<std::vector<double>> polygon;  // corners in order, (corners × 2) [m]; empty: the whole box
-  std::filesystem::path file;                // CSV of points: x, y, volume; empty: the body is filled with points
+  std::filesystem::path file;                // CSV of points: x, y, volume (with thickness); empty: filled with points
   std::string material;                      // a [material.<name>]
   double area = 1;                           // cross-section in one dimension [m²], thickness in two [m]
   Placement placement = Placement::uniform;

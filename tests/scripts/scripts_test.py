@@ -1,15 +1,11 @@
 #!/usr/bin/python3
-"""scripts_test.py ROOT CLAIM: one claim about the scripts of the source tree ROOT."""
+"""scripts_test.py ROOT CLAIM PROGRAM: one claim about the scripts of the source tree ROOT. PROGRAM is write_fields."""
 
 import os
 import shutil
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
-ROOT = Path(sys.argv[1])
-CLAIMS = {}
+from claims import ROOT, call, check_the_claim, claim, script_module
 
 HEADER = "t,steps,rhs_evaluations,residual,kinetic_energy,p6.u,p6.stress\n"
 HISTORY = HEADER + "0,0,1,1,0,0,0\n1,10,11,0.5,0.1,0.001,0.002\n2,20,21,,0,0.002,0.001\n"
@@ -21,21 +17,15 @@ set = ["damping.c=1", "stop.residual=0"]
 [[variant]]
 name = "C = 1!"
 """
-# Stands for build/release/stillpoint: writes a history, notes how it was called, and ends with the status 3.
+# Stands for build/release/stillpoint: writes a history, and fields if there are any, notes how it was called, and ends
+# with the status 3.
 PROGRAM = """#!/bin/bash
 printf '<%s>' "$@" >>"$CALLS"; echo >>"$CALLS"
 while [[ $1 != --out ]]; do shift; done
 mkdir -p "$2"; cp "$HISTORY" "$2/history.csv"
+[[ -z ${FIELDS:-} ]] || cp "$FIELDS" "$2/fields.h5"
 exit 3
 """
-
-
-def claim(text):
-    return lambda function: CLAIMS.setdefault(text, function)
-
-
-def call(*command, **options):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
 
 
 def is_refused(folder, *words):
@@ -76,6 +66,33 @@ def _(folder):
     (folder / "history.csv").write_text("t,steps,rhs_evaluations,residual,kinetic_energy\n0,0,0,1,0\n1,9,9,nan,inf\n")
     result = call(ROOT / "scripts/plot_history.py", folder)
     assert result.returncode == 0 and (folder / "history.png").stat().st_size > 0, result
+    plot_history = script_module("plot_history")
+    assert list(plot_history.curves([plot_history.read_run(folder)])) == ["residual", "kinetic_energy"]
+
+
+PLANE = """t,steps,rhs_evaluations,residual,kinetic_energy,toe.u.x,toe.u.y,the.crest.u.x,toe.stress.xy,\
+surface.slope_angle,left.normal,left.shear,inertia.external_work,inertia.kinetic_over_work
+0,0,1,1,0,0,0,0,-1,nan,5,1,0,nan
+1,10,11,1,0,1,2,3,4,31.5,-5,2,10,1e-3
+"""
+
+
+@claim("a history of the plane has a panel a kind of field, with a line a component")
+def _(folder):
+    (folder / "history.csv").write_text(PLANE)
+    result = call(ROOT / "scripts/plot_history.py", folder)
+    assert result.returncode == 0 and not result.stderr and (folder / "history.png").stat().st_size > 0, result
+    plot_history = script_module("plot_history")
+    panels = plot_history.curves([plot_history.read_run(folder)])
+    assert {field: plot_history.lines_of(panel) for field, panel in panels.items()} == {
+        "u": ["toe x", "toe y", "the.crest x"],
+        "stress": ["toe xy"],
+        "slope_angle": ["surface"],
+        "force": ["left normal", "left shear"],
+        "external_work": ["inertia"],
+        "kinetic_over_work": ["inertia"],
+    }
+    assert list(panels)[:2] == ["u", "stress"] and panels["force"][1][2] == "left.shear"
 
 
 @claim("scripts/run without a scene says how to use it, with status 2")
@@ -84,8 +101,8 @@ def _(_folder):
     assert result.returncode == 2 and "usage" in result.stderr and "SCENE" in result.stderr, result
 
 
-@claim("scripts/run runs a scene and its variants, draws them, and ends with the status of the run")
-def _(folder):
+def a_copy(folder):
+    """scripts/ with stubs for what installs, builds and computes; returns scripts/run and its environment."""
     root = folder / "a copy"
     shutil.copytree(ROOT / "scripts", root / "scripts")
     (root / "build/release").mkdir(parents=True)
@@ -95,9 +112,13 @@ def _(folder):
         (root / name).chmod(0o755)
     (folder / "my scene.toml").write_text(SCENE)
     (folder / "rows").write_text(HISTORY)
+    return root / "scripts/run", os.environ | {"CALLS": str(folder / "calls"), "HISTORY": str(folder / "rows")}
 
-    environment = os.environ | {"CALLS": str(folder / "calls"), "HISTORY": str(folder / "rows")}
-    result = call(root / "scripts/run", "my scene.toml", "--set", "body.area=2", cwd=folder, env=environment)
+
+@claim("scripts/run runs a scene and its variants, draws them, and ends with the status of the run")
+def _(folder):
+    script, environment = a_copy(folder)
+    result = call(script, "my scene.toml", "--set", "body.area=2", cwd=folder, env=environment)
     assert result.returncode == 3, result
     assert (folder / "out/my scene/history.png").stat().st_size > 0
     assert "out/my scene/history.png" in result.stdout, result
@@ -107,6 +128,23 @@ def _(folder):
         f"<run><my scene.toml><--out><out/my scene/c-1>{user}<--set><damping.c=1><--set><stop.residual=0><--quiet>",
         f"<run><my scene.toml><--out><out/my scene/c-1-2>{user}<--quiet>",
     ]
+    assert not list(folder.rglob("fields.png"))
+
+
+@claim("scripts/run draws the fields of each run that wrote some, and none of an earlier run")
+def _(folder):
+    script, environment = a_copy(folder)
+    call(sys.argv[3], "plane", folder)
+    result = call(script, "my scene.toml", cwd=folder, env=environment | {"FIELDS": str(folder / "fields.h5")})
+    assert result.returncode == 3, result
+    out = folder / "out/my scene"
+    pictures = [out / run / "fields.png" for run in ("", "c-1", "c-1-2")]
+    for picture in pictures:
+        assert picture.stat().st_size > 0 and f"Picture: {picture.relative_to(folder)}" in result.stdout, result
+        picture.unlink()
+        os.utime(picture.with_name("fields.h5"), (0, 0))
+    assert call(script, "my scene.toml", cwd=folder, env=environment).returncode == 3
+    assert not any(picture.exists() for picture in pictures)
 
 
 @claim("packages that cannot be installed are named, with status 2")
@@ -118,5 +156,4 @@ def _(folder):
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as temporary:
-        CLAIMS[sys.argv[2]](Path(temporary))
+    check_the_claim()
