@@ -64,6 +64,7 @@ void DampedAcceleration::operator()(double h, ConstVec v, Vec Q_to_a) {
 void DampedAcceleration::solve_diagonal(double h, ConstVec v, Vec a) {
   mass_.solve(a, a);
   if (C_.identity == 0) {
+    if (C_.mass == 0) return;
     const double r = C_.mass, g = damping_factor(treatment_, h * r);
     for_each_index(a.size(), [=](std::size_t i) { a[i] = g * (a[i] - r * v[i]); });
     return;

@@ -33,7 +33,19 @@ struct Lanes {
   }
   /// this + factor · x, lane by lane.
   [[gnu::always_inline]] void add(double factor, const Lanes& x) { lanes += factor * x.lanes; }
+  [[gnu::always_inline]] Lanes minus(const Lanes& x) const { return {lanes - x.lanes}; }
   [[gnu::always_inline]] double operator[](int k) const { return lanes[k]; }
 };
+
+/// The lanes of a, then those of b.
+template <int N>
+[[gnu::always_inline]] inline Lanes<2 * N> joined(const Lanes<N>& a, const Lanes<N>& b) {
+  static_assert(N <= 2);
+  if constexpr (N == 1) {
+    return {__builtin_shufflevector(a.lanes, b.lanes, 0, 1)};
+  } else {
+    return {__builtin_shufflevector(a.lanes, b.lanes, 0, 1, 2, 3)};
+  }
+}
 
 }  // namespace stillpoint

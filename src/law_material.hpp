@@ -24,6 +24,24 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
 
   LawMaterialBase(const Law& law, std::size_t begin, std::size_t count) : law_(law), begin_(begin), count_(count) {}
 
+  /// Σ point(q), q = 0 … count − 1, in groups that fill the processor's registers. The last group begins early enough to
+  /// be whole: a point that it meets again answers the same again, which costs less than a rest of single points.
+  template <class Point>
+  [[gnu::always_inline]] static double sum_in_groups(std::size_t count, const Point& point) {
+    constexpr std::size_t group = 8;
+    double sum = 0;
+    if (count < group) {
+      for (std::size_t q = 0; q < count; ++q) sum += point(q);
+      return sum;
+    }
+    for (std::size_t begin = 0; begin < count; begin += group) {
+      const std::size_t from = std::min(begin, count - group);
+#pragma omp simd reduction(+ : sum)
+      for (std::size_t q = 0; q < group; ++q) sum += point(from + q);  // all locals are point's own, or GCC gives up
+    }
+    return sum;
+  }
+
   static Tensor contract(const ModuliMatrix& A, const Tensor& dH) {
     Tensor dP{};
     for (int a = 0; a < components; ++a) {
@@ -156,10 +174,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     const auto point = [&](std::size_t q) __attribute__((always_inline)) {
       return block.answer(q, volume[q], stress_at(block.H_at(q), first + q));
     };
-    double bad = 0;
-#pragma omp simd reduction(+ : bad)
-    for (std::size_t q = 0; q < count; ++q) bad += point(q);
-    return bad;
+    return Base::sum_in_groups(count, point);
   }
 
   std::array<std::vector<double>, components> F0_;  // (components × points); empty in a body that never moves on
@@ -194,10 +209,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
       unroll<Law::history>([&](auto h) __attribute__((always_inline)) { to[n * h + q] = next[h]; });
       return block.answer(q, volume[q], P);
     };
-    double bad = 0;
-#pragma omp simd reduction(+ : bad)
-    for (std::size_t q = 0; q < count; ++q) bad += point(q);  // a body of its own, or its locals keep it from vectors
-    return bad;
+    return Base::sum_in_groups(count, point);
   }
   void commit() override { committed_.swap(trial_); }
 

@@ -68,40 +68,29 @@ class MaterialPointPhase final : public LagrangianPhase {
   }
 
   bool internal_force(double t, ConstVec u, Vec R) const override {
-    bool admissible = false;
+    spread(t, u, grid_u_);
+    const double* V = body_.points.volume.data();
     if (history_dependent_) {
-      const double dt = t - committed_t_;
-      spread_increments(t, u);
-      admissible = nodal_force_.template evaluate<true>(grid_u_du_.data(), [&](std::size_t m, Block& block) {
-        return body_.materials[m]->stress(block, body_.points.volume.data(), dt);
-      });
       last_t_ = t;
-    } else {
-      spread(t, u, grid_u_);
-      admissible = nodal_force_.template evaluate<false>(grid_u_.data(), [&](std::size_t m, Block& block) {
-        return body_.materials[m]->stress(block, body_.points.volume.data(), 0);
-      });
+      const double dt = t - committed_t_;
+      const auto stress = [&, V, dt](std::size_t m, Block& block) { return body_.materials[m]->stress(block, V, dt); };
+      return nodal_force_.template evaluate<true>(grid_u_.data(), committed_u_.data(), stress, *dofs_, R);
     }
-    const double* force = nodal_force_.force().data();
-    for_each_index(R.size(), [R, force, number = dofs_->free.data()](std::size_t k) { R[k] = force[number[k]]; });
-    return admissible;
+    const auto stress = [&, V](std::size_t m, Block& block) { return body_.materials[m]->stress(block, V, 0); };
+    return nodal_force_.template evaluate<false>(grid_u_.data(), nullptr, stress, *dofs_, R);
   }
 
   void tangent(double t, ConstVec u, ConstVec du, Vec dR) const override {
-    for (double& value : grid_u_du_) value = 0;
     spread(t, u, grid_u_);
-    for (std::size_t f = 0; f < grid_u_.size() / Dim; ++f) {
-      for (int i = 0; i < Dim; ++i) grid_u_du_[2 * Dim * f + i] = grid_u_[Dim * f + i];
-    }
-    for (std::size_t k = 0; k < size(); ++k) {
-      const auto unknown = static_cast<std::size_t>(dofs_->free[k]);
-      grid_u_du_[2 * Dim * (unknown / Dim) + Dim + unknown % Dim] = du[k];
-    }
-    nodal_force_.template evaluate<true>(grid_u_du_.data(), [&](std::size_t m, Block& block) {
-      body_.materials[m]->tangent(block, body_.points.volume.data());
+    // u and u − du, of which the difference is the direction
+    grid_work_ = grid_u_;
+    for (std::size_t k = 0; k < du.size(); ++k) grid_work_[static_cast<std::size_t>(dofs_->free[k])] -= du[k];
+    const double* V = body_.points.volume.data();
+    const auto answer = [&, V](std::size_t m, Block& block) {
+      body_.materials[m]->tangent(block, V);
       return 0.0;
-    });
-    for (std::size_t k = 0; k < dR.size(); ++k) dR[k] = nodal_force_.force()[static_cast<std::size_t>(dofs_->free[k])];
+    };
+    nodal_force_.template evaluate<true>(grid_u_.data(), grid_work_.data(), answer, *dofs_, dR);
   }
 
   // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
@@ -137,13 +126,11 @@ class MaterialPointPhase final : public LagrangianPhase {
     internal_force(t, u, R);
     commit_last();
   }
-  // What internal_force() was last evaluated at is in grid_u_du_.
+  // What internal_force() was last evaluated at is in grid_u_, which every use fills anew.
   void commit_last() override {
     if (!history_dependent_) return;
     for (const auto& material : body_.materials) material->commit();
-    for_each_index(committed_u_.size(), [to = committed_u_.data(), from = grid_u_du_.data()](std::size_t unknown) {
-      to[unknown] = from[2 * Dim * (unknown / Dim) + unknown % Dim];
-    });
+    committed_u_.swap(grid_u_);
     committed_t_ = last_t_;
   }
 
@@ -173,10 +160,7 @@ class MaterialPointPhase final : public LagrangianPhase {
 
   double reaction_norm() const override {
     double sum = 0;
-    for (const int unknown : dofs_->prescribed) {
-      const double reaction = nodal_force_.force()[static_cast<std::size_t>(unknown)];
-      sum += reaction * reaction;
-    }
+    for (const double reaction : nodal_force_.reactions()) sum += reaction * reaction;
     for (const WallContact& wall : boundary_.walls()) sum += wall.square_of_forces();
     return std::sqrt(sum);
   }
@@ -281,10 +265,12 @@ class MaterialPointPhase final : public LagrangianPhase {
   double share_of_phase(double t, ConstVec u) const override {
     if (!moves_on_) return 0;
     if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
+    // A step moves a node by a small share of a cell, so that not every one has to be looked at.
+    constexpr long between_looks = 4, between_looks_at_strain = 8;
+    if (++looks_ % between_looks != 0) return 0;
     double share = 0;
     if (scene_.phase.max_motion) share = largest_motion(u) / *scene_.phase.max_motion;
-    constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
-    if (scene_.phase.max_strain && ++looks_ % between_looks == 0) {
+    if (scene_.phase.max_strain && looks_ % between_looks_at_strain == 0) {
       spread(t, u, grid_u_);
       share = std::max(share, largest_strain() / *scene_.phase.max_strain);
     }
@@ -378,7 +364,7 @@ class MaterialPointPhase final : public LagrangianPhase {
     boundary_.template begin_phase<Basis>(scene_, grid_, reached_functions(), t);
     dofs_.emplace(reached_unknowns(), boundary_.prescribed());
     grid_u_.assign(Dim * functions, 0);
-    grid_u_du_.assign(2 * Dim * functions, 0);
+    nodal_force_.set_prescribed(dofs_->prescribed.size());
     committed_u_.assign(Dim * functions, 0);
     spread_prescribed(t, committed_u_);
     committed_t_ = last_t_ = t;
@@ -572,22 +558,6 @@ class MaterialPointPhase final : public LagrangianPhase {
                    [u, to = grid.data(), number = dofs_->free.data()](std::size_t k) { to[number[k]] = u[k]; });
     spread_prescribed(t, grid);
   }
-  // [u, u − u committed] at each function.
-  void spread_increments(double t, ConstVec u) const {
-    const double* committed = committed_u_.data();
-    double* to = grid_u_du_.data();
-    for_each_index(u.size(), [u, to, committed, number = dofs_->free.data()](std::size_t k) {
-      const int unknown = number[k], at = 2 * Dim * (unknown / Dim) + unknown % Dim;
-      to[at] = u[k];
-      to[at + Dim] = u[k] - committed[unknown];
-    });
-    for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
-      const int unknown = dofs_->prescribed[s], at = 2 * Dim * (unknown / Dim) + unknown % Dim;
-      to[at] = boundary_.displacement_in_phase(s, t);
-      to[at + Dim] = to[at] - committed[unknown];
-    }
-  }
-
   /// visit(occupied cell, point, number of the point)
   template <class Visit>
   void for_points(const Visit& visit) const {
@@ -642,8 +612,7 @@ class MaterialPointPhase final : public LagrangianPhase {
 
   // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
   mutable NodalForce<B, K> nodal_force_;
-  mutable std::vector<double> grid_u_;     // (functions × Dim)
-  mutable std::vector<double> grid_u_du_;  // (functions × 2 Dim)
+  mutable std::vector<double> grid_u_, grid_work_;  // (functions × Dim)
   mutable double last_t_ = 0;
   mutable double undeformed_bound_ = 0;
   mutable long looks_ = 0;

@@ -40,35 +40,50 @@ class NodalForce {
     }
     corner_sum_.rebuild(function_of_corner_, functions);
     corner_.resize(dim * per_cell * points.cells());
-    force_.assign(dim * functions, 0.0);
     divide_into_blocks();
   }
 
-  const CornerSum& corner_sum() const { return corner_sum_; }
-  const std::vector<double>& force() const { return force_; }
+  void set_prescribed(std::size_t count) { reactions_.assign(count, 0); }
 
-  /// answer(material number, block) turns block.H (and dH where Increments) into block.VP and returns 0, or NaN where
-  /// it cannot. u: over the grid's functions; component i at [dim function + i], or with increments at [2 dim function
-  /// + i] and du at [2 dim function + dim + i]. False where an answer was NaN. force(): R over the grid.
+  const CornerSum& corner_sum() const { return corner_sum_; }
+  /// At the prescribed degrees of freedom, of the last evaluation [N].
+  const std::vector<double>& reactions() const { return reactions_; }
+
+  /// answer(material number, block) turns block.H (and dH, of u − u_before, where Increments) into block.VP and returns
+  /// 0, or NaN where it cannot. u, u_before: over the grid's functions, component i at [dim function + i].
+  /// R: forces at the free degrees of freedom, (n); at the prescribed ones they become reactions().
+  /// False where an answer was NaN.
   template <bool Increments, class Answer>
-  bool evaluate(const double* u, const Answer& answer) {
+  bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R) {
     double bad = 0;
     const std::size_t blocks = blocks_.size();
+    const int* number = dofs.number.data();
+    const int n = static_cast<int>(R.size());
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
       Block block;
 #pragma omp for schedule(static) reduction(+ : bad)
       for (std::size_t b = 0; b < blocks; ++b) {
         start(block, b);
-        for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) gather<Increments>(k, u, block);
+        for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) {
+          gather<Increments>(k, u, u_before, block);
+        }
         bad += answer(blocks_[b].material, block);
         for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) scatter(k, block);
       }
       const double* corners = corner_.data();
 #pragma omp for schedule(static)
       for (std::size_t f = 0; f < corner_sum_.functions(); ++f) {
+        if (!corner_sum_.reaches(f)) continue;
         const auto total = corner_sum_.template sum<dim>(f, corners);
-        for (int i = 0; i < dim; ++i) force_[dim * f + i] = total[i];
+        for (int i = 0; i < dim; ++i) {
+          const int dof = number[dim * f + i];
+          if (dof >= n) {
+            reactions_[static_cast<std::size_t>(dof - n)] = total[i];
+          } else if (dof >= 0) {
+            R[static_cast<std::size_t>(dof)] = total[i];
+          }
+        }
       }
     }
     return bad == 0;
@@ -83,7 +98,7 @@ class NodalForce {
 #pragma omp for schedule(static)
       for (std::size_t b = 0; b < blocks_.size(); ++b) {
         start(block, b);
-        for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) gather<false>(k, u, block);
+        for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) gather<false>(k, u, u, block);
         visit(blocks_[b].material, block);
       }
     }
@@ -116,11 +131,17 @@ class NodalForce {
   }
 
   template <bool Increments>
-  void gather(std::size_t k, const double* u, Block& block) const {
-    constexpr int width = Increments ? 2 * dim : dim;
+  void gather(std::size_t k, const double* u, const double* u_before, Block& block) const {
+    constexpr int width = Increments ? 2 * dim : dim;  // lanes: u, and u − u_before behind it
     std::array<Lanes<width>, per_cell> of_corner;
     unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
-      of_corner[a] = Lanes<width>::load(u + width * static_cast<std::ptrdiff_t>(weights_->function(k, a)));
+      const auto at = dim * static_cast<std::ptrdiff_t>(weights_->function(k, a));
+      const auto now = Lanes<dim>::load(u + at);
+      if constexpr (Increments) {
+        of_corner[a] = joined(now, now.minus(Lanes<dim>::load(u_before + at)));
+      } else {
+        of_corner[a] = now;
+      }
     });
     const std::size_t begin = points_->begin(k), end = points_->end(k);
     for (std::size_t p = begin; p < end; ++p) {
@@ -172,8 +193,8 @@ class NodalForce {
   CornerSum corner_sum_;
   std::vector<int> function_of_corner_;  // (cells × per_cell)
   std::vector<BlockOfCells> blocks_;
-  std::vector<double> corner_;  // (cells × per_cell × dim) [N]
-  std::vector<double> force_;   // (functions × dim) [N]
+  std::vector<double> corner_;     // (cells × per_cell × dim) [N]
+  std::vector<double> reactions_;  // (prescribed degrees of freedom) [N]
 };
 
 }  // namespace stillpoint

@@ -19,7 +19,7 @@ namespace stillpoint {
 /// cache.
 template <Kinematics K>
 struct PointBlock {
-  static constexpr std::size_t size = 256;
+  static constexpr std::size_t size = 128;
   static constexpr int components = gradient_components(K);
   using Rows = std::array<std::array<double, size>, components>;
 

@@ -27,13 +27,22 @@ template <int Dim>
 class PointOrder {
  public:
   /// Longest list of points that counts as one cell; a fuller one is listed in parts.
-  static constexpr int most_points = 256;
+  static constexpr int most_points = 128;
 
   /// Sorts the points and lists the cells that hold some. order(): which point each one was.
   void sort(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
     const std::size_t n = points.size();
     cell_.resize(n);
-    for_each_index(n, [&](std::size_t p) { cell_[p] = grid.cell_number(grid.cell_of(points.place(p))); });
+    std::array<double, Dim> cells_per_length;
+    for (int d = 0; d < Dim; ++d) {
+      // of the first cell: the last may be wider or narrower, next to a wall that the grid follows
+      cells_per_length[d] = 1 / (grid.axes[d].nodes[1] - grid.axes[d].nodes[0]);
+    }
+    for_each_index(n, [&](std::size_t p) {
+      std::array<int, Dim> cell;
+      for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], cells_per_length[d]);
+      cell_[p] = grid.cell_number(cell);
+    });
     order_.resize(n);
     points.cell.clear();
     points.cell_begin.clear();

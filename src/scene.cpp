@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,22 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::string_view to_string(StressState state) {
+  switch (state) {
+    case StressState::uniaxial_stress:
+      return "uniaxial-stress";
+    case StressState::uniaxial_strain:
+      return "uniaxial-strain";
+    case StressState::plane_strain:
+      return "plane-strain";
+    case StressState::plane_stress:
+      return "plane-stress";
+    case StressState::axisymmetric:
+      return "axisymmetric";
+  }
+  return "";
+}
 
 std::string to_string(const Location& where) {
   return where.line > 0 ? fmt::format("{}:{}:{}", where.file, where.line, where.column) : where.file;

@@ -15,22 +15,6 @@
 namespace stillpoint {
 namespace {
 
-std::string_view name_of(StressState state) {
-  switch (state) {
-    case StressState::uniaxial_stress:
-      return "uniaxial-stress";
-    case StressState::uniaxial_strain:
-      return "uniaxial-strain";
-    case StressState::plane_strain:
-      return "plane-strain";
-    case StressState::plane_stress:
-      return "plane-stress";
-    case StressState::axisymmetric:
-      return "axisymmetric";
-  }
-  return "";
-}
-
 /// True where the body has a size, after moving its faces onto grid lines that they miss by a sliver.
 bool check_box(SceneCheck& check, std::size_t k) {
   const GridSpec& grid = check.scene().grid;
@@ -165,9 +149,9 @@ void check_material(SceneCheck& check, std::size_t k) {
   if (has_state(found->second, scene.state)) return;
   const LawInfo& law = *std::ranges::find(material_laws(), found->second.law, &LawInfo::name);
   std::vector<std::string_view> states;
-  for (const StressState state : law.states) states.push_back(name_of(state));
+  for (const StressState state : law.states) states.push_back(to_string(state));
   check.add(check.body_key(k, "material"), fmt::format("law '{}' has no state '{}'; it has {}", law.name,
-                                                       name_of(scene.state), fmt::join(states, ", ")));
+                                                       to_string(scene.state), fmt::join(states, ", ")));
 }
 
 /// A material that dilates more than it rubs would create energy.

@@ -147,9 +147,11 @@ struct TensorBasis {
     // Across the face the one value there is: the last function, or the last but one where a slope follows it.
     const int count = B::count(grid.axes[static_cast<std::size_t>(axis)]);
     const int across = !upper ? 0 : B::is_value(B::per_cell - 1) ? count - 1 : count - 2;
+    int stride = 1;
+    for (int d = 0; d < axis; ++d) stride *= B::count(grid.axes[static_cast<std::size_t>(d)]);
     std::vector<int> found;
-    for (int number = 0; number < TensorBasis::count(grid); ++number) {
-      if (index_along(grid, number, axis) == across) found.push_back(number);
+    for (int begin = across * stride; begin < TensorBasis::count(grid); begin += count * stride) {
+      for (int number = begin; number < begin + stride; ++number) found.push_back(number);
     }
     return found;
   }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stillpoint {
@@ -20,6 +21,8 @@ enum class BasisKind { linear, quadratic, cubic, hermite };
 /// What happens across the coordinates that are computed: the first two in one dimension, the others in two. The
 /// coordinates of an axisymmetric scene are the radius r and the axis z.
 enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric };
+/// As scenes write it: "plane-strain".
+std::string_view to_string(StressState state);
 enum class Placement { uniform, gauss, random };
 enum class VolumeRule { equal, consistent };
 enum class MassKind { consistent, lumped };

@@ -11,7 +11,6 @@
 namespace stillpoint::command {
 namespace {
 
-constexpr std::array state_names{"uniaxial stress", "uniaxial strain", "plane strain", "plane stress", "axisymmetric"};
 constexpr std::array basis_names{"linear B-spline", "quadratic B-spline", "cubic B-spline", "cubic Hermite"};
 
 }  // namespace
@@ -23,9 +22,8 @@ int check(const SceneArguments& arguments) {
 
   fmt::print("{}\n", scene.title.empty() ? scene.name : scene.title);
   fmt::print("  space            {} dimension{}, {}, {} basis, {} cells of which {} hold material\n", scene.dim,
-             scene.dim == 1 ? "" : "s", state_names[static_cast<std::size_t>(scene.state)],
-             basis_names[static_cast<std::size_t>(scene.grid.basis)], fmt::join(phase.grid_cells(), " x "),
-             phase.occupied_cells());
+             scene.dim == 1 ? "" : "s", to_string(scene.state), basis_names[static_cast<std::size_t>(scene.grid.basis)],
+             fmt::join(phase.grid_cells(), " x "), phase.occupied_cells());
   for (const BodySpec& body : scene.bodies) {
     fmt::print("  body             of {}: {}, {} volumes\n", body.material, scene.materials.at(body.material).law,
                body.volumes == VolumeRule::equal ? "equal" : "consistent");

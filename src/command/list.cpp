@@ -3,6 +3,10 @@
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/material_laws.hpp>
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "commands.hpp"
@@ -32,9 +36,18 @@ void list_materials() {
   fmt::print("materials (material.<name>.law)\n");
   for (const LawInfo& law : material_laws()) {
     fmt::print("  {:<16}{}   [{}]\n", law.name, law.equation, law.source);
+    std::vector<std::string_view> states;
+    for (const StressState state : law.states) states.push_back(to_string(state));
+    fmt::print("    for {}\n", fmt::join(states, ", "));
     for (const ParameterInfo& p : law.parameters) {
-      fmt::print("    {:<6}{} [{}], {} < {} < {}{}\n", p.name, p.meaning, p.unit, p.lower, p.name, p.upper,
-                 p.required ? "" : fmt::format(", default {}", p.fallback));
+      const std::string fallback = p.required          ? ""
+                                   : p.same_as.empty() ? fmt::format(", default {}", p.fallback)
+                                                       : fmt::format(", default {}", p.same_as);
+      fmt::print("    {:<18}{} [{}], {} {} {} < {}{}\n", p.name, p.meaning, p.unit, p.lower,
+                 p.lower_allowed ? "<=" : "<", p.name, p.upper, fallback);
+    }
+    for (const ChoiceInfo& c : law.choices) {
+      fmt::print("    {:<18}{}: {}, default {}\n", c.name, c.meaning, fmt::join(c.values, " | "), c.fallback);
     }
   }
 }
