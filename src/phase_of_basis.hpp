@@ -3,8 +3,10 @@
 
 #include <stdexcept>
 
-#include "material_point_phase.hpp"
+#include "phase_change.hpp"
 #include "phase_factory.hpp"
+#include "phase_forces.hpp"
+#include "phase_points.hpp"
 
 namespace stillpoint {
 
