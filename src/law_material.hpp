@@ -24,8 +24,8 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
 
   LawMaterialBase(const Law& law, std::size_t begin, std::size_t count) : law_(law), begin_(begin), count_(count) {}
 
-  /// Σ point(q), q = 0 … count − 1, in groups that fill the processor's registers. The last group begins early enough to
-  /// be whole: a point that it meets again answers the same again, which costs less than a rest of single points.
+  /// Σ point(q), q = 0 … count − 1, in groups that fill the processor's registers. The last group begins early enough
+  /// to be whole: a point that it meets again answers the same again, which costs less than a rest of single points.
   template <class Point>
   [[gnu::always_inline]] static double sum_in_groups(std::size_t count, const Point& point) {
     constexpr std::size_t group = 8;

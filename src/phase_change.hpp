@@ -9,12 +9,10 @@ template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::share_of_phase(double t, ConstVec u) const {
   if (!moves_on_) return 0;
   if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
-  // A step moves a node by a small share of a cell, so that not every one has to be looked at.
-  constexpr long between_looks = 4, between_looks_at_strain = 8;
-  if (++looks_ % between_looks != 0) return 0;
   double share = 0;
   if (scene_.phase.max_motion) share = largest_motion(u) / *scene_.phase.max_motion;
-  if (scene_.phase.max_strain && looks_ % between_looks_at_strain == 0) {
+  constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
+  if (scene_.phase.max_strain && ++looks_ % between_looks == 0) {
     spread(t, u, grid_u_);
     share = std::max(share, largest_strain() / *scene_.phase.max_strain);
   }

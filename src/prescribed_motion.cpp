@@ -35,4 +35,18 @@ double PrescribedMotion::acceleration(double t) const {
   return where_defined(difference, t, h_);
 }
 
+double PrescribedMotion::velocity_over(double t, double h) const {
+  if (!moves_) return 0;
+  const auto difference = [this, h](double at) { return (displacement(at + h) - displacement(at - h)) / (2 * h); };
+  return where_defined(difference, t, h);
+}
+
+double PrescribedMotion::acceleration_over(double t, double h) const {
+  if (!moves_) return 0;
+  const auto difference = [this, h](double at) {
+    return (displacement(at - h) - 2 * displacement(at) + displacement(at + h)) / (h * h);
+  };
+  return where_defined(difference, t, h);
+}
+
 }  // namespace stillpoint

@@ -21,6 +21,10 @@ class PrescribedMotion {
   double velocity(double t) const;
   /// Likewise, off by (h ω)⁴/90.
   double acceleration(double t) const;
+  /// The same as a step of central differences of length h sees them, so that it follows the motion exactly and no kink
+  /// falls between two steps: (u(t + h) − u(t − h))/(2 h) and (u(t − h) − 2 u(t) + u(t + h))/h².
+  double velocity_over(double t, double h) const;
+  double acceleration_over(double t, double h) const;
 
  private:
   Expression motion_;

@@ -87,7 +87,9 @@ double RelaxationSystem::last_residual() {
   const double unbalanced = norm(Q_), loads = norm(F_);
   force_scale_ = std::max({force_scale_, loads, loads > 0 ? 0 : system_.reaction_norm()});
   if (unbalanced == 0) return 0;
-  return unbalanced / (loads > 0 ? loads : force_scale_);
+  if (force_scale_ > 0) return unbalanced / (loads > 0 ? loads : force_scale_);
+  internal_scale_ = std::max(internal_scale_, norm(R_));
+  return unbalanced / internal_scale_;
 }
 
 double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }

@@ -117,6 +117,7 @@ class Run {
   }
 
   Summary relax() {
+    accept();
     record();
     stages_.look(t_, u(), v());
     const Stopwatch stepping;

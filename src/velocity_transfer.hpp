@@ -51,8 +51,9 @@ class VelocityTransfer {
         });
     for_each_block(mass.size(), [&](std::size_t f) {
       const double* cells = of_cells.data() + (dim + 1) * f;
-      const double m = mass[f] + next_to_nothing * cells[dim];
-      for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? (v[dim * f + i] + next_to_nothing * cells[i]) / m : 0;
+      const bool of_its_own = mass[f] > next_to_nothing * cells[dim];
+      const double m = of_its_own ? mass[f] : cells[dim];
+      for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? (of_its_own ? v[dim * f + i] : cells[i]) / m : 0;
     });
     return v;
   }

@@ -16,10 +16,15 @@ void WallContact::begin_phase(double t, std::vector<Node> nodes, Vec v) {
   shear_force_.assign(nodes_.size(), 0);
   held_.assign(nodes_.size(), 0);
   start_ = motion_.displacement(t);
+  accepted_t_ = t;
   const double velocity = motion_.velocity(t);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     if (nodes_[k].normal < 0) {
       closed_[k] = 0;
+      continue;
+    }
+    if (!started_) {
+      closed_[k] = 1;
       continue;
     }
     const bool approaching = outward_ * (v[static_cast<std::size_t>(nodes_[k].normal)] - velocity) >= 0;
@@ -46,7 +51,8 @@ bool WallContact::close(std::size_t k, double velocity, Vec v) {
 }
 
 void WallContact::add_force(double t, const LinearDamping& C, const Mass& mass, Vec Q) const {
-  const double w = motion_.velocity(t), a = motion_.acceleration(t);
+  const double w = step_ > 0 ? motion_.velocity_over(t, step_) : motion_.velocity(t);
+  const double a = step_ > 0 ? motion_.acceleration_over(t, step_) : motion_.acceleration(t);
   const ConstVec m = mass.diagonal();
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     normal_force_[k] = shear_force_[k] = 0;
@@ -75,7 +81,18 @@ void WallContact::hold(Vec Q) const {
 
 bool WallContact::update(double t, ConstVec u, Vec v) {
   const double velocity = motion_.velocity(t), moved = motion_.displacement(t) - start_;
+  step_ = t - accepted_t_;
+  accepted_t_ = t;
   bool changed = false;
+  if (!started_) {
+    started_ = true;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!closed_[k]) continue;
+      const bool approaches = outward_ * (v[static_cast<std::size_t>(nodes_[k].normal)] - velocity) >= 0;
+      closed_[k] = outward_ * normal_force_[k] < 0 || approaches;
+      if (closed_[k]) changed = close(k, velocity, v) || changed;
+    }
+  }
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     if (nodes_[k].normal < 0) continue;
     const auto n = static_cast<std::size_t>(nodes_[k].normal);

@@ -9,6 +9,9 @@
 //                                                                        s (v_n − w) > 0; then v_n = w
 //   stick    a_t = 0,   F_t = −Q_t                                       slips when |F_t| > μ |F_n|
 //   slip     F_t = −μ |F_n| d, d the direction of v_t                    sticks when v_t turns round; then v_t = 0
+//
+// w and w' of a closed node are differences over the last step's length: a wall that stops or starts at once does so
+// within a step, wherever in it that falls.
 #pragma once
 
 #include <stillpoint/damping.hpp>
@@ -69,7 +72,11 @@ class WallContact {
   std::vector<Node> nodes_;
   std::vector<char> closed_;
   std::vector<Tangential> tangential_;
+  // When the run begins, every node is taken for closed until the first forces show which ones the wall would have to
+  // pull: a body that leans on a wall does so from the start, also on one that begins to give way.
+  bool started_ = false;
   double start_ = 0;                                        // the wall's displacement when the phase began [m]
+  double accepted_t_ = 0, step_ = 0;                        // end and length of the last step; 0: none yet [s]
   mutable std::vector<double> held_;                        // m (w' + c w) of closed nodes at the last add_force()
   mutable std::vector<double> normal_force_, shear_force_;  // F_n, F_t on the body's nodes at the last add_force()
 };

@@ -34,7 +34,8 @@ class RelaxationSystem {
   bool accept(double t, Vec y, bool force_is_current);
 
   /// ‖F − R‖/‖F‖ over the free degrees of freedom. Where F = 0, over the largest ‖reactions‖ or ‖F‖ seen here so far:
-  /// those of the moment fall with the residual itself when a body is unloaded. 0 where nothing pulls.
+  /// those of the moment fall with the residual itself when a body is unloaded. Where there are none either, as in a
+  /// free body that vibrates, over the largest ‖R‖. 0 where nothing pulls.
   double residual(double t, ConstVec u);
   /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
   double last_residual();
@@ -57,7 +58,8 @@ class RelaxationSystem {
   VectorSpace vectors_;
   Vector F_, R_, Q_;
   double last_t_ = 0;
-  double force_scale_ = 0;  // largest ‖F‖ or ‖reactions‖ of residual() and last_residual()
+  double force_scale_ = 0;     // largest ‖F‖ or ‖reactions‖ of residual() and last_residual()
+  double internal_scale_ = 0;  // largest ‖R‖ of the same, where there were none of these
   long evaluations_ = 0;
 };
 

@@ -164,14 +164,14 @@ BENCHMARK(change_of_phase)
 
 // Half a second of the slope, with phases and classically: ns per point and step of the whole run.
 void whole_run(benchmark::State& state) {
-  const std::string max_motion = state.range(0) == 0 ? "0" : "0.2";
+  const std::string max_motion = state.range(0) == 0 ? "0" : "0.1";
   Scene scene = scenes::load("slope", {"phase.max_motion=" + max_motion, "stop.time=0.5", "output.stages=[]"});
   double ns = 0;
   for (auto _ : state) {
     const Summary summary = run(scene, {.threads = static_cast<int>(state.range(1))});
     ns = summary.ns_per_point_step;
   }
-  state.SetLabel(state.range(0) == 0 ? "max_motion = 0" : "max_motion = 0.2");
+  state.SetLabel(state.range(0) == 0 ? "max_motion = 0" : "max_motion = 0.1");
   state.counters["ns/point/step"] = ns;
 }
 BENCHMARK(whole_run)

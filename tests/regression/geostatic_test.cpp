@@ -1,0 +1,50 @@
+// The stress under a level surface: problems/level_ground.toml.
+#include "driven.hpp"
+#include "scenes.hpp"
+#include "statics.hpp"
+
+using namespace stillpoint;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double weight = 1800 * 9.81, K0 = 0.3 / 0.7, H = 1, h = 0.125;  // ρ g [N/m³], the cells' height
+
+Scene ground(const std::vector<std::string>& overrides = {}) { return scenes::load("level_ground", overrides); }
+
+}  // namespace
+
+TEST_CASE("level ground whose cells are full is in balance at the start to rounding, and stays as it is") {
+  for (const std::string base : {"fixed", "roller"}) {
+    for (const std::string points : {"4", "9"}) {
+      CAPTURE(base, points);
+      driven::Motion motion(ground({"support[0].kind=" + base, "body.points_per_cell=" + points}));
+      CHECK(motion.relaxation().residual(0, motion.u()) < 1e-12);
+      motion.run_to(1);
+      CHECK(motion.relaxation().residual(1, motion.u()) < 1e-12);
+      CHECK(statics::largest({motion.u().begin(), motion.u().end()}) < 1e-12 * H);
+    }
+  }
+}
+
+TEST_CASE("level ground thrusts K0 rho g H^2/2 against a smooth wall, less what a fixed base holds") {
+  // The nodes' shares add up to Σ V_p σ_xx/Δx, exact for a linear stress. The base's node holds, of that,
+  //   h/2 [3/4 σ(h/4) + 1/4 σ(3h/4)] = K0 ρ g h/2 (H − 3h/8)   with the points at h/4 and 3h/4.
+  const double thrust = K0 * weight * H * H / 2, at_base = K0 * weight * h / 2 * (H - 3 * h / 8);
+  for (const std::string base : {"fixed", "roller"}) {
+    CAPTURE(base);
+    driven::Motion motion(ground({"support[0].kind=" + base}));
+    motion.run_to(0.1);
+    for (std::size_t wall = 0; wall < 2; ++wall)
+      CHECK_THAT(motion.wall(wall).normal, WithinRel(thrust - (base == "fixed" ? at_base : 0), 1e-12));
+  }
+}
+
+TEST_CASE("level ground stands through its phases: in a whole run nothing moves and no phase ends") {
+  const Summary s = run(ground());
+  CHECK(s.exit_status == 0);
+  CHECK(s.phases == 1);
+  CHECK(s.residual < 1e-12);
+  CHECK(std::abs(scenes::probe(s, "surface", "u.y")) < 1e-12 * H);
+  CHECK_THAT(scenes::probe(s, "surface", "stress.yy"), WithinRel(-weight * h / 4, 1e-9));
+}
