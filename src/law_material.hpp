@@ -75,15 +75,28 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool moves_on) : Base(law, begin, count) {
     if (!moves_on || !Law::finite_strain) return;
     const Tensor I = plus_identity<K>({});
-    for (int c = 0; c < components; ++c) F0_[c].assign(count, I[c]);
+    F0_.resize(components * count);
+    for (std::size_t c = 0; c < components; ++c)
+      std::fill_n(F0_.begin() + static_cast<std::ptrdiff_t>(count * c), count, I[c]);
   }
 
   bool history_dependent() const override { return false; }
   bool finite_strain() const override { return Law::finite_strain; }
 
-  double stress(Block& block, const double* V, double /*dt*/) override {
-    return moved() ? loop(block, V, [this](const Tensor& H, std::size_t p) { return stress_from(F0(p), H); })
-                   : loop(block, V, [this](const Tensor& H, std::size_t) { return law_.first_piola(H); });
+  [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/) override {
+    const Law law = law_;
+    if (!moved()) {
+      return loop(
+          block, V, [law](const Tensor& H, std::size_t) __attribute__((always_inline)) { return law.first_piola(H); });
+    }
+    const double* of_block = F0_.data() + block.first - begin_;
+    const std::size_t n = count_;
+    return loop(
+        block, V, [ law, of_block, n ](const Tensor& H, std::size_t q) __attribute__((always_inline)) {
+          Tensor F_0;
+          unroll<components>([&](auto c) __attribute__((always_inline)) { F_0[c] = of_block[n * c + q]; });
+          return push(F_0, law.first_piola(total(F_0, H)));
+        });
   }
   void commit() override {}
 
@@ -123,17 +136,18 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     for (std::size_t q = 0; q < block.count; ++q) {
       const std::size_t p = block.first + q;
       const Tensor F = product<K>(plus_identity<K>(block.H_at(q)), F0(p));
-      for (int c = 0; c < components; ++c) F0_[c][p - begin_] = F[c];
+      for (std::size_t c = 0; c < components; ++c) F0_[count_ * c + p - begin_] = F[c];
     }
   }
   void reorder(const std::vector<int>& order) override {
     if (!moved()) return;
-    for (auto& component : F0_) {
-      std::vector<double> sorted(count_);
-      for (std::size_t k = 0; k < count_; ++k)
-        sorted[k] = component[static_cast<std::size_t>(order[begin_ + k]) - begin_];
-      component.swap(sorted);
+    std::vector<double> sorted(F0_.size());
+    for (std::size_t c = 0; c < components; ++c) {
+      for (std::size_t k = 0; k < count_; ++k) {
+        sorted[count_ * c + k] = F0_[count_ * c + static_cast<std::size_t>(order[begin_ + k]) - begin_];
+      }
     }
+    F0_.swap(sorted);
   }
   void set_stress(const std::vector<Stresses>&) override {
     throw std::logic_error("an elastic law has no stress of its own");
@@ -146,10 +160,10 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   std::vector<std::pair<std::string, ConstVec>> shown_history() const override { return {}; }
 
  private:
-  bool moved() const { return !F0_[0].empty(); }
+  bool moved() const { return !F0_.empty(); }
   Tensor F0(std::size_t p) const {
     Tensor F;
-    for (int c = 0; c < components; ++c) F[c] = F0_[c][p - begin_];
+    for (std::size_t c = 0; c < components; ++c) F[c] = F0_[count_ * c + p - begin_];
     return F;
   }
   // H of f F_0
@@ -165,19 +179,17 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     for (double& component : pushed) component /= J;
     return pushed;
   }
-  Tensor stress_from(const Tensor& F_0, const Tensor& H) const { return push(F_0, law_.first_piola(total(F_0, H))); }
-
   template <class StressAt>
   double loop(Block& block, const double* V, const StressAt& stress_at) const {
     const double* volume = V + block.first;
-    const std::size_t count = block.count, first = block.first;
+    const std::size_t count = block.count;
     const auto point = [&](std::size_t q) __attribute__((always_inline)) {
-      return block.answer(q, volume[q], stress_at(block.H_at(q), first + q));
+      return block.answer(q, volume[q], stress_at(block.H_at(q), q));
     };
     return Base::sum_in_groups(count, point);
   }
 
-  std::array<std::vector<double>, components> F0_;  // (components × points); empty in a body that never moves on
+  std::vector<double> F0_;  // (components × points); empty in a body that never moves on
 };
 
 /// A law with history: two copies, so that a trial leaves what was committed alone and to commit is to swap them.
@@ -196,7 +208,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   bool history_dependent() const override { return true; }
   bool finite_strain() const override { return true; }
 
-  double stress(Block& block, const double* V, double dt) override {
+  [[gnu::flatten]] double stress(Block& block, const double* V, double dt) override {
     const double* from = committed_.data() + block.first - begin_;
     double* to = trial_.data() + block.first - begin_;
     const double* volume = V + block.first;
