@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 #include "lanes.hpp"
@@ -30,17 +29,20 @@ class CornerSum {
   /// Σ over the corners of a function of values, (corners × Components); [i] is component i.
   template <int Components>
   auto sum(std::size_t function, const double* values) const {
-    constexpr bool together = Components == 1 || Components == 2 || Components == 4;
-    std::conditional_t<together, Lanes<together ? Components : 1>, std::array<double, Components>> total{};
-    for (int c = begin_[function]; c < begin_[function + 1]; ++c) {
-      const double* at = values + Components * static_cast<std::ptrdiff_t>(corner_[static_cast<std::size_t>(c)]);
-      if constexpr (together) {
-        total.add(1, Lanes<Components>::load(at));
-      } else {
-        for (int i = 0; i < Components; ++i) total[i] += at[i];
+    const auto values_of = [&](int c) {
+      return values + Components * static_cast<std::ptrdiff_t>(corner_[static_cast<std::size_t>(c)]);
+    };
+    if constexpr (Components == 3) {
+      std::array<double, Components> total{};
+      for (int c = begin_[function]; c < begin_[function + 1]; ++c) {
+        for (int i = 0; i < Components; ++i) total[i] += values_of(c)[i];
       }
+      return total;
+    } else {
+      Lanes<Components> total{};
+      for (int c = begin_[function]; c < begin_[function + 1]; ++c) total.add(1, Lanes<Components>::load(values_of(c)));
+      return total;
     }
-    return total;
   }
 
  private:
