@@ -11,13 +11,13 @@ struct DegreesOfFreedom {
   std::vector<int> prescribed;  // grid number of prescribed unknown s
   std::vector<int> number;      // of each grid unknown: k < n free, n + s prescribed, −1 without material
 
-  /// reached: whether any material point gives the unknown mass.
-  DegreesOfFreedom(const std::vector<char>& reached, std::vector<int> prescribed_unknowns)
-      : prescribed(std::move(prescribed_unknowns)), number(reached.size(), -1) {
+  /// reached: whether any material point gives the function mass, (functions).
+  DegreesOfFreedom(const std::vector<char>& reached, int dim, std::vector<int> prescribed_unknowns)
+      : prescribed(std::move(prescribed_unknowns)), number(reached.size() * static_cast<std::size_t>(dim), -1) {
     constexpr int held = -2;
     for (const int unknown : prescribed) number[static_cast<std::size_t>(unknown)] = held;
-    for (std::size_t unknown = 0; unknown < reached.size(); ++unknown) {
-      if (!reached[unknown] || number[unknown] == held) continue;
+    for (std::size_t unknown = 0; unknown < number.size(); ++unknown) {
+      if (!reached[unknown / static_cast<std::size_t>(dim)] || number[unknown] == held) continue;
       number[unknown] = static_cast<int>(free.size());
       free.push_back(static_cast<int>(unknown));
     }

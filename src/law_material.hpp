@@ -11,6 +11,7 @@
 
 namespace stillpoint {
 
+/// What laws with and without history have in common.
 template <class Law>
 class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
  protected:
@@ -20,6 +21,23 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
   using Tensor = TensorOf<K>;
   using typename PointMaterial<K>::ModuliMatrix;
 
+ public:
+  void tangent(Block& block, const double* V) const override {
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const std::size_t p = block.first + q;
+      const Tensor dP = contract(this->moduli(block.H_at(q), p), block.dH_at(q));
+      for (int c = 0; c < components; ++c) block.VP[c][q] = V[p] * dP[c];
+    }
+  }
+  double stiffness_bound(const Block& block) const override {
+    double largest = 0;
+    for (std::size_t q = 0; q < block.count; ++q) {
+      largest = std::max(largest, row_sum_bound(this->moduli(block.H_at(q), block.first + q)));
+    }
+    return largest;
+  }
+
+ protected:
   static constexpr double real = sizeof(double);
 
   LawMaterialBase(const Law& law, std::size_t begin, std::size_t count) : law_(law), begin_(begin), count_(count) {}
@@ -100,14 +118,6 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   }
   void commit() override {}
 
-  void tangent(Block& block, const double* V) const override {
-    for (std::size_t q = 0; q < block.count; ++q) {
-      const std::size_t p = block.first + q;
-      const Tensor dP = Base::contract(moduli(block.H_at(q), p), block.dH_at(q));
-      for (int c = 0; c < components; ++c) block.VP[c][q] = V[p] * dP[c];
-    }
-  }
-
   ModuliMatrix moduli(const Tensor& H, std::size_t p) const override {
     if (!moved()) return law_.moduli(H);
     // Column b: the answer to a unit dH_b, dF = dH F_0
@@ -123,13 +133,6 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     return pushed;
   }
   Stresses cauchy(const Tensor& H, std::size_t p) const override { return law_.cauchy(moved() ? total(F0(p), H) : H); }
-  double stiffness_bound(const Block& block) const override {
-    double largest = 0;
-    for (std::size_t q = 0; q < block.count; ++q) {
-      largest = std::max(largest, Base::row_sum_bound(moduli(block.H_at(q), block.first + q)));
-    }
-    return largest;
-  }
   double wave_modulus() const override { return law_.moduli({})[0]; }
 
   void end_phase(const Block& block) override {
@@ -225,22 +228,8 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   }
   void commit() override { committed_.swap(trial_); }
 
-  void tangent(Block& block, const double* V) const override {
-    for (std::size_t q = 0; q < block.count; ++q) {
-      const std::size_t p = block.first + q;
-      const Tensor dP = Base::contract(moduli(block.H_at(q), p), block.dH_at(q));
-      for (int c = 0; c < components; ++c) block.VP[c][q] = V[p] * dP[c];
-    }
-  }
   ModuliMatrix moduli(const Tensor& H, std::size_t p) const override { return law_.moduli(H, history(p)); }
   Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
-  double stiffness_bound(const Block& block) const override {
-    double largest = 0;
-    for (std::size_t q = 0; q < block.count; ++q) {
-      largest = std::max(largest, Base::row_sum_bound(moduli(block.H_at(q), block.first + q)));
-    }
-    return largest;
-  }
   double wave_modulus() const override { return law_.moduli({}, law_.initial_history({}))[0]; }
 
   void end_phase(const Block&) override {}

@@ -132,7 +132,6 @@ class MaterialPointPhase final : public LagrangianPhase {
   // --- a phase begins and ends, see phase_change.hpp -----------------------------------------------
   void begin_phase(double t);
   std::vector<char> reached_functions() const;
-  std::vector<char> reached_unknowns() const;
   double time_scale() const;
 
   void make_mass();
@@ -175,6 +174,14 @@ class MaterialPointPhase final : public LagrangianPhase {
     }
   }
 
+  /// out: what value_at(occupied cell, point) gives, an array, at each point's number.
+  template <class ValueAt>
+  void write_points(Vec out, const ValueAt& value_at) const {
+    for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto value = value_at(k, p);
+      std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(value.size() * number));
+    });
+  }
   std::vector<double> project(const std::vector<Expression>& field, const std::vector<double>& held) const;
   const Scene scene_;
   bool moves_on_;

@@ -36,8 +36,9 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   weights_.rebuild(grid_, body_.points);
   const std::size_t functions = static_cast<std::size_t>(Basis::count(grid_));
   nodal_force_.rebuild(body_.points, weights_, functions);
-  boundary_.template begin_phase<Basis>(scene_, grid_, reached_functions(), t);
-  dofs_.emplace(reached_unknowns(), boundary_.prescribed());
+  const std::vector<char> reached = reached_functions();
+  boundary_.template begin_phase<Basis>(scene_, grid_, reached, t);
+  dofs_.emplace(reached, Dim, boundary_.prescribed());
   grid_u_.assign(Dim * functions, 0);
   nodal_force_.set_prescribed(dofs_->prescribed.size());
   committed_u_.assign(Dim * functions, 0);
@@ -60,14 +61,6 @@ std::vector<char> MaterialPointPhase<B, K>::reached_functions() const {
     }
   }
   return reached;
-}
-
-template <AxisBasis B, Kinematics K>
-std::vector<char> MaterialPointPhase<B, K>::reached_unknowns() const {
-  const std::vector<char> functions = reached_functions();
-  std::vector<char> unknowns(Dim * functions.size());
-  for (std::size_t unknown = 0; unknown < unknowns.size(); ++unknown) unknowns[unknown] = functions[unknown / Dim];
-  return unknowns;
 }
 
 // A wave's time through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max [s].

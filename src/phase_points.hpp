@@ -50,27 +50,20 @@ void MaterialPointPhase<B, K>::point_displacement(double t, ConstVec u, Vec out)
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::point_velocity(double t, ConstVec v, Vec out) const {
   const std::vector<double> grid_v = nodal_velocity(t, v);
-  for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-    const auto v_p = weights_.value(grid_v.data(), k, p);
-    std::copy(v_p.begin(), v_p.end(), out.begin() + static_cast<std::ptrdiff_t>(Dim * number));
-  });
+  write_points(out, [&](std::size_t k, std::size_t p) { return weights_.value(grid_v.data(), k, p); });
 }
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::point_strain(double t, ConstVec u, Vec out) const {
   spread(t, u, grid_u_);
-  for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-    const auto H = weights_.gradient(grid_u_.data(), k, p);
-    std::copy(H.begin(), H.end(), out.begin() + static_cast<std::ptrdiff_t>(components * number));
-  });
+  write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(grid_u_.data(), k, p); });
 }
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::point_stress(double t, ConstVec u, Vec out) const {
   spread(t, u, grid_u_);
-  for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-    const auto sigma = material_of(k).cauchy(weights_.gradient(grid_u_.data(), k, p), p);
-    std::copy(sigma.begin(), sigma.end(), out.begin() + static_cast<std::ptrdiff_t>(sigma.size() * number));
+  write_points(out, [&](std::size_t k, std::size_t p) {
+    return material_of(k).cauchy(weights_.gradient(grid_u_.data(), k, p), p);
   });
 }
 

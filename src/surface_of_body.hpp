@@ -30,7 +30,6 @@ SurfaceLoads<B, K> make_surface_loads(const Scene& scene, const Grid<dimensions(
       for (std::size_t c = 0; c + 1 < nodes.size(); ++c) {
         const double from = std::max(begin, nodes[c]), to = std::min(end, nodes[c + 1]);
         if (!(to > from)) continue;
-        // three Gauss points: exact to degree 5
         const double middle = (from + to) / 2, half = (to - from) / 2, offset = std::sqrt(0.6);
         for (const auto& [xi, weight] : {std::pair{-offset, 5.0 / 9}, {0.0, 8.0 / 9}, {offset, 5.0 / 9}}) {
           Point<dim> x;

@@ -3,11 +3,9 @@
 //   to the grid    v_i = Σ_p m_p N_ip v_p/m_i,   m_i = Σ_p m_p N_ip             [APIC: N_ip v_p + B_p w_ip]
 //   flip           v_p += Σ_i N_ip (v_i − v_i at the start), or a share of it and the rest of Σ_i N_ip v_i
 //   pic            v_p  = Σ_i N_ip v_i
-//   xpic(m)        v_p  = v_p − (I − S S⁺)^m v_p + Σ_i N_ip (v_i − v_i at the start), S to the points and S⁺ to the
-//   grid:
+//   xpic(m)        v_p  = v_p − (I − S S⁺)^m v_p + Σ_i N_ip (v_i − v_i at the start), S to points, S⁺ to the grid;
 //                  what m passes of averaging do not keep is noise [Hammerquist and Nairn 2017]
-//   apic           v_p  = Σ_i N_ip v_i,  B_p = Σ_i N_ip v_i ⊗ (x_i − x_p), all as they are at the end [Jiang et al.
-//   2015]
+//   apic           v_p  = Σ_i N_ip v_i,  B_p = Σ_i N_ip v_i ⊗ (x_i − x_p), as they are at the end [Jiang et al. 2015]
 //
 // x_i is where function i has its centre, Σ_i N_i(x) x_i = x. B_p goes back to the grid by weights w_ip with Σ_i w_ip =
 // 0 and Σ_i x_i ⊗ w_ip = I, so that momentum and angular momentum Σ_p m_p x_p × v_p + m_p (B_p,yx − B_p,xy) are kept:

@@ -27,9 +27,12 @@ void WallContact::begin_phase(double t, std::vector<Node> nodes, Vec v) {
       closed_[k] = 1;
       continue;
     }
-    const bool approaching = outward_ * (v[static_cast<std::size_t>(nodes_[k].normal)] - velocity) >= 0;
-    if (closed_[k] || approaching) close(k, velocity, v);
+    if (closed_[k] || approaches(k, velocity, v)) close(k, velocity, v);
   }
+}
+
+bool WallContact::approaches(std::size_t k, double velocity, ConstVec v) const {
+  return outward_ * (v[static_cast<std::size_t>(nodes_[k].normal)] - velocity) >= 0;
 }
 
 bool WallContact::close(std::size_t k, double velocity, Vec v) {
@@ -88,8 +91,7 @@ bool WallContact::update(double t, ConstVec u, Vec v) {
     started_ = true;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       if (!closed_[k]) continue;
-      const bool approaches = outward_ * (v[static_cast<std::size_t>(nodes_[k].normal)] - velocity) >= 0;
-      closed_[k] = outward_ * normal_force_[k] < 0 || approaches;
+      closed_[k] = outward_ * normal_force_[k] < 0 || approaches(k, velocity, v);
       if (closed_[k]) changed = close(k, velocity, v) || changed;
     }
   }
@@ -142,10 +144,6 @@ double WallContact::square_of_forces() const {
     sum += normal_force_[k] * normal_force_[k] + shear_force_[k] * shear_force_[k];
   }
   return sum;
-}
-
-std::size_t WallContact::closed_nodes() const {
-  return static_cast<std::size_t>(std::count(closed_.begin(), closed_.end(), 1));
 }
 
 }  // namespace stillpoint

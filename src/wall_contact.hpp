@@ -59,11 +59,11 @@ class WallContact {
 
   const std::string& name() const { return name_; }
   const PrescribedMotion& motion() const { return motion_; }
-  std::size_t closed_nodes() const;
 
  private:
   enum class Tangential : signed char { slip_down = -1, stick = 0, slip_up = 1 };
 
+  bool approaches(std::size_t k, double velocity, ConstVec v) const;
   bool close(std::size_t k, double velocity, Vec v);
 
   std::string name_;

@@ -94,7 +94,7 @@ struct Parts {
     weights.rebuild(grid, body.points);
     const auto functions = static_cast<std::size_t>(TensorBasis<B, 2>::count(grid));
     force.rebuild(body.points, weights, functions);
-    dofs.emplace(std::vector<char>(2 * functions, 1), std::vector<int>{});
+    dofs.emplace(std::vector<char>(functions, 1), 2, std::vector<int>{});
     u.resize(2 * functions);
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-6 * std::sin(static_cast<double>(i));
     R.resize(dofs->size());

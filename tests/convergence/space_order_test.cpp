@@ -1,37 +1,21 @@
 // Convergence in h to a manufactured solution: observed orders of the L2 error of u.
 #include <cmath>
 
-#include <Eigen/SparseCholesky>
 #include <catch2/catch.hpp>
 
 #include "exact_error.hpp"
 #include "scenes.hpp"
+#include "statics.hpp"
 
 using namespace stillpoint;
 
 namespace {
 
-/// Newton's method on R(u) = F with Eigen's own factor, so that nothing of the relaxation takes part.
-std::vector<double> static_solution(const LagrangianPhase& phase) {
-  const auto n = static_cast<Eigen::Index>(phase.size());
-  std::vector<double> u(phase.size(), 0.0), F(phase.size()), R(phase.size());
-  phase.external_force(0, F);
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    REQUIRE(phase.internal_force(0, u, R));
-    const Eigen::VectorXd Q = Eigen::Map<Eigen::VectorXd>(F.data(), n) - Eigen::Map<Eigen::VectorXd>(R.data(), n);
-    const Eigen::SimplicialLDLT<SparseMatrix> factor(phase.tangent_matrix(0, u));
-    const Eigen::VectorXd step = factor.solve(Q);
-    Eigen::Map<Eigen::VectorXd>(u.data(), n) += step;
-    if (step.norm() < 1e-13 * Eigen::Map<Eigen::VectorXd>(u.data(), n).norm()) break;
-  }
-  return u;
-}
-
 double error_with(std::vector<std::string> overrides, int cells) {
   overrides.push_back("grid.cells=" + std::to_string(cells));
   const Scene scene = scenes::load("mms_bar", overrides);
   const auto phase = make_phase(scene);
-  const auto u = static_solution(*phase);
+  const auto u = statics::solution(*phase);
   phase->commit(0, u);
   return exact_error(scene, *phase, 0, u)->u_rel_l2;
 }

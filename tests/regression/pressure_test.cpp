@@ -31,21 +31,22 @@ double stretch_under(double wanted, const Stress& stress) {
   return (low + high) / 2;
 }
 
+/// H of a stretch f in all directions that the law knows.
 template <class Law>
-double cauchy_at(double f) {
-  const Law law(LameParameters::from(1, 0.3));
+Gradient<Law::state> stretched(double f) {
   Gradient<Law::state> H{};
   H[0] = H[3] = f - 1;
   if constexpr (Law::state == StressState::axisymmetric) H[4] = f - 1;
-  return law.cauchy(H)[0];
+  return H;
+}
+
+template <class Law>
+double cauchy_at(double f) {
+  return Law(LameParameters::from(1, 0.3)).cauchy(stretched<Law>(f))[0];
 }
 template <class Law>
 double piola_at(double f) {
-  const Law law(LameParameters::from(1, 0.3));
-  Gradient<Law::state> H{};
-  H[0] = H[3] = f - 1;
-  if constexpr (Law::state == StressState::axisymmetric) H[4] = f - 1;
-  return law.first_piola(H)[0];
+  return Law(LameParameters::from(1, 0.3)).first_piola(stretched<Law>(f))[0];
 }
 
 }  // namespace
