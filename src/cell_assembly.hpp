@@ -61,8 +61,8 @@ template <AxisBasis B, Kinematics K>
 SplitMatrix consistent_mass(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
                             const DegreesOfFreedom& dofs) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
-  const auto add_point = [&](std::size_t, std::size_t p, CellMatrix<dim, per_cell>& matrix) {
-    const double* N = weights.N(p);
+  const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<dim, per_cell>& matrix) {
+    const auto N = weights.N(k, p);
     for (int a = 0; a < per_cell; ++a) {
       for (int b = 0; b < per_cell; ++b) {
         const double m = points.mass[p] * N[a] * N[b];

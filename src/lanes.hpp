@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 namespace stillpoint {
@@ -19,7 +20,8 @@ struct LaneRegister<2> {
 };
 template <>
 struct LaneRegister<4> {
-  typedef double Type __attribute__((vector_size(32)));  // NOLINT(modernize-use-using)
+  typedef double Type __attribute__((vector_size(32)));        // NOLINT(modernize-use-using)
+  typedef std::int64_t Mask __attribute__((vector_size(32)));  // NOLINT(modernize-use-using)
 };
 
 template <int N>
@@ -31,9 +33,24 @@ struct Lanes {
     std::memcpy(&loaded.lanes, from, sizeof loaded.lanes);
     return loaded;
   }
+  [[gnu::always_inline]] void store(double* to) const { std::memcpy(to, &lanes, sizeof lanes); }
   /// this + factor · x, lane by lane.
   [[gnu::always_inline]] void add(double factor, const Lanes& x) { lanes += factor * x.lanes; }
+  [[gnu::always_inline]] Lanes plus(const Lanes& x) const { return {lanes + x.lanes}; }
   [[gnu::always_inline]] Lanes minus(const Lanes& x) const { return {lanes - x.lanes}; }
+  [[gnu::always_inline]] Lanes times(double factor) const { return {factor * lanes}; }
+  [[gnu::always_inline]] Lanes times(const Lanes& x) const { return {lanes * x.lanes}; }
+  [[gnu::always_inline]] Lanes over(const Lanes& x) const { return {lanes / x.lanes}; }
+  [[gnu::always_inline]] Lanes plus_product(const Lanes& x, const Lanes& y) const {
+    return {lanes + x.lanes * y.lanes};
+  }
+  /// The first `count` lanes, and zeros in the others whatever they hold.
+  [[gnu::always_inline]] Lanes first(std::size_t count) const {
+    static_assert(N == 4);
+    constexpr typename LaneRegister<N>::Mask number{0, 1, 2, 3};
+    const typename LaneRegister<N>::Type zero{};
+    return {number < static_cast<std::int64_t>(count) ? lanes : zero};
+  }
   [[gnu::always_inline]] double operator[](int k) const { return lanes[k]; }
 };
 
@@ -46,6 +63,26 @@ template <int N>
   } else {
     return {__builtin_shufflevector(a.lanes, b.lanes, 0, 1, 2, 3)};
   }
+}
+
+[[gnu::always_inline]] inline Lanes<2> lower_half(const Lanes<4>& a) {
+  return {__builtin_shufflevector(a.lanes, a.lanes, 0, 1)};
+}
+[[gnu::always_inline]] inline Lanes<2> upper_half(const Lanes<4>& a) {
+  return {__builtin_shufflevector(a.lanes, a.lanes, 2, 3)};
+}
+[[gnu::always_inline]] inline Lanes<4> halves_swapped(const Lanes<4>& a) {
+  return {__builtin_shufflevector(a.lanes, a.lanes, 2, 3, 0, 1)};
+}
+
+/// The sum over the lanes of a, of b, of c and of d.
+[[gnu::always_inline]] inline Lanes<4> sums(const Lanes<4>& a, const Lanes<4>& b, const Lanes<4>& c,
+                                            const Lanes<4>& d) {
+  const auto ab = __builtin_shufflevector(a.lanes, b.lanes, 0, 4, 2, 6) +
+                  __builtin_shufflevector(a.lanes, b.lanes, 1, 5, 3, 7);  // a01, b01, a23, b23
+  const auto cd =
+      __builtin_shufflevector(c.lanes, d.lanes, 0, 4, 2, 6) + __builtin_shufflevector(c.lanes, d.lanes, 1, 5, 3, 7);
+  return {__builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7)};
 }
 
 }  // namespace stillpoint

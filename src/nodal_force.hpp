@@ -7,15 +7,17 @@
 // into nodes, each in a fixed order.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "corner_sum.hpp"
-#include "lanes.hpp"
+#include "gather_scatter.hpp"
+#include "gather_scatter_bilinear.hpp"
 #include "parallel_loop.hpp"
 #include "point_material.hpp"
 #include "point_weights.hpp"
-#include "unroll.hpp"
 
 namespace stillpoint {
 
@@ -25,7 +27,7 @@ class NodalForce {
   using Block = PointBlock<K>;
   static constexpr int dim = Weights::dim;
   static constexpr int per_cell = Weights::per_cell;
-  static constexpr int rows = Weights::rows;
+  using Cells = GatherScatter<B, K>;
   static constexpr std::size_t points_for_threads = 8192;  // below, waking threads costs more than it saves
 
  public:
@@ -63,12 +65,11 @@ class NodalForce {
       Block block;
 #pragma omp for schedule(static) reduction(+ : bad)
       for (std::size_t b = 0; b < blocks; ++b) {
-        start(block, b);
-        for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) {
-          gather<Increments>(k, u, u_before, block);
-        }
-        bad += answer(blocks_[b].material, block);
-        for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) scatter(k, block);
+        for_each_part(blocks_[b], block, [&] {
+          gather<Increments>(blocks_[b], u, u_before, block);
+          bad += answer(blocks_[b].material, block);
+          scatter(blocks_[b], block);
+        });
       }
       const double* corners = corner_.data();
 #pragma omp for schedule(static)
@@ -96,9 +97,10 @@ class NodalForce {
       Block block;
 #pragma omp for schedule(static)
       for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        start(block, b);
-        for (std::size_t k = blocks_[b].first_cell; k < blocks_[b].last_cell; ++k) gather<false>(k, u, u, block);
-        visit(blocks_[b].material, block);
+        for_each_part(blocks_[b], block, [&] {
+          gather<false>(blocks_[b], u, u, block);
+          visit(blocks_[b].material, block);
+        });
       }
     }
   }
@@ -109,7 +111,7 @@ class NodalForce {
     std::size_t material;
   };
 
-  // As many whole cells of one material as fit.
+  // As many whole cells of one material as fit, or one cell that does not.
   void divide_into_blocks() {
     blocks_.clear();
     std::size_t begin = 0;
@@ -124,67 +126,40 @@ class NodalForce {
       blocks_.back().last_cell = k + 1;
     }
   }
-  void start(Block& block, std::size_t b) const {
-    block.first = points_->begin(blocks_[b].first_cell);
-    block.count = points_->begin(blocks_[b].last_cell) - block.first;
+  // work() with as many points in the block as it holds: once, but for a cell that has more.
+  template <class Work>
+  void for_each_part(const BlockOfCells& cells, Block& block, const Work& work) const {
+    const std::size_t end = points_->begin(cells.last_cell);
+    for (block.first = points_->begin(cells.first_cell); block.first < end; block.first += block.count) {
+      block.count = std::min(Block::size, end - block.first);
+      work();
+    }
+  }
+  // The points of cell k that are in the block.
+  std::size_t begin(std::size_t k, const Block& block) const { return std::max(points_->begin(k), block.first); }
+  std::size_t end(std::size_t k, const Block& block) const {
+    return std::min(points_->end(k), block.first + block.count);
   }
 
   template <bool Increments>
-  void gather(std::size_t k, const double* u, const double* u_before, Block& block) const {
-    constexpr int width = Increments ? 2 * dim : dim;  // lanes: u, and u − u_before behind it
-    std::array<Lanes<width>, per_cell> of_corner;
-    unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
-      const auto at = dim * static_cast<std::ptrdiff_t>(weights_->function(k, a));
-      const auto now = Lanes<dim>::load(u + at);
-      if constexpr (Increments) {
-        of_corner[a] = joined(now, now.minus(Lanes<dim>::load(u_before + at)));
-      } else {
-        of_corner[a] = now;
-      }
-    });
-    const std::size_t begin = points_->begin(k), end = points_->end(k);
-    for (std::size_t p = begin; p < end; ++p) {
-      const double* dN = weights_->dN(p);
-      std::array<Lanes<width>, rows> h{};
-      unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
-        unroll<rows>([&](auto j) __attribute__((always_inline)) { h[j].add(dN[per_cell * j + a], of_corner[a]); });
-      });
-      const std::size_t q = p - block.first;
-      unroll<dim * dim>([&](auto ij) __attribute__((always_inline)) {
-        constexpr int i = ij / dim, j = ij % dim;
-        block.H[ij][q] = h[j][i];
-        if constexpr (Increments) block.dH[ij][q] = h[j][dim + i];
-      });
-      if constexpr (rows > dim) {
-        block.H[dim * dim][q] = h[dim][0];
-        if constexpr (Increments) block.dH[dim * dim][q] = h[dim][dim];
-      }
+  void gather(const BlockOfCells& cells, const double* u, const double* u_before, Block& block) const {
+    for (std::size_t k = cells.first_cell; k < cells.last_cell; ++k) {
+      Cells::template gather<Increments>(*weights_, k, begin(k, block), end(k, block), u, u_before, block);
     }
   }
-
-  // corner_[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points. Local functions are taken a few at a time;
-  // lanes past the last of them read on into what follows, and are dropped.
-  void scatter(std::size_t k, const Block& block) {
-    constexpr int lanes = per_cell < 4 ? 2 : 4, chunks = (per_cell + lanes - 1) / lanes;
-    std::array<std::array<Lanes<lanes>, chunks>, dim> force{};
-    const std::size_t begin = points_->begin(k), end = points_->end(k);
-    for (std::size_t p = begin; p < end; ++p) {
-      const std::size_t q = p - block.first;
-      const double* dN = weights_->dN(p);
-      unroll<dim * chunks>([&](auto ic) __attribute__((always_inline)) {
-        constexpr int i = ic / chunks, c = ic % chunks;
-        unroll<dim>([&](auto j) __attribute__((always_inline)) {
-          force[i][c].add(block.VP[dim * i + j][q], Lanes<lanes>::load(dN + per_cell * j + lanes * c));
-        });
-        if constexpr (rows > dim && i == 0) {
-          force[0][c].add(block.VP[dim * dim][q], Lanes<lanes>::load(dN + per_cell * dim + lanes * c));
-        }
-      });
+  // corner_[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points.
+  void scatter(const BlockOfCells& cells, const Block& block) {
+    constexpr std::size_t corners = dim * per_cell;
+    for (std::size_t k = cells.first_cell; k < cells.last_cell; ++k) {
+      double* corner = corner_.data() + corners * k;
+      if (begin(k, block) == points_->begin(k)) {
+        Cells::scatter(*weights_, k, begin(k, block), end(k, block), block, corner);
+      } else {
+        std::array<double, corners> rest;
+        Cells::scatter(*weights_, k, begin(k, block), end(k, block), block, rest.data());
+        for (std::size_t c = 0; c < corners; ++c) corner[c] += rest[c];
+      }
     }
-    double* corner = corner_.data() + dim * per_cell * k;
-    unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
-      unroll<dim>([&](auto i) __attribute__((always_inline)) { corner[dim * a + i] = force[i][a / lanes][a % lanes]; });
-    });
   }
 
   const MaterialPoints<dim>* points_ = nullptr;

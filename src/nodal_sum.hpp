@@ -44,7 +44,7 @@ std::vector<double> nodal_mass(const MaterialPoints<dimensions(K)>& points, cons
   return nodal_sum<1>(points, weights, corner_sum, [&](std::size_t k, Corners<1, Basis::per_cell>& corner) {
     double cell_mass = 0;
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-      const double* N = weights.N(p);
+      const auto N = weights.N(k, p);
       cell_mass += points.mass[p];
       for (int a = 0; a < Basis::per_cell; ++a)
         corner[a] += points.mass[p] * (B::partition_of_unity ? N[a] : N[a] * N[a]);
@@ -66,7 +66,7 @@ std::vector<double> stiffness_bound(const MaterialPoints<dimensions(K)>& points,
   return nodal_sum<1>(points, weights, corner_sum, [&](std::size_t k, Corners<1, per_cell>& corner) {
     const double A = wave_modulus[static_cast<std::size_t>(points.material_of_cell(k))];
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-      const double* dN = weights.dN(p);
+      const auto dN = weights.dN(k, p);
       std::array<double, per_cell> length;
       double together = 0;
       for (int a = 0; a < per_cell; ++a) {

@@ -56,7 +56,7 @@ std::vector<char> MaterialPointPhase<B, K>::reached_functions() const {
     for (int a = 0; a < per_cell; ++a) {
       char& of_function = reached[static_cast<std::size_t>(weights_.function(k, a))];
       for (std::size_t p = body_.points.begin(k); p < body_.points.end(k) && !of_function; ++p) {
-        of_function = moves_on_ || weights_.N(p)[a] != 0;
+        of_function = moves_on_ || weights_.N(k, p)[a] != 0;
       }
     }
   }

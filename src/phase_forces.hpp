@@ -40,7 +40,7 @@ SparseMatrix MaterialPointPhase<B, K>::tangent_matrix(double t, ConstVec u) cons
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<Dim, per_cell>& matrix) {
     const auto A = material_of(k).moduli(weights_.gradient(grid_u_.data(), k, p), p);
     std::array<TensorOf<K>, Dim * per_cell> G{};
-    const double* dN = weights_.dN(p);
+    const auto dN = weights_.dN(k, p);
     for (int a = 0; a < per_cell; ++a) {
       for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) G[Dim * a + i][Dim * i + j] = dN[per_cell * j + a];

@@ -121,12 +121,8 @@ std::vector<WallReaction> MaterialPointPhase<B, K>::wall_reactions(double t) con
 template <AxisBasis B, Kinematics K>
 std::vector<PointArray> MaterialPointPhase<B, K>::point_arrays() const {
   constexpr double real = sizeof(double);
-  std::vector<PointArray> arrays = {{"place", Dim * real},
-                                    {"mass", real},
-                                    {"volume", real},
-                                    {"number", sizeof(int)},
-                                    {"weights N", per_cell * real},
-                                    {"gradients of N", PointWeights<B, K>::rows * per_cell * real}};
+  std::vector<PointArray> arrays = {{"place", Dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
+  std::ranges::copy(PointWeights<B, K>::arrays(), std::back_inserter(arrays));
   if (moves_on_) {
     arrays.push_back({"velocity", Dim * real});
     arrays.push_back({"place at the start", Dim * real});

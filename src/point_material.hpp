@@ -20,8 +20,9 @@ namespace stillpoint {
 template <Kinematics K>
 struct PointBlock {
   static constexpr std::size_t size = 128;
+  static constexpr std::size_t slack = 8;  // entries after the last, for who writes a few at a time
   static constexpr int components = gradient_components(K);
-  using Rows = std::array<std::array<double, size>, components>;
+  using Rows = std::array<std::array<double, size + slack>, components>;
 
   std::size_t first = 0, count = 0;  // points first … first + count − 1
   alignas(64) Rows H;                // ∂u/∂x since the phase began

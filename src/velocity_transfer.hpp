@@ -66,9 +66,9 @@ class VelocityTransfer {
     return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
       const auto centre = affine ? centres(grid, points.cell[k]) : Centres{};
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        const double* N = weights.N(p);
+        const auto N = weights.N(k, p);
         const double m = points.mass[p];
-        const auto w = affine ? affine_weights(weights, centre, points.place(p), p) : AffineWeights{};
+        const auto w = affine ? affine_weights(weights, centre, points.place(p), k, p) : AffineWeights{};
         for (int a = 0; a < per_cell; ++a) {
           for (int i = 0; i < dim; ++i) {
             double share = N[a] * points.v[i][p];
@@ -147,10 +147,11 @@ class VelocityTransfer {
     return of_cell;
   }
 
-  static AffineWeights affine_weights(const Weights& weights, const Centres& centre, const Point<dim>& x,
+  static AffineWeights affine_weights(const Weights& weights, const Centres& centre, const Point<dim>& x, std::size_t k,
                                       std::size_t p) {
     constexpr double singular = 1e-6;  // D where only one function acts, at a boundary; of the distances' squares
-    const double* N = weights.N(p);
+    const auto N = weights.N(k, p);
+    const auto dN = weights.dN(k, p);
     AffineWeights w;
     for (int j = 0; j < dim; ++j) {
       double D = 0, scale = 0;
@@ -161,7 +162,7 @@ class VelocityTransfer {
       }
       const bool by_gradient = B::degree == 1 || D < singular * scale;
       for (int a = 0; a < per_cell; ++a) {
-        w[j][a] = by_gradient ? weights.dN(p)[per_cell * j + a] : N[a] * (centre[j][a] - x[j]) / D;
+        w[j][a] = by_gradient ? dN[per_cell * j + a] : N[a] * (centre[j][a] - x[j]) / D;
       }
     }
     return w;
@@ -171,13 +172,14 @@ class VelocityTransfer {
   static void set_affine(Points& points, const Weights& weights, const Centres& centre, std::size_t k, std::size_t p,
                          const double* u, const double* v) {
     const auto u_p = weights.value(u, k, p);
+    const auto N = weights.N(k, p);
     const Point<dim> x = points.place(p);
     std::array<double, dim * dim> B_p{};
     for (int a = 0; a < per_cell; ++a) {
       const int f = dim * weights.function(k, a);
       for (int i = 0; i < dim; ++i) {
         for (int j = 0; j < dim; ++j) {
-          B_p[dim * i + j] += weights.N(p)[a] * v[f + i] * (centre[j][a] + u[f + j] - x[j] - u_p[j]);
+          B_p[dim * i + j] += N[a] * v[f + i] * (centre[j][a] + u[f + j] - x[j] - u_p[j]);
         }
       }
     }
@@ -193,8 +195,9 @@ class VelocityTransfer {
       std::vector<double> mean =
           nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
             for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+              const auto N = weights.N(k, p);
               for (int a = 0; a < per_cell; ++a) {
-                for (int i = 0; i < dim; ++i) corner[dim * a + i] += points.mass[p] * weights.N(p)[a] * r[i][p];
+                for (int i = 0; i < dim; ++i) corner[dim * a + i] += points.mass[p] * N[a] * r[i][p];
               }
             }
           });

@@ -111,6 +111,25 @@ TEST_CASE("jittered points pass the patch test where their volumes are fitted to
   }
 }
 
+TEST_CASE("forces of bilinear cells are those of the assembled stiffness, for any number of points in a cell") {
+  // R(u) = K u where the law is linear: R takes its points a few at a time and its cells a block at a time, K point by
+  // point. A block holds 128 points, so that 169 do not fit.
+  for (const std::string state : {"plane-strain", "axisymmetric"}) {
+    for (const std::string points : {"1", "4", "9", "25", "169"}) {
+      CAPTURE(state, points);
+      const auto phase = make_phase(
+          free_block({"material.rubber.law=linear-elastic", "body.state=" + state, "grid.basis=linear",
+                      "mass.kind=lumped", "body.jitter=0.3", "body.volumes=equal", "body.points_per_cell=" + points}));
+      std::vector<double> u(phase->size());
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(static_cast<double>(i * i + 1));
+      const std::vector<double> R = statics::internal_force(*phase, u);
+      const auto n = static_cast<Eigen::Index>(u.size());
+      const Eigen::VectorXd Ku = phase->tangent_matrix(0, u) * Eigen::Map<const Eigen::VectorXd>(u.data(), n);
+      CHECK((Eigen::Map<const Eigen::VectorXd>(R.data(), n) - Ku).norm() < 1e-13 * Ku.norm());
+    }
+  }
+}
+
 TEST_CASE("a free body that is moved and turned as a whole, by any angle, feels no force") {
   for (const std::string law : {"neo-hookean", "hencky", "drucker-prager"}) {
     for (const std::string state : {"plane-strain", "plane-stress"}) {
