@@ -58,6 +58,10 @@ class ExternalLoads {
   void add_following(double t, const double* u, const DegreesOfFreedom& dofs, Vec F) const {
     surface_.add_following(t, u, dofs, F);
   }
+  /// ∂F/∂u of these, (n × n).
+  SparseMatrix following_tangent(double t, const double* u, const DegreesOfFreedom& dofs) const {
+    return surface_.following_tangent(t, u, dofs);
+  }
 
  private:
   bool varying_body_force() const {

@@ -16,15 +16,16 @@ template <AxisBasis B, Kinematics K>
 struct GatherScatter {
   using Weights = PointWeights<B, K>;
   using Block = PointBlock<K>;
+  using Rows = typename Block::Rows;
   static constexpr int dim = Weights::dim;
   static constexpr int per_cell = Weights::per_cell;
   static constexpr int rows = Weights::rows;
 
-  /// H_p = Σ_a u_a ⊗ ∇N_ap into block.H, and where Increments that of u − u_before into block.dH, for the points
-  /// begin … end − 1 of occupied cell k. u, u_before: over the grid's functions, component i at [dim function + i].
+  /// H_p = Σ_a u_a ⊗ ∇N_ap, and where Increments dH of u − u_before, for the points begin … end − 1 of occupied cell k;
+  /// rows begin with point number `first`. u, u_before: over the grid's functions, component i at [dim function + i].
   template <bool Increments>
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,
-                     const double* u_before, Block& block) {
+                     const double* u_before, std::size_t first, Rows& H, Rows& dH) {
     constexpr int width = Increments ? 2 * dim : dim;  // lanes: u, and u − u_before behind it
     std::array<Lanes<width>, per_cell> of_corner;
     unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
@@ -42,15 +43,15 @@ struct GatherScatter {
       unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
         unroll<rows>([&](auto j) __attribute__((always_inline)) { h[j].add(dN[per_cell * j + a], of_corner[a]); });
       });
-      const std::size_t q = p - block.first;
+      const std::size_t q = p - first;
       unroll<dim * dim>([&](auto ij) __attribute__((always_inline)) {
         constexpr int i = ij / dim, j = ij % dim;
-        block.H[ij][q] = h[j][i];
-        if constexpr (Increments) block.dH[ij][q] = h[j][dim + i];
+        H[ij][q] = h[j][i];
+        if constexpr (Increments) dH[ij][q] = h[j][dim + i];
       });
       if constexpr (rows > dim) {
-        block.H[dim * dim][q] = h[dim][0];
-        if constexpr (Increments) block.dH[dim * dim][q] = h[dim][dim];
+        H[dim * dim][q] = h[dim][0];
+        if constexpr (Increments) dH[dim * dim][q] = h[dim][dim];
       }
     }
   }

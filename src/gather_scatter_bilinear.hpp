@@ -19,6 +19,7 @@ template <Kinematics K>
 requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
   using Weights = PointWeights<BSpline<1>, K>;
   using Block = PointBlock<K>;
+  using Rows = typename Block::Rows;
   static constexpr int dim = 2;
   static constexpr bool hoop = K == Kinematics::axisymmetric;
   static constexpr int lanes = 4;  // points at a time: the last of them may lie past the cell's end
@@ -27,7 +28,7 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
 
   template <bool Increments>
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,
-                     const double* u_before, Block& block) {
+                     const double* u_before, std::size_t first, Rows& H, Rows& dH) {
     constexpr int width = Increments ? 2 * dim : dim;  // u, and u − u_before behind it
     const auto corner = [&](int a) __attribute__((always_inline)) {
       const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
@@ -46,14 +47,14 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
 
     // What lies past the end belongs to the next cell, which writes it again, or to nobody.
     for (std::size_t p = begin; p < end; p += lanes) {
-      const std::size_t q = p - block.first;
+      const std::size_t q = p - first;
       const auto xi = Points::load(weights.place(0) + p), eta = Points::load(weights.place(1) + p);
       unroll<dim>([&](auto i) __attribute__((always_inline)) {
-        line(a[i], b[i], eta).store(&block.H[dim * i][q]);
-        line(c[i], d[i], xi).store(&block.H[dim * i + 1][q]);
+        line(a[i], b[i], eta).store(&H[dim * i][q]);
+        line(c[i], d[i], xi).store(&H[dim * i + 1][q]);
         if constexpr (Increments) {
-          line(a[dim + i], b[dim + i], eta).store(&block.dH[dim * i][q]);
-          line(c[dim + i], d[dim + i], xi).store(&block.dH[dim * i + 1][q]);
+          line(a[dim + i], b[dim + i], eta).store(&dH[dim * i][q]);
+          line(c[dim + i], d[dim + i], xi).store(&dH[dim * i + 1][q]);
         }
       });
       if constexpr (hoop) {
@@ -62,8 +63,8 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
           const auto along_lower = line(u_00[i], lower[i], xi), rise = line(left[i], twist[i], xi);
           return along_lower.plus_product(rise, eta).over(radius);
         };
-        of(0).store(&block.H[dim * dim][q]);
-        if constexpr (Increments) of(dim).store(&block.dH[dim * dim][q]);
+        of(0).store(&H[dim * dim][q]);
+        if constexpr (Increments) of(dim).store(&dH[dim * dim][q]);
       }
     }
   }

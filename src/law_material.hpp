@@ -22,17 +22,17 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
   using typename PointMaterial<K>::ModuliMatrix;
 
  public:
-  void tangent(Block& block, const double* V) const override {
+  void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
     for (std::size_t q = 0; q < block.count; ++q) {
       const std::size_t p = block.first + q;
-      const Tensor dP = contract(this->moduli(block.H_at(q), p), block.dH_at(q));
+      const Tensor dP = contract(this->moduli(kind, block.H_at(q), block.dH_at(q), dt, p), block.direction_at(q));
       for (int c = 0; c < components; ++c) block.VP[c][q] = V[p] * dP[c];
     }
   }
   double stiffness_bound(const Block& block) const override {
     double largest = 0;
     for (std::size_t q = 0; q < block.count; ++q) {
-      largest = std::max(largest, row_sum_bound(this->moduli(block.H_at(q), block.first + q)));
+      largest = std::max(largest, row_sum_bound(this->moduli(Tangent::elastic, block.H_at(q), {}, 0, block.first + q)));
     }
     return largest;
   }
@@ -118,7 +118,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   }
   void commit() override {}
 
-  ModuliMatrix moduli(const Tensor& H, std::size_t p) const override {
+  ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
     if (!moved()) return law_.moduli(H);
     // Column b: the answer to a unit dH_b, dF = dH F_0
     const Tensor F_0 = F0(p);
@@ -228,9 +228,11 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   }
   void commit() override { committed_.swap(trial_); }
 
-  ModuliMatrix moduli(const Tensor& H, std::size_t p) const override { return law_.moduli(H, history(p)); }
+  ModuliMatrix moduli(Tangent kind, const Tensor& H, const Tensor& dH, double dt, std::size_t p) const override {
+    return kind == Tangent::elastic ? law_.elastic_moduli(H, history(p)) : law_.moduli(H, dH, dt, history(p));
+  }
   Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
-  double wave_modulus() const override { return law_.moduli({}, law_.initial_history({}))[0]; }
+  double wave_modulus() const override { return law_.elastic_moduli({}, law_.initial_history({}))[0]; }
 
   void end_phase(const Block&) override {}
   void reorder(const std::vector<int>& order) override {

@@ -67,10 +67,24 @@ class MaterialPointPhase final : public LagrangianPhase {
     spread(t, u, grid_u_);
     loads_.add_following(t, grid_u_.data(), *dofs_, F);
   }
+  SparseMatrix following_tangent_matrix(double t, ConstVec u) const override {
+    spread(t, u, grid_u_);
+    return loads_.following_tangent(t, grid_u_.data(), *dofs_);
+  }
 
   bool internal_force(double t, ConstVec u, Vec R) const override;
-  void tangent(double t, ConstVec u, ConstVec du, Vec dR) const override;
-  SparseMatrix tangent_matrix(double t, ConstVec u) const override;
+  void tangent(double t, ConstVec u, ConstVec du, Vec dR) const override {
+    apply_tangent(Tangent::consistent, t, u, du, dR);
+  }
+  SparseMatrix tangent_matrix(double t, ConstVec u) const override {
+    return assemble_tangent(Tangent::consistent, t, u);
+  }
+  void elastic_tangent(double t, ConstVec u, ConstVec du, Vec dR) const override {
+    apply_tangent(Tangent::elastic, t, u, du, dR);
+  }
+  SparseMatrix elastic_tangent_matrix(double t, ConstVec u) const override {
+    return assemble_tangent(Tangent::elastic, t, u);
+  }
   void commit(double t, ConstVec u) override;
   void commit_last() override;
   void add_support_inertia(double t, double c, Vec Q) const override;
@@ -129,6 +143,10 @@ class MaterialPointPhase final : public LagrangianPhase {
   double stiffening(double t, ConstVec u) const override;
 
  private:
+  // --- tangents, see phase_forces.hpp --------------------------------------------------------------
+  void apply_tangent(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const;
+  SparseMatrix assemble_tangent(Tangent kind, double t, ConstVec u) const;
+
   // --- a phase begins and ends, see phase_change.hpp -----------------------------------------------
   void begin_phase(double t);
   std::vector<char> reached_functions() const;

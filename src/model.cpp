@@ -116,7 +116,7 @@ double displacement_scale(const Scene& scene, const Model& model) {
   phase.point_velocity(0, model.v, at_points);
   widen(1 / *model.omega_1);
 
-  const SparseCholesky K(phase.tangent_matrix(0, model.u));
+  const SparseCholesky K(phase.elastic_tangent_matrix(0, model.u));
   const double span = scene.stop.time > 0 ? scene.stop.time : two_pi / *model.omega_1;
   const int samples = pulls_vary(scene) ? 32 : 0;
   for (int k = 0; k <= samples; ++k) {

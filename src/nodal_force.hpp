@@ -51,11 +51,13 @@ class NodalForce {
   const std::vector<double>& reactions() const { return reactions_; }
 
   /// answer(material number, block) turns block.H (and dH, of u − u_before, where Increments) into block.VP and returns
-  /// 0, or NaN where it cannot. u, u_before: over the grid's functions, component i at [dim function + i].
+  /// 0, or NaN where it cannot. u, u_before and, where Directed, the direction that goes to block.direction: over the
+  /// grid's functions, component i at [dim function + i].
   /// R: forces at the free degrees of freedom, (n); at the prescribed ones they become reactions().
   /// False where an answer was NaN.
-  template <bool Increments, class Answer>
-  bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R) {
+  template <bool Increments, bool Directed = false, class Answer>
+  bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
+                const double* direction = nullptr) {
     double bad = 0;
     const std::size_t blocks = blocks_.size();
     const int* number = dofs.number.data();
@@ -66,7 +68,9 @@ class NodalForce {
 #pragma omp for schedule(static) reduction(+ : bad)
       for (std::size_t b = 0; b < blocks; ++b) {
         for_each_part(blocks_[b], block, [&] {
-          gather<Increments>(blocks_[b], u, u_before, block);
+          gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
+          if constexpr (Directed)
+            gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
           bad += answer(blocks_[b].material, block);
           scatter(blocks_[b], block);
         });
@@ -98,7 +102,7 @@ class NodalForce {
 #pragma omp for schedule(static)
       for (std::size_t b = 0; b < blocks_.size(); ++b) {
         for_each_part(blocks_[b], block, [&] {
-          gather<false>(blocks_[b], u, u, block);
+          gather<false>(blocks_[b], u, nullptr, block, block.H, block.dH);
           visit(blocks_[b].material, block);
         });
       }
@@ -141,10 +145,12 @@ class NodalForce {
     return std::min(points_->end(k), block.first + block.count);
   }
 
+  // H, and dH where Increments, of the points in the block.
   template <bool Increments>
-  void gather(const BlockOfCells& cells, const double* u, const double* u_before, Block& block) const {
+  void gather(const BlockOfCells& cells, const double* u, const double* u_before, const Block& block,
+              typename Block::Rows& H, typename Block::Rows& dH) const {
     for (std::size_t k = cells.first_cell; k < cells.last_cell; ++k) {
-      Cells::template gather<Increments>(*weights_, k, begin(k, block), end(k, block), u, u_before, block);
+      Cells::template gather<Increments>(*weights_, k, begin(k, block), end(k, block), u, u_before, block.first, H, dH);
     }
   }
   // corner_[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points.

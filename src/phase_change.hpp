@@ -40,6 +40,7 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   boundary_.template begin_phase<Basis>(scene_, grid_, reached, t);
   dofs_.emplace(reached, Dim, boundary_.prescribed());
   grid_u_.assign(Dim * functions, 0);
+  grid_work_.assign(Dim * functions, 0);
   nodal_force_.set_prescribed(dofs_->prescribed.size());
   committed_u_.assign(Dim * functions, 0);
   spread_prescribed(t, committed_u_);

@@ -19,26 +19,30 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R) const
   return nodal_force_.template evaluate<false>(grid_u_.data(), nullptr, stress, *dofs_, R);
 }
 
+// The derivatives of the reactions take their place until the next internal_force().
 template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::tangent(double t, ConstVec u, ConstVec du, Vec dR) const {
+void MaterialPointPhase<B, K>::apply_tangent(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const {
   spread(t, u, grid_u_);
-  // u and u − du, of which the difference is the direction
-  grid_work_ = grid_u_;
-  for (std::size_t k = 0; k < du.size(); ++k) grid_work_[static_cast<std::size_t>(dofs_->free[k])] -= du[k];
+  std::ranges::fill(grid_work_, 0.0);
+  for (std::size_t k = 0; k < du.size(); ++k) grid_work_[static_cast<std::size_t>(dofs_->free[k])] = du[k];
   const double* V = body_.points.volume.data();
-  const auto answer = [&, V](std::size_t m, Block& block) {
-    body_.materials[m]->tangent(block, V);
+  const double dt = t - committed_t_;
+  const auto answer = [&, V, dt](std::size_t m, Block& block) {
+    body_.materials[m]->tangent(kind, block, V, dt);
     return 0.0;
   };
-  nodal_force_.template evaluate<true>(grid_u_.data(), grid_work_.data(), answer, *dofs_, dR);
+  nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR,
+                                             grid_work_.data());
 }
 
 // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
 template <AxisBasis B, Kinematics K>
-SparseMatrix MaterialPointPhase<B, K>::tangent_matrix(double t, ConstVec u) const {
+SparseMatrix MaterialPointPhase<B, K>::assemble_tangent(Tangent kind, double t, ConstVec u) const {
   spread(t, u, grid_u_);
+  std::ranges::transform(grid_u_, committed_u_, grid_work_.begin(), std::minus<>());
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<Dim, per_cell>& matrix) {
-    const auto A = material_of(k).moduli(weights_.gradient(grid_u_.data(), k, p), p);
+    const auto H = weights_.gradient(grid_u_.data(), k, p), dH = weights_.gradient(grid_work_.data(), k, p);
+    const auto A = material_of(k).moduli(kind, H, dH, t - committed_t_, p);
     std::array<TensorOf<K>, Dim * per_cell> G{};
     const auto dN = weights_.dN(k, p);
     for (int a = 0; a < per_cell; ++a) {

@@ -26,11 +26,13 @@ struct PointBlock {
 
   std::size_t first = 0, count = 0;  // points first … first + count − 1
   alignas(64) Rows H;                // ∂u/∂x since the phase began
-  alignas(64) Rows dH;               // the part of it since commit, or the direction of a tangent
+  alignas(64) Rows dH;               // the part of it since commit
   alignas(64) Rows VP;               // V_p P_p, the answer [J]
+  alignas(64) Rows direction;        // of a derivative
 
   [[gnu::always_inline]] TensorOf<K> H_at(std::size_t q) const { return row(H, q); }
   [[gnu::always_inline]] TensorOf<K> dH_at(std::size_t q) const { return row(dH, q); }
+  [[gnu::always_inline]] TensorOf<K> direction_at(std::size_t q) const { return row(direction, q); }
   /// VP = V P at point q; 0, or NaN where P is not finite: a sum of these needs no branch.
   [[gnu::always_inline]] double answer(std::size_t q, double V, const TensorOf<K>& P) {
     double bad = 0;
@@ -48,6 +50,10 @@ struct PointBlock {
     return tensor;
   }
 };
+
+/// consistent: the derivative of what stress() answers. elastic: as if no point yielded, symmetric, and no trial is
+/// stiffer. Of a law without history the two are the same.
+enum class Tangent { consistent, elastic };
 
 /// One virtual call serves a block of points, so that the loop over them knows its law and is vectorised, while the
 /// loops over cells are compiled once for all laws. Points have their numbers in the whole body.
@@ -67,13 +73,16 @@ class PointMaterial {
   virtual double stress(PointBlock<K>& block, const double* V, double dt) = 0;
   /// The trial history becomes the committed one; every block has had its stress() since the last commit.
   virtual void commit() = 0;
-  /// block.VP = V_p (∂P/∂H at block.H) : block.dH.
-  virtual void tangent(PointBlock<K>& block, const double* V) const = 0;
+  /// block.VP = V_p (∂P/∂H at block.H, block.dH and dt) : block.direction.
+  virtual void tangent(Tangent kind, PointBlock<K>& block, const double* V, double dt) const = 0;
 
-  /// At point p under H: ∂P/∂H, and the Cauchy stress (of the committed history where there is one).
-  virtual ModuliMatrix moduli(const TensorOf<K>& H, std::size_t p) const = 0;
+  /// At point p under H, of which dH came over dt since commit: ∂P/∂H where both change alike.
+  virtual ModuliMatrix moduli(Tangent kind, const TensorOf<K>& H, const TensorOf<K>& dH, double dt,
+                              std::size_t p) const = 0;
+  /// The Cauchy stress of point p under H, of the committed history where there is one.
   virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
-  /// The largest absolute row sum of ∂P/∂H in the block, a bound of its stiffness; infinite where it is not finite.
+  /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite where it is not
+  /// finite.
   virtual double stiffness_bound(const PointBlock<K>& block) const = 0;
   /// λ + 2μ or its like in the undeformed state [Pa].
   virtual double wave_modulus() const = 0;

@@ -138,5 +138,6 @@ void SparseCholesky::solve(ConstVec b, Vec x) const {
 }
 
 std::size_t SparseCholesky::size() const { return impl_->n; }
+std::size_t SparseCholesky::bytes() const { return impl_->common.memory_inuse; }
 
 }  // namespace stillpoint

@@ -19,7 +19,10 @@ double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass) {
 }  // namespace
 
 FactorisedStiffness::FactorisedStiffness(const SemiDiscrete& system, double t, ConstVec u)
-    : mass_(system.mass()), K_(system.tangent_matrix(t, u)), factor_(K_), scale_(largest_diagonal_ratio(K_, mass_)) {}
+    : mass_(system.mass()),
+      K_(system.elastic_tangent_matrix(t, u)),
+      factor_(K_),
+      scale_(largest_diagonal_ratio(K_, mass_)) {}
 
 std::string FactorisedStiffness::refusal(double omega_squared) const {
   if (mass_.size() == 0) return "no free degrees of freedom";

@@ -7,7 +7,7 @@
 
 namespace stillpoint {
 
-/// K = ∂R/∂u at (t, u), assembled and factorised. Throws std::runtime_error where CHOLMOD itself fails.
+/// K = ∂R/∂u at (t, u), elastic, assembled and factorised. Throws std::runtime_error where CHOLMOD itself fails.
 class FactorisedStiffness {
  public:
   FactorisedStiffness(const SemiDiscrete& system, double t, ConstVec u);

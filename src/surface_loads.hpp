@@ -4,6 +4,7 @@
 #include <stillpoint/basis.hpp>
 #include <stillpoint/expression.hpp>
 #include <stillpoint/material.hpp>
+#include <stillpoint/sparse_cholesky.hpp>
 
 #include <array>
 #include <optional>
@@ -92,6 +93,24 @@ class SurfaceLoads {
       for (int i = 0; i < dim; ++i) add_force(piece, dofs, i, -(*traction.pressure)({}, t) * area[i], F);
     }
   }
+  /// ∂F/∂u of these, unsymmetric, (n × n).
+  SparseMatrix following_tangent(double t, const double* u, const DegreesOfFreedom& dofs) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const Piece& piece : pieces_) {
+      const SurfaceTraction& traction = tractions_[piece.traction];
+      if (!traction.pressure) continue;
+      const double p = (*traction.pressure)({}, t);
+      for_free(piece, dofs, [&](int b, int j, int column) {
+        const auto change = area_derivative(piece, u, b, j);
+        for_free(piece, dofs,
+                 [&](int a, int i, int row) { entries.emplace_back(row, column, -p * change[i] * piece.values.N[a]); });
+      });
+    }
+    const auto n = static_cast<Eigen::Index>(dofs.size());
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
   /// The phase ends with u: the pieces go with the body.
   void end_phase(const double* u) {
     for (Piece& piece : pieces_) {
@@ -120,6 +139,38 @@ class SurfaceLoads {
     if constexpr (dim == 1) {
       return piece.vector;
     } else {
+      const Deformation f = deformation(piece, u);
+      const auto area = plane_area(piece, f.plane);
+      return {f.hoop * area[0], f.hoop * area[1]};
+    }
+  }
+  // Of that by component j of local function b.
+  std::array<double, dim> area_derivative(const Piece& piece, const double* u, int b, int j) const {
+    if constexpr (dim == 1) {
+      return {};
+    } else {
+      const Deformation f = deformation(piece, u);
+      std::array<double, 4> df{};
+      for (int i = 0; i < 2; ++i) df[2 * j + i] = piece.values.dN[i][b];
+      const auto area = plane_area(piece, f.plane), change = plane_area(piece, df);
+      const double dhoop = j == 0 && has_hoop(piece) ? piece.values.N[b] / piece.x[0] : 0;
+      return {f.hoop * change[0] + dhoop * area[0], f.hoop * change[1] + dhoop * area[1]};
+    }
+  }
+
+  struct Deformation {
+    std::array<double, 4> plane;  // f_xx, f_xy, f_yx, f_yy
+    double hoop;
+  };
+  static bool has_hoop(const Piece& piece) { return K == Kinematics::axisymmetric && piece.x[0] > 0; }
+  static std::array<double, dim> plane_area(const Piece& piece, const std::array<double, 4>& f) {
+    const auto& n = piece.vector;
+    return {f[3] * n[0] - f[2] * n[1], -f[1] * n[0] + f[0] * n[1]};
+  }
+  static Deformation deformation(const Piece& piece, const double* u) {
+    if constexpr (dim == 1) {
+      return {};
+    } else {
       std::array<double, 4> f{1, 0, 0, 1};
       double u_r = 0;
       for (int a = 0; a < Basis::per_cell; ++a) {
@@ -130,17 +181,24 @@ class SurfaceLoads {
           for (int j = 0; j < 2; ++j) f[2 * i + j] += of_function[i] * piece.values.dN[j][a];
         }
       }
-      const double hoop = K == Kinematics::axisymmetric && piece.x[0] > 0 ? 1 + u_r / piece.x[0] : 1;
-      const auto& n = piece.vector;
-      return {hoop * (f[3] * n[0] - f[2] * n[1]), hoop * (-f[1] * n[0] + f[0] * n[1])};
+      return {f, has_hoop(piece) ? 1 + u_r / piece.x[0] : 1};
     }
   }
 
   void add_force(const Piece& piece, const DegreesOfFreedom& dofs, int component, double force, Vec F) const {
+    for_free(piece, dofs, [&](int a, int i, int dof) {
+      if (i == component) F[static_cast<std::size_t>(dof)] += force * piece.values.N[a];
+    });
+  }
+  /// visit(local function, component, free degree of freedom)
+  template <class Visit>
+  static void for_free(const Piece& piece, const DegreesOfFreedom& dofs, const Visit& visit) {
     for (int a = 0; a < Basis::per_cell; ++a) {
       if (piece.function[a] < 0) continue;
-      const int dof = dofs.number[static_cast<std::size_t>(dim * piece.function[a] + component)];
-      if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += force * piece.values.N[a];
+      for (int i = 0; i < dim; ++i) {
+        const int dof = dofs.number[static_cast<std::size_t>(dim * piece.function[a] + i)];
+        if (dofs.is_free(dof)) visit(a, i, dof);
+      }
     }
   }
 

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <stillpoint/drucker_prager_cone.hpp>
+#include <stillpoint/dual.hpp>
 #include <stillpoint/plane_tensor.hpp>
 
 #include <limits>
@@ -63,6 +64,9 @@ class DruckerPrager {
   using History = std::array<double, history>;  // σ_xx, σ_yy, σ_zz, σ_xy [Pa], gap, γᵖ
   static constexpr std::array<std::string_view, history> history_names = {"", "", "", "", "gap", "plastic_strain"};
 
+  template <class Number>
+  using Components = std::array<Number, gradient_components(S)>;  // of H and P
+
   explicit DruckerPrager(const DruckerPragerParameters& m)
       : K_(m.E / (3 * (1 - 2 * m.nu))), G_(m.E / (2 * (1 + m.nu))), fluidity_(m.fluidity), tension_(m.tension) {
     const auto peak = ConeCoefficients::from(m.cone, m.phi, m.psi);
@@ -77,27 +81,33 @@ class DruckerPrager {
     softening_rate_ = m.softening_strain > 0 ? 1 / m.softening_strain : 0;
   }
 
-  Gradient<S> first_piola(const Gradient<S>& H, const Gradient<S>& dH, double dt, History& next) const {
+  /// Number: double, or a Dual, which carries derivatives through the return. History is of values alone.
+  template <class Number>
+  Components<Number> first_piola(const Components<Number>& H, const Components<Number>& dH, double dt,
+                                 History& next) const {
+    using std::sqrt;
     const auto [s_xx, s_yy, s_zz, s_xy, gap, plastic_strain] = next;
 
     // g = f − dH/2,  l = dH g⁻¹
-    const double gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
-    const double det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
-    const double lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
-    const double lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
-    const double dzz = hoop_increment(H, dH), tr_d = lxx + lyy + dzz;
+    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
+    const Number det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
+    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
+    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
+    const Number dzz = hoop_increment(H, dH), tr_d = lxx + lyy + dzz;
 
     // The rotation by θ, tan(θ/2) = q = w_yx/2; a tensor turns by 2θ in (half difference, shear), by θ under R½.
-    const double q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
-    const double cos = (1 - q * q) * over, sin = 2 * q * over, cos2 = 1 - 2 * sin * sin, sin2 = 2 * sin * cos;
-    const double half_n = (s_xx - s_yy) / 2, half_d = G_ * (lxx - lyy), shear_d = G_ * (lxy + lyx);
-    const double half = cos2 * half_n - sin2 * s_xy + (cos * half_d - sin * shear_d);
-    const double shear = sin2 * half_n + cos2 * s_xy + (sin * half_d + cos * shear_d);
+    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
+    const Number cos = (1 - q * q) * over, sin = 2 * q * over, cos2 = 1 - 2 * sin * sin, sin2 = 2 * sin * cos;
+    const double half_n = (s_xx - s_yy) / 2;
+    const Number half_d = G_ * (lxx - lyy), shear_d = G_ * (lxy + lyx);
+    const Number half = cos2 * half_n - sin2 * s_xy + (cos * half_d - sin * shear_d);
+    const Number shear = sin2 * half_n + cos2 * s_xy + (sin * half_d + cos * shear_d);
 
     // p_trial = p_n + K (tr d + gap),  s_zz = s_zz,n + 2 G dev d_zz,  J₂ = half² + shear² + ¾ s_zz²
-    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3), p_trial = p_n + K_ * (tr_d + gap);
-    const double dev_zz = s_zz - p_n + 2 * G_ * (dzz - tr_d * (1.0 / 3));
-    const double root_J2 = std::sqrt(half * half + shear * shear + 0.75 * (dev_zz * dev_zz) + tiny);
+    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
+    const Number p_trial = p_n + K_ * (tr_d + gap);
+    const Number dev_zz = s_zz - p_n + 2 * G_ * (dzz - tr_d * (1.0 / 3));
+    const Number root_J2 = sqrt(half * half + shear * shear + 0.75 * (dev_zz * dev_zz) + tiny);
 
     // The strength
     const double lost = plastic_strain * softening_rate_, share = lost < 1 ? lost : 1;
@@ -106,28 +116,46 @@ class DruckerPrager {
 
     // On the cone Δγ = f/(G + K η η̄ + 1/(β dt)), on its edge with the cut-off f(p_cut)/(G + 1/(β dt))
     const double flow_resistance = fluidity_ > 0 ? G_ + 1 / (fluidity_ * dt) : G_;
-    const double cone = positive(root_J2 + eta * p_trial - k) * (1 / (flow_resistance + K_ * eta * eta_bar_));
-    const double edge = positive(root_J2 + eta * p_cut - k) * (1 / flow_resistance);
-    const double p_cone = p_trial - K_ * eta_bar_ * cone;
+    const Number cone = positive(root_J2 + eta * p_trial - k) * (1 / (flow_resistance + K_ * eta * eta_bar_));
+    const Number edge = positive(root_J2 + eta * p_cut - k) * (1 / flow_resistance);
+    const Number p_cone = p_trial - K_ * eta_bar_ * cone;
     const bool open = p_cone > p_cut;
-    const double dgamma = open ? edge : cone, p = open ? p_cut : p_cone;
-    const double opened = gap + tr_d + (p_n - p_cut) * (1 / K_) - eta_bar_ * edge;
+    const Number dgamma = open ? edge : cone, p = open ? Number(p_cut) : p_cone;
+    const Number opened = gap + tr_d + (p_n - p_cut) * (1 / K_) - eta_bar_ * edge;
 
     // s = (1 − G Δγ/√J₂) s_trial
-    const double over_root_J2 = 1 / root_J2, scale = 1 - G_ * dgamma * over_root_J2;
-    const double half_s = scale * half, xy = scale * shear, dev = scale * dev_zz;
-    const double xx = p - dev / 2 + half_s, yy = p - dev / 2 - half_s, zz = p + dev;
-    next = {xx, yy, zz, xy, open ? opened : 0, plastic_strain + dgamma};
+    const Number over_root_J2 = 1 / root_J2, scale = 1 - G_ * dgamma * over_root_J2;
+    const Number half_s = scale * half, xy = scale * shear, dev = scale * dev_zz;
+    const Number xx = p - dev / 2 + half_s, yy = p - dev / 2 - half_s, zz = p + dev;
+    next = {value_of(xx),
+            value_of(yy),
+            value_of(zz),
+            value_of(xy),
+            open ? value_of(opened) : 0,
+            plastic_strain + value_of(dgamma)};
     return nominal_stress(H, det_g, xx, yy, zz, xy);
   }
 
   Stress<S> cauchy(const History& now) const { return {now[0], now[1], now[2], now[3]}; }
   History initial_history(const Stress<S>& s) const { return {s[0], s[1], s[2], s[3], 0, 0}; }
 
+  /// Consistent with the return mapping [Simo and Taylor 1985]: the derivative of first_piola() to rounding, H and dH
+  /// changing alike. Symmetric only without stress and plastic flow: flow that is not associated is not, and the
+  /// elastic rate is one of σ and not of τ, which leaves σ/K.
+  Moduli<S> moduli(const Gradient<S>& H, const Gradient<S>& dH, double dt, History now) const {
+    constexpr std::size_t n = gradient_components(S);
+    const auto P = first_piola(variables(H), variables(dH), dt, now);
+    Moduli<S> A;
+    for (std::size_t a = 0; a < n; ++a) {
+      for (std::size_t b = 0; b < n; ++b) A[n * a + b] = P[a].derivative[b];
+    }
+    return A;
+  }
+
   // Elastic, with the committed stress: δσ = C : d + w σ − σ w. The trial's derivative has σ tr d besides. It is left
   // out, as if Jaumann's rate of τ were the elastic one: ∂P/∂H is symmetric, frequencies are real, and σ/K of it is
   // missing.
-  Moduli<S> moduli(const Gradient<S>& H, const History& now) const {
+  Moduli<S> elastic_moduli(const Gradient<S>& H, const History& now) const {
     const PlaneTensor f = deformation_gradient<S>(H), sigma{now[0], now[3], now[3], now[1], now[2]};
     const double J = determinant(f);
     return moduli_of_rate<S>(f, J * sigma, [&](const PlaneTensor& l) {
@@ -140,10 +168,14 @@ class DruckerPrager {
   // Keeps 0/0 out of √J₂ = 0 and of φ = 0, whose apex is out of reach.
   static constexpr double tiny = 1e-300;
 
-  static double positive(double x) { return x > 0 ? x : 0; }
+  template <class Number>
+  static Number positive(const Number& x) {
+    return x > 0 ? x : Number(0);
+  }
 
   // d_θθ of the increment
-  static double hoop_increment(const Gradient<S>& H, const Gradient<S>& dH) {
+  template <class Number>
+  static Number hoop_increment(const Components<Number>& H, const Components<Number>& dH) {
     if constexpr (S == StressState::axisymmetric) {
       return dH[4] / (1 + H[4] - dH[4] / 2);
     } else {
@@ -152,15 +184,17 @@ class DruckerPrager {
   }
 
   // P = det(f) σ f⁻ᵀ = σ cof f;  NaN, through σ_xy, where f or g is turned inside out.
-  static Gradient<S> nominal_stress(const Gradient<S>& H, double det_g, double xx, double yy, double zz, double xy) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const double fxx = 1 + H[0], fxy = H[1], fyx = H[2], fyy = 1 + H[3], det_f = fxx * fyy - fxy * fyx;
+  template <class Number>
+  static Components<Number> nominal_stress(const Components<Number>& H, const Number& det_g, const Number& xx,
+                                           const Number& yy, const Number& zz, const Number& xy) {
+    const Number nan = std::numeric_limits<double>::quiet_NaN();
+    const Number fxx = 1 + H[0], fxy = H[1], fyx = H[2], fyy = 1 + H[3], det_f = fxx * fyy - fxy * fyx;
     if constexpr (S == StressState::axisymmetric) {
-      const double hoop = 1 + H[4], s = det_f > 0 && det_g > 0 && hoop > 0 ? xy : nan;
+      const Number hoop = 1 + H[4], s = det_f > 0 && det_g > 0 && hoop > 0 ? xy : nan;
       return {hoop * (xx * fyy - s * fxy), hoop * (s * fxx - xx * fyx), hoop * (s * fyy - yy * fxy),
               hoop * (yy * fxx - s * fyx), zz * det_f};
     } else {
-      const double s = det_f > 0 && det_g > 0 ? xy : nan;
+      const Number s = det_f > 0 && det_g > 0 ? xy : nan;
       return {xx * fyy - s * fxy, s * fxx - xx * fyx, s * fyy - yy * fxy, yy * fxx - s * fyx};
     }
   }

@@ -22,10 +22,15 @@ class SemiDiscrete {
   /// R_i = Σ_p V_p P_p ∇N_ip from trial stresses; u, R: (n). Repeatable: the committed state is not touched.
   /// t places the moving supports. False where the trial cannot be evaluated (det f ≤ 0 or a non-finite stress).
   virtual bool internal_force(double t, ConstVec u, Vec R) const = 0;
-  /// dR = K(u) du, the derivative of R at u along du; u, du, dR: (n).
+  /// dR = K(u) du, the derivative of R at u along du; u, du, dR: (n). Where points remember it is consistent with what
+  /// internal_force() does since the last commit.
   virtual void tangent(double t, ConstVec u, ConstVec du, Vec dR) const = 0;
-  /// K(u) = ∂R/∂u assembled, (n × n).
+  /// K(u) = ∂R/∂u assembled, (n × n). Unsymmetric where R has no potential.
   virtual SparseMatrix tangent_matrix(double t, ConstVec u) const = 0;
+  /// The same of a body that does not yield, symmetric: frequencies and critical steps are those of K_e, since what
+  /// yields only softens.
+  virtual void elastic_tangent(double t, ConstVec u, ConstVec du, Vec dR) const { tangent(t, u, du, dR); }
+  virtual SparseMatrix elastic_tangent_matrix(double t, ConstVec u) const { return tangent_matrix(t, u); }
 
   /// Accepts u: writes stress and history of every point. Once an accepted step where history_dependent().
   virtual void commit(double t, ConstVec u) = 0;
@@ -39,6 +44,11 @@ class SemiDiscrete {
   virtual void add_support_inertia(double /*t*/, double /*c*/, Vec /*Q*/) const {}
   /// F += loads that follow the deformation; u, F: (n).
   virtual void add_following_force(double /*t*/, ConstVec /*u*/, Vec /*F*/) const {}
+  /// ∂F/∂u of these at u, (n × n).
+  virtual SparseMatrix following_tangent_matrix(double /*t*/, ConstVec /*u*/) const {
+    const auto n = static_cast<Eigen::Index>(size());
+    return SparseMatrix(n, n);
+  }
   /// Whether something touches the body that may open or close.
   virtual bool has_contact() const { return false; }
   /// Q += contact forces for the damping C, Q: (n). What is closed only changes in update_contact().

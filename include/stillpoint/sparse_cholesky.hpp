@@ -28,6 +28,8 @@ class SparseCholesky {
   /// x = A⁻¹ b; b, x: (n), may be the same array. Allocates nothing after the first call. Needs positive_definite().
   void solve(ConstVec b, Vec x) const;
   std::size_t size() const;
+  /// What the factor and its work space take [bytes].
+  std::size_t bytes() const;
 
  private:
   struct Impl;

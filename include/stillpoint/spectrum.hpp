@@ -1,4 +1,4 @@
-// Extreme frequencies of K x = ω² M x, K the tangent of R.
+// Extreme frequencies of K x = ω² M x, K the elastic tangent of R.
 #pragma once
 
 #include <stillpoint/semi_discrete.hpp>

@@ -8,3 +8,4 @@
 #include <stillpoint/run.hpp>
 #include <stillpoint/scene.hpp>
 #include <stillpoint/spectrum.hpp>
+#include <stillpoint/static_solution.hpp>

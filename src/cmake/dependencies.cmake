@@ -24,6 +24,12 @@ if(NOT TARGET stillpoint::cholmod)
   set_target_properties(stillpoint::cholmod PROPERTIES
     IMPORTED_LOCATION ${STILLPOINT_CHOLMOD} INTERFACE_INCLUDE_DIRECTORIES ${STILLPOINT_CHOLMOD_INCLUDE})
 
+  find_library(STILLPOINT_UMFPACK umfpack REQUIRED)
+  find_path(STILLPOINT_UMFPACK_INCLUDE umfpack.h PATH_SUFFIXES suitesparse REQUIRED)
+  add_library(stillpoint::umfpack UNKNOWN IMPORTED)
+  set_target_properties(stillpoint::umfpack PROPERTIES
+    IMPORTED_LOCATION ${STILLPOINT_UMFPACK} INTERFACE_INCLUDE_DIRECTORIES ${STILLPOINT_UMFPACK_INCLUDE})
+
   find_library(STILLPOINT_ARPACK arpack REQUIRED)
   add_library(stillpoint::arpack UNKNOWN IMPORTED)
   set_target_properties(stillpoint::arpack PROPERTIES IMPORTED_LOCATION ${STILLPOINT_ARPACK})

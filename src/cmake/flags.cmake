@@ -12,4 +12,5 @@ target_compile_options(stillpoint_flags INTERFACE
 find_package(CLI11 CONFIG REQUIRED)  # of the command alone
 set(STILLPOINT_DEPENDENCIES
   fmt::fmt muparser::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json OpenMP::OpenMP_CXX
-  GSL::gsl SUNDIALS::arkode SUNDIALS::nvecserial stillpoint::cholmod stillpoint::arpack stillpoint::hdf5)
+  GSL::gsl SUNDIALS::arkode SUNDIALS::nvecserial stillpoint::cholmod stillpoint::umfpack
+  stillpoint::arpack stillpoint::hdf5)

@@ -1,0 +1,186 @@
+#include <stillpoint/sparse_lu.hpp>
+#include <stillpoint/static_solution.hpp>
+
+#include <fmt/format.h>
+
+#include "conjugate_gradients.hpp"
+#include "out_of_balance.hpp"
+#include "stopwatch.hpp"
+
+namespace stillpoint {
+namespace {
+
+bool symmetric(const SparseMatrix& K, double tolerance) {
+  return (K - SparseMatrix(K.transpose())).norm() <= tolerance * K.norm();
+}
+
+class Newton {
+ public:
+  Newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options)
+      : system_(system), t_(t), u_(u), options_(options), balance_(system, t), trial_(u.size()), du_(u.size()) {}
+
+  StaticReport solve() {
+    if (!balance_.start(u_)) {
+      report_.reason = "the state at the start is inadmissible";
+      return finished();
+    }
+    std::vector<double> u(u_.begin(), u_.end());
+    double size = 1.0 / options_.load_steps;
+    while (report_.load_factor < 1) {
+      const double s = report_.load_factor, left = 1 - s;
+      LoadStep& step = report_.load_steps.emplace_back();
+      step.from = s;
+      step.to = size < 0.999 * left ? s + size : 1;
+      std::ranges::copy(u_, u.begin());
+      if (load_step(step, u)) {
+        std::ranges::copy(u, u_.begin());
+        report_.load_factor = step.to;
+        if (system_.history_dependent()) system_.commit(t_, u_);
+        constexpr std::size_t easy = 9;
+        if (step.residuals.size() <= easy) size *= 2;
+      } else {
+        size = (step.to - s) / 2;
+        if (size < options_.min_load_step) {
+          report_.reason = fmt::format("no equilibrium beyond the load factor {:.4g}: {}; load step {:.3g} < {:.3g}", s,
+                                       report_.reason, size, options_.min_load_step);
+          return finished();
+        }
+      }
+    }
+    report_.converged = true;
+    return finished();
+  }
+
+ private:
+  // u: the state at step.from, then the equilibrium at step.to. Where there is none report_.reason says why.
+  bool load_step(LoadStep& step, Vec u) {
+    double residual = balance_.evaluate(step.to, u) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
+    step.residuals.push_back(residual);
+    indefinite_ = false;
+    for (int iteration = 0; !(residual <= options_.tolerance); ++iteration) {
+      if (iteration == options_.max_iterations || !std::isfinite(residual)) {
+        report_.reason = fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations", residual,
+                                     options_.tolerance, iteration);
+        return false;
+      }
+      ++report_.iterations;
+      if (!(consistent_direction(step.to, u) && descend(step.to, u, residual))) {
+        // Open or just yielding points may leave K singular; K_e never is in a body that is held.
+        ++report_.elastic_iterations;
+        if (!balance_.evaluate(step.to, u) || !elastic_direction(u) || !descend(step.to, u, residual)) {
+          report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller", residual);
+          return false;
+        }
+      }
+      residual = balance_.residual();
+      step.residuals.push_back(residual);
+    }
+    if (indefinite_) {
+      report_.reason = "the equilibrium found is unstable: K is indefinite";
+      return false;
+    }
+    step.converged = true;
+    report_.residual = residual;
+    report_.reason = fmt::format("residual {:.3g} ≤ tolerance {:.3g}", residual, options_.tolerance);
+    return true;
+  }
+
+  // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays where none does.
+  bool descend(double s, Vec u, double before) {
+    constexpr int most_halvings = 10;
+    constexpr double decrease = 1e-4;
+    for (int halvings = 0; halvings < most_halvings; ++halvings) {
+      const double lambda = std::ldexp(1, -halvings);
+      for (std::size_t i = 0; i < u.size(); ++i) trial_[i] = u[i] + lambda * du_[i];
+      if (!balance_.evaluate(s, trial_) || !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
+      std::ranges::copy(trial_, u.begin());
+      return true;
+    }
+    return false;
+  }
+
+  // K du = Q, Q as last evaluated, at u. False where K cannot be solved with.
+  bool consistent_direction(double s, ConstVec u) {
+    indefinite_ = false;
+    const SparseMatrix following = system_.following_tangent_matrix(t_, u);
+    if (options_.solver == LinearSolver::conjugate_gradients) {
+      return by_conjugate_gradients([&](ConstVec x, Vec Kx) {
+        system_.tangent(t_, u, x, Kx);
+        subtract_product(s, following, x, Kx);
+      });
+    }
+    SparseMatrix K = system_.tangent_matrix(t_, u);
+    if (following.nonZeros() > 0) K -= s * following;
+    if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
+    if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
+      if (by_cholesky(K)) return true;
+      indefinite_ = true;
+    }
+    return by_lu(K);
+  }
+  bool elastic_direction(ConstVec u) {
+    if (options_.solver == LinearSolver::conjugate_gradients)
+      return by_conjugate_gradients([&](ConstVec x, Vec Kx) { system_.elastic_tangent(t_, u, x, Kx); });
+    return by_cholesky(system_.elastic_tangent_matrix(t_, u));
+  }
+
+  bool by_cholesky(const SparseMatrix& K) {
+    const SparseCholesky factor(K);
+    ++report_.cholesky_factorisations;
+    report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
+    if (factor.positive_definite()) factor.solve(balance_.Q, du_);
+    return factor.positive_definite();
+  }
+  bool by_lu(const SparseMatrix& K) {
+    const SparseLu factor(K);
+    ++report_.lu_factorisations;
+    report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
+    if (factor.regular()) factor.solve(balance_.Q, du_);
+    return factor.regular();
+  }
+  bool by_conjugate_gradients(const LinearMap& K) {
+    const std::size_t n = du_.size();
+    const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : static_cast<int>(n);
+    const double forcing = std::min(0.1, balance_.residual());
+    const auto result = stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q, du_, forcing, most);
+    report_.tangent_products += result.iterations;
+    return result.converged;
+  }
+
+  StaticReport finished() {
+    report_.force_evaluations = balance_.evaluations;
+    report_.wall_s = watch_.seconds();
+    if (!report_.converged)
+      report_.residual = balance_.evaluate(1, u_) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
+    return report_;
+  }
+
+  const Stopwatch watch_;
+  SemiDiscrete& system_;
+  double t_;
+  Vec u_;
+  const NewtonOptions& options_;
+  OutOfBalance balance_;
+  std::vector<double> trial_, du_;
+  bool indefinite_ = false;  // K of the last iteration, where symmetric
+  StaticReport report_;
+};
+
+}  // namespace
+
+std::string NewtonOptions::validate() const {
+  if (!(tolerance > 0)) return fmt::format("tolerance = {}, expected > 0", tolerance);
+  if (max_iterations < 1) return fmt::format("max_iterations = {}, expected ≥ 1", max_iterations);
+  if (load_steps < 1) return fmt::format("load_steps = {}, expected ≥ 1", load_steps);
+  if (!(min_load_step > 0)) return fmt::format("min_load_step = {}, expected > 0", min_load_step);
+  if (!(symmetry >= 0)) return fmt::format("symmetry = {}, expected ≥ 0", symmetry);
+  if (max_cg_iterations < 0) return fmt::format("max_cg_iterations = {}, expected ≥ 0", max_cg_iterations);
+  return "";
+}
+
+StaticReport newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options) {
+  if (const std::string wrong = options.validate(); !wrong.empty()) throw std::invalid_argument(wrong);
+  return Newton(system, t, u, options).solve();
+}
+
+}  // namespace stillpoint
