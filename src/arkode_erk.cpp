@@ -5,6 +5,10 @@
 //   - a fixed step never reports trouble: SteppingIntegrator looks at every new state
 //   - a trial that cannot be evaluated is fatal: reset to the last good state, and the caller tries a smaller step
 //   - an exception cannot cross C: it is kept and thrown again on this side
+//
+// Kinetic damping is an event: the kinetic energy K has its peak where dK/dt = vᵀMv' = v·Q falls through 0, which
+// ARKODE's root finding places inside the step. The step ends there, v is set to 0 and ARKODE begins anew from that
+// state. The root function costs a force evaluation each time that it is asked, and is counted.
 
 #include "arkode_erk.hpp"
 
@@ -22,6 +26,7 @@
 #include <fmt/format.h>
 
 #include "butcher.hpp"
+#include "parallel_loop.hpp"
 #include "stepping_integrator.hpp"
 #include "sundials_compat.hpp"
 
@@ -104,7 +109,10 @@ bool is_mistaken_for_fsal(const ButcherTable& table) {
 class Erk final : public SteppingIntegrator {
  public:
   Erk(const IntegratorOptions& options, RelaxationSystem& system)
-      : SteppingIntegrator(options, system), table_(table_of(options.method)) {}
+      : SteppingIntegrator(options, system),
+        table_(table_of(options.method)),
+        kinetic_(system.damping().name() == "kinetic"),
+        Q_(kinetic_ ? system.size() : 0) {}
   Erk(const Erk&) = delete;
   Erk& operator=(const Erk&) = delete;
   ~Erk() override {
@@ -142,6 +150,11 @@ class Erk final : public SteppingIntegrator {
     if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
     count_error_test_failures();
     if (code < 0) return failure(code, h);
+    if (code == ARK_ROOT_RETURN) {
+      std::ranges::fill(second_half(trial.span()), 0.0);
+      refused();
+      return {.h = reached - t, .t = reached};
+    }
     if (adaptive()) check(ark::GetLastStep(arkode_, &h), "GetLastStep");
     // A good return code alone does not say that the step was taken.
     const double came = reached - arkode_t_;
@@ -183,7 +196,14 @@ class Erk final : public SteppingIntegrator {
     check(ark::capture_messages(arkode_, context_, last_message_), "capture_messages");
     check(ark::SetUserData(arkode_, this), "SetUserData");
     check(ERKStepSetTable(arkode_, to_arkode(table_).get()), "ERKStepSetTable");
-    check(ark::set_cheapest_interpolant(arkode_), "set_cheapest_interpolant");
+    if (kinetic_) {
+      check(ark::set_hermite_interpolant(arkode_), "set_hermite_interpolant");
+      check(ark::RootInit(arkode_, 1, power), "RootInit");
+      int falling = -1;
+      check(ark::SetRootDirection(arkode_, &falling), "SetRootDirection");
+    } else {
+      check(ark::set_cheapest_interpolant(arkode_), "set_cheapest_interpolant");
+    }
     check(ark::SetMaxNumSteps(arkode_, -1), "SetMaxNumSteps");
     if (is_mistaken_for_fsal(table_)) check(ark::SetPostprocessStepFn(arkode_, post_process), "SetPostprocessStepFn");
     if (adaptive()) {
@@ -229,6 +249,22 @@ class Erk final : public SteppingIntegrator {
     }
   }
 
+  // dK/dt = v·Q for C: 0 done, 1 cannot be evaluated at this y, −1 an exception was thrown.
+  static int power(sunrealtype t, N_Vector y, sunrealtype* value, void* self) noexcept {
+    auto& erk = *static_cast<Erk*>(self);
+    try {
+      const ConstVec both(N_VGetArrayPointer(y), 2 * erk.system().size());
+      const ConstVec v = second_half(both), Q = erk.Q_;
+      erk.inadmissible_ = !erk.system().out_of_balance(t, first_half(both), erk.Q_);
+      if (erk.inadmissible_) return 1;
+      *value = sum_over(v.size(), [=](std::size_t i) { return v[i] * Q[i]; });
+      return 0;
+    } catch (...) {
+      erk.exception_ = std::current_exception();
+      return -1;
+    }
+  }
+
   // Does nothing: that it is there makes ARKODE evaluate f(t_n, y_n) afresh.
   static int post_process(sunrealtype, N_Vector, void*) noexcept { return 0; }
 
@@ -240,6 +276,8 @@ class Erk final : public SteppingIntegrator {
   }
 
   ButcherTable table_;
+  bool kinetic_;
+  std::vector<double> Q_;  // of power(), (n)
   void* arkode_ = nullptr;
   SUNContext context_ = nullptr;
   N_Vector weights_ = nullptr;  // the vector that unit_weights() filled

@@ -1,6 +1,7 @@
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/scene.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "arkode_erk.hpp"
 #include "gsl_integrator.hpp"
 #include "one_force_integrators.hpp"
+#include "strategies/strategies.hpp"
 
 namespace stillpoint {
 namespace {
@@ -27,6 +29,13 @@ void validate(const IntegratorOptions& options, const Method& method) {
   } else {
     require(method.fixed_step, fmt::format("method '{}' is adaptive only: set rtol", method.name));
   }
+}
+
+// Null for a damping of the user's own, which is a force.
+const DampingInfo* known_strategy(std::string_view name) {
+  const auto& all = damping_strategies();
+  const auto found = std::ranges::find(all, name, &DampingInfo::name);
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -58,6 +67,17 @@ Method find_method(std::string_view name, DampingTreatment treatment) {
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system) {
   const Method method = find_method(options.method, options.treatment);
   validate(options, method);
+  const DampingInfo* strategy = known_strategy(system.damping().name());
+  if (strategy) {
+    require(strategy->goes_with(method.name),
+            fmt::format("damping '{}' does not go with method '{}', but with {}", strategy->name, method.name,
+                        fmt::join(strategy->integrators, ", ")));
+    if (strategy->owns_iteration && method.name == "leapfrog") {
+      require(options.treatment == DampingTreatment::automatic,
+              fmt::format("damping '{}' owns its iteration, which has no choice of damping treatment", strategy->name));
+      return make_strategy(options, system);
+    }
+  }
   if (method.name == "leapfrog") return make_leapfrog(options, system);
   if (method.name == "symplectic-euler") return make_symplectic_euler(options, system);
   return method.name.starts_with("erk:") ? make_erk(options, system) : make_gsl(options, system);

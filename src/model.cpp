@@ -6,11 +6,13 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "load_schedule.hpp"
 #include "reject.hpp"
+#include "stiffening_step.hpp"
 
 namespace stillpoint {
 namespace {
@@ -28,6 +30,47 @@ double highest_frequency(const Scene& scene, const LagrangianPhase& phase, Const
   if (estimate.converged) return estimate.omega;
   constexpr double margin = 1.02;  // after 300 iterations an underestimate of 0.1 % is usual
   return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
+}
+
+// The same for auto, which counts what it spends.
+double highest_frequency_for_auto(const Scene& scene, Model& model, const LagrangianPhase& phase, ConstVec u) {
+  const FrequencyEstimate estimate = omega_max_by_lanczos(phase, 0, u);
+  model.tangent_applications += estimate.iterations;
+  if (estimate.converged) return estimate.omega;
+  reject(scene, "initial",
+         fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
+}
+
+// Whether nothing but equilibrium is asked for, under a pull that stays: then inertia is free, and velocities may be
+// reset.
+bool wants_equilibrium_only(const Scene& scene) { return scene.stop.residual > 0 && !pulls_vary(scene); }
+
+// auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
+// body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
+// of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes where the scene leaves the kind open.
+void choose_mass_for_auto(const Scene& scene, Model& model) {
+  const std::vector<double> u = model.phase->initial_displacement(0);
+  model.omega_max = highest_frequency_for_auto(scene, model, *model.phase, u);
+  if (!wants_equilibrium_only(scene)) {
+    model.notes.push_back(
+        "auto keeps the physical mass and halts no motion, as loads or supports depend on t or the transient is asked "
+        "for; its c M v holds back a body that flows: take one-sided or cundall there");
+    return;
+  }
+  const bool kind_is_fixed = scene.where.contains("mass.kind") && scene.mass.kind == MassKind::consistent;
+  if (scene.where.contains("mass.scaling") || kind_is_fixed || scene.grid.basis == BasisKind::hermite) return;
+  Scene scaled = scene;
+  scaled.mass.kind = MassKind::lumped;
+  scaled.mass.scaling = MassScaling::gershgorin;
+  std::unique_ptr<LagrangianPhase> phase = make_phase(scaled);
+  const double omega_max = highest_frequency_for_auto(scene, model, *phase, phase->initial_displacement(0));
+  const double gain = model.omega_max * model.omega_max / (omega_max * omega_max);
+  constexpr double worthwhile = 1.05;
+  if (gain < worthwhile) return;
+  model.phase = std::move(phase);
+  model.omega_max = omega_max;
+  model.notes.push_back(fmt::format(
+      "auto scales the mass by Gershgorin's bound: the condition number becomes about {:.3g} times smaller", gain));
 }
 
 // Whether R can be evaluated where the motion begins.
@@ -100,8 +143,6 @@ std::vector<std::string> support_notes(const Scene& scene) {
   return notes;
 }
 
-bool takes_c(const DampingSpec& damping) { return damping.strategy == "viscous" || damping.strategy == "identity"; }
-
 // The size of the motion to expect, so that tolerances need no number from the user: the largest displacement of a
 // material point under the loads of any time, u = K⁻¹ Q(t), or under the initial values.
 double displacement_scale(const Scene& scene, const Model& model) {
@@ -147,6 +188,15 @@ void set_tolerances(const Scene& scene, Model& model) {
   if (spec.atol_v) model.integrator.atol_v = *spec.atol_v;
 }
 
+// Chebyshev's polynomial takes the spectrum to its end; where that moves, StiffeningStep follows in notches of 1.1.
+// auto has a bound of it, and watches.
+double step_fraction(const Scene& scene, const LagrangianPhase& phase) {
+  constexpr double of_auto = 0.95;
+  if (scene.damping.strategy == "chebyshev") return phase.stiffens() ? 1 / StiffeningStep::notch : 1;
+  if (scene.damping.strategy == "auto" && !scene.where.contains("integrator.step_fraction")) return of_auto;
+  return scene.integrator.step_fraction;
+}
+
 void choose_step(const Scene& scene, Model& model) {
   const IntegratorSpec& spec = scene.integrator;
   const bool adaptive = spec.rtol.has_value();
@@ -169,7 +219,7 @@ void choose_step(const Scene& scene, Model& model) {
                          *spec.step, model.method.name, *model.critical_step));
     }
   } else if (model.critical_step && *model.critical_step > 0) {
-    model.integrator.max_step = spec.step_fraction * *model.critical_step;
+    model.integrator.max_step = step_fraction(scene, *model.phase) * *model.critical_step;
   } else if (adaptive) {
     model.integrator.max_step = 1 / model.omega_max;  // no limit of its own: the error control is what bounds the step
   } else {
@@ -184,24 +234,32 @@ void choose_step(const Scene& scene, Model& model) {
 
 Model make_model(const Scene& scene) {
   Model model;
+  const bool is_auto = scene.damping.strategy == "auto";
   model.phase = make_phase(scene);
-  model.notes = quadrature_notes(scene, model.phase->quadrature());
+  if (is_auto) choose_mass_for_auto(scene, model);
+  std::ranges::copy(quadrature_notes(scene, model.phase->quadrature()), std::back_inserter(model.notes));
   std::ranges::copy(support_notes(scene), std::back_inserter(model.notes));
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);
   check_initial_state(scene, *model.phase, model.u);
-  model.omega_max = highest_frequency(scene, *model.phase, model.u);
+  if (!is_auto) model.omega_max = highest_frequency(scene, *model.phase, model.u);
 
-  const bool critical = takes_c(scene.damping) && !scene.damping.c;
+  const DampingInfo& strategy = find_damping(scene.damping.strategy);
+  const bool critical = strategy.takes_c && !scene.damping.c;
   const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
-  if (critical || own_scale || scene.stop.residual > 0) {
+  if (critical || own_scale || strategy.needs_omega_1 || scene.stop.residual > 0) {
     const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
     if (lowest.converged) {
       model.omega_1 = lowest.omega;
     } else {
       model.notes.push_back(
           fmt::format("omega_1 is not known ({}): equilibrium is held for 100 of the shortest periods", lowest.status));
+    }
+    if (strategy.needs_omega_1 && !model.omega_1) {
+      reject(scene, "damping.strategy",
+             fmt::format("'{}' needs omega_1, but {}; expected a support, more points per cell, or another strategy",
+                         strategy.name, lowest.status));
     }
     if (critical && !model.omega_1) {
       reject(
@@ -217,12 +275,17 @@ Model make_model(const Scene& scene) {
   }
   // A body that is not held has no lowest frequency: a hundred of its shortest periods stand in for the longest.
   model.hold = scene.stop.hold * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
+  if (strategy.is_static) model.hold = 0;  // no motion that may only be turning round
 
-  if (takes_c(scene.damping)) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
+  if (strategy.takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
   model.damping = make_damping(scene.damping.strategy, model.c.value_or(0), scene.damping.alpha);
   model.method = find_method(scene.integrator.method, scene.integrator.treatment);
   model.integrator.method = scene.integrator.method;
   model.integrator.treatment = scene.integrator.treatment;
+  model.integrator.strategy = {.peak = scene.damping.peak,
+                               .quotient = scene.damping.quotient,
+                               .omega_1 = model.omega_1.value_or(0),
+                               .steady = wants_equilibrium_only(scene)};
   set_tolerances(scene, model);
   choose_step(scene, model);
   return model;

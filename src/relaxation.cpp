@@ -16,7 +16,9 @@ RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping,
       vectors_(vectors),
       F_(vectors_.make(system.size())),
       R_(vectors_.make(system.size())),
-      Q_(vectors_.make(system.size())) {}
+      Q_(vectors_.make(system.size())) {
+  if (damping.uses_last_force()) Q_last_ = vectors_.make(system.size());
+}
 
 // y' = [ v ; M⁻¹ (F − R + D(v, F − R) − c_i v) − c_m v ]  for  C = c_m M + c_i I
 bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
@@ -62,8 +64,18 @@ void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
 
 void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
   if (!damping_.is_local()) return;
-  damping_.add_local(v, Q);
+  if (damping_.uses_last_force()) {
+    damping_.add_local_since(v, force_remembered_ ? Q_last_->span() : Q, Q);  // at first nothing is known of dQ/dt
+  } else {
+    damping_.add_local(v, Q);
+  }
   system_.hold_contact(Q);
+}
+
+void RelaxationSystem::remember_force() {
+  if (!Q_last_) return;
+  last_out_of_balance(last_t_, Q_last_->span());
+  force_remembered_ = true;
 }
 
 bool RelaxationSystem::accept(double t, Vec y, bool force_is_current) {

@@ -141,6 +141,7 @@ class Run {
       if (status_ == RunStatus::running && model_.phase->share_of_phase(t_, u()) >= 1) next_phase();
     }
     stepping_s_ = stepping.seconds();
+    commit_static();
     stages_.finish(t_, u(), v());
     history_.finish();
     return summary();
@@ -168,12 +169,14 @@ class Run {
     schedule_.emplace(scene_, *model_.phase, scene_.stop.residual > 0 ? scene_.stop.time : 0);
   }
   void next_phase() {
+    commit_static();
     inertia_.advance(t_, motion_->relaxation.last_external_force(), u());
     try {
       const std::vector<double> v0 = model_.phase->begin_next_phase(t_, u(), v());
       earlier_steps_ = steps();
       earlier_evaluations_ = evaluations();
       earlier_rejected_ = rejected_steps();
+      model_.integrator.strategy.from = motion_->integrator->carried_over();
       motion_.reset();
       begin_phase(std::vector<double>(v0.size(), 0.0), v0);
       inertia_.begin_phase(motion_->relaxation.last_external_force());
@@ -190,7 +193,13 @@ class Run {
     return status_ == RunStatus::running;
   }
 
+  // A static iteration has one increment of the phase, which laws remember when it is over.
+  void commit_static() {
+    if (motion_->integrator->static_iteration()) motion_->relaxation.accept(t_, motion_->y.span(), true);
+  }
+
   void accept() {
+    if (motion_->integrator->static_iteration()) return;
     if (motion_->relaxation.accept(t_, motion_->y.span(), motion_->integrator->force_is_current())) {
       motion_->integrator->velocity_changed();
     }
@@ -269,7 +278,7 @@ class Run {
     s.kinetic_energy = kinetic_energy_;
     s.omega_1 = model_.omega_1;
     s.omega_max = model_.omega_max;
-    s.c = model_.c;
+    s.c = model_.c ? model_.c : motion_->integrator->damping_rate();
     s.dt = step_;
     s.critical_step = model_.critical_step;
     s.integrator = model_.method.name;

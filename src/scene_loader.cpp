@@ -1,6 +1,8 @@
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <initializer_list>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -23,17 +25,45 @@ void drop_what_it_replaces(toml::table& table, const std::string& override_text)
   if (key == "integrator.step_fraction") integrator->erase("step");
 }
 
-/// A transfer given by --set leaves the keys of the file's own one without meaning.
-void drop_keys_of_other_transfers(toml::table& table) {
-  toml::table* const phase = table["phase"].as_table();
-  const toml::node* const transfer = phase ? phase->get("transfer") : nullptr;
-  if (!transfer || location_of(transfer->source()).line > 0) return;
-  const auto drop = [&](const char* key, const char* owner) {
-    const toml::node* const node = phase->get(key);
-    if (node && location_of(node->source()).line > 0 && transfer->value<std::string>() != owner) phase->erase(key);
+bool from_override(const toml::node* node) { return node && location_of(node->source()).line == 0; }
+
+/// A choice given by --set leaves the keys of the file's own one without meaning: those that it does not take go.
+void drop_keys_of_other_choices(toml::table& root, const char* table_name, const char* choice,
+                                const std::function<bool(const std::string& value, const std::string& key)>& takes,
+                                std::initializer_list<const char*> keys) {
+  toml::table* const table = root[table_name].as_table();
+  const toml::node* const chosen = table ? table->get(choice) : nullptr;
+  const auto value = chosen ? chosen->value<std::string>() : std::nullopt;
+  if (!value || !from_override(chosen)) return;
+  for (const char* key : keys) {
+    const toml::node* const node = table->get(key);
+    if (node && !from_override(node) && !takes(*value, key)) table->erase(key);
+  }
+}
+
+void drop_keys_of_other_transfers(toml::table& root) {
+  const auto takes = [](const std::string& transfer, const std::string& key) {
+    return key == "flip_share" ? transfer == "flip" : transfer == "xpic";
   };
-  drop("flip_share", "flip");
-  drop("xpic_order", "xpic");
+  drop_keys_of_other_choices(root, "phase", "transfer", takes, {"flip_share", "xpic_order"});
+}
+
+void drop_keys_of_other_strategies(toml::table& root) {
+  const auto takes = [](const std::string& strategy, const std::string& key) {
+    const auto& all = damping_strategies();
+    const auto info = std::ranges::find(all, strategy, &DampingInfo::name);
+    if (info == all.end()) return true;  // what does not exist is reported by itself
+    if (key == "peak") return info->takes_peak;
+    if (key == "quotient") return info->takes_quotient;
+    return !info->owns_iteration;  // c and alpha
+  };
+  drop_keys_of_other_choices(root, "damping", "strategy", takes, {"c", "alpha", "peak", "quotient"});
+  const auto strategy = root["damping"]["strategy"];
+  toml::table* const integrator = root["integrator"].as_table();
+  if (!integrator || !from_override(strategy.node()) || strategy.value<std::string>() != "chebyshev") return;
+  for (const char* step : {"step", "step_fraction"}) {  // it has none to choose
+    if (!from_override(integrator->get(step))) integrator->erase(step);
+  }
 }
 
 /// The scene in a file's text under overrides; complete only where problems stays empty.
@@ -49,6 +79,7 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file, con
     apply_override(*table, text_of_override, problems);
   }
   drop_keys_of_other_transfers(*table);
+  drop_keys_of_other_strategies(*table);
   scene.where = locations_of(*table);
 
   Reading reading;

@@ -64,9 +64,28 @@ void read_phase(TableReader phase, Scene& scene) {
 }
 
 void read_damping(TableReader damping, Scene& scene) {
-  assign(scene.damping.strategy, damping.choice("strategy", names_of(damping_strategies())));
+  const auto strategy = damping.choice("strategy", names_of(damping_strategies()));
+  const bool known = strategy || !damping.has("strategy");
+  assign(scene.damping.strategy, std::optional(strategy));
   if (!damping.is_word("c", "critical")) assign(scene.damping.c, damping.number("c", kNotNegative));
   assign(scene.damping.alpha, damping.number("alpha", {0, 1, true, false}));
+  assign(scene.damping.peak,
+         damping.choice("peak", Words<Peak>{{"half-step", Peak::half_step}, {"parabolic", Peak::parabolic}}));
+  assign(scene.damping.quotient,
+         damping.choice("quotient", Words<Quotient>{{"diagonal", Quotient::diagonal}, {"global", Quotient::global}}));
+  if (known) {
+    const DampingInfo& info = find_damping(scene.damping.strategy);
+    const auto refuse = [&](const char* key, const char* owners) {
+      if (damping.has(key))
+        damping.problem(key, fmt::format("goes with strategy = {}, not with '{}'", owners, info.name));
+    };
+    if (!info.takes_peak) refuse("peak", "\"kinetic\"");
+    if (!info.takes_quotient) refuse("quotient", "\"adaptive\"");
+    if (info.owns_iteration) {
+      refuse("c", "\"viscous\" or \"identity\"");
+      refuse("alpha", "\"one-sided\", \"cundall\" or \"combined\"");
+    }
+  }
   damping.report_unknown_keys();
 }
 

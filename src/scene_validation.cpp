@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "in_quotes.hpp"
+#include "load_schedule.hpp"
 #include "scene_check.hpp"
 
 namespace stillpoint {
@@ -37,6 +38,41 @@ void check_integrator(SceneCheck& check) {
     check.add("integrator.rtol", fmt::format("method '{}' has no error estimate; leave rtol out", spec.method));
   if (!spec.rtol && !method.fixed_step)
     check.add("integrator.method", fmt::format("method '{}' has no fixed step: give integrator.rtol", spec.method));
+}
+
+/// What a strategy that owns its iteration cannot do.
+void check_strategy(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  const DampingSpec& spec = scene.damping;
+  const DampingInfo& info = find_damping(spec.strategy);
+  const std::string key = "damping.strategy";
+  if (!scene.integrator.method.empty() && !info.goes_with(scene.integrator.method)) {
+    check.add(check.written("integrator.method") ? "integrator.method" : key,
+              fmt::format("damping '{}' does not go with method '{}'; it goes with {}", info.name,
+                          scene.integrator.method, fmt::join(info.integrators, ", ")));
+    return;
+  }
+  if (!info.owns_iteration) return;
+  if (scene.integrator.treatment != DampingTreatment::automatic)
+    check.add("integrator.damping", fmt::format("damping '{}' is no C v to be treated; leave this out", info.name));
+  if (info.name == "chebyshev") {
+    for (const char* step : {"integrator.step", "integrator.step_fraction"})
+      if (check.written(step)) check.add(step, "'chebyshev' takes its steps from the whole spectrum; leave this out");
+  }
+  const auto moves = [](const WallSpec& wall) { return wall.motion.uses('t'); };
+  if (info.resets_velocity && std::ranges::any_of(scene.walls, moves))
+    check.add(key, fmt::format("'{}' sets velocities to zero, also those that a moving wall gives; take viscous, "
+                               "adaptive, auto or a local damping",
+                               info.name));
+  if (!info.is_static) return;
+  if (!scene.walls.empty())
+    check.add(key, fmt::format("'{}' is a static iteration, in which no wall can open or close; take another strategy",
+                               info.name));
+  if (!scene.initial_v.empty())
+    check.add("initial.v", fmt::format("damping '{}' is a static iteration, which has no velocity", info.name));
+  if (pulls_vary(scene))
+    check.add(key, fmt::format("'{}' is a static iteration, which has no time: loads and supports must not depend on t",
+                               info.name));
 }
 
 void check_variant_names(SceneCheck& check) {
@@ -97,6 +133,7 @@ void validate(Scene& scene, std::vector<Problem>& problems) {
   check_phases(check);
   check_output(check, body);
   check_integrator(check);
+  check_strategy(check);
   check_variant_names(check);
 }
 

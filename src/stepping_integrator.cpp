@@ -20,7 +20,9 @@ void SteppingIntegrator::start(double t, Vector& y) {
   if (!same_kind(*trial_, y)) throw std::invalid_argument("y is another kind of N_Vector than at the first start");
   t_ = t;
   y_ = &y;
+  system_.forget_force();
   begin(t, y);
+  system_.remember_force();
 }
 
 StepReport SteppingIntegrator::step(double t_stop) {
@@ -54,6 +56,7 @@ void SteppingIntegrator::set_max_step(double h) {
 StepReport SteppingIntegrator::accept(const Attempt& attempt) {
   copy(*trial_, *y_);
   accepted();
+  system_.remember_force();
   t_ = adaptive() ? attempt.t : division_.arrive(t_, attempt.h);
   ++steps_;
   return {.status = StepReport::Status::ok, .t = t_, .h = attempt.h};

@@ -50,6 +50,8 @@ class SteppingIntegrator : public Integrator {
   RelaxationSystem& system() { return system_; }
   const IntegratorOptions& options() const { return options_; }
   bool adaptive() const { return options_.rtol.has_value(); }
+  /// y, which an integration has begun on, (2n).
+  Vector& state() { return *y_; }
 
  private:
   StepReport accept(const Attempt& attempt);

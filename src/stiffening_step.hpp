@@ -14,13 +14,14 @@ namespace stillpoint {
 /// time. A collapse would shrink it without end; past a ten-thousandth the integrator is left to report it.
 class StiffeningStep {
  public:
+  static constexpr double notch = 1.1;
+
   /// full_step [s]: what is right where the stiffening is `initial`; n: unknowns of the phase.
   StiffeningStep(const LagrangianPhase& phase, std::size_t n, double full_step, double initial)
       : phase_(phase), full_step_(full_step), initial_(initial), ahead_(n) {}
 
   /// The step to take from (t, u, v); u, v: (n).
   double longest(double t, ConstVec u, ConstVec v) {
-    constexpr double notch = 1.1;
     constexpr int most_notches = 97;
     const double here = phase_.stiffening(t, u);
     for (notches_ = std::max(0, notches_ - 1); notches_ < most_notches; ++notches_) {

@@ -40,6 +40,7 @@ STILLPOINT_ARKODE(GetLastStep);
 STILLPOINT_ARKODE(GetNumErrTestFails);
 STILLPOINT_ARKODE(GetReturnFlagName);
 STILLPOINT_ARKODE(Reset);
+STILLPOINT_ARKODE(RootInit);
 STILLPOINT_ARKODE(SVtolerances);
 STILLPOINT_ARKODE(SetFixedStep);
 STILLPOINT_ARKODE(SetInitStep);
@@ -48,6 +49,7 @@ STILLPOINT_ARKODE(SetInterpolantType);
 STILLPOINT_ARKODE(SetMaxNumSteps);
 STILLPOINT_ARKODE(SetMaxStep);
 STILLPOINT_ARKODE(SetPostprocessStepFn);
+STILLPOINT_ARKODE(SetRootDirection);
 STILLPOINT_ARKODE(SetStopTime);
 STILLPOINT_ARKODE(SetUserData);
 STILLPOINT_ARKODE(WFtolerances);
@@ -65,6 +67,12 @@ inline int set_cheapest_interpolant(void* arkode) {
   const int code = SetInterpolantType(arkode, ARK_INTERP_LAGRANGE);
   return code == 0 ? SetInterpolantDegree(arkode, 0) : code;
 #endif
+}
+
+/// Cubic dense output from both ends' values and derivatives, for what has to be found inside a step.
+inline int set_hermite_interpolant(void* arkode) {
+  const int code = SetInterpolantType(arkode, ARK_INTERP_HERMITE);
+  return code == 0 ? SetInterpolantDegree(arkode, 3) : code;
 }
 
 /// Keeps SUNDIALS' last message in `last` in place of printing it; `last` outlives the integrator.

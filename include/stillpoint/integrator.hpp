@@ -35,6 +35,7 @@ struct IntegratorOptions {
   std::optional<double> rtol;
   double atol_u = 1e-12;  // [m]
   double atol_v = 1e-12;  // [m/s]
+  StrategyOptions strategy{};
 };
 
 /// What one call of step() did.
@@ -66,6 +67,12 @@ class Integrator {
   virtual void velocity_changed() = 0;
   /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
   virtual bool force_is_current() const { return false; }
+  /// The damping c at present [1/s], where the strategy finds it on the way.
+  virtual std::optional<double> damping_rate() const { return std::nullopt; }
+  /// What an integrator of the same kind has to be given to carry on in the next phase.
+  virtual CarriedOver carried_over() const { return {}; }
+  /// Whether steps are iterates towards one static state: laws of the material remember the last one only.
+  virtual bool static_iteration() const { return false; }
   virtual long steps() const = 0;           // accepted
   virtual long rejected_steps() const = 0;  // tried and refused by the error control or as inadmissible
 };
@@ -90,8 +97,10 @@ std::vector<Method> methods();
 /// Throws std::invalid_argument naming the nearest method where there is none of that name.
 Method find_method(std::string_view name, DampingTreatment treatment = DampingTreatment::automatic);
 
-/// Throws std::invalid_argument where options and method do not fit (rtol for a method without error estimate, a
-/// treatment that the method or the damping does not allow, max_step ≤ 0). The system outlives the integrator.
+/// Where the system's damping strategy owns its iteration this is made in the place of leapfrog.
+/// Throws std::invalid_argument where options and method do not fit (a strategy that does not go with it, rtol for a
+/// method without error estimate, a treatment that the method or the damping does not allow, max_step ≤ 0). The system
+/// outlives the integrator.
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system);
 
 }  // namespace stillpoint

@@ -17,7 +17,8 @@ struct Model {
   std::unique_ptr<LagrangianPhase> phase;
   std::vector<double> u, v;       // initial values, (n) each
   std::optional<double> omega_1;  // [rad/s]; only where something needs it and the body is held
-  double omega_max = 0;           // [rad/s], by power iteration
+  double omega_max = 0;           // [rad/s], by power iteration; for auto a bound by few Lanczos steps
+  int tangent_applications = 0;   // that auto spent on ω_max
   std::optional<double> c;        // of viscous and identity damping
   std::unique_ptr<Damping> damping;
   Method method;

@@ -6,6 +6,8 @@
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/vector.hpp>
 
+#include <optional>
+
 namespace stillpoint {
 
 /// The right-hand side that integrators see. Repeatable, allocates nothing, counts its evaluations.
@@ -28,6 +30,12 @@ class RelaxationSystem {
   void last_out_of_balance(double t, Vec Q) const;
   /// Q += D(v, Q) of local damping, except where a contact holds; v, Q: (n), Q as the two above leave it.
   void add_local_damping(ConstVec v, Vec Q) const;
+
+  /// Q of the last evaluation is that of an accepted step: for local damping by the sign of dQ/dt.
+  void remember_force();
+  void forget_force() { force_remembered_ = false; }
+  /// The c of C = c M from now on, where a strategy finds it on the way: what moving supports and walls see [1/s].
+  void set_damping_rate(double c) { linear_.mass = c; }
 
   /// After an accepted step to (t, y), y: (2n): laws remember, contacts open and close. force_is_current: whether the
   /// last evaluation was there. True where velocities were changed by it.
@@ -57,6 +65,8 @@ class RelaxationSystem {
   LinearDamping linear_;
   VectorSpace vectors_;
   Vector F_, R_, Q_;
+  std::optional<Vector> Q_last_;  // of remember_force()
+  bool force_remembered_ = false;
   double last_t_ = 0;
   double force_scale_ = 0;     // largest ‖F‖ or ‖reactions‖ of residual() and last_residual()
   double internal_scale_ = 0;  // largest ‖R‖ of the same, where there were none of these

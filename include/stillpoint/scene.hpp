@@ -113,6 +113,8 @@ struct DampingSpec {  // [damping]
   std::string strategy = "viscous";
   std::optional<double> c;  // empty: "critical", 2 ω₁
   double alpha = 0.7;
+  Peak peak = Peak::half_step;           // of kinetic
+  Quotient quotient = Quotient::global;  // of adaptive
 };
 
 struct IntegratorSpec {  // [integrator]

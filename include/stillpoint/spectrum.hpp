@@ -28,6 +28,8 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
                                                const SpectrumOptions& = {});
 /// ω_max from above, guaranteed: Gershgorin's circles of the scaled K (see the source for consistent M).
 FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, double t, ConstVec u);
+/// ω_max to about a per cent, mostly from above, for a few applications of K: Lanczos with the residual added.
+FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications = 12);
 /// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K. Not converged, ω = 0, where K is singular: the body is not held.
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
                                                const SpectrumOptions& = {});

@@ -33,8 +33,12 @@ int check(const SceneArguments& arguments) {
   fmt::print("  phases           {}\n", phase.moves_on() ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.supported_degrees_of_freedom(),
              phase.mass().is_lumped() ? "lumped" : "consistent");
-  fmt::print("  damping          {}{}\n", model.damping->name(), model.c ? fmt::format(", c = {:.8g}", *model.c) : "");
-  fmt::print("  omega_max        {:.8g} rad/s\n", model.omega_max);
+  fmt::print("  damping          {}{}: {}\n", model.damping->name(),
+             model.c ? fmt::format(", c = {:.8g}", *model.c) : "", find_damping(model.damping->name()).equation);
+  fmt::print("  omega_max        {:.8g} rad/s{}\n", model.omega_max,
+             model.tangent_applications > 0
+                 ? fmt::format(", a bound by {} applications of the tangent", model.tangent_applications)
+                 : "");
   if (model.critical_step) {
     fmt::print("  critical step    {:.6g} s for {}; the run takes {}{:.6g} s\n", *model.critical_step,
                model.method.name, model.integrator.rtol ? "at most " : "", model.integrator.max_step);

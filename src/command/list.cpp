@@ -27,8 +27,9 @@ void list_integrators() {
 void list_dampings() {
   fmt::print("dampings (damping.strategy)\n");
   for (const DampingInfo& info : damping_strategies()) {
-    fmt::print("  {:<12}{}{}\n", info.name, info.equation,
-               info.source.empty() ? "" : fmt::format("   [{}]", info.source));
+    fmt::print("  {:<14}{}{}{}\n", info.name, info.equation,
+               info.source.empty() ? "" : fmt::format("   [{}]", info.source),
+               info.integrators.empty() ? "" : fmt::format("   with {}", fmt::join(info.integrators, ", ")));
   }
 }
 

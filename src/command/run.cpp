@@ -1,4 +1,5 @@
 // stillpoint run: relaxes a scene and ends in a short table.
+#include <stillpoint/damping.hpp>
 #include <stillpoint/run.hpp>
 
 #include <cmath>
@@ -18,8 +19,11 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   row("status", fmt::format("{}: {}", to_string(s.status), s.reason));
   row("model", fmt::format("{} points, {} degrees of freedom, {} phase{}", s.points, s.dofs, s.phases,
                            s.phases == 1 ? "" : "s"));
-  row("method", fmt::format("{}, {} damping{}, step {:.4g} s", s.integrator, s.damping,
-                            s.c ? fmt::format(" c = {:.6g}", *s.c) : std::string(), s.dt));
+  const bool own = find_damping(s.damping).owns_iteration && s.integrator == "leapfrog";
+  row("method", fmt::format("{}{}, step {:.4g} s",
+                            own ? s.damping + ", an iteration of its own"
+                                : fmt::format("{}, {} damping", s.integrator, s.damping),
+                            s.c ? fmt::format("{} c = {:.6g}", own ? "," : "", *s.c) : std::string(), s.dt));
   row("frequencies", fmt::format("omega_1 {}, omega_max {:.6g}",
                                  s.omega_1 ? fmt::format("{:.6g}", *s.omega_1) : "not needed", s.omega_max));
   row("reached", fmt::format("t = {:.6g} s in {} steps, {} force evaluations", s.t, s.steps, s.rhs_evaluations));

@@ -26,6 +26,8 @@ const std::vector<BadScene> kBadGridsAndBodies = {
      "grid.cells[1]: 4 cells between"},
     {"half a cell", "[8, 4]\nbasis", "[8, 4.5]\nbasis", "7:13", "grid.cells[1]: must be a whole number"},
     {"too many cells", "[8, 4]\nbasis", "[1000000, 1000]\nbasis", "7:9", "grid.cells: 1e+09 cells are more"},
+    {"a wall that drives what is halted", "[mass]", "[damping]\nstrategy = \"kinetic\"\n[mass]", "23:12",
+     "'kinetic' sets velocities to zero, also those that a moving wall gives"},
     {"no wall to follow", "follow = \"gate\"", "follow = \"gat\"", "9:10",
      "grid.follow: there is no wall 'gat'; did you mean 'gate'?"},
     {"past the grid", "max = [8, 3]", "max = [8, 5]", "11:11", "body.max[1]: 5 lies outside the grid, 0 to 4"},

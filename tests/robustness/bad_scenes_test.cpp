@@ -74,6 +74,27 @@ const std::vector<BadScene> kBadScenes = {
     {"critical misspelt", "c = 0.3", "c = \"critcal\"", "22:5", "did you mean 'critical'?"},
     {"alpha of 1", "c = 0.3", "alpha = 1.0", "22:9", "damping.alpha: must be at least 0 and less than 1, not 1"},
     {"no method like it", "\"leapfrog\"", "\"leepfrog\"", "24:10", "did you mean 'leapfrog'?"},
+    {"a key of another strategy", "c = 0.3", "peak = \"parabolic\"", "22:8",
+     "damping.peak: goes with strategy = \"kinetic\", not with 'viscous'"},
+    {"a quotient of no strategy", "c = 0.3", "quotient = \"global\"", "22:12", "goes with strategy = \"adaptive\""},
+    {"no peak like it", "\"viscous\"\nc = 0.3", "\"kinetic\"\npeak = \"half\"", "22:8",
+     "expected one of half-step, parabolic"},
+    {"c of a strategy that finds its own", "\"viscous\"", "\"adaptive\"", "22:5",
+     "damping.c: goes with strategy = \"viscous\" or \"identity\", not with 'adaptive'"},
+    {"alpha of a strategy without", "\"viscous\"\nc = 0.3", "\"fire\"\nalpha = 0.3", "22:9",
+     "goes with strategy = \"one-sided\", \"cundall\" or \"combined\", not with 'fire'"},
+    {"an iteration and another method", "\"viscous\"\nc = 0.3\n[integrator]\nmethod = \"leapfrog\"",
+     "\"fire\"\n[integrator]\nmethod = \"erk:rk4\"", "23:10",
+     "damping 'fire' does not go with method 'erk:rk4'; it goes with leapfrog"},
+    {"combined and many stages", "\"viscous\"\nc = 0.3\n[integrator]\nmethod = \"leapfrog\"",
+     "\"combined\"\n[integrator]\nmethod = \"gsl:rk4\"", "23:10", "it goes with leapfrog, symplectic-euler"},
+    {"a treatment of no C v", "\"viscous\"\nc = 0.3\n[integrator]", "\"auto\"\n[integrator]\ndamping = \"lagged\"",
+     "23:11", "damping 'auto' is no C v to be treated"},
+    {"Chebyshev's step", "\"viscous\"\nc = 0.3", "\"chebyshev\"", "24:17", "takes its steps from the whole spectrum"},
+    {"a velocity without time", "\"viscous\"\nc = 0.3", "\"cg\"\n[initial]\nv = 1.0", "23:5",
+     "damping 'cg' is a static iteration, which has no velocity"},
+    {"a load in time without time", "\"P0\"\n[damping]\nstrategy = \"viscous\"\nc = 0.3",
+     "\"P0*t\"\n[damping]\nstrategy = \"lbfgs\"", "21:12", "loads and supports must not depend on t"},
     {"no step", "step_fraction = 0.9", "step = 0", "25:8", "integrator.step: must be greater than 0, not 0"},
     {"two steps", "step_fraction = 0.9", "step = 1\nstep_fraction = 0.9", "26:17", "either step or step_fraction"},
     {"unstable step", "step_fraction = 0.9", "step_fraction = 1.1", "25:17", "1.1 of the critical step is unstable"},
@@ -199,7 +220,7 @@ TEST_CASE("a wrong override is shown as it was typed") {
   CHECK(only_problem_of("probe.name=a") ==
         "--set probe.name=a: probe: is an array; --set can replace it, or reach into it with an index");
   CHECK(only_problem_of("damping.d=1") ==
-        "--set damping.d=1: damping: unknown key 'd'; expected one of strategy, c, alpha");
+        "--set damping.d=1: damping: unknown key 'd'; expected one of strategy, c, alpha, peak, quotient");
   CHECK(only_problem_of("damping.c=pi/") ==
         "--set damping.c=pi/: damping.c: the formula ends too early (at character 4 of 'pi/')");
   CHECK(only_problem_of("body=[]") == "--set body=[]: body: none is given: a scene has a body with a material");

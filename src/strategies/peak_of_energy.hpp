@@ -1,0 +1,37 @@
+// The peak of a kinetic energy that is known at half steps: see kinetic.cpp for the formulas.
+#pragma once
+
+#include <stillpoint/damping.hpp>
+
+#include <algorithm>
+
+namespace stillpoint {
+
+class PeakOfEnergy {
+ public:
+  explicit PeakOfEnergy(Peak place) : place_(place) {}
+
+  /// Only the energy now is known, that at rest or after a velocity was changed from outside.
+  void restart(double energy) {
+    before_ = 0;
+    now_ = energy;
+  }
+  void advance(double energy) {
+    before_ = now_;
+    now_ = energy;
+  }
+  /// Whether the next energy shows that the peak lies behind.
+  bool passed(double next) const { return next < now_; }
+  /// How many steps lie between the peak and u_n: ½ − s.
+  double steps_back(double next) const {
+    if (place_ == Peak::half_step) return 0.5;
+    const double curvature = before_ - 2 * now_ + next;  // < 0, as next < now and before ≤ now
+    return 0.5 - std::clamp(0.5 * (before_ - next) / curvature, -0.5, 0.5);
+  }
+
+ private:
+  Peak place_;
+  double before_ = 0, now_ = 0;  // K_0 and K_1, of any common scale
+};
+
+}  // namespace stillpoint
