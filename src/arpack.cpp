@@ -93,7 +93,7 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
 
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
   const Stopwatch watch;
-  const FactorisedStiffness K(system, t, u);
+  const FactorisedStiffness K(system.mass(), system.elastic_tangent_matrix(t, u));
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
   const LinearMap solve = [&](ConstVec b, Vec x) { K.solve(b, x); };
   const auto [lambda, applications, converged, status] = nearest_eigenvalue(solve, system.mass(), 0, options);

@@ -43,7 +43,7 @@ double highest_frequency_for_auto(const Scene& scene, Model& model, const Lagran
 
 // Whether nothing but equilibrium is asked for, under a pull that stays: then inertia is free, and velocities may be
 // reset.
-bool wants_equilibrium_only(const Scene& scene) { return scene.stop.residual > 0 && !pulls_vary(scene); }
+bool wants_equilibrium_only(const Scene& scene) { return scene.stop.wants_equilibrium() && !pulls_vary(scene); }
 
 // auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
 // body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
@@ -193,7 +193,7 @@ void set_tolerances(const Scene& scene, Model& model) {
 double step_fraction(const Scene& scene, const LagrangianPhase& phase) {
   constexpr double of_auto = 0.95;
   if (scene.damping.strategy == "chebyshev") return phase.stiffens() ? 1 / StiffeningStep::notch : 1;
-  if (scene.damping.strategy == "auto" && !scene.where.contains("integrator.step_fraction")) return of_auto;
+  if (scene.damping.strategy == "auto") return of_auto;
   return scene.integrator.step_fraction;
 }
 
@@ -248,11 +248,16 @@ Model make_model(const Scene& scene) {
   const DampingInfo& strategy = find_damping(scene.damping.strategy);
   const bool critical = strategy.takes_c && !scene.damping.c;
   const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
-  if (critical || own_scale || strategy.needs_omega_1 || scene.stop.residual > 0) {
+  if (critical || own_scale || strategy.needs_omega_1 || scene.stop.wants_equilibrium()) {
     const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
     if (lowest.converged) {
       model.omega_1 = lowest.omega;
     } else {
+      if (scene.stop.distance > 0) {
+        reject(scene, "stop.distance",
+               fmt::format("a distance is certified by omega_1, but {}; expected a support, or stop.residual",
+                           lowest.status));
+      }
       model.notes.push_back(
           fmt::format("omega_1 is not known ({}): equilibrium is held for 100 of the shortest periods", lowest.status));
     }
@@ -268,7 +273,7 @@ Model make_model(const Scene& scene) {
                       lowest.status));
     }
   }
-  if (scene.stop.residual > 0 && scene.stop.time == 0 && pulls_vary(scene)) {
+  if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && pulls_vary(scene)) {
     model.notes.push_back(
         "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
         "equilibrium");
@@ -288,6 +293,9 @@ Model make_model(const Scene& scene) {
                                .steady = wants_equilibrium_only(scene)};
   set_tolerances(scene, model);
   choose_step(scene, model);
+  if (model.phase->stiffens() && !scene.integrator.step) {
+    model.initial_stiffening = model.phase->stiffening(0, model.u);
+  }
   return model;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -29,7 +30,8 @@ std::string to_string(RunStatus status) {
   return "unknown";
 }
 
-RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale, bool settled) {
+RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale, bool settled,
+                           std::optional<double> distance) {
   next_check_ = t + options_.hold / checks_a_hold;
   peak_kinetic_energy_ = std::max(peak_kinetic_energy_, kinetic_energy);
   if (!std::isfinite(residual) || !std::isfinite(kinetic_energy)) {
@@ -37,9 +39,10 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
         fmt::format("residual {:.3g} and kinetic energy {:.3g} at t = {:.6g}: not finite", residual, kinetic_energy, t);
     return RunStatus::diverged;
   }
-  if (options_.residual <= 0) return RunStatus::running;
+  if (options_.residual <= 0 && options_.distance <= 0) return RunStatus::running;
 
-  const bool balanced = settled && residual <= options_.residual;
+  const bool near = options_.distance <= 0 || (distance && *distance <= options_.distance);
+  const bool balanced = settled && near && (options_.residual <= 0 || residual <= options_.residual);
   constexpr double rounding = 1e-20;  // of an energy: velocities to ten digits
   const double rest = std::max(options_.kinetic_energy * peak_kinetic_energy_, rounding * work_scale);
   const bool at_rest = options_.kinetic_energy <= 0 || kinetic_energy <= rest;
@@ -49,12 +52,15 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   }
   if (balanced_since_ < 0) balanced_since_ = t;
   if (t - balanced_since_ < options_.hold * (1 - 1e-12)) return RunStatus::running;
-  reason_ = fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual);
+  std::vector<std::string> tests;
+  if (options_.residual > 0) tests.push_back(fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual));
+  if (options_.distance > 0) tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
   if (options_.kinetic_energy > 0) {
-    reason_ +=
-        fmt::format(" and kinetic energy {:.3g} <= {:.3g} of its peak",
-                    peak_kinetic_energy_ > 0 ? kinetic_energy / peak_kinetic_energy_ : 0.0, options_.kinetic_energy);
+    tests.push_back(fmt::format("kinetic energy {:.3g} <= {:.3g} of its peak",
+                                peak_kinetic_energy_ > 0 ? kinetic_energy / peak_kinetic_energy_ : 0.0,
+                                options_.kinetic_energy));
   }
+  reason_ = fmt::format("{}", fmt::join(tests, " and "));
   reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);
   return RunStatus::equilibrium;
 }

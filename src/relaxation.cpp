@@ -104,6 +104,16 @@ double RelaxationSystem::last_residual() {
   return unbalanced / internal_scale_;
 }
 
+// ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q
+double RelaxationSystem::distance(const Vector& u, double omega_1) {
+  if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
+  system_.mass().solve(Q_.span(), Q_inverse_->span());
+  const double off = std::sqrt(dot(Q_, *Q_inverse_));
+  system_.mass().apply(u.span(), Q_inverse_->span());
+  const double size = std::sqrt(dot(u, *Q_inverse_));
+  return off == 0 ? 0 : off / (omega_1 * omega_1 * size);
+}
+
 double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
 
 double RelaxationSystem::kinetic_energy(const Vector& v) {

@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "certificate.hpp"
 #include "exact_error.hpp"
 #include "history.hpp"
 #include "inertia.hpp"
 #include "load_schedule.hpp"
+#include "motion.hpp"
 #include "stages.hpp"
-#include "stiffening_step.hpp"
 #include "stopwatch.hpp"
 
 namespace stillpoint {
@@ -23,6 +25,7 @@ namespace {
 
 MonitorOptions monitor_options(const Scene& scene, const Model& model) {
   return {.residual = scene.stop.residual,
+          .distance = scene.stop.distance,
           .kinetic_energy = scene.stop.kinetic_energy,
           .hold = model.hold,
           .end_time = scene.stop.time,
@@ -45,7 +48,7 @@ int exit_status_of(RunStatus status, const Scene& scene) {
     case RunStatus::equilibrium:
       return 0;
     case RunStatus::end_time:
-      return scene.stop.residual > 0 ? 3 : 0;
+      return scene.stop.wants_equilibrium() ? 3 : 0;
     case RunStatus::diverged:
     case RunStatus::failed:
       return 4;
@@ -76,28 +79,6 @@ auto open_output(const std::filesystem::path& out, const Open& open) {
   }
 }
 
-/// The motion through one phase: its unknowns and what integrates them.
-struct Motion {
-  Motion(Model& model, const VectorSpace& vectors, double t, ConstVec u0, ConstVec v0)
-      : relaxation(*model.phase, *model.damping, vectors),
-        y(vectors.make(2 * model.phase->size())),
-        u(vectors.view(first_half(y.span()))),
-        v(vectors.view(second_half(y.span()))),
-        integrator(make_integrator(model.integrator, relaxation)) {
-    std::ranges::copy(u0, first_half(y.span()).begin());
-    std::ranges::copy(v0, second_half(y.span()).begin());
-    integrator->start(t, y);
-  }
-  Motion(const Motion&) = delete;
-  Motion& operator=(const Motion&) = delete;
-
-  RelaxationSystem relaxation;
-  Vector y;     // [u; v]
-  Vector u, v;  // its halves, in place
-  std::unique_ptr<Integrator> integrator;
-  std::optional<StiffeningStep> stiffening;
-};
-
 /// One relaxation, from the scene's initial values to its end.
 class Run {
  public:
@@ -110,14 +91,13 @@ class Run {
         inertia_(*model_.phase),
         history_(open_output(options.out, [&] { return History(options.out, columns()); })),
         stages_(open_output(options.out, [&] { return Stages(scene, *model_.phase, options.out); })),
+        certificate_(*model_.phase, model_.omega_1),
         interval_(output_interval(scene, model_)) {
-    // A step that was asked for as such is left alone.
-    if (model_.phase->stiffens() && !scene.integrator.step) initial_stiffening_ = model_.phase->stiffening(0, model_.u);
     begin_phase(model_.u, model_.v);
   }
 
   Summary relax() {
-    accept();
+    motion_->accept(t_);
     record();
     stages_.look(t_, u(), v());
     const Stopwatch stepping;
@@ -133,7 +113,7 @@ class Run {
         break;
       }
       step_ = step.h;
-      accept();
+      motion_->accept(t_);
       watch();
       if (t_ >= t_row || status_ != RunStatus::running) record();
       stages_.look(t_, u(), v());
@@ -141,9 +121,10 @@ class Run {
       if (status_ == RunStatus::running && model_.phase->share_of_phase(t_, u()) >= 1) next_phase();
     }
     stepping_s_ = stepping.seconds();
-    commit_static();
+    motion_->finish(t_);
     stages_.finish(t_, u(), v());
     history_.finish();
+    if (options_.at_end) options_.at_end(*model_.phase, t_, u(), v());
     return summary();
   }
 
@@ -157,19 +138,16 @@ class Run {
   std::vector<std::string> columns() const {
     std::vector<std::string> all = probes_.columns();
     std::ranges::copy(inertia_.columns(), std::back_inserter(all));
+    if (has_distance()) all.emplace_back("distance");
     return all;
   }
 
   void begin_phase(ConstVec u0, ConstVec v0) {
     motion_.emplace(model_, vectors_, t_, u0, v0);
-    if (initial_stiffening_) {
-      motion_->stiffening.emplace(*model_.phase, model_.phase->size(), model_.integrator.max_step,
-                                  *initial_stiffening_);
-    }
-    schedule_.emplace(scene_, *model_.phase, scene_.stop.residual > 0 ? scene_.stop.time : 0);
+    schedule_.emplace(scene_, *model_.phase, scene_.stop.wants_equilibrium() ? scene_.stop.time : 0);
   }
   void next_phase() {
-    commit_static();
+    motion_->finish(t_);
     inertia_.advance(t_, motion_->relaxation.last_external_force(), u());
     try {
       const std::vector<double> v0 = model_.phase->begin_next_phase(t_, u(), v());
@@ -193,19 +171,6 @@ class Run {
     return status_ == RunStatus::running;
   }
 
-  // A static iteration has one increment of the phase, which laws remember when it is over.
-  void commit_static() {
-    if (motion_->integrator->static_iteration()) motion_->relaxation.accept(t_, motion_->y.span(), true);
-  }
-
-  void accept() {
-    if (motion_->integrator->static_iteration()) return;
-    if (motion_->relaxation.accept(t_, motion_->y.span(), motion_->integrator->force_is_current())) {
-      motion_->integrator->velocity_changed();
-    }
-    if (motion_->stiffening) motion_->integrator->set_max_step(motion_->stiffening->longest(t_, u(), v()));
-  }
-
   // A row that rounding puts next to the end is the row at the end.
   double next_row_time() const {
     const double t_row = static_cast<double>(rows_) * interval_, end = scene_.stop.time;
@@ -220,16 +185,26 @@ class Run {
   void measure() {
     if (measured_at_ == t_) return;
     measured_at_ = t_;
-    residual_ = motion_->integrator->force_is_current() ? motion_->relaxation.last_residual()
-                                                        : motion_->relaxation.residual(t_, u());
-    work_scale_ = motion_->relaxation.work_scale(motion_->u);
-    kinetic_energy_ = motion_->relaxation.kinetic_energy(motion_->v);
+    residual_ = motion_->residual(t_);
+    distance_ = certificate_.distance(motion_->relaxation, motion_->u_vector);
+    work_scale_ = motion_->relaxation.work_scale(motion_->u_vector);
+    kinetic_energy_ = motion_->relaxation.kinetic_energy(motion_->v_vector);
+  }
+
+  bool has_distance() const { return model_.omega_1 && !model_.phase->moves_on(); }
+  // The distance by the stiffness that the body has now.
+  void look_at_tangent() {
+    if (certificate_.refresh(t_, u(), residual_)) {
+      motion_->relaxation.residual(t_, u());
+      distance_ = certificate_.distance(motion_->relaxation, motion_->u_vector);
+    }
   }
 
   void watch() {
     if (monitor_.due(t_)) {
       measure();
-      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_->settled(t_));
+      if (distance_ && *distance_ <= scene_.stop.distance) look_at_tangent();
+      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_->settled(t_), distance_);
     }
     if (status_ == RunStatus::running) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
     reason_ = monitor_.reason();
@@ -244,6 +219,7 @@ class Run {
     inertia_.advance(t_, motion_->relaxation.last_external_force(), u());
     std::vector<double> values = probes_.read(t_, u(), v());
     std::ranges::copy(inertia_.values(kinetic_energy_), std::back_inserter(values));
+    if (has_distance()) values.push_back(distance_.value_or(std::numeric_limits<double>::quiet_NaN()));
     history_.add({t_, steps(), evaluations(), residual_, kinetic_energy_}, values);
     while (static_cast<double>(rows_) * interval_ <= t_) ++rows_;
   }
@@ -275,6 +251,8 @@ class Run {
       s.ns_per_point_step = 1e9 * stepping_s_ / (static_cast<double>(s.steps) * static_cast<double>(s.points));
     for (const PointArray& array : model_.phase->point_arrays()) s.bytes_per_point += array.bytes_per_point;
     s.residual = residual_;
+    if (scene_.stop.wants_equilibrium()) look_at_tangent();
+    s.distance = distance_;
     s.kinetic_energy = kinetic_energy_;
     s.omega_1 = model_.omega_1;
     s.omega_max = model_.omega_max;
@@ -312,8 +290,8 @@ class Run {
   Inertia inertia_;
   History history_;
   Stages stages_;
+  Certificate certificate_;
   double interval_;  // between rows [s]
-  std::optional<double> initial_stiffening_;
 
   std::optional<Motion> motion_;  // of the present phase
   std::optional<LoadSchedule> schedule_;
@@ -323,6 +301,7 @@ class Run {
   double t_ = 0, step_ = 0;
   long rows_ = 0;  // number of the next row: it is due at rows_ · interval_
   double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0;
+  std::optional<double> distance_;
   std::optional<double> measured_at_;  // the t of these
   double stepping_s_ = 0, next_progress_ = 0;
   RunStatus status_ = RunStatus::running;

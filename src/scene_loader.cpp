@@ -60,8 +60,10 @@ void drop_keys_of_other_strategies(toml::table& root) {
   drop_keys_of_other_choices(root, "damping", "strategy", takes, {"c", "alpha", "peak", "quotient"});
   const auto strategy = root["damping"]["strategy"];
   toml::table* const integrator = root["integrator"].as_table();
-  if (!integrator || !from_override(strategy.node()) || strategy.value<std::string>() != "chebyshev") return;
-  for (const char* step : {"step", "step_fraction"}) {  // it has none to choose
+  const auto& all = damping_strategies();
+  const auto info = std::ranges::find(all, strategy.value_or(std::string()), &DampingInfo::name);
+  if (!integrator || !from_override(strategy.node()) || info == all.end() || !info->has_own_step) return;
+  for (const char* step : {"step", "step_fraction"}) {  // it has its own
     if (!from_override(integrator->get(step))) integrator->erase(step);
   }
 }

@@ -123,6 +123,7 @@ void read_integrator(TableReader integrator, Scene& scene) {
 void read_stop(TableReader stop, Scene& scene) {
   StopSpec& spec = scene.stop;
   assign(spec.residual, stop.number("residual", kNotNegative));
+  assign(spec.distance, stop.number("distance", kNotNegative));
   assign(spec.kinetic_energy, stop.number("kinetic_energy", kNotNegative));
   assign(spec.hold, stop.number("hold", kNotNegative));
   assign(spec.time, stop.number("time", kNotNegative));
@@ -130,8 +131,8 @@ void read_stop(TableReader stop, Scene& scene) {
   assign(spec.wall_time, stop.number("wall_time", kNotNegative));
   // The default number of steps guards against endless runs; it is no aim that a scene may rely on.
   const bool limited = (stop.has("steps") && spec.steps > 0) || spec.wall_time > 0;
-  if (spec.residual == 0 && spec.time == 0 && !limited)
-    stop.problem("residual", "nothing would ever stop this run: set residual, time, steps or wall_time");
+  if (!spec.wants_equilibrium() && spec.time == 0 && !limited)
+    stop.problem("residual", "nothing would ever stop this run: set residual, distance, time, steps or wall_time");
   stop.report_unknown_keys();
 }
 

@@ -55,9 +55,9 @@ void check_strategy(SceneCheck& check) {
   if (!info.owns_iteration) return;
   if (scene.integrator.treatment != DampingTreatment::automatic)
     check.add("integrator.damping", fmt::format("damping '{}' is no C v to be treated; leave this out", info.name));
-  if (info.name == "chebyshev") {
+  if (info.has_own_step) {
     for (const char* step : {"integrator.step", "integrator.step_fraction"})
-      if (check.written(step)) check.add(step, "'chebyshev' takes its steps from the whole spectrum; leave this out");
+      if (check.written(step)) check.add(step, fmt::format("damping '{}' has its own step; leave this out", info.name));
   }
   const auto moves = [](const WallSpec& wall) { return wall.motion.uses('t'); };
   if (info.resets_velocity && std::ranges::any_of(scene.walls, moves))

@@ -84,6 +84,10 @@ void check_phases(SceneCheck& check) {
     check.add(
         "exact.u",
         fmt::format("is a function of undeformed places, which later phases do not know; leave it out, {}", one_phase));
+  if (scene.stop.distance > 0)
+    check.add("stop.distance", fmt::format("is certified for one set of unknowns, not from phase to phase; take "
+                                           "stop.residual, {}",
+                                           one_phase));
   check_moving_walls(check, one_phase);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,11 +50,13 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
   return estimate;
 }
 
-FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
-                                               const SpectrumOptions& options) {
+namespace {
+
+// x ← K⁻¹ M x
+FrequencyEstimate lowest_frequency(const SemiDiscrete& system, SparseMatrix of_body, const SpectrumOptions& options) {
   require_valid(options);
   const Stopwatch watch;
-  const FactorisedStiffness K(system, t, u);
+  const FactorisedStiffness K(system.mass(), std::move(of_body));
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
   const LinearMap apply_M = [&](ConstVec x, Vec Mx) { system.mass().apply(x, Mx); };
   const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
@@ -68,6 +71,18 @@ FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, doubl
     estimate.omega = std::sqrt(omega_squared);
   }
   return estimate;
+}
+
+}  // namespace
+
+FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
+                                               const SpectrumOptions& options) {
+  return lowest_frequency(system, system.elastic_tangent_matrix(t, u), options);
+}
+
+FrequencyEstimate omega_1_of_tangent(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
+  const SparseMatrix K = system.tangent_matrix(t, u), K_transposed = K.transpose();
+  return lowest_frequency(system, 0.5 * (K + K_transposed), options);
 }
 
 }  // namespace stillpoint

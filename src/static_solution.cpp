@@ -25,7 +25,7 @@ class Newton {
       return finished();
     }
     std::vector<double> u(u_.begin(), u_.end());
-    double size = 1.0 / options_.load_steps;
+    double size = std::min(1.0 / options_.load_steps, options_.max_load_step);
     while (report_.load_factor < 1) {
       const double s = report_.load_factor, left = 1 - s;
       LoadStep& step = report_.load_steps.emplace_back();
@@ -37,7 +37,7 @@ class Newton {
         report_.load_factor = step.to;
         if (system_.history_dependent()) system_.commit(t_, u_);
         constexpr std::size_t easy = 9;
-        if (step.residuals.size() <= easy) size *= 2;
+        if (step.residuals.size() <= easy) size = std::min(2 * size, options_.max_load_step);
       } else {
         size = (step.to - s) / 2;
         if (size < options_.min_load_step) {
@@ -172,6 +172,7 @@ std::string NewtonOptions::validate() const {
   if (!(tolerance > 0)) return fmt::format("tolerance = {}, expected > 0", tolerance);
   if (max_iterations < 1) return fmt::format("max_iterations = {}, expected ≥ 1", max_iterations);
   if (load_steps < 1) return fmt::format("load_steps = {}, expected ≥ 1", load_steps);
+  if (!(max_load_step > 0)) return fmt::format("max_load_step = {}, expected > 0", max_load_step);
   if (!(min_load_step > 0)) return fmt::format("min_load_step = {}, expected > 0", min_load_step);
   if (!(symmetry >= 0)) return fmt::format("symmetry = {}, expected ≥ 0", symmetry);
   if (max_cg_iterations < 0) return fmt::format("max_cg_iterations = {}, expected ≥ 0", max_cg_iterations);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace stillpoint {
 namespace {
@@ -18,11 +19,8 @@ double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass) {
 
 }  // namespace
 
-FactorisedStiffness::FactorisedStiffness(const SemiDiscrete& system, double t, ConstVec u)
-    : mass_(system.mass()),
-      K_(system.elastic_tangent_matrix(t, u)),
-      factor_(K_),
-      scale_(largest_diagonal_ratio(K_, mass_)) {}
+FactorisedStiffness::FactorisedStiffness(const Mass& mass, SparseMatrix K)
+    : mass_(mass), K_(std::move(K)), factor_(K_), scale_(largest_diagonal_ratio(K_, mass_)) {}
 
 std::string FactorisedStiffness::refusal(double omega_squared) const {
   if (mass_.size() == 0) return "no free degrees of freedom";

@@ -7,10 +7,10 @@
 
 namespace stillpoint {
 
-/// K = ∂R/∂u at (t, u), elastic, assembled and factorised. Throws std::runtime_error where CHOLMOD itself fails.
+/// A symmetric K, assembled and factorised. Throws std::runtime_error where CHOLMOD itself fails.
 class FactorisedStiffness {
  public:
-  FactorisedStiffness(const SemiDiscrete& system, double t, ConstVec u);
+  FactorisedStiffness(const Mass& mass, SparseMatrix K);
 
   /// Whether there is a factor to solve with.
   bool usable() const { return mass_.size() > 0 && factor_.positive_definite(); }

@@ -51,6 +51,7 @@ std::string to_json(const Summary& s) {
                      {"ns_per_point_step", number(s.ns_per_point_step)},
                      {"bytes_per_point", number(s.bytes_per_point)},
                      {"residual", number(s.residual)},
+                     {"distance", number(s.distance)},
                      {"kinetic_energy", number(s.kinetic_energy)},
                      {"external_work", number(s.external_work)},
                      {"mass_error", s.transfer ? number(s.transfer->mass) : Json(nullptr)},

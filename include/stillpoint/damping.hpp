@@ -84,6 +84,7 @@ struct DampingInfo {
   bool takes_peak = false, takes_quotient = false;
   bool needs_omega_1 = false;    // before it begins
   bool owns_iteration = false;   // in the place of leapfrog's step
+  bool has_own_step = false;     // integrator.step and step_fraction have no part in it
   bool is_static = false;        // an iteration without time: a law remembers its last state only
   bool resets_velocity = false;  // of all unknowns, also of those that a wall drives
   /// The integrators that it goes with, by the beginning of their names; empty: all.

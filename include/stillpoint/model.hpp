@@ -25,7 +25,9 @@ struct Model {
   std::optional<double> critical_step;  // [s]; none for a multistep method
   IntegratorOptions integrator;         // ready for make_integrator()
   double hold = 0;                      // how long equilibrium has to hold [s]
-  std::vector<std::string> notes;       // what a user should know of this scene's accuracy, a sentence each
+  // stiffening() at the beginning, where the step is to follow it: it was not asked for as such.
+  std::optional<double> initial_stiffening;
+  std::vector<std::string> notes;  // what a user should know of this scene's accuracy, a sentence each
 };
 
 /// Throws SceneError for what only shows once the scene is discretised: a body that is not held where c = "critical",

@@ -1,13 +1,14 @@
 // Decides when a relaxation is over: at rest and in balance for a whole period, at an end, or gone wrong.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace stillpoint {
 
 enum class RunStatus {
   running,
-  equilibrium,  // residual ≤ its limit and kinetic energy ≤ its share of the peak, both held
+  equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, all held
   end_time,     // t = stop.time
   step_limit,   // stop.steps taken
   time_limit,   // stop.wall_time spent
@@ -20,9 +21,10 @@ enum class RunStatus {
 std::string to_string(RunStatus status);
 
 struct MonitorOptions {
-  double residual = 0;        // ‖F − R‖/‖F‖; 0: no test for equilibrium
-  double kinetic_energy = 0;  // share of the largest kinetic energy so far; 0: only the residual counts
-  double hold = 0;            // both held for this long [s]: a kinetic energy alone is small at every turning point
+  double residual = 0;        // ‖F − R‖/‖F‖; 0: no test of it
+  double distance = 0;        // certified, relative; 0: no test of it. Without either there is no equilibrium
+  double kinetic_energy = 0;  // share of the largest kinetic energy so far; 0: only the others count
+  double hold = 0;            // all held for this long [s]: a kinetic energy alone is small at every turning point
   double end_time = 0;        // [s]; 0: none
   long steps = 0;             // 0: no limit
   double wall_time = 0;       // [s]; 0: no limit
@@ -37,7 +39,9 @@ class Monitor {
   /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
   /// the work counts as rest, also in a body that never moved.
   /// settled: whether the loads are what they will be at the end; before, balance is none.
-  RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true);
+  /// distance: where there is a test of it; unknown counts as far.
+  RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true,
+                    std::optional<double> distance = std::nullopt);
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps, double wall_time);
 

@@ -47,6 +47,9 @@ class RelaxationSystem {
   double residual(double t, ConstVec u);
   /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
   double last_residual();
+  /// ‖M⁻¹Q‖_M/(ω₁² ‖u‖_M) with Q of the last residual(): in a linear system no less than ‖u − u*‖_M/‖u‖_M, since
+  /// u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁². Infinite where u = 0 is no equilibrium. u: (n).
+  double distance(const Vector& u, double omega_1);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);
   /// F of the last evaluation, (n) [N].
@@ -67,6 +70,7 @@ class RelaxationSystem {
   Vector F_, R_, Q_;
   std::optional<Vector> Q_last_;  // of remember_force()
   bool force_remembered_ = false;
+  std::optional<Vector> Q_inverse_;  // M⁻¹Q, work of distance()
   double last_t_ = 0;
   double force_scale_ = 0;     // largest ‖F‖ or ‖reactions‖ of residual() and last_residual()
   double internal_scale_ = 0;  // largest ‖R‖ of the same, where there were none of these

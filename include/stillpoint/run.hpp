@@ -28,6 +28,8 @@ struct RunOptions {
   int threads = 0;                                  // 0: as many as OpenMP would take
   std::function<bool()> interrupted{};              // asked after every step; true ends the run in good order
   std::function<void(const Progress&)> progress{};  // told a few times a second
+  /// Shown where the run ended: the phase, t, u and v.
+  std::function<void(const LagrangianPhase&, double, ConstVec, ConstVec)> at_end{};
 };
 
 /// A moment at which all fields were written.
@@ -56,6 +58,7 @@ struct Summary {
   double wall_s = 0, ns_per_point_step = 0;
   double bytes_per_point = 0;
   double residual = 0, kinetic_energy = 0;
+  std::optional<double> distance;  // from equilibrium, certified, relative; of one phase with a known omega_1
   std::optional<double> omega_1;
   double omega_max = 0;
   std::optional<double> c;

@@ -129,11 +129,14 @@ struct IntegratorSpec {  // [integrator]
 
 struct StopSpec {                // [stop]: a test set to 0 is off
   double residual = 1e-6;        // ‖F − R‖/‖F‖
-  double kinetic_energy = 1e-6;  // share of the largest kinetic energy so far; goes with residual
+  double distance = 0;           // ‖u − u*‖_M/‖u‖_M, certified
+  double kinetic_energy = 1e-6;  // share of the largest kinetic energy so far; goes with these two
   double hold = 1;               // both held for this many periods 2π/ω₁
   double time = 0;               // end time [s]
   long steps = 10'000'000;
   double wall_time = 0;  // [s]
+
+  bool wants_equilibrium() const { return residual > 0 || distance > 0; }
 };
 
 struct OutputSpec {            // [output]

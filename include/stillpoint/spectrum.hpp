@@ -33,6 +33,8 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
 /// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K. Not converged, ω = 0, where K is singular: the body is not held.
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
                                                const SpectrumOptions& = {});
+/// The same for the tangent that is consistent with what the body does at u, yielding included: of its symmetric part.
+FrequencyEstimate omega_1_of_tangent(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
 /// ω₁ by ARPACK in shift-invert about 0, and ω_max by ARPACK in shift-invert about the Gershgorin bound.
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
 FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});

@@ -18,6 +18,7 @@ struct NewtonOptions {
   double tolerance = 1e-10;     // of ‖F − R‖/‖F‖
   int max_iterations = 25;      // in a load step
   int load_steps = 1;           // to begin with: halved where one fails, doubled where it is easy
+  double max_load_step = 1;     // share of the load, so that a path is followed closely
   double min_load_step = 1e-3;  // share of the load: a shorter step that fails is the end
   double symmetry = 1e-12;      // K is symmetric where ‖K − Kᵀ‖ ≤ this ‖K‖ (Frobenius)
   int max_cg_iterations = 0;    // in a Newton iteration; 0: n

@@ -77,7 +77,7 @@ TEST_CASE("a run writes its summary and history whole, with every key of the con
   for (const char* key : {"u_rel_l2", "u_rel_max", "stress_rel_l2"}) CHECK(json["error"][key] < 1e-8);
   CHECK(json["probes"]["p12"]["u"].get<double>() == Approx(0.001 * 115 / 12).epsilon(1e-8));
   const auto history = lines(out / "history.csv");
-  CHECK(history.front() == "t,steps,rhs_evaluations,residual,kinetic_energy,p6.u,p6.stress,p12.u,p12.stress");
+  CHECK(history.front() == "t,steps,rhs_evaluations,residual,kinetic_energy,p6.u,p6.stress,p12.u,p12.stress,distance");
   CHECK(history.size() > 100);
 }
 
