@@ -1,6 +1,8 @@
 // The subcommands of `stillpoint`. Each returns the exit status.
 #pragma once
 
+#include <stillpoint/compare.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,7 +21,15 @@ struct RunArguments {
   bool quiet = false;
 };
 
+struct CompareArguments {
+  SceneArguments scene;
+  std::filesystem::path out;  // empty: out/<scene's stem>-compare
+  CompareOptions options;
+  bool quiet = false;
+};
+
 int run(const RunArguments& arguments);
+int compare(const CompareArguments& arguments);
 int check(const SceneArguments& arguments);
 int spectrum(const SceneArguments& arguments);
 /// topic: integrators, dampings, materials, bases, or empty for all.

@@ -26,6 +26,40 @@ void add_scene(CLI::App& app, SceneArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
+  CLI::App& compare = *app.add_subcommand("compare", "integrators x damping strategies: speed against error");
+  stillpoint::CompareOptions& options = arguments.options;
+  const CLI::Validator positive = CLI::PositiveNumber;
+  add_scene(compare, arguments.scene);
+  compare.add_option("--out", arguments.out, "folder to write into (default: out/<scene>-compare)")->type_name("DIR");
+  compare.add_option("--strategies", options.strategies, "of damping, and newton, newton-cg (default: all)")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  compare
+      .add_option(
+          "--integrators", options.integrators,
+          "with ':adaptive' behind a name for adaptive steps (default: leapfrog, and some with viscous damping)")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  compare.add_option("--fractions", options.step_fractions, "of the critical step (default: 0.9)")
+      ->delimiter(',')
+      ->check(positive)
+      ->type_name("X,...");
+  compare.add_option("--tolerances", options.tolerances, "rtol of adaptive steps (default: 1e-3)")
+      ->delimiter(',')
+      ->check(positive)
+      ->type_name("X,...");
+  compare.add_option("--goal", options.goal, "relative error to reach (default: 1e-6)")->check(CLI::Range(1e-15, 0.5));
+  compare.add_option("--limit", options.limit, "evaluations at most, in lower bounds (default: 50)")->check(positive);
+  compare.add_option("--seconds", options.seconds, "wall time at most of one run (default: 30)")->check(positive);
+  compare.add_option("--repeats", options.repeats, "timed runs of each (default: 3)")->check(CLI::Range(0, 1000));
+  compare.add_option("--seed", options.seed, "of the order in which runs are timed");
+  compare.add_option("--threads", options.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  compare.add_flag("--overshoot", options.overshoot, "also how far each ends from a slow ramp of the load");
+  compare.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  return compare;
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("Quasi-static equilibrium by dynamic relaxation in the material point method", "stillpoint");
   app.set_version_flag("--version", STILLPOINT_VERSION);
@@ -36,6 +70,9 @@ int dispatch(int argc, char** argv) {
   run_app.add_option("--out", run_arguments.out, "folder to write into (default: out/<scene>)")->type_name("DIR");
   run_app.add_option("--threads", run_arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
   run_app.add_flag("--quiet", run_arguments.quiet, "print nothing but errors");
+
+  CompareArguments compare_arguments;
+  CLI::App& compare_app = add_compare(app, compare_arguments);
 
   SceneArguments scene_arguments;
   CLI::App& check_app = *app.add_subcommand("check", "say what would be modelled; nothing runs");
@@ -59,6 +96,7 @@ int dispatch(int argc, char** argv) {
     return bad_input;
   }
   if (run_app.parsed()) return run(run_arguments);
+  if (compare_app.parsed()) return compare(compare_arguments);
   if (check_app.parsed()) return check(scene_arguments);
   if (spectrum_app.parsed()) return spectrum(scene_arguments);
   return list(topic);

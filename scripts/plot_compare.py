@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""plot_compare.py DIR [--out FILE]: the work-precision picture of a comparison, from DIR/compare.json.
+
+Error against force evaluations and against wall time, a line a run (a dot where only its end is known), with the lower
+bound of methods that only evaluate forces. FILE is DIR/compare.png if not given. Exit status 2 and a message where there
+is nothing to draw.
+"""
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+
+from pictures import COLOURS, STYLE, Refused, finish, plain, title_of  # before pyplot: sets the backend
+import matplotlib.pyplot as plt  # noqa: E402
+
+LINES = ["-", "--", ":", "-."]
+FLOOR = 1e-16
+
+
+def read(folder):
+    file = folder / "compare.json"
+    try:
+        comparison = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise Refused(f"{folder}: no compare.json; is this the folder of a comparison?") from None
+    except (OSError, ValueError) as error:
+        raise Refused(f"{file}: {error}") from None
+    if not isinstance(comparison, dict) or not isinstance(comparison.get("runs"), list):
+        raise Refused(f"{file}: expected an object with runs")
+    return comparison
+
+
+def way_of(run, column):
+    """[(evaluations, error)] of a run, its end where there is no more."""
+    points = [(sample[0], sample[column]) for sample in run["samples"] if sample[column] is not None]
+    if not points and run["evaluations"] > 0 and run["error"] is not None:
+        points = [(run["evaluations"], run[("", "error", "residual")[column]])]
+    return [(evaluations, max(error, FLOOR)) for evaluations, error in points if evaluations > 0 and math.isfinite(error)]
+
+
+def draw(comparison, file):
+    column = 2 if comparison["goal_of"] == "residual" else 1
+    ways = [(run, way_of(run, column)) for run in comparison["runs"]]
+    ways = [(run, way) for run, way in ways if way]
+    if not ways:
+        raise Refused("none of the runs got anywhere: nothing to draw")
+    plt.rcParams.update(STYLE)
+    figure, (by_evaluations, by_time) = plt.subplots(1, 2, figsize=(13, 6), sharey=True)
+    for number, (run, way) in enumerate(ways):
+        look = {
+            "color": COLOURS[number % len(COLOURS)],
+            "linestyle": LINES[number // len(COLOURS) % len(LINES)],
+            "linewidth": 1.4,
+            "marker": "o" if len(way) == 1 else None,
+        }
+        label = run["label"] + ("" if run["status"] == "converged" else f" ({run['status']})")
+        by_evaluations.plot(*zip(*way), label=plain(label), **look)
+        if run["wall_s"] and run["evaluations"] > 0:
+            each = run["wall_s"]["median"] / run["evaluations"]
+            by_time.plot(*zip(*((each * evaluations, error) for evaluations, error in way)), **look)
+    if comparison["lower_bound"] and column == 1:
+        root = comparison["kappa"] ** 0.5
+        errors = [10 ** (-k / 4) for k in range(1, 45)]
+        by_evaluations.plot([0.5 * root * math.log(2 / e) for e in errors], errors, color="0.5", linewidth=4, alpha=0.4,
+                            zorder=0, label="lower bound ½ √κ ln(2/ε)")
+    goal = comparison["goal"]
+    for axis, what in ((by_evaluations, "force evaluations"), (by_time, "wall time [s]")):
+        axis.axhline(goal, color="0.7", linewidth=0.8)
+        axis.set(xscale="log", yscale="log", xlabel=what)
+        axis.grid(color="0.92")
+        axis.set_axisbelow(True)
+    lowest = min(error for _, way in ways for _, error in way)
+    by_evaluations.set(ylim=(max(lowest, 1e-3 * goal) / 2, 3), ylabel=("", "relative error", "residual")[column])
+    columns = 4
+    figure.legend(loc="lower center", ncol=columns, frameon=False, fontsize="small")
+    figure.suptitle(plain(title_of(comparison)))
+    rows = -(-(len(ways) + 1) // columns)
+    figure.tight_layout(rect=(0, 0.02 + 0.032 * rows, 1, 1))
+    figure.savefig(file, dpi=100)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="DIR", type=Path)
+    parser.add_argument("--out", metavar="FILE", type=Path)
+    options = parser.parse_args()
+
+    def draw_to(file):
+        draw(read(options.folder), file)
+
+    return finish("plot_compare", draw_to, options.out or options.folder / "compare.png")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,122 @@
+// stillpoint compare: integrators × damping strategies on one scene, speed against error.
+#include <stillpoint/compare.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "commands.hpp"
+#include "terminal.hpp"
+
+namespace stillpoint::command {
+namespace {
+
+class CountLine {
+ public:
+  void show(const CompareProgress& p) {
+    if (!terminal_ && p.wall_s < next_plain_line_) return;
+    next_plain_line_ = p.wall_s + 10;
+    std::string left;
+    if (p.done > 0 && p.done < p.total)
+      left = fmt::format("  about {:.0f} s left", p.wall_s * (p.total - p.done) / p.done);
+    fmt::print(stderr, "{}[{}/{}] {}{}{}", terminal_ ? "\r\033[K" : "", p.done, p.total, p.doing, left,
+               terminal_ ? "" : "\n");
+    std::fflush(stderr);
+  }
+  void finish() const {
+    if (terminal_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  double next_plain_line_ = 10;
+};
+
+std::string seconds(double s) {
+  return s < 1e-3 ? fmt::format("{:.0f} us", 1e6 * s)
+         : s < 1  ? fmt::format("{:.2f} ms", 1e3 * s)
+                  : fmt::format("{:.2f} s", s);
+}
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+std::string small(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1e}", value); }
+
+// By what a user would pick: those that arrived, the fastest first.
+std::vector<const ComparedRun*> ranked(const Comparison& c) {
+  std::vector<const ComparedRun*> rows;
+  for (const ComparedRun& run : c.runs) rows.push_back(&run);
+  std::ranges::stable_sort(rows, {}, [&](const ComparedRun* run) {
+    const double cost = run->wall_s ? run->wall_s->median : 1e9;
+    return std::tuple(run->status, c.transient ? -static_cast<double>(run->evaluations) : cost);
+  });
+  return rows;
+}
+
+void print_heading(const Comparison& c) {
+  fmt::print("{}\n", c.title.empty() ? c.scene : c.title);
+  fmt::print("  {} degrees of freedom, {} points, {} thread{} for the times\n", c.dofs, c.points, c.threads,
+             c.threads == 1 ? "" : "s");
+  fmt::print("  reference: {}\n", c.reference);
+  if (c.lower_bound) {
+    fmt::print("  kappa {:.4g}; lower bound for an error of {:g}: {:.0f} evaluations\n", *c.kappa, c.goal,
+               *c.lower_bound);
+  }
+  if (c.ramp_difference) {
+    fmt::print("  one load step of Newton's method differs from a slow ramp by {:.2e}\n", *c.ramp_difference);
+  }
+}
+
+void print_table(const Comparison& c) {
+  print_heading(c);
+  const bool overshoot = std::ranges::any_of(c.runs, [](const ComparedRun& run) { return run.overshoot.has_value(); });
+  std::size_t width = 0;
+  for (const ComparedRun& run : c.runs) width = std::max(width, run.label().size());
+  fmt::print("\n  {:<{}}{:>12}{:>12}{:>9}{:>11}{:>8}{:>11}{:>11}{:>11}{}\n", "", width, "status", "evaluations",
+             "x bound", "time", "+-", "error", "residual", "distance", overshoot ? "  overshoot" : "");
+  for (const ComparedRun* run : ranked(c)) {
+    const bool converged = run->status == ComparedStatus::converged;
+    const Spread wall = run->wall_s.value_or(Spread{});
+    fmt::print("  {:<{}}{:>12}{:>12}{:>9}{:>11}{:>8}{:>11}{:>11}{:>11}", run->label(), width, to_string(run->status),
+               run->evaluations,
+               c.lower_bound && converged
+                   ? fmt::format("{:.2f}", static_cast<double>(run->evaluations) / *c.lower_bound)
+                   : "-",
+               run->wall_s ? seconds(wall.median) : "-",
+               wall.median > 0 ? fmt::format("{:.0f} %", 50 * (wall.most - wall.least) / wall.median) : "-",
+               small(run->error), small(run->residual), small(run->distance.value_or(none)));
+    if (overshoot) fmt::print("{:>11}", small(run->overshoot.value_or(none)));
+    fmt::print("\n");
+  }
+  for (const ComparedRun& run : c.runs) {
+    if (run.status != ComparedStatus::converged) fmt::print("  {}: {}\n", run.label(), run.reason);
+  }
+  for (const std::string& note : c.notes) fmt::print("  note: {}\n", note);
+}
+
+}  // namespace
+
+int compare(const CompareArguments& arguments) {
+  const std::filesystem::path out =
+      arguments.out.empty() ? std::filesystem::path("out") / (arguments.scene.file.stem().string() + "-compare")
+                            : arguments.out;
+  watch_for_interrupt();
+  CountLine line;
+  CompareOptions options = arguments.options;
+  options.interrupted = interrupted;
+  if (!arguments.quiet) options.progress = [&line](const CompareProgress& progress) { line.show(progress); };
+  const Comparison comparison = stillpoint::compare(arguments.scene.file, arguments.scene.overrides, options);
+  line.finish();
+  write_comparison(comparison, out);
+  if (!arguments.quiet) {
+    print_table(comparison);
+    fmt::print("  written: {}\n", out.string());
+  }
+  return interrupted() ? 3 : 0;
+}
+
+}  // namespace stillpoint::command

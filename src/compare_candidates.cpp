@@ -1,0 +1,112 @@
+#include "compare_candidates.hpp"
+
+#include <stillpoint/damping.hpp>
+#include <stillpoint/integrator.hpp>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "in_quotes.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr std::string_view adaptive_suffix = ":adaptive";
+constexpr std::array<std::string_view, 2> static_methods{"newton", "newton-cg"};
+
+const std::vector<std::string> default_integrators{"leapfrog", "erk:sofroniou-spaletta-5-3-4", "erk:rk4",
+                                                   "erk:bogacki-shampine-4-2-3:adaptive"};
+const std::vector<std::string> default_transient{"leapfrog",
+                                                 "symplectic-euler",
+                                                 "erk:rk4",
+                                                 "erk:bogacki-shampine-4-2-3:adaptive",
+                                                 "erk:dormand-prince-7-4-5:adaptive",
+                                                 "erk:fehlberg-13-7-8:adaptive"};
+
+bool is_adaptive(std::string_view integrator) { return integrator.ends_with(adaptive_suffix); }
+std::string method_of(std::string_view integrator) {
+  if (is_adaptive(integrator)) integrator.remove_suffix(adaptive_suffix.size());
+  return std::string(integrator);
+}
+
+Candidate stepping(const Scene& scene, const DampingInfo& info, const std::string& integrator,
+                   std::optional<double> fraction, std::optional<double> rtol) {
+  const std::string strategy(info.name);
+  Candidate candidate;
+  candidate.run.strategy = strategy;
+  candidate.run.integrator = method_of(integrator);
+  candidate.run.step_fraction = fraction;
+  candidate.run.rtol = rtol;
+  candidate.overrides = {"damping.strategy=" + strategy, "integrator.method=" + candidate.run.integrator};
+  // A number in the scene is meant for the strategy beside it.
+  if (info.takes_c && strategy != scene.damping.strategy) candidate.overrides.emplace_back("damping.c=critical");
+  if (fraction) candidate.overrides.push_back(fmt::format("integrator.step_fraction={:.17g}", *fraction));
+  if (rtol) candidate.overrides.push_back(fmt::format("integrator.rtol={:.17g}", *rtol));
+  return candidate;
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates(const CompareOptions& options, const Scene& scene, bool transient) {
+  std::vector<std::string> strategies = options.strategies;
+  if (transient && strategies.empty()) {
+    strategies = {scene.damping.strategy};
+  } else if (strategies.empty()) {
+    for (const DampingInfo& info : damping_strategies()) {
+      if (info.name != "none") strategies.emplace_back(info.name);
+    }
+    strategies.insert(strategies.end(), static_methods.begin(), static_methods.end());
+  }
+  const auto& integrators = !options.integrators.empty() ? options.integrators
+                            : transient                  ? default_transient
+                                                         : default_integrators;
+
+  std::vector<Candidate> all;
+  for (const std::string& strategy : strategies) {
+    if (std::ranges::find(static_methods, strategy) != static_methods.end()) {
+      if (transient) throw std::invalid_argument(strategy + " has no transient");
+      Candidate candidate;
+      candidate.run.strategy = strategy;
+      all.push_back(std::move(candidate));
+      continue;
+    }
+    const DampingInfo& info = find_damping(strategy);
+    for (const std::string& integrator : integrators) {
+      const Method method = find_method(method_of(integrator));
+      if (!info.goes_with(method.name)) continue;
+      // Without being asked for, Runge-Kutta methods are tried with the damping that is best for them.
+      const bool of_interest = transient || !options.integrators.empty() || method.name == "leapfrog" ||
+                               strategy == "viscous" || !options.strategies.empty();
+      if (!of_interest) continue;
+      if (is_adaptive(integrator)) {
+        if (!method.adaptive) throw std::invalid_argument(in_quotes(method.name) + " has no error estimate");
+        for (const double rtol : options.tolerances) {
+          all.push_back(stepping(scene, info, integrator, std::nullopt, rtol));
+        }
+      } else if (info.has_own_step) {
+        all.push_back(stepping(scene, info, integrator, std::nullopt, std::nullopt));
+      } else {
+        for (const double fraction : options.step_fractions) {
+          all.push_back(stepping(scene, info, integrator, fraction, std::nullopt));
+        }
+      }
+    }
+  }
+  if (all.empty()) throw std::invalid_argument("no strategy goes with these integrators");
+  return all;
+}
+
+bool takes(const std::string& strategy, const std::string& key) {
+  if (std::ranges::find(static_methods, strategy) != static_methods.end()) return true;
+  const DampingInfo& info = find_damping(strategy);
+  if (key == "damping.peak") return info.takes_peak;
+  if (key == "damping.quotient") return info.takes_quotient;
+  if (key == "integrator.step" || key == "integrator.step_fraction") return !info.has_own_step;
+  if (key == "damping.c" || key == "damping.alpha") return !info.owns_iteration;
+  return true;
+}
+
+}  // namespace stillpoint

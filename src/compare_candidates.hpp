@@ -1,0 +1,25 @@
+// The combinations that a comparison tries, each as overrides of the scene.
+#pragma once
+
+#include <stillpoint/compare.hpp>
+
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+struct Candidate {
+  ComparedRun run;                     // named, and empty otherwise
+  std::vector<std::string> overrides;  // "key=value"
+  bool is_static() const { return run.strategy == "newton" || run.strategy == "newton-cg"; }
+};
+
+/// integrators × strategies × step fractions (or tolerances where a method is named "…:adaptive"); a strategy that owns
+/// its iteration has only its own. transient: strategies do not vary, the scene's own is what moves. Throws
+/// std::invalid_argument on a name that is none.
+std::vector<Candidate> candidates(const CompareOptions& options, const Scene& scene, bool transient);
+
+/// Whether a key of the scene, "damping.alpha", says anything to a strategy.
+bool takes(const std::string& strategy, const std::string& key);
+
+}  // namespace stillpoint
