@@ -47,7 +47,7 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
   double last_beta = 0, bound = 0;
   constexpr double rounding = 1e-12;
   for (int j = 0; j < applications; ++j) {
-    system.tangent(t, u, q, Kq);
+    system.elastic_tangent(t, u, q, Kq);
     alpha.push_back(dot(q, Kq));
     mass.solve(Kq, z);
     for_each_index(n, [=, z = z.data(), q = q.data(), last_q = last_q.data(), a = alpha.back()](std::size_t i) {

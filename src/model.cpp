@@ -18,11 +18,15 @@ namespace stillpoint {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
+// Unknowns above which a factor of K, or hundreds of products with it, cost more than many a relaxation.
+constexpr std::size_t many_unknowns = 20'000;
 
 // ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
 double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
-  const FrequencyEstimate estimate = omega_max_by_power_iteration(phase, 0, u, options);
+  constexpr int applications = 30;
+  const FrequencyEstimate estimate = phase.size() > many_unknowns ? omega_max_by_lanczos(phase, 0, u, applications)
+                                                                  : omega_max_by_power_iteration(phase, 0, u, options);
   if (!(estimate.omega > 0) || !std::isfinite(estimate.omega)) {
     reject(scene, "initial",
            fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
@@ -248,7 +252,10 @@ Model make_model(const Scene& scene) {
   const DampingInfo& strategy = find_damping(scene.damping.strategy);
   const bool critical = strategy.takes_c && !scene.damping.c;
   const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
-  if (critical || own_scale || strategy.needs_omega_1 || scene.stop.wants_equilibrium()) {
+  // auto works without, and of a large body the factor alone would cost more than the way to rest.
+  const bool useful =
+      scene.stop.wants_equilibrium() && (!is_auto || scene.stop.distance > 0 || model.phase->size() <= many_unknowns);
+  if (critical || own_scale || strategy.needs_omega_1 || useful) {
     const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
     if (lowest.converged) {
       model.omega_1 = lowest.omega;

@@ -200,8 +200,17 @@ class Run {
     }
   }
 
+  // Where omega_1 is not known before, the damping that is found on the way is 2 omega_1, nearly.
+  void follow_period() {
+    if (model_.omega_1 || motion_->integrator->static_iteration()) return;
+    if (const auto c = motion_->integrator->damping_rate(); c && *c > 0) {
+      monitor_.set_hold(scene_.stop.hold * 4 * std::numbers::pi / *c);
+    }
+  }
+
   void watch() {
     if (monitor_.due(t_)) {
+      follow_period();
       measure();
       if (distance_ && *distance_ <= scene_.stop.distance) look_at_tangent();
       status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_->settled(t_), distance_);

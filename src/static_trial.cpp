@@ -59,6 +59,15 @@ class Way {
   double best_ = std::numeric_limits<double>::infinity(), earlier_best_ = best_, half_way_best_ = best_;
 };
 
+// Points, and about ten vectors of unknowns.
+std::size_t memory_of(const LagrangianPhase& phase) {
+  double bytes = 10.0 * sizeof(double) * static_cast<double>(phase.size());
+  for (const PointArray& array : phase.point_arrays()) {
+    bytes += array.bytes_per_point * static_cast<double>(phase.points());
+  }
+  return static_cast<std::size_t>(bytes);
+}
+
 // So far away that steps are what the method takes by itself.
 double far_away(const Model& model) { return 1e9 * model.integrator.max_step; }
 
@@ -77,6 +86,7 @@ void watch_trial(const Scene& scene, const ExactState& exact, const TrialLimits&
   Motion motion(model, vectors, 0, model.u, model.v);
   run.setup_s = setup.seconds();
   run.estimating = model.tangent_applications;
+  run.memory_bytes = memory_of(*model.phase);
   const LoadSchedule schedule(scene, *model.phase, scene.stop.time);
   const Certificate certificate(*model.phase, model.omega_1);
 

@@ -82,6 +82,9 @@ void watch_transient(const Scene& scene, const TransientReference& reference, co
   run.samples.push_back({run.evaluations, run.error, run.residual, std::nullopt});
 }
 
-double time_transient(const Scene& scene, int threads) { return follow(scene, threads).summary.wall_s; }
+double time_transient(const Scene& scene, int threads) {
+  const Summary s = follow(scene, threads).summary;
+  return 1e-9 * s.ns_per_point_step * static_cast<double>(s.steps) * static_cast<double>(s.points);
+}
 
 }  // namespace stillpoint

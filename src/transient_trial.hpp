@@ -23,7 +23,7 @@ TransientReference transient_reference(const Scene& scene,
 /// Fills the row: one point of its way, at stop.time.
 void watch_transient(const Scene& scene, const TransientReference& reference, const std::function<bool()>& interrupted,
                      ComparedRun& run);
-/// Wall time of the same run [s].
+/// Wall time of the steps of the same run [s].
 double time_transient(const Scene& scene, int threads);
 
 }  // namespace stillpoint

@@ -34,6 +34,8 @@ class Monitor {
  public:
   explicit Monitor(const MonitorOptions& options) : options_(options), next_check_(options.hold / checks_a_hold) {}
 
+  /// The hold from now on [s], where a period of the slowest motion shows on the way.
+  void set_hold(double hold) { options_.hold = hold; }
   /// Whether observe() wants residual and kinetic energy at t; in between, looking costs nothing.
   bool due(double t) const { return t >= next_check_; }
   /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
