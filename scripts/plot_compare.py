@@ -2,8 +2,8 @@
 """plot_compare.py DIR [--out FILE]: the work-precision picture of a comparison, from DIR/compare.json.
 
 Error against force evaluations and against wall time, a line a run (a dot where only its end is known), with the lower
-bound of methods that only evaluate forces. FILE is DIR/compare.png if not given. Exit status 2 and a message where there
-is nothing to draw.
+bound of methods that only evaluate forces. FILE is DIR/compare.png if not given. Exit status 2 and a message where
+there is nothing to draw.
 """
 
 import argparse
@@ -37,7 +37,8 @@ def way_of(run, column):
     points = [(sample[0], sample[column]) for sample in run["samples"] if sample[column] is not None]
     if not points and run["evaluations"] > 0 and run["error"] is not None:
         points = [(run["evaluations"], run[("", "error", "residual")[column]])]
-    return [(evaluations, max(error, FLOOR)) for evaluations, error in points if evaluations > 0 and math.isfinite(error)]
+    drawn = [(evaluations, error) for evaluations, error in points if evaluations > 0 and math.isfinite(error)]
+    return [(evaluations, max(error, FLOOR)) for evaluations, error in drawn]
 
 
 def draw(comparison, file):
@@ -88,7 +89,12 @@ def main():
     options = parser.parse_args()
 
     def draw_to(file):
-        draw(read(options.folder), file)
+        comparison = read(options.folder)
+        try:
+            draw(comparison, file)
+        except (KeyError, TypeError) as error:
+            missing = f"no {error}" if isinstance(error, KeyError) else error
+            raise Refused(f"{options.folder / 'compare.json'}: {missing}") from None
 
     return finish("plot_compare", draw_to, options.out or options.folder / "compare.png")
 

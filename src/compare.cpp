@@ -17,6 +17,7 @@
 
 #include "compare_candidates.hpp"
 #include "load_schedule.hpp"
+#include "reject.hpp"
 #include "static_trial.hpp"
 #include "stopwatch.hpp"
 #include "transient_trial.hpp"
@@ -54,6 +55,7 @@ double evaluations_bound(double kappa, double error) { return 0.5 * std::sqrt(ka
 namespace {
 
 constexpr double tight = 1e-12;  // of the reference's residual
+constexpr double tight_in_motion = 1e-10;
 
 Spread spread_of(std::vector<double> values) {
   std::ranges::sort(values);
@@ -105,21 +107,29 @@ class Comparing {
   }
   double end_time() const { return scene_.stop.time; }
 
-  // Newton's method, or where it has no answer the scene's own relaxation driven to rounding.
+  // Newton's method, or where it has no answer the scene's own relaxation.
   void find_equilibrium() {
     const std::shared_ptr<LagrangianPhase> phase = make_phase(scene_);
     result_.dofs = phase->size();
     result_.points = phase->points();
-    result_.by_residual = phase->history_dependent();
+    result_.by_residual = phase->history_dependent() || phase->has_contact();
     if (phase->moves_on()) {
-      throw SceneError(std::vector<Problem>(
-          1,
-          {scene_.location("phase"),
-           "an equilibrium is compared on one set of unknowns, so in one phase; expected phase.max_motion = \"none\", "
-           "or stop.residual = 0 and stop.time to compare the way to it"}));
+      reject(
+          scene_, "phase",
+          "an equilibrium is compared on one set of unknowns, so in one phase; expected phase.max_motion = \"none\", "
+          "or stop.residual = 0 and stop.time to compare the way to it");
+    }
+    if (end_time() == 0 && pulls_vary(scene_)) {
+      reject(scene_, "stop.time",
+             "loads or supports depend on t, and the equilibrium to compare with is that at the end; expected the t at "
+             "which they have come to it");
     }
     exact_.emplace(ExactState{phase->initial_displacement(end_time()), phase});
-    if (phase->has_contact() || !solve_for_reference()) relax_to_rounding();
+    if (phase->has_contact() || !solve_for_reference()) relax_for_reference();
+    if (!(exact_->size() > 0)) {
+      reject(scene_, "body_force",
+             "in equilibrium nothing is displaced, so that no error is relative; expected a load");
+    }
   }
 
   // As near as rounding lets it come.
@@ -140,15 +150,16 @@ class Comparing {
     return false;
   }
 
-  void relax_to_rounding() {
+  void relax_for_reference() {
     Scene scene = scene_;
-    scene.stop.residual = tight;
+    scene.stop.residual = tight_in_motion;
     scene.stop.distance = 0;
     scene.output.stages.clear();
-    const Summary summary =
-        run(scene, {.threads = result_.threads, .at_end = [&](const LagrangianPhase&, double, ConstVec u, ConstVec) {
-                      exact_->u.assign(u.begin(), u.end());
-                    }});
+    const Summary summary = run(scene, {.threads = result_.threads,
+                                        .interrupted = options_.interrupted,
+                                        .at_end = [&](const LagrangianPhase&, double, ConstVec u, ConstVec) {
+                                          exact_->u.assign(u.begin(), u.end());
+                                        }});
     result_.reference = fmt::format("relaxation by {} damping", summary.damping);
     result_.reference_residual = summary.residual;
     if (summary.status != RunStatus::equilibrium) {
@@ -238,6 +249,9 @@ class Comparing {
     } catch (const SceneError& error) {
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.problems().front().message;
+    } catch (const std::invalid_argument& error) {  // as Newton's method, where walls touch
+      candidate.run.status = ComparedStatus::refused;
+      candidate.run.reason = error.what();
     } catch (const std::exception& error) {
       candidate.run.status = ComparedStatus::diverged;
       candidate.run.reason = error.what();

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "in_quotes.hpp"
+#include "toml_reader.hpp"
 
 namespace stillpoint {
 namespace {
@@ -26,10 +26,42 @@ const std::vector<std::string> default_transient{"leapfrog",
                                                  "erk:dormand-prince-7-4-5:adaptive",
                                                  "erk:fehlberg-13-7-8:adaptive"};
 
+[[noreturn]] void reject_option(const std::string& option, const std::string& given, const std::string& message) {
+  throw SceneError(std::vector<Problem>(1, {{fmt::format("{} {}", option, given), 0, 0}, message}));
+}
+
+bool is_static(const std::string& strategy) {
+  return std::ranges::find(static_methods, strategy) != static_methods.end();
+}
 bool is_adaptive(std::string_view integrator) { return integrator.ends_with(adaptive_suffix); }
 std::string method_of(std::string_view integrator) {
   if (is_adaptive(integrator)) integrator.remove_suffix(adaptive_suffix.size());
   return std::string(integrator);
+}
+
+void check_strategy(const std::string& strategy, bool transient) {
+  if (is_static(strategy)) {
+    if (transient) reject_option("--strategies", strategy, "a static solution has no transient; expected a damping");
+    return;
+  }
+  std::vector<std::string> names(static_methods.begin(), static_methods.end());
+  for (const DampingInfo& info : damping_strategies()) names.emplace_back(info.name);
+  if (std::ranges::find(names, strategy) == names.end()) {
+    reject_option("--strategies", strategy, unknown_word("there is no strategy", strategy, names));
+  }
+}
+
+void check_integrator(const std::string& integrator) {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) {
+    names.push_back(method.name);
+    if (method.name != method_of(integrator)) continue;
+    if (is_adaptive(integrator) && !method.adaptive) {
+      reject_option("--integrators", integrator, in_quotes(method.name) + " has no error estimate");
+    }
+    return;
+  }
+  reject_option("--integrators", integrator, unknown_word("there is no integrator", method_of(integrator), names));
 }
 
 Candidate stepping(const Scene& scene, const DampingInfo& info, const std::string& integrator,
@@ -64,10 +96,12 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
                             : transient                  ? default_transient
                                                          : default_integrators;
 
+  for (const std::string& strategy : strategies) check_strategy(strategy, transient);
+  for (const std::string& integrator : integrators) check_integrator(integrator);
+
   std::vector<Candidate> all;
   for (const std::string& strategy : strategies) {
-    if (std::ranges::find(static_methods, strategy) != static_methods.end()) {
-      if (transient) throw std::invalid_argument(strategy + " has no transient");
+    if (is_static(strategy)) {
       Candidate candidate;
       candidate.run.strategy = strategy;
       all.push_back(std::move(candidate));
@@ -82,7 +116,6 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
                                strategy == "viscous" || !options.strategies.empty();
       if (!of_interest) continue;
       if (is_adaptive(integrator)) {
-        if (!method.adaptive) throw std::invalid_argument(in_quotes(method.name) + " has no error estimate");
         for (const double rtol : options.tolerances) {
           all.push_back(stepping(scene, info, integrator, std::nullopt, rtol));
         }
@@ -95,12 +128,15 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
       }
     }
   }
-  if (all.empty()) throw std::invalid_argument("no strategy goes with these integrators");
+  if (all.empty()) {
+    reject_option("--integrators", fmt::format("{}", fmt::join(integrators, ",")),
+                  fmt::format("none of the strategies goes with these: {}", fmt::join(strategies, ", ")));
+  }
   return all;
 }
 
 bool takes(const std::string& strategy, const std::string& key) {
-  if (std::ranges::find(static_methods, strategy) != static_methods.end()) return true;
+  if (is_static(strategy)) return true;
   const DampingInfo& info = find_damping(strategy);
   if (key == "damping.peak") return info.takes_peak;
   if (key == "damping.quotient") return info.takes_quotient;

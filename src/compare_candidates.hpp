@@ -15,8 +15,8 @@ struct Candidate {
 };
 
 /// integrators × strategies × step fractions (or tolerances where a method is named "…:adaptive"); a strategy that owns
-/// its iteration has only its own. transient: strategies do not vary, the scene's own is what moves. Throws
-/// std::invalid_argument on a name that is none.
+/// its iteration has only its own. transient: strategies do not vary, the scene's own is what moves. Throws SceneError
+/// on a name that is none, naming the option and the nearest name that is one.
 std::vector<Candidate> candidates(const CompareOptions& options, const Scene& scene, bool transient);
 
 /// Whether a key of the scene, "damping.alpha", says anything to a strategy.

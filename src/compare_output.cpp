@@ -37,13 +37,13 @@ std::string csv(const Comparison& c) {
       "wall_least_s,wall_most_s,setup_s,error,residual,distance,overshoot,memory_bytes,reason\n";
   for (const ComparedRun& run : c.runs) {
     const auto& wall = run.wall_s;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{:.17g},{:.17g},{},{},{},{}\n", run.strategy,
-                        run.integrator, cell(run.step_fraction), cell(run.rtol), to_string(run.status), run.steps,
-                        run.evaluations, run.first_evaluations, cell(over_bound(c, run)),
-                        cell(wall ? std::optional(wall->median) : std::nullopt),
-                        cell(wall ? std::optional(wall->least) : std::nullopt),
-                        cell(wall ? std::optional(wall->most) : std::nullopt), run.setup_s, run.error, run.residual,
-                        cell(run.distance), cell(run.overshoot), run.memory_bytes, quoted(run.reason));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{},{},{},{}\n", run.strategy, run.integrator,
+        cell(run.step_fraction), cell(run.rtol), to_string(run.status), run.steps, run.evaluations,
+        run.first_evaluations, cell(over_bound(c, run)), cell(wall ? std::optional(wall->median) : std::nullopt),
+        cell(wall ? std::optional(wall->least) : std::nullopt), cell(wall ? std::optional(wall->most) : std::nullopt),
+        run.setup_s, cell(run.error), cell(run.residual), cell(run.distance), cell(run.overshoot), run.memory_bytes,
+        quoted(run.reason));
   }
   return text;
 }

@@ -28,7 +28,18 @@ std::vector<double> pull_at(const SemiDiscrete& system, double t) {
 
 LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time)
     : scene_(scene), system_(system), end_time_(end_time) {
-  if (end_time > 0 && pulls_vary(scene)) at_end_ = pull_at(system, end_time);
+  supports_move_ = std::ranges::any_of(scene.supports, [](const auto& s) { return s.motion.uses('t'); });
+  if (end_time > 0 && pulls_vary(scene)) at_end_ = pull(end_time);
+}
+
+// The loads alone where no support moves: R(u = 0) changes with what a body remembers.
+std::vector<double> LoadSchedule::pull(double t) const {
+  if (supports_move_) return pull_at(system_, t);
+  const std::vector<double> rest(system_.size(), 0.0);
+  std::vector<double> F(system_.size());
+  system_.external_force(t, F);
+  system_.add_following_force(t, rest, F);
+  return F;
 }
 
 bool LoadSchedule::settled(double t) const {
@@ -38,11 +49,12 @@ bool LoadSchedule::settled(double t) const {
     const double end = wall.motion({}, end_time_), left = std::abs(end - wall.motion({}, t));
     if (left > rounding * std::abs(end - wall.motion({}, 0))) return false;
   }
-  const std::vector<double> now = pull_at(system_, t);
+  const bool remembers = supports_move_ && system_.history_dependent();
+  const std::vector<double> now = pull(t), end = remembers ? pull(end_time_) : at_end_;
   double difference = 0, scale = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    difference = std::max(difference, std::abs(now[i] - at_end_[i]));
-    scale = std::max({scale, std::abs(now[i]), std::abs(at_end_[i])});
+    difference = std::max(difference, std::abs(now[i] - end[i]));
+    scale = std::max({scale, std::abs(now[i]), std::abs(end[i])});
   }
   return difference <= rounding * scale;
 }

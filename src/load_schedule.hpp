@@ -23,9 +23,12 @@ class LoadSchedule {
   bool settled(double t) const;
 
  private:
+  std::vector<double> pull(double t) const;
+
   const Scene& scene_;
   const SemiDiscrete& system_;
   double end_time_;
+  bool supports_move_ = false;
   std::vector<double> at_end_;  // empty: nothing to wait for
 };
 

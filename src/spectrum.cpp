@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -53,10 +52,11 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
 namespace {
 
 // x ← K⁻¹ M x
-FrequencyEstimate lowest_frequency(const SemiDiscrete& system, SparseMatrix of_body, const SpectrumOptions& options) {
+FrequencyEstimate lowest_frequency(const SemiDiscrete& system, const SparseMatrix& of_body,
+                                   const SpectrumOptions& options) {
   require_valid(options);
   const Stopwatch watch;
-  const FactorisedStiffness K(system.mass(), std::move(of_body));
+  const FactorisedStiffness K(system.mass(), of_body);
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
   const LinearMap apply_M = [&](ConstVec x, Vec Mx) { system.mass().apply(x, Mx); };
   const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };

@@ -140,7 +140,7 @@ class Newton {
   }
   bool by_conjugate_gradients(const LinearMap& K) {
     const std::size_t n = du_.size();
-    const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : static_cast<int>(n);
+    const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
     const double forcing = std::min(0.1, balance_.residual());
     const auto result = stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q, du_, forcing, most);
     report_.tangent_products += result.iterations;

@@ -73,10 +73,12 @@ double far_away(const Model& model) { return 1e9 * model.integrator.max_step; }
 
 }  // namespace
 
+double ExactState::size() const { return mass_norm(phase->mass(), u); }
+
 double ExactState::error(ConstVec at) const {
   std::vector<double> difference(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) difference[i] = at[i] - u[i];
-  return mass_norm(phase->mass(), difference) / mass_norm(phase->mass(), u);
+  return mass_norm(phase->mass(), difference) / size();
 }
 
 void watch_trial(const Scene& scene, const ExactState& exact, const TrialLimits& limits, ComparedRun& run) {

@@ -14,6 +14,8 @@ namespace stillpoint {
 struct ExactState {
   std::vector<double> u;                         // (n)
   std::shared_ptr<const LagrangianPhase> phase;  // whose mass errors are measured with
+  /// ‖u*‖_M
+  double size() const;
   /// ‖u − u*‖_M/‖u*‖_M
   double error(ConstVec u) const;
 };

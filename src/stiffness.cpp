@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace stillpoint {
 namespace {
@@ -19,8 +18,8 @@ double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass) {
 
 }  // namespace
 
-FactorisedStiffness::FactorisedStiffness(const Mass& mass, SparseMatrix K)
-    : mass_(mass), K_(std::move(K)), factor_(K_), scale_(largest_diagonal_ratio(K_, mass_)) {}
+FactorisedStiffness::FactorisedStiffness(const Mass& mass, const SparseMatrix& K)
+    : mass_(mass), K_(K), factor_(K_), scale_(largest_diagonal_ratio(K_, mass_)) {}
 
 std::string FactorisedStiffness::refusal(double omega_squared) const {
   if (mass_.size() == 0) return "no free degrees of freedom";

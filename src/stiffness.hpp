@@ -10,7 +10,7 @@ namespace stillpoint {
 /// A symmetric K, assembled and factorised. Throws std::runtime_error where CHOLMOD itself fails.
 class FactorisedStiffness {
  public:
-  FactorisedStiffness(const Mass& mass, SparseMatrix K);
+  FactorisedStiffness(const Mass& mass, const SparseMatrix& K);
 
   /// Whether there is a factor to solve with.
   bool usable() const { return mass_.size() > 0 && factor_.positive_definite(); }

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,7 +67,8 @@ struct ComparedRun {
   long estimating = 0;              // products K x spent on the spectrum that the method itself needs, of evaluations
   double setup_s = 0;               // everything before the first step
   std::optional<Spread> wall_s;     // of those steps; where it converged
-  double error = 0, residual = 0;   // at the end
+  // At the end; NaN where it did not run.
+  double error = std::numeric_limits<double>::quiet_NaN(), residual = std::numeric_limits<double>::quiet_NaN();
   std::optional<double> distance;
   std::optional<double> overshoot;  // ‖u − u_ramp‖_M/‖u_ramp‖_M
   std::size_t memory_bytes = 0;     // of unknowns, points and, of Newton's method, matrix and factor
@@ -79,7 +81,7 @@ struct Comparison {
   std::size_t dofs = 0, points = 0;
   int threads = 1;
   bool transient = false;    // error in time at stop.time, against `reference`
-  bool by_residual = false;  // history: the goal is one of the residual, since equilibria differ
+  bool by_residual = false;  // history or friction: the goal is one of the residual, since equilibria differ
   double goal = 0;
   std::optional<double> omega_1, omega_max, kappa, lower_bound;
   std::string reference;  // what u* is from

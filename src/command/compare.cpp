@@ -43,6 +43,29 @@ std::string seconds(double s) {
                   : fmt::format("{:.2f} s", s);
 }
 
+/// The folder to write into, made before anything runs, since one that cannot be made is bad input. It does not stay
+/// where nothing came of it.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::filesystem::path& path) : path_(path) {
+    try {
+      std::filesystem::create_directories(path_);
+    } catch (const std::filesystem::filesystem_error& error) {
+      throw SceneError(std::vector<Problem>(1, {{fmt::format("--out {}", path_.string()), 0, 0},
+                                                fmt::format("cannot be written: {}", error.code().message())}));
+    }
+  }
+  ~OutputFolder() {
+    std::error_code not_empty;
+    std::filesystem::remove(path_, not_empty);
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  const std::filesystem::path& path_;
+};
+
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 std::string small(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1e}", value); }
 
@@ -104,6 +127,7 @@ int compare(const CompareArguments& arguments) {
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / (arguments.scene.file.stem().string() + "-compare")
                             : arguments.out;
+  const OutputFolder folder(out);
   watch_for_interrupt();
   CountLine line;
   CompareOptions options = arguments.options;

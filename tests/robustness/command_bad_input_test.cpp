@@ -95,3 +95,51 @@ TEST_CASE("the command refuses an option that it does not know") {
 }
 
 TEST_CASE("the command refuses a subcommand that it does not know") { refuses({kGoodScene, "rum SCENE"}, "rum"); }
+
+TEST_CASE("the command refuses stop.distance where nothing certifies it, at its place in the file") {
+  const std::string scene = broken("residual = 1e-6", "distance = 1e-4");
+  refuses({broken("[[support]]\nat = 0.0\nu = 0.0\n", "", scene), "run SCENE --out OUT"},
+          "scene.toml:24:12: a distance is certified by omega_1");
+  refuses({broken("[damping]", "[mass]\nkind = \"lumped\"\n[phase]\nmax_motion = 0.1\n[damping]",
+                  broken("linear-elastic", "hencky", scene)),
+           "run SCENE --out OUT"},
+          "scene.toml:31:12: stop.distance: is certified for one set of unknowns");
+}
+
+TEST_CASE("compare refuses names that are none with status 2 and the one that was meant") {
+  refuses({kGoodScene, "compare SCENE --out OUT --strategies viscous,viscuos"},
+          "--strategies viscuos: there is no strategy 'viscuos'; did you mean 'viscous'?");
+  refuses({kGoodScene, "compare SCENE --out OUT --strategies newtn"}, "did you mean 'newton'?");
+  refuses({kGoodScene, "compare SCENE --out OUT --strategies mushroom"}, "expected one of newton, newton-cg, none");
+  refuses({kGoodScene, "compare SCENE --out OUT --integrators leapfog"},
+          "--integrators leapfog: there is no integrator 'leapfog'; did you mean 'leapfrog'?");
+  refuses({kGoodScene, "compare SCENE --out OUT --integrators leapfrog:adaptive"},
+          "--integrators leapfrog:adaptive: 'leapfrog' has no error estimate");
+}
+
+TEST_CASE("compare refuses combinations of which nothing is left") {
+  refuses({kGoodScene, "compare SCENE --out OUT --strategies fire --integrators erk:rk4"},
+          "--integrators erk:rk4: none of the strategies goes with these: fire");
+  refuses({kGoodScene, "compare SCENE --out OUT --set stop.residual=0 --set stop.time=1 --strategies newton"},
+          "--strategies newton: a static solution has no transient");
+}
+
+TEST_CASE("compare refuses scenes with nothing to compare with, each by its key") {
+  refuses({broken("\"P0\"", "\"P0*min(t/10,1)\""), "compare SCENE --out OUT"},
+          "scene.toml:28:8: loads or supports depend on t");
+  refuses({broken("\"P0\"", "0"), "compare SCENE --out OUT"}, "nothing is displaced");
+  refuses({broken("[damping]", "[mass]\nkind = \"lumped\"\n[phase]\nmax_motion = 0.1\n[damping]",
+                  broken("[[force]]\nat = 10.0\nvalue = \"P0\"", "[body_force]\nvalue = 0.1",
+                         broken("linear-elastic", "hencky"))),
+           "compare SCENE --out OUT"},
+          "in one phase; expected phase.max_motion");
+}
+
+TEST_CASE("compare refuses a wrong scene, numbers out of range and a folder that cannot be written") {
+  refuses({broken("rho = 1.0", "rho = 0"), "compare SCENE --out OUT"}, "scene.toml:13:7: material.steel.rho");
+  for (const std::string option : {"--goal 2", "--goal=-1", "--fractions 0.9,-1", "--repeats=-1", "--threads 0"}) {
+    CAPTURE(option);
+    CHECK(CommandRun(kGoodScene, "compare SCENE --out OUT " + option).status == 2);
+  }
+  refuses({kGoodScene, "compare SCENE --out /proc/nowhere"}, "--out /proc/nowhere: cannot be written");
+}

@@ -58,6 +58,7 @@ TEST_CASE("a run writes its summary and history whole, with every key of the con
                           "wall_s",
                           "ns_per_point_step",
                           "residual",
+                          "distance",
                           "kinetic_energy",
                           "omega_1",
                           "omega_max",
@@ -256,4 +257,42 @@ TEST_CASE("the residual of a failed run is that of its last good state, not of t
   const Summary s = run(bar({"material.bar.law=neo-hookean", "force=[{at=10.0, value=-50.0}]", "output.every=1000"}));
   REQUIRE(s.status == RunStatus::diverged);
   CHECK(std::isfinite(s.residual));
+}
+
+TEST_CASE("a run that stops by its distance writes it down in the history and in the summary") {
+  const TemporaryFolder folder;
+  const Summary s = run(scenes::load("chain", {"stop.residual=0", "stop.distance=1e-4"}), {.out = folder.path()});
+  REQUIRE(s.status == RunStatus::equilibrium);
+  const auto json = nlohmann::json::parse(contents(folder.path() / "summary.json"));
+  CHECK(json["distance"].get<double>() == *s.distance);
+  CHECK(*s.distance <= 1e-4);
+  const auto history = lines(folder.path() / "history.csv");
+  const auto last_cell = [](const std::string& line) { return line.substr(line.rfind(',') + 1); };
+  CHECK(last_cell(history.front()) == "distance");
+  CHECK(std::stod(last_cell(history[2])) > 1e-2);
+  CHECK(std::stod(last_cell(history.back())) == *s.distance);
+}
+
+TEST_CASE("a distance that was not computed is null, and no column") {
+  const TemporaryFolder folder;
+  const Summary s = run(
+      bar({"support=[]", "force=[]", "initial.v=1", "stop.residual=0", "stop.time=1", "exact.u=t", "exact.stress=0"}),
+      {.out = folder.path()});
+  CHECK_FALSE(s.distance);
+  CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["distance"].is_null());
+  CHECK_THAT(lines(folder.path() / "history.csv").front(), !Catch::Contains("distance"));
+}
+
+TEST_CASE("a body that yields under a load that grows is found at rest once the load has come to its end") {
+  for (const std::string pull : {"body_force.value=[0, '-g*min(t/0.5, 1)']",
+                                 "support=[{face='bottom', kind='roller', u='-0.1*min(t/0.5, 1)'},"
+                                 "{face='left', kind='roller'}, {face='right', kind='roller'}]"}) {
+    const Summary s = run(scenes::load(
+        "column", {"material.soil={law='drucker-prager', E=2e7, nu=0.2, rho=2000, phi=20, c=1000}", "grid.cells=[1, 8]",
+                   "phase.max_motion=none", "stop.time=10", "stop.residual=1e-6", pull}));
+    CAPTURE(pull, s.reason);
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.t > 0.5);
+    CHECK(s.t < 5);
+  }
 }

@@ -72,3 +72,42 @@ TEST_CASE("the state is asked for about sixteen times a period, not at every ste
   CHECK(asked >= 14);
   CHECK(asked <= 16);
 }
+
+TEST_CASE("where a distance is asked for as well, residual and distance have both to hold for the whole period") {
+  MonitorOptions both = options;
+  both.distance = 1e-2;
+  for (const bool near : {true, false}) {  // at 5, where the other is not yet as it should be
+    Monitor monitor(both);
+    CHECK(monitor.observe(0, 1, 5.0, 0, true, 1.0) == RunStatus::running);
+    CHECK(monitor.observe(5, near ? 1e-2 : 1e-4, 1e-3, 0, true, near ? 1e-3 : 0.1) == RunStatus::running);
+    CHECK(monitor.observe(6, 1e-4, 1e-3, 0, true, 1e-3) == RunStatus::running);  // the period begins here
+    CHECK(monitor.observe(15.9, 1e-4, 1e-3, 0, true, 1e-3) == RunStatus::running);
+    CHECK(monitor.observe(16, 1e-4, 1e-3, 0, true, 1e-3) == RunStatus::equilibrium);
+    CHECK(monitor.reason().starts_with("residual 0.0001 <= 0.001 and distance 0.001 <= 0.01 and kinetic energy"));
+  }
+}
+
+TEST_CASE("a distance alone is enough for equilibrium, and one that is not known is far") {
+  MonitorOptions alone = options;
+  alone.residual = 0;
+  alone.distance = 1e-2;
+  Monitor monitor(alone);
+  CHECK(monitor.observe(0, 1, 0, 0, true, 1e-3) == RunStatus::running);
+  CHECK(monitor.observe(10, 1, 0, 0, true, 1e-3) == RunStatus::equilibrium);
+  Monitor unknown(alone);
+  for (int k = 0; k < 100; ++k) CHECK(unknown.observe(k, 1e-12, 0) == RunStatus::running);
+}
+
+TEST_CASE("a distance is not asked for where it has no limit") {
+  Monitor monitor(options);
+  CHECK(monitor.observe(0, 1e-4, 0, 0, true, 1e9) == RunStatus::running);
+  CHECK(monitor.observe(10, 1e-4, 0, 0, true, std::nullopt) == RunStatus::equilibrium);
+}
+
+TEST_CASE("no distance is near enough before the loads have come to their end") {
+  MonitorOptions alone = options;
+  alone.residual = 0;
+  alone.distance = 1e-2;
+  Monitor monitor(alone);
+  for (int k = 0; k < 100; ++k) CHECK(monitor.observe(k, 0, 0, 0, false, 0.0) == RunStatus::running);
+}
