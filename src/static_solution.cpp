@@ -53,12 +53,29 @@ class Newton {
 
  private:
   // u: the state at step.from, then the equilibrium at step.to. Where there is none report_.reason says why.
+  // A slender body has a valley of bent states between walls of stretched ones: a search that asks each step for a
+  // smaller ‖Q‖ crawls along it, while full steps cross the walls and come down on the other side. Points that yield
+  // would remember such a detour's end: beyond a limit load there may be one, on no path that the load could take.
   bool load_step(LoadStep& step, Vec u) {
+    const std::vector<double> start(u.begin(), u.end());
+    full_steps_ = false;
+    if (iterate(step, u)) return true;
+    if (!crawling()) return false;
+    std::ranges::copy(start, u.begin());
+    step.residuals.clear();
+    full_steps_ = true;
+    return iterate(step, u);
+  }
+
+  bool crawling() const { return short_steps_ >= most_short_steps && !system_.history_dependent(); }
+
+  bool iterate(LoadStep& step, Vec u) {
+    short_steps_ = 0;
     double residual = balance_.evaluate(step.to, u) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
     step.residuals.push_back(residual);
     indefinite_ = false;
     for (int iteration = 0; !(residual <= options_.tolerance); ++iteration) {
-      if (iteration == options_.max_iterations || !std::isfinite(residual)) {
+      if (iteration == options_.max_iterations || !std::isfinite(residual) || (!full_steps_ && crawling())) {
         report_.reason = fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations", residual,
                                      options_.tolerance, iteration);
         return false;
@@ -92,8 +109,10 @@ class Newton {
     for (int halvings = 0; halvings < most_halvings; ++halvings) {
       const double lambda = std::ldexp(1, -halvings);
       for (std::size_t i = 0; i < u.size(); ++i) trial_[i] = u[i] + lambda * du_[i];
-      if (!balance_.evaluate(s, trial_) || !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
+      if (!balance_.evaluate(s, trial_)) continue;
+      if (!full_steps_ && !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
       std::ranges::copy(trial_, u.begin());
+      short_steps_ = lambda < short_step ? short_steps_ + 1 : 0;
       return true;
     }
     return false;
@@ -162,6 +181,10 @@ class Newton {
   const NewtonOptions& options_;
   OutOfBalance balance_;
   std::vector<double> trial_, du_;
+  static constexpr int most_short_steps = 3;
+  static constexpr double short_step = 0.3;
+  bool full_steps_ = false;  // whatever ‖Q‖ does
+  int short_steps_ = 0;      // one after the other
   bool indefinite_ = false;  // K of the last iteration, where symmetric
   StaticReport report_;
 };

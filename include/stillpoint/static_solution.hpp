@@ -58,11 +58,12 @@ struct StaticReport {
 /// Newton's method on Q(u) = F_s(u) − R(u) = 0, K du = Q with the consistent tangent K = ∂R/∂u − s ∂F/∂u:
 ///   F_s = (1 − s) R(u₀) + s F(t, u),   s from 0 to 1 in load steps,
 /// each committed where history_dependent(). u, (n): u₀ at the start, in the end the last equilibrium. A step du is
-/// halved while ‖Q(u + λ du)‖ > (1 − 10⁻⁴ λ) ‖Q(u)‖ [Kelley 1995, §8.1] or u + λ du is inadmissible. Conjugate
-/// gradients solve K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the order 2 [Dembo, Eisenstat and Steihaug 1982].
-/// Everything happens at t: supports are where they then are from the first load step on, and a viscous law flows in
-/// the first one, for the time since the last commit. Throws std::invalid_argument on bad options and where the system
-/// has contact, which has no tangent here.
+/// halved while ‖Q(u + λ du)‖ > (1 − 10⁻⁴ λ) ‖Q(u)‖ [Kelley 1995, §8.1] or u + λ du is inadmissible; where that comes
+/// down to three short steps in a row, in a body without history, the load step is begun again with full ones.
+/// Conjugate gradients solve K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the order 2 [Dembo, Eisenstat and Steihaug
+/// 1982]. Everything happens at t: supports are where they then are from the first load step on, and a viscous law
+/// flows in the first one, for the time since the last commit. Throws std::invalid_argument on bad options and where
+/// the system has contact, which has no tangent here.
 StaticReport newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options = {});
 
 /// Conjugate gradients on K (u' − u) = F − R(u), matrix-free, preconditioned with the diagonal of M: for a linear

@@ -4,6 +4,7 @@
 //   const auto summary = stillpoint::run(scene);
 #pragma once
 
+#include <stillpoint/compare.hpp>
 #include <stillpoint/model.hpp>
 #include <stillpoint/run.hpp>
 #include <stillpoint/scene.hpp>

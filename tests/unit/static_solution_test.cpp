@@ -341,6 +341,34 @@ TEST_CASE("a full step that makes the residual larger, or that is inadmissible, 
 
 // --- conjugate gradients --------------------------------------------------------------------------
 
+TEST_CASE("a beam bends by half its length in one load step, by full steps where a search would crawl") {
+  // Mattiasson's elastica for P L²/(E I) = 2: the end goes down by 0.49346 L and back by 0.16064 L, and turns by
+  // 0.78175.
+  const Scene scene = scenes::load("cantilever");
+  const auto phase = make_phase(scene);
+  std::vector<double> u(phase->size(), 0.0);
+  const StaticReport report = newton(*phase, 0, u);
+  CAPTURE(report.reason);
+  CHECK(report.converged);
+  CHECK(report.load_steps.size() == 1);
+  CHECK(report.iterations < 30);  // a search alone took 2994, in 225 load steps
+  double most = 0;
+  for (const double residual : report.load_steps[0].residuals) most = std::max(most, residual);
+  CHECK(most > 100);  // on the way over: the beam is stretched
+  CHECK(report.residual < 1e-10);
+
+  // The mean of the last points, which lie 1/24 before the end.
+  const std::vector<double> x = phase->places(), moved = statics::point_displacement(*phase, u);
+  double back = 0, down = 0, count = 0;
+  for (std::size_t k = 0; k < x.size(); k += 2) {
+    if (x[k] < 10 - 0.05) continue;
+    back -= moved[k], down -= moved[k + 1], ++count;
+  }
+  const double rest = 1.0 / 24, angle = 0.78175;
+  CHECK_THAT(down / count, Catch::Matchers::WithinRel(4.9346 - rest * std::sin(angle), 0.01));
+  CHECK_THAT(back / count, Catch::Matchers::WithinRel(1.6064 - rest * (1 - std::cos(angle)), 0.02));
+}
+
 TEST_CASE("conjugate gradients alone solve the linear column within 1/2 sqrt(kappa) ln(2/eps) products") {
   const auto phase = make_phase(column());
   std::vector<double> u(phase->size(), 0.0);
