@@ -1,23 +1,23 @@
 #include <stillpoint/compare.hpp>
-#include <stillpoint/model.hpp>
-#include <stillpoint/run.hpp>
+#include <stillpoint/lagrangian_phase.hpp>
 #include <stillpoint/spectrum.hpp>
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <omp.h>
 
 #include "compare_candidates.hpp"
-#include "load_schedule.hpp"
-#include "reject.hpp"
+#include "exact_state.hpp"
 #include "static_trial.hpp"
 #include "stopwatch.hpp"
 #include "transient_trial.hpp"
@@ -54,8 +54,7 @@ double evaluations_bound(double kappa, double error) { return 0.5 * std::sqrt(ka
 
 namespace {
 
-constexpr double tight = 1e-12;  // of the reference's residual
-constexpr double tight_in_motion = 1e-10;
+constexpr double tight = 1e-12;  // of a residual
 
 Spread spread_of(std::vector<double> values) {
   std::ranges::sort(values);
@@ -107,64 +106,15 @@ class Comparing {
   }
   double end_time() const { return scene_.stop.time; }
 
-  // Newton's method, or where it has no answer the scene's own relaxation.
   void find_equilibrium() {
-    const std::shared_ptr<LagrangianPhase> phase = make_phase(scene_);
-    result_.dofs = phase->size();
-    result_.points = phase->points();
-    result_.by_residual = phase->history_dependent() || phase->has_contact();
-    if (phase->moves_on()) {
-      reject(
-          scene_, "phase",
-          "an equilibrium is compared on one set of unknowns, so in one phase; expected phase.max_motion = \"none\", "
-          "or stop.residual = 0 and stop.time to compare the way to it");
-    }
-    if (end_time() == 0 && pulls_vary(scene_)) {
-      reject(scene_, "stop.time",
-             "loads or supports depend on t, and the equilibrium to compare with is that at the end; expected the t at "
-             "which they have come to it");
-    }
-    exact_.emplace(ExactState{phase->initial_displacement(end_time()), phase});
-    if (phase->has_contact() || !solve_for_reference()) relax_for_reference();
-    if (!(exact_->size() > 0)) {
-      reject(scene_, "body_force",
-             "in equilibrium nothing is displaced, so that no error is relative; expected a load");
-    }
-  }
-
-  // As near as rounding lets it come.
-  bool solve_for_reference() {
-    std::string reason;
-    for (const double tolerance : {tight, 1e2 * tight, 1e4 * tight}) {
-      const auto phase = make_phase(scene_);
-      std::vector<double> u = phase->initial_displacement(end_time());
-      const StaticReport report = newton(*phase, end_time(), u, {.tolerance = tolerance});
-      reason = report.reason;
-      if (!report.converged) continue;
-      exact_->u = u;
-      result_.reference_residual = report.residual;
-      result_.reference = report.lu_factorisations > 0 ? "Newton's method, UMFPACK" : "Newton's method, CHOLMOD";
-      return true;
-    }
-    result_.notes.push_back("Newton's method found no reference: " + reason);
-    return false;
-  }
-
-  void relax_for_reference() {
-    Scene scene = scene_;
-    scene.stop.residual = tight_in_motion;
-    scene.stop.distance = 0;
-    scene.output.stages.clear();
-    const Summary summary = run(scene, {.threads = result_.threads,
-                                        .interrupted = options_.interrupted,
-                                        .at_end = [&](const LagrangianPhase&, double, ConstVec u, ConstVec) {
-                                          exact_->u.assign(u.begin(), u.end());
-                                        }});
-    result_.reference = fmt::format("relaxation by {} damping", summary.damping);
-    result_.reference_residual = summary.residual;
-    if (summary.status != RunStatus::equilibrium) {
-      result_.notes.push_back(fmt::format("the reference is no equilibrium: {}", summary.reason));
-    }
+    Equilibrium found = stillpoint::find_equilibrium(scene_, result_.threads, options_.interrupted);
+    result_.dofs = found.state.phase->size();
+    result_.points = found.state.phase->points();
+    result_.by_residual = !found.unique;
+    result_.reference = found.method;
+    result_.reference_residual = found.residual;
+    std::ranges::move(found.notes, std::back_inserter(result_.notes));
+    exact_.emplace(std::move(found.state));
   }
 
   // κ of the elastic tangent where the body comes to rest.
@@ -186,24 +136,9 @@ class Comparing {
     result_.lower_bound = evaluations_bound(*result_.kappa, options_.goal);
   }
 
-  // The limit of slow loading: equilibrium after equilibrium.
   void find_ramp() {
-    const std::shared_ptr<LagrangianPhase> phase = make_phase(scene_);
-    if (phase->has_contact()) {
-      result_.notes.push_back("no slow ramp: Newton's method has no contact");
-      return;
-    }
-    constexpr double share = 1.0 / 64;
-    std::vector<double> u = phase->initial_displacement(0);
-    const StaticReport report =
-        newton(*phase, end_time(), u, {.tolerance = 1e-9, .load_steps = 64, .max_load_step = share});
-    if (!report.converged) {
-      result_.notes.push_back(
-          fmt::format("the slow ramp ends at {:.3g} of the load: {}", report.load_factor, report.reason));
-      return;
-    }
-    ramp_.emplace(ExactState{u, phase});
-    result_.ramp_difference = ramp_->error(exact_->u);
+    ramp_ = slow_ramp(scene_, result_.notes);
+    if (ramp_) result_.ramp_difference = ramp_->error(exact_->u);
   }
 
   void find_transient_reference() {

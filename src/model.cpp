@@ -131,6 +131,15 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureRe
   return notes;
 }
 
+// Where a point crosses a line of the grid its share of a linear function's gradient changes sign: what an elastic body
+// settles over many phases comes out too large [Steffen, Kirby and Berzins 2008].
+std::vector<std::string> phase_notes(const Scene& scene, const LagrangianPhase& phase) {
+  if (!phase.moves_on() || phase.history_dependent() || scene.grid.basis != BasisKind::linear) return {};
+  return {
+      "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % too "
+      "far; a quadratic basis is within 0.3 %"};
+}
+
 std::vector<std::string> support_notes(const Scene& scene) {
   std::vector<std::string> notes;
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
@@ -243,6 +252,7 @@ Model make_model(const Scene& scene) {
   if (is_auto) choose_mass_for_auto(scene, model);
   std::ranges::copy(quadrature_notes(scene, model.phase->quadrature()), std::back_inserter(model.notes));
   std::ranges::copy(support_notes(scene), std::back_inserter(model.notes));
+  std::ranges::copy(phase_notes(scene, *model.phase), std::back_inserter(model.notes));
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);

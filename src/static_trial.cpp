@@ -16,14 +16,6 @@
 namespace stillpoint {
 namespace {
 
-double mass_norm(const Mass& mass, ConstVec x) {
-  std::vector<double> Mx(x.size());
-  mass.apply(x, Mx);
-  double sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * Mx[i];
-  return std::sqrt(sum);
-}
-
 /// Where the way to the goal was for good, and whether it still leads anywhere.
 class Way {
  public:
@@ -72,14 +64,6 @@ std::size_t memory_of(const LagrangianPhase& phase) {
 double far_away(const Model& model) { return 1e9 * model.integrator.max_step; }
 
 }  // namespace
-
-double ExactState::size() const { return mass_norm(phase->mass(), u); }
-
-double ExactState::error(ConstVec at) const {
-  std::vector<double> difference(u.size());
-  for (std::size_t i = 0; i < u.size(); ++i) difference[i] = at[i] - u[i];
-  return mass_norm(phase->mass(), difference) / size();
-}
 
 void watch_trial(const Scene& scene, const ExactState& exact, const TrialLimits& limits, ComparedRun& run) {
   const Stopwatch setup;

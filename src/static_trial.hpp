@@ -2,23 +2,12 @@
 #pragma once
 
 #include <stillpoint/compare.hpp>
-#include <stillpoint/lagrangian_phase.hpp>
 
 #include <functional>
-#include <memory>
-#include <vector>
+
+#include "exact_state.hpp"
 
 namespace stillpoint {
-
-/// The exact discrete equilibrium.
-struct ExactState {
-  std::vector<double> u;                         // (n)
-  std::shared_ptr<const LagrangianPhase> phase;  // whose mass errors are measured with
-  /// ‖u*‖_M
-  double size() const;
-  /// ‖u − u*‖_M/‖u*‖_M
-  double error(ConstVec u) const;
-};
 
 struct TrialLimits {
   double goal = 1e-6;

@@ -208,3 +208,17 @@ TEST_CASE("in many phases the linear column settles too far, the less the more p
   CHECK(std::abs(coarse) < 0.12);
   CHECK(std::abs(fine) < 0.02);
 }
+
+TEST_CASE("a run of an elastic body in many phases says what a linear basis costs it, and no other run does") {
+  const auto warns = [](const std::string& basis, std::optional<double> max_motion) {
+    Scene scene = scenes::load("column", {"material.soil.law=hencky", "grid.basis=" + basis});
+    scene.phase.max_motion = max_motion;
+    for (const std::string& note : make_model(scene).notes) {
+      if (note.find("points cross the cells of a linear basis") != std::string::npos) return true;
+    }
+    return false;
+  };
+  CHECK(warns("linear", 0.1));
+  CHECK_FALSE(warns("quadratic", 0.1));
+  CHECK_FALSE(warns("linear", std::nullopt));
+}
