@@ -18,6 +18,7 @@
 
 #include "compare_candidates.hpp"
 #include "exact_state.hpp"
+#include "many_unknowns.hpp"
 #include "static_trial.hpp"
 #include "stopwatch.hpp"
 #include "transient_trial.hpp"
@@ -48,6 +49,11 @@ std::string ComparedRun::label() const {
   if (step_fraction) text += fmt::format(" {:g}", *step_fraction);
   if (rtol) text += fmt::format(" rtol {:g}", *rtol);
   return text;
+}
+
+std::optional<double> Comparison::over_lower_bound(const ComparedRun& run) const {
+  if (!lower_bound || run.evaluations == 0) return std::nullopt;
+  return static_cast<double>(run.evaluations) / *lower_bound;
 }
 
 double evaluations_bound(double kappa, double error) { return 0.5 * std::sqrt(kappa) * std::log(2 / error); }
@@ -121,7 +127,6 @@ class Comparing {
   void measure_spectrum() {
     const auto phase = make_phase(scene_);
     const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*phase, end_time(), exact_->u);
-    constexpr std::size_t many_unknowns = 20'000;  // above, a few parts in a thousand have to do
     const FrequencyEstimate highest =
         phase->size() > many_unknowns
             ? omega_max_by_lanczos(*phase, end_time(), exact_->u, 40)
@@ -222,7 +227,8 @@ class Comparing {
     run.residual = report.residual;
     run.error = exact_->error(u);
     if (ramp_) run.overshoot = ramp_->error(u);
-    run.memory_bytes = memory(*phase) + report.factor_bytes;
+    run.memory_bytes =
+        static_cast<std::size_t>(phase->bytes_per_point() * static_cast<double>(phase->points())) + report.factor_bytes;
     run.wall_s = spread_of({report.wall_s});
   }
 
@@ -266,11 +272,6 @@ class Comparing {
     const std::scoped_lock lock(telling_);
     ++done_;
     if (options_.progress) options_.progress({done_, total_, what, wall_.seconds()});
-  }
-  static std::size_t memory(const LagrangianPhase& phase) {
-    double bytes = 0;
-    for (const PointArray& array : phase.point_arrays()) bytes += array.bytes_per_point;
-    return static_cast<std::size_t>(bytes * static_cast<double>(phase.points()));
   }
 
   std::filesystem::path file_;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "in_quotes.hpp"
+#include "reject.hpp"
 #include "toml_reader.hpp"
 
 namespace stillpoint {
@@ -25,10 +26,6 @@ const std::vector<std::string> default_transient{"leapfrog",
                                                  "erk:bogacki-shampine-4-2-3:adaptive",
                                                  "erk:dormand-prince-7-4-5:adaptive",
                                                  "erk:fehlberg-13-7-8:adaptive"};
-
-[[noreturn]] void reject_option(const std::string& option, const std::string& given, const std::string& message) {
-  throw SceneError(std::vector<Problem>(1, {{fmt::format("{} {}", option, given), 0, 0}, message}));
-}
 
 bool is_static(const std::string& strategy) {
   return std::ranges::find(static_methods, strategy) != static_methods.end();
@@ -138,11 +135,9 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
 bool takes(const std::string& strategy, const std::string& key) {
   if (is_static(strategy)) return true;
   const DampingInfo& info = find_damping(strategy);
-  if (key == "damping.peak") return info.takes_peak;
-  if (key == "damping.quotient") return info.takes_quotient;
   if (key == "integrator.step" || key == "integrator.step_fraction") return !info.has_own_step;
-  if (key == "damping.c" || key == "damping.alpha") return !info.owns_iteration;
-  return true;
+  const std::string table = "damping.";
+  return !key.starts_with(table) || key == "damping.strategy" || info.takes(key.substr(table.size()));
 }
 
 }  // namespace stillpoint

@@ -3,19 +3,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "atomic_file.hpp"
-#include "versions.hpp"
+#include "json_number.hpp"
 
 namespace stillpoint {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// JSON has no inf or nan.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
 std::string cell(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.17g}", *value) : "";
@@ -24,11 +17,6 @@ std::string quoted(const std::string& text) {
   std::string doubled;
   for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
   return '"' + doubled + '"';
-}
-
-std::optional<double> over_bound(const Comparison& c, const ComparedRun& run) {
-  if (!c.lower_bound || run.evaluations == 0) return std::nullopt;
-  return static_cast<double>(run.evaluations) / *c.lower_bound;
 }
 
 std::string csv(const Comparison& c) {
@@ -40,7 +28,7 @@ std::string csv(const Comparison& c) {
     text += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{},{},{},{}\n", run.strategy, run.integrator,
         cell(run.step_fraction), cell(run.rtol), to_string(run.status), run.steps, run.evaluations,
-        run.first_evaluations, cell(over_bound(c, run)), cell(wall ? std::optional(wall->median) : std::nullopt),
+        run.first_evaluations, cell(c.over_lower_bound(run)), cell(wall ? std::optional(wall->median) : std::nullopt),
         cell(wall ? std::optional(wall->least) : std::nullopt), cell(wall ? std::optional(wall->most) : std::nullopt),
         run.setup_s, cell(run.error), cell(run.residual), cell(run.distance), cell(run.overshoot), run.memory_bytes,
         quoted(run.reason));
@@ -68,7 +56,7 @@ std::string json(const Comparison& c) {
                     {"evaluations", run.evaluations},
                     {"first_evaluations", run.first_evaluations},
                     {"estimating", run.estimating},
-                    {"over_lower_bound", number(over_bound(c, run))},
+                    {"over_lower_bound", number(c.over_lower_bound(run))},
                     {"setup_s", number(run.setup_s)},
                     {"wall_s", wall},
                     {"error", number(run.error)},
@@ -78,8 +66,6 @@ std::string json(const Comparison& c) {
                     {"memory_bytes", run.memory_bytes},
                     {"samples", samples}});
   }
-  Json versions = Json::object();
-  for (const auto& [name, version] : library_versions()) versions[name] = version;
   const Json whole = {{"scene", c.scene},
                       {"title", c.title},
                       {"dofs", c.dofs},
@@ -98,7 +84,7 @@ std::string json(const Comparison& c) {
                       {"sample", {"evaluations", "error", "residual", "distance"}},
                       {"runs", runs},
                       {"notes", c.notes},
-                      {"versions", versions}};
+                      {"versions", versions_of_libraries()}};
   return whole.dump(1) + "\n";
 }
 

@@ -202,10 +202,20 @@ const std::vector<DampingInfo>& damping_strategies() {
   return strategies;
 }
 
+bool DampingInfo::takes(std::string_view key) const {
+  if (key == "peak") return takes_peak;
+  if (key == "quotient") return takes_quotient;
+  return !owns_iteration;  // c and alpha
+}
+
+const DampingInfo* known_damping(std::string_view name) {
+  const auto& all = damping_strategies();
+  const auto found = std::ranges::find(all, name, &DampingInfo::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
 const DampingInfo& find_damping(std::string_view name) {
-  for (const DampingInfo& info : damping_strategies()) {
-    if (info.name == name) return info;
-  }
+  if (const DampingInfo* info = known_damping(name)) return *info;
   throw std::invalid_argument(fmt::format("there is no damping strategy '{}'", name));
 }
 

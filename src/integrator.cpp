@@ -1,7 +1,6 @@
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/scene.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -29,13 +28,6 @@ void validate(const IntegratorOptions& options, const Method& method) {
   } else {
     require(method.fixed_step, fmt::format("method '{}' is adaptive only: set rtol", method.name));
   }
-}
-
-// Null for a damping of the user's own, which is a force.
-const DampingInfo* known_strategy(std::string_view name) {
-  const auto& all = damping_strategies();
-  const auto found = std::ranges::find(all, name, &DampingInfo::name);
-  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -67,7 +59,7 @@ Method find_method(std::string_view name, DampingTreatment treatment) {
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system) {
   const Method method = find_method(options.method, options.treatment);
   validate(options, method);
-  const DampingInfo* strategy = known_strategy(system.damping().name());
+  const DampingInfo* strategy = known_damping(system.damping().name());
   if (strategy) {
     require(strategy->goes_with(method.name),
             fmt::format("damping '{}' does not go with method '{}', but with {}", strategy->name, method.name,

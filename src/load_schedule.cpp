@@ -16,11 +16,17 @@ bool pulls_vary(const Scene& scene) {
          std::ranges::any_of(scene.supports, [&](const auto& s) { return varies(s.motion); });
 }
 
+std::vector<double> loads_at(const SemiDiscrete& system, double t) {
+  const std::vector<double> rest(system.size(), 0.0);
+  std::vector<double> F(system.size());
+  system.external_force(t, F);
+  system.add_following_force(t, rest, F);
+  return F;
+}
+
 std::vector<double> pull_at(const SemiDiscrete& system, double t) {
   const std::vector<double> rest(system.size(), 0.0);
-  std::vector<double> Q(system.size()), R(system.size());
-  system.external_force(t, Q);
-  system.add_following_force(t, rest, Q);
+  std::vector<double> Q = loads_at(system, t), R(system.size());
   system.internal_force(t, rest, R);
   for (std::size_t i = 0; i < Q.size(); ++i) Q[i] -= R[i];
   return Q;
@@ -34,12 +40,7 @@ LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, doubl
 
 // The loads alone where no support moves: R(u = 0) changes with what a body remembers.
 std::vector<double> LoadSchedule::pull(double t) const {
-  if (supports_move_) return pull_at(system_, t);
-  const std::vector<double> rest(system_.size(), 0.0);
-  std::vector<double> F(system_.size());
-  system_.external_force(t, F);
-  system_.add_following_force(t, rest, F);
-  return F;
+  return supports_move_ ? pull_at(system_, t) : loads_at(system_, t);
 }
 
 bool LoadSchedule::settled(double t) const {

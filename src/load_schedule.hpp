@@ -11,6 +11,8 @@ namespace stillpoint {
 /// Whether a load or a support of the scene depends on t.
 bool pulls_vary(const Scene& scene);
 
+/// F(t) on the undeformed body, (n) [N].
+std::vector<double> loads_at(const SemiDiscrete& system, double t);
 /// Q(t) = F(t) − R(u = 0, t): loads and the pull of displaced supports on the undeformed body, (n) [N].
 std::vector<double> pull_at(const SemiDiscrete& system, double t);
 

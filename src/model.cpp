@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "load_schedule.hpp"
+#include "many_unknowns.hpp"
 #include "reject.hpp"
 #include "stiffening_step.hpp"
 
@@ -18,8 +19,6 @@ namespace stillpoint {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-// Unknowns above which a factor of K, or hundreds of products with it, cost more than many a relaxation.
-constexpr std::size_t many_unknowns = 20'000;
 
 // ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
 double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {

@@ -17,6 +17,7 @@
 #include "inertia.hpp"
 #include "load_schedule.hpp"
 #include "motion.hpp"
+#include "reject.hpp"
 #include "stages.hpp"
 #include "stopwatch.hpp"
 
@@ -74,8 +75,7 @@ auto open_output(const std::filesystem::path& out, const Open& open) {
   try {
     return open();
   } catch (const std::filesystem::filesystem_error& error) {
-    const Location where{fmt::format("--out {}", out.string()), 0, 0};
-    throw SceneError(std::vector<Problem>(1, {where, fmt::format("cannot be written: {}", error.code().message())}));
+    reject_folder(out, error);
   }
 }
 
@@ -258,7 +258,7 @@ class Run {
     s.wall_s = wall_.seconds();
     if (s.steps > 0)
       s.ns_per_point_step = 1e9 * stepping_s_ / (static_cast<double>(s.steps) * static_cast<double>(s.points));
-    for (const PointArray& array : model_.phase->point_arrays()) s.bytes_per_point += array.bytes_per_point;
+    s.bytes_per_point = model_.phase->bytes_per_point();
     s.residual = residual_;
     if (scene_.stop.wants_equilibrium()) look_at_tangent();
     s.distance = distance_;

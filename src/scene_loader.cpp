@@ -50,19 +50,14 @@ void drop_keys_of_other_transfers(toml::table& root) {
 
 void drop_keys_of_other_strategies(toml::table& root) {
   const auto takes = [](const std::string& strategy, const std::string& key) {
-    const auto& all = damping_strategies();
-    const auto info = std::ranges::find(all, strategy, &DampingInfo::name);
-    if (info == all.end()) return true;  // what does not exist is reported by itself
-    if (key == "peak") return info->takes_peak;
-    if (key == "quotient") return info->takes_quotient;
-    return !info->owns_iteration;  // c and alpha
+    const DampingInfo* info = known_damping(strategy);
+    return !info || info->takes(key);  // what does not exist is reported by itself
   };
   drop_keys_of_other_choices(root, "damping", "strategy", takes, {"c", "alpha", "peak", "quotient"});
   const auto strategy = root["damping"]["strategy"];
   toml::table* const integrator = root["integrator"].as_table();
-  const auto& all = damping_strategies();
-  const auto info = std::ranges::find(all, strategy.value_or(std::string()), &DampingInfo::name);
-  if (!integrator || !from_override(strategy.node()) || info == all.end() || !info->has_own_step) return;
+  const DampingInfo* info = known_damping(strategy.value_or(std::string()));
+  if (!integrator || !from_override(strategy.node()) || !info || !info->has_own_step) return;
   for (const char* step : {"step", "step_fraction"}) {  // it has its own
     if (!from_override(integrator->get(step))) integrator->erase(step);
   }

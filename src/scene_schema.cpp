@@ -76,15 +76,13 @@ void read_damping(TableReader damping, Scene& scene) {
   if (known) {
     const DampingInfo& info = find_damping(scene.damping.strategy);
     const auto refuse = [&](const char* key, const char* owners) {
-      if (damping.has(key))
+      if (damping.has(key) && !info.takes(key))
         damping.problem(key, fmt::format("goes with strategy = {}, not with '{}'", owners, info.name));
     };
-    if (!info.takes_peak) refuse("peak", "\"kinetic\"");
-    if (!info.takes_quotient) refuse("quotient", "\"adaptive\"");
-    if (info.owns_iteration) {
-      refuse("c", "\"viscous\" or \"identity\"");
-      refuse("alpha", "\"one-sided\", \"cundall\" or \"combined\"");
-    }
+    refuse("peak", "\"kinetic\"");
+    refuse("quotient", "\"adaptive\"");
+    refuse("c", "\"viscous\" or \"identity\"");
+    refuse("alpha", "\"one-sided\", \"cundall\" or \"combined\"");
   }
   damping.report_unknown_keys();
 }

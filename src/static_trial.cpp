@@ -53,11 +53,8 @@ class Way {
 
 // Points, and about ten vectors of unknowns.
 std::size_t memory_of(const LagrangianPhase& phase) {
-  double bytes = 10.0 * sizeof(double) * static_cast<double>(phase.size());
-  for (const PointArray& array : phase.point_arrays()) {
-    bytes += array.bytes_per_point * static_cast<double>(phase.points());
-  }
-  return static_cast<std::size_t>(bytes);
+  return static_cast<std::size_t>(10.0 * sizeof(double) * static_cast<double>(phase.size()) +
+                                  phase.bytes_per_point() * static_cast<double>(phase.points()));
 }
 
 // So far away that steps are what the method takes by itself.

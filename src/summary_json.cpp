@@ -1,22 +1,8 @@
 #include <stillpoint/run.hpp>
 
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
-#include "versions.hpp"
+#include "json_number.hpp"
 
 namespace stillpoint {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-// JSON has no inf or nan.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
-
-}  // namespace
-
 std::string to_json(const Summary& s) {
   Json error = nullptr;
   if (s.error) {
@@ -31,8 +17,6 @@ std::string to_json(const Summary& s) {
   Json stages = Json::array();
   for (const Stage& stage : s.stages)
     stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
-  Json versions = Json::object();
-  for (const auto& [name, version] : library_versions()) versions[name] = version;
 
   const Json json = {{"scene", s.scene},
                      {"title", s.title},
@@ -70,7 +54,7 @@ std::string to_json(const Summary& s) {
                      {"error", error},
                      {"probes", probes},
                      {"probe_places", s.probe_places},
-                     {"versions", versions}};
+                     {"versions", versions_of_libraries()}};
   return json.dump(2) + "\n";
 }
 

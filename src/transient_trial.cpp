@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "stopwatch.hpp"
-
 namespace stillpoint {
 namespace {
 
@@ -60,13 +58,11 @@ TransientReference transient_reference(const Scene& scene,
 
 void watch_transient(const Scene& scene, const TransientReference& reference, const std::function<bool()>& interrupted,
                      ComparedRun& run) {
-  const Stopwatch wall;
   const Ended ended = follow(scene, 1, interrupted);
   run.steps = ended.summary.steps;
   run.evaluations = run.first_evaluations = ended.summary.rhs_evaluations;
   run.residual = ended.summary.residual;
   run.reason = ended.summary.reason;
-  run.setup_s = 0;
   switch (ended.summary.status) {
     case RunStatus::end_time:
       run.status = ComparedStatus::converged;

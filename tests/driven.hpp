@@ -2,35 +2,29 @@
 #pragma once
 
 #include <stillpoint/model.hpp>
-#include <stillpoint/relaxation.hpp>
 
 #include <functional>
-#include <memory>
 #include <stdexcept>
 #include <vector>
+
+#include "motion.hpp"
 
 namespace driven {
 
 class Motion {
  public:
   explicit Motion(const stillpoint::Scene& scene)
-      : model_(stillpoint::make_model(scene)),
-        relaxation_(*model_.phase, *model_.damping, vectors_),
-        y_(vectors_.make(2 * model_.phase->size())),
-        integrator_(stillpoint::make_integrator(model_.integrator, relaxation_)) {
-    std::copy(model_.u.begin(), model_.u.end(), y_.span().begin());
-    std::copy(model_.v.begin(), model_.v.end(), y_.span().begin() + static_cast<std::ptrdiff_t>(model_.u.size()));
-    integrator_->start(0, y_);
-    if (relaxation_.accept(0, y_.span(), integrator_->force_is_current())) integrator_->velocity_changed();
+      : model_(stillpoint::make_model(scene)), motion_(model_, vectors_, 0, model_.u, model_.v) {
+    motion_.accept(0);
   }
 
   /// Steps until `end`; look() after every step.
   void run_to(double end, const std::function<void()>& look = {}) {
     while (t_ < end) {
-      const stillpoint::StepReport step = integrator_->step(end);
+      const stillpoint::StepReport step = motion_.integrator->step(end);
       if (step.status != stillpoint::StepReport::Status::ok) throw std::runtime_error(step.message);
       t_ = step.t;
-      if (relaxation_.accept(t_, y_.span(), integrator_->force_is_current())) integrator_->velocity_changed();
+      motion_.accept(t_);
       if (look) look();
     }
   }
@@ -38,9 +32,9 @@ class Motion {
   double t() const { return t_; }
   const stillpoint::Model& model() const { return model_; }
   stillpoint::LagrangianPhase& phase() { return *model_.phase; }
-  stillpoint::RelaxationSystem& relaxation() { return relaxation_; }
-  stillpoint::ConstVec u() const { return stillpoint::first_half(y_.span()); }
-  stillpoint::ConstVec v() const { return stillpoint::second_half(y_.span()); }
+  stillpoint::RelaxationSystem& relaxation() { return motion_.relaxation; }
+  stillpoint::ConstVec u() const { return motion_.u(); }
+  stillpoint::ConstVec v() const { return motion_.v(); }
   stillpoint::WallReaction wall(std::size_t number = 0) const { return model_.phase->wall_reactions(t_).at(number); }
 
   /// Mean over the points, which are of equal mass in these scenes.
@@ -55,9 +49,7 @@ class Motion {
  private:
   stillpoint::VectorSpace vectors_;
   stillpoint::Model model_;
-  stillpoint::RelaxationSystem relaxation_;
-  stillpoint::Vector y_;
-  std::unique_ptr<stillpoint::Integrator> integrator_;
+  stillpoint::Motion motion_;
   double t_ = 0;
 };
 

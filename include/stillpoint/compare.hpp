@@ -89,6 +89,9 @@ struct Comparison {
   std::optional<double> ramp_difference;  // of the reference, one load step, from the slow ramp
   std::vector<ComparedRun> runs;          // in the order of their names' lists
   std::vector<std::string> notes;
+
+  /// Evaluations of a run over the lower bound; nothing where there is none, or where it made none.
+  std::optional<double> over_lower_bound(const ComparedRun& run) const;
 };
 
 /// Evaluations that conjugate gradients need for an error ε in a linear system of condition number κ, and that no

@@ -91,9 +91,14 @@ struct DampingInfo {
   std::vector<std::string_view> integrators{};
 
   bool goes_with(std::string_view method) const;
+  /// Whether a key of [damping] beside the strategy ("c", "alpha", "peak", "quotient") says anything to it. Those that
+  /// are a force let each other's c and alpha pass.
+  bool takes(std::string_view key) const;
 };
 /// Every strategy, for `stillpoint list dampings`.
 const std::vector<DampingInfo>& damping_strategies();
+/// One of them, or null where there is none of that name: a damping of the user's own.
+const DampingInfo* known_damping(std::string_view name);
 /// One of them. Throws std::invalid_argument where there is none of that name.
 const DampingInfo& find_damping(std::string_view name);
 

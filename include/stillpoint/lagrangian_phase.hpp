@@ -80,6 +80,12 @@ class LagrangianPhase : public SemiDiscrete {
 
   /// What is modelled, for `stillpoint check`.
   virtual std::vector<PointArray> point_arrays() const = 0;
+  /// Of all of them together.
+  double bytes_per_point() const {
+    double total = 0;
+    for (const PointArray& array : point_arrays()) total += array.bytes_per_point;
+    return total;
+  }
   virtual std::size_t supported_degrees_of_freedom() const = 0;
   virtual std::vector<int> grid_cells() const = 0;  // along each coordinate
   virtual std::size_t occupied_cells() const = 0;

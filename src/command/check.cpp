@@ -46,12 +46,11 @@ int check(const SceneArguments& arguments) {
     fmt::print("  critical step    not known for {}; error control bounds the step\n", model.method.name);
   }
   for (const std::string& note : model.notes) fmt::print("  note             {}\n", note);
-  double total = 0;
   fmt::print("  bytes a point\n");
   for (const PointArray& array : phase.point_arrays()) {
     fmt::print("    {:<17}{:4.0f}\n", array.name, array.bytes_per_point);
-    total += array.bytes_per_point;
   }
+  const double total = phase.bytes_per_point();
   fmt::print("    {:<17}{:4.0f}   {:.3g} MB for all points\n", "together", total,
              total * static_cast<double>(phase.points()) / 1e6);
   return 0;

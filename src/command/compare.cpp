@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "../reject.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -51,8 +52,7 @@ class OutputFolder {
     try {
       std::filesystem::create_directories(path_);
     } catch (const std::filesystem::filesystem_error& error) {
-      throw SceneError(std::vector<Problem>(1, {{fmt::format("--out {}", path_.string()), 0, 0},
-                                                fmt::format("cannot be written: {}", error.code().message())}));
+      reject_folder(path_, error);
     }
   }
   ~OutputFolder() {
@@ -103,12 +103,10 @@ void print_table(const Comparison& c) {
              "x bound", "time", "+-", "error", "residual", "distance", overshoot ? "  overshoot" : "");
   for (const ComparedRun* run : ranked(c)) {
     const bool converged = run->status == ComparedStatus::converged;
+    const auto ratio = c.over_lower_bound(*run);
     const Spread wall = run->wall_s.value_or(Spread{});
     fmt::print("  {:<{}}{:>12}{:>12}{:>9}{:>11}{:>8}{:>11}{:>11}{:>11}", run->label(), width, to_string(run->status),
-               run->evaluations,
-               c.lower_bound && converged
-                   ? fmt::format("{:.2f}", static_cast<double>(run->evaluations) / *c.lower_bound)
-                   : "-",
+               run->evaluations, ratio && converged ? fmt::format("{:.2f}", *ratio) : "-",
                run->wall_s ? seconds(wall.median) : "-",
                wall.median > 0 ? fmt::format("{:.0f} %", 50 * (wall.most - wall.least) / wall.median) : "-",
                small(run->error), small(run->residual), small(run->distance.value_or(none)));
