@@ -1,13 +1,12 @@
 // A scene of one phase, driven step by step as a run drives it, to be looked at on the way.
 #pragma once
 
-#include <stillpoint/model.hpp>
-
 #include <functional>
 #include <stdexcept>
 #include <vector>
 
-#include "motion.hpp"
+#include "simulation/model.hpp"
+#include "simulation/motion.hpp"
 
 namespace driven {
 

@@ -83,7 +83,7 @@ struct Comparison {
   bool transient = false;    // error in time at stop.time, against `reference`
   bool by_residual = false;  // history or friction: the goal is one of the residual, since equilibria differ
   double goal = 0;
-  std::optional<double> omega_1, omega_max, kappa, lower_bound;
+  std::optional<double> omega_1, omega_max, kappa, chebyshev_estimate;
   std::string reference;  // what u* is from
   double reference_residual = 0;
   std::optional<double> ramp_difference;  // of the reference, one load step, from the slow ramp
@@ -91,12 +91,12 @@ struct Comparison {
   std::vector<std::string> notes;
 
   /// Evaluations of a run over the lower bound; nothing where there is none, or where it made none.
-  std::optional<double> over_lower_bound(const ComparedRun& run) const;
+  std::optional<double> over_chebyshev_estimate(const ComparedRun& run) const;
 };
 
 /// Evaluations that conjugate gradients need for an error ε in a linear system of condition number κ, and that no
 /// method which only evaluates forces betters by much: ½ √κ ln(2/ε) [Axelsson 1994, §13.2].
-double evaluations_bound(double kappa, double error);
+double chebyshev_estimate(double kappa, double error);
 
 /// Runs the scene once for each combination to count, in parallel where there are cores, and those that reach the goal
 /// `repeats` times more to time them, one at a time. A combination that the scene refuses is a row with the reason.

@@ -5,7 +5,7 @@
 //   gsl:<stepper>                GSL's explicit steppers, an independent second opinion
 #pragma once
 
-#include <stillpoint/relaxation.hpp>
+#include <stillpoint/relaxation_system.hpp>
 
 #include <functional>
 #include <memory>

@@ -1,11 +1,12 @@
 // The mass matrix M of a Lagrangian phase: a diagonal, or a sparse matrix with its factor.
 #pragma once
 
-#include <stillpoint/sparse_cholesky.hpp>
 #include <stillpoint/types.hpp>
 
 #include <optional>
 #include <vector>
+
+#include "linalg/sparse_cholesky.hpp"
 
 namespace stillpoint {
 

@@ -1,8 +1,6 @@
 // Runs a scene: relaxes it, watches it, writes what was asked.
 #pragma once
 
-#include <stillpoint/lagrangian_phase.hpp>
-#include <stillpoint/monitor.hpp>
 #include <stillpoint/scene.hpp>
 
 #include <filesystem>
@@ -12,6 +10,9 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "simulation/monitor.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
 
@@ -33,7 +34,7 @@ struct RunOptions {
 };
 
 /// A moment at which all fields were written.
-struct Stage {
+struct Snapshot {
   double t = 0;            // [s]
   double slope_angle = 0;  // of the free surface [degrees]; NaN where there is no slope
 };
@@ -69,9 +70,10 @@ struct Summary {
   std::optional<TransferErrors> transfer;  // of a body that moves on
   std::optional<double> external_work;     // [J]
   std::optional<double> slope_angle;       // at the end, where a probe asks for it [degrees]
-  std::vector<Stage> stages;
+  std::vector<Snapshot> snapshots;
   std::optional<ExactError> error;
-  std::map<std::string, std::vector<double>> probe_places;  // of each probe's material point when the phase began [m]
+  std::map<std::string, std::vector<double>>
+      probe_positions;  // of each probe's material point when the phase began [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)
 };
 

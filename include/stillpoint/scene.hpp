@@ -131,7 +131,7 @@ struct StopSpec {                // [stop]: a test set to 0 is off
   double residual = 1e-6;        // ‖F − R‖/‖F‖
   double distance = 0;           // ‖u − u*‖_M/‖u‖_M, certified
   double kinetic_energy = 1e-6;  // share of the largest kinetic energy so far; goes with these two
-  double hold = 1;               // both held for this many periods 2π/ω₁
+  double dwell = 1;              // both held for this many periods 2π/ω₁
   double time = 0;               // end time [s]
   long steps = 10'000'000;
   double wall_time = 0;  // [s]
@@ -139,10 +139,10 @@ struct StopSpec {                // [stop]: a test set to 0 is off
   bool wants_equilibrium() const { return residual > 0 || distance > 0; }
 };
 
-struct OutputSpec {            // [output]
-  double every = 0;            // time between rows of the history [s]; 0: chosen
-  std::vector<double> stages;  // times at which the fields of all points are written [s]
-  double fields_every = 0;     // or the time between them [s]; 0: at the stages only
+struct OutputSpec {               // [output]
+  double every = 0;               // time between rows of the history [s]; 0: chosen
+  std::vector<double> snapshots;  // times at which the fields of all points are written [s]
+  double fields_every = 0;        // or the time between them [s]; 0: at the stages only
 };
 
 struct PhaseSpec {  // [phase]: when the points move on and the grid starts afresh

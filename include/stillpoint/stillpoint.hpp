@@ -5,8 +5,9 @@
 #pragma once
 
 #include <stillpoint/compare.hpp>
-#include <stillpoint/model.hpp>
 #include <stillpoint/run.hpp>
 #include <stillpoint/scene.hpp>
 #include <stillpoint/spectrum.hpp>
 #include <stillpoint/static_solution.hpp>
+
+#include "simulation/model.hpp"

@@ -1,12 +1,11 @@
 // stillpoint check: what would be modelled; nothing runs and nothing is written.
-#include <stillpoint/model.hpp>
-
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
+#include "command/commands.hpp"
+#include "simulation/model.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -30,7 +29,8 @@ int check(const SceneArguments& arguments) {
   }
   fmt::print("  points           {}, mass {:.6g} kg; they integrate polynomials up to degree {}\n", phase.points(),
              phase.total_mass(), phase.quadrature().degree);
-  fmt::print("  phases           {}\n", phase.moves_on() ? "several: the points move on" : "one: weights are frozen");
+  fmt::print("  phases           {}\n",
+             phase.updated_lagrangian() ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.supported_degrees_of_freedom(),
              phase.mass().is_lumped() ? "lumped" : "consistent");
   fmt::print("  damping          {}{}: {}\n", model.damping->name(),

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "../reject.hpp"
-#include "commands.hpp"
-#include "terminal.hpp"
+#include "command/commands.hpp"
+#include "command/terminal.hpp"
+#include "scene/throw_scene_error.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -52,7 +52,7 @@ class OutputFolder {
     try {
       std::filesystem::create_directories(path_);
     } catch (const std::filesystem::filesystem_error& error) {
-      reject_folder(path_, error);
+      throw_folder_error(path_, error);
     }
   }
   ~OutputFolder() {
@@ -85,9 +85,9 @@ void print_heading(const Comparison& c) {
   fmt::print("  {} degrees of freedom, {} points, {} thread{} for the times\n", c.dofs, c.points, c.threads,
              c.threads == 1 ? "" : "s");
   fmt::print("  reference: {}\n", c.reference);
-  if (c.lower_bound) {
+  if (c.chebyshev_estimate) {
     fmt::print("  kappa {:.4g}; lower bound for an error of {:g}: {:.0f} evaluations\n", *c.kappa, c.goal,
-               *c.lower_bound);
+               *c.chebyshev_estimate);
   }
   if (c.ramp_difference) {
     fmt::print("  one load step of Newton's method differs from a slow ramp by {:.2e}\n", *c.ramp_difference);
@@ -103,7 +103,7 @@ void print_table(const Comparison& c) {
              "x bound", "time", "+-", "error", "residual", "distance", overshoot ? "  overshoot" : "");
   for (const ComparedRun* run : ranked(c)) {
     const bool converged = run->status == ComparedStatus::converged;
-    const auto ratio = c.over_lower_bound(*run);
+    const auto ratio = c.over_chebyshev_estimate(*run);
     const Spread wall = run->wall_s.value_or(Spread{});
     fmt::print("  {:<{}}{:>12}{:>12}{:>9}{:>11}{:>8}{:>11}{:>11}{:>11}", run->label(), width, to_string(run->status),
                run->evaluations, ratio && converged ? fmt::format("{:.2f}", *ratio) : "-",

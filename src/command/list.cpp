@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
+#include "command/commands.hpp"
 
 namespace stillpoint::command {
 namespace {

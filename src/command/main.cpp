@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "commands.hpp"
+#include "command/commands.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
-#include "terminal.hpp"
+#include "command/commands.hpp"
+#include "command/terminal.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -38,7 +38,7 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
                                s.threads, s.threads == 1 ? "" : "s"));
   if (s.transfer) {
     row("conserved", fmt::format("mass to {:.1e}, momentum to {:.1e}; {:.1f} % inertia added at nodes of little mass",
-                                 s.transfer->mass, s.transfer->momentum, 100 * s.transfer->added_inertia));
+                                 s.transfer->mass, s.transfer->momentum, 100 * s.transfer->added_mass));
   }
   if (s.external_work) {
     row("external work", fmt::format("{:.6g} J; kinetic energy is {:.1e} of it", *s.external_work,
@@ -47,8 +47,8 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   for (const auto& [name, fields] : s.probes) {
     std::string values;
     for (const auto& [field, value] : fields) values += fmt::format("{} = {:.9g}  ", field, value);
-    const auto place = s.probe_places.find(name);
-    if (place != s.probe_places.end()) values += fmt::format(" at x = {:.6g}", fmt::join(place->second, ", "));
+    const auto place = s.probe_positions.find(name);
+    if (place != s.probe_positions.end()) values += fmt::format(" at x = {:.6g}", fmt::join(place->second, ", "));
     row((fields.front().first == "normal" ? "force on " : "probe ") + name, values);
   }
   for (const std::string& note : s.notes) row("note", note);

@@ -1,11 +1,11 @@
 // stillpoint spectrum: frequencies by every method that the scene allows, and what follows from them.
-#include <stillpoint/model.hpp>
 #include <stillpoint/spectrum.hpp>
 #include <stillpoint/stability.hpp>
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
+#include "command/commands.hpp"
+#include "simulation/model.hpp"
 
 namespace stillpoint::command {
 namespace {

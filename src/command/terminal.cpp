@@ -1,4 +1,4 @@
-#include "terminal.hpp"
+#include "command/terminal.hpp"
 
 #include <algorithm>
 #include <cmath>

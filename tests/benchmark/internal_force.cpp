@@ -1,6 +1,6 @@
 // Cost of the loops over material points: ns per point of R(u), and of a whole leapfrog step, for each basis, law and
 // number of threads. Items are material points.
-#include <stillpoint/relaxation.hpp>
+#include <stillpoint/relaxation_system.hpp>
 
 #include <benchmark/benchmark.h>
 #include <omp.h>

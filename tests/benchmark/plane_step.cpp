@@ -1,6 +1,6 @@
 // Cost of a step in the plane, ns per material point, for each basis, law and number of threads; where the time goes;
 // and how it grows with the number of points. The body is that of problems/slope.toml, four points in each cell.
-#include <stillpoint/relaxation.hpp>
+#include <stillpoint/relaxation_system.hpp>
 
 #include <cmath>
 #include <memory>
@@ -8,10 +8,10 @@
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
-#include "body.hpp"
-#include "nodal_force.hpp"
-#include "scene_grid.hpp"
 #include "scenes.hpp"
+#include "space/grid/scene_grid.hpp"
+#include "space/kernels/nodal_force.hpp"
+#include "space/points/body.hpp"
 
 namespace {
 
@@ -25,7 +25,7 @@ Scene block(int basis, int law, int cells) {
   const int rows = cells / 2;
   Scene scene = scenes::load(
       "slope", {std::string("grid.basis=") + bases[basis], "grid.max=[6.0, " + std::to_string(3.0 + 3.0 / rows) + "]",
-                "grid.cells=[" + std::to_string(cells) + ", " + std::to_string(rows + 1) + "]", "output.stages=[]",
+                "grid.cells=[" + std::to_string(cells) + ", " + std::to_string(rows + 1) + "]", "output.snapshots=[]",
                 "wall[1].motion=0"});
   scene.materials.at("soil").law = laws[law];
   const bool plastic = law == 3;
@@ -172,7 +172,7 @@ BENCHMARK(change_of_phase)
 // Half a second of the slope, with phases and classically: ns per point and step of the whole run.
 void whole_run(benchmark::State& state) {
   const std::string max_motion = state.range(0) == 0 ? "0" : "0.1";
-  Scene scene = scenes::load("slope", {"phase.max_motion=" + max_motion, "stop.time=0.5", "output.stages=[]"});
+  Scene scene = scenes::load("slope", {"phase.max_motion=" + max_motion, "stop.time=0.5", "output.snapshots=[]"});
   double ns = 0;
   for (auto _ : state) {
     const Summary summary = run(scene, {.threads = static_cast<int>(state.range(1))});

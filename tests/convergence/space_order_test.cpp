@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "exact_error.hpp"
+#include "output/exact_error.hpp"
 #include "scenes.hpp"
 #include "statics.hpp"
 

@@ -3,8 +3,6 @@
 //   u − u* = −K⁻¹Q,   so   ‖u − u*‖_M ≤ ‖M⁻¹Q‖_M/ω₁² = distance · ‖u‖_M
 //
 // for constant K, whatever u is. distance is relative to ‖u‖_M since u* is not known; the error below to ‖u*‖_M.
-#include "certificate.hpp"
-
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
@@ -17,8 +15,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "motion.hpp"
 #include "scenes.hpp"
+#include "simulation/error_bound.hpp"
+#include "simulation/motion.hpp"
 
 using namespace stillpoint;
 using Values = std::vector<double>;
@@ -59,7 +58,7 @@ struct Sample {
 std::vector<Sample> relaxed(const Scene& scene, const Values& rest, long most_steps = 20'000) {
   Model model = make_model(scene);
   Motion motion(model, {}, 0, model.u, model.v);
-  const Certificate certificate(*model.phase, model.omega_1);
+  const ErrorBound error_bound(*model.phase, model.omega_1);
   const Mass& mass = model.phase->mass();
   const double scale = mass_norm(mass, rest);
   std::vector<Sample> samples;
@@ -71,7 +70,7 @@ std::vector<Sample> relaxed(const Scene& scene, const Values& rest, long most_st
     t = step.t;
     motion.accept(t);
     motion.residual(t);
-    const auto distance = certificate.distance(motion.relaxation, motion.u_vector);
+    const auto distance = error_bound.distance(motion.relaxation, motion.u_vector);
     samples.push_back(
         {relative_difference(mass, motion.u(), rest), mass_norm(mass, motion.u()) / scale, distance.value()});
   } while (samples.back().error > 1e-6 && motion.integrator->steps() < most_steps);
@@ -129,7 +128,7 @@ constexpr double rounding = 1e-5;  // of ratios, where the error itself is 1e-6 
 }  // namespace
 
 TEST_CASE("on every linear scene, with every strategy and after every step, no error is larger than certified",
-          "[certificate]") {
+          "[error_bound]") {
   for (const Case& problem : linear) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "one-sided", "cundall", "kinetic", "adaptive", "fire", "chebyshev",
@@ -142,7 +141,7 @@ TEST_CASE("on every linear scene, with every strategy and after every step, no e
 }
 
 TEST_CASE("leapfrog with critical damping, and auto, are certified to 2.5 times their error, at the end to 1.25 times",
-          "[certificate]") {
+          "[error_bound]") {
   for (const Case& problem : linear) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "auto"}) {
@@ -157,7 +156,7 @@ TEST_CASE("leapfrog with critical damping, and auto, are certified to 2.5 times 
 }
 
 TEST_CASE("an error that is left in high modes is certified too large: by conjugate gradients up to kappa times",
-          "[certificate]") {
+          "[error_bound]") {
   const Case& chain = linear.front();
   const Values rest = equilibrium_of(with(chain, "viscous"));
   const double kappa = 9988;
@@ -195,7 +194,7 @@ const Case small_footing{"footing", {"grid.cells=[12, 9]"}};
 
 }  // namespace
 
-TEST_CASE("relaxation and Newton's method agree to the certificate at large strain", "[certificate]") {
+TEST_CASE("relaxation and Newton's method agree to the error_bound at large strain", "[error_bound]") {
   for (const Case& problem : {soft_column, short_cantilever}) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "auto", "kinetic"}) {
@@ -210,8 +209,8 @@ TEST_CASE("relaxation and Newton's method agree to the certificate at large stra
   }
 }
 
-TEST_CASE("relaxation and Newton's method agree to the certificate where soil yields without any overshoot",
-          "[certificate]") {
+TEST_CASE("relaxation and Newton's method agree to the error_bound where soil yields without any overshoot",
+          "[error_bound]") {
   // Strains of 1e-4, so that places hardly move; more than critical damping, so that stresses only ever grow.
   const Scene scene =
       scenes::load("column", {"phase.max_motion=none", "damping.c=500", "stop.residual=1e-6",
@@ -228,7 +227,7 @@ TEST_CASE("relaxation and Newton's method agree to the certificate where soil yi
 // An elastic tangent says nothing of what still yields on the way: here the distance is an estimate, down to 0.6 times
 // the error with critical damping.
 TEST_CASE("where ground yields the distance is that to the equilibrium that the same run comes to later",
-          "[certificate]") {
+          "[error_bound]") {
   for (const std::string strategy : {"viscous", "kinetic", "one-sided"}) {
     const Ended end = ended(with(small_footing, strategy, {"stop.residual=1e-4"}));
     const Ended later = ended(with(small_footing, strategy, {"stop.residual=1e-10"}));
@@ -244,12 +243,12 @@ TEST_CASE("where ground yields the distance is that to the equilibrium that the 
 // --- stop.distance --------------------------------------------------------------------------------
 
 TEST_CASE("a run that stops by the distance alone is in equilibrium and no further off than was asked",
-          "[certificate]") {
+          "[error_bound]") {
   for (const Case& problem : {linear[0], linear[2], linear[4]}) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "kinetic", "one-sided", "auto"}) {
       const double wanted = 1e-4;
-      const Ended end = ended(with(problem, strategy, {"stop.residual=0", "stop.distance=1e-4", "stop.hold=0"}));
+      const Ended end = ended(with(problem, strategy, {"stop.residual=0", "stop.distance=1e-4", "stop.dwell=0"}));
       CAPTURE(problem.name, strategy, end.summary.reason);
       CHECK(end.summary.status == RunStatus::equilibrium);
       CHECK(end.summary.exit_status == 0);
@@ -262,8 +261,8 @@ TEST_CASE("a run that stops by the distance alone is in equilibrium and no furth
   }
 }
 
-TEST_CASE("of a body that stiffens the run stops by the distance with the tangent that it then has", "[certificate]") {
-  const Scene scene = with(soft_column, "viscous", {"stop.residual=0", "stop.distance=1e-4", "stop.hold=0"});
+TEST_CASE("of a body that stiffens the run stops by the distance with the tangent that it then has", "[error_bound]") {
+  const Scene scene = with(soft_column, "viscous", {"stop.residual=0", "stop.distance=1e-4", "stop.dwell=0"});
   const Ended end = ended(scene);
   CHECK(end.summary.status == RunStatus::equilibrium);
   CHECK(end.summary.distance.value() <= 1e-4);

@@ -1,7 +1,7 @@
 // A column under its own weight, in the plane and as a cylinder, at small and at large strain: problems/column.toml.
 #include <stillpoint/material.hpp>
 
-#include "exact_error.hpp"
+#include "output/exact_error.hpp"
 #include "scenes.hpp"
 #include "statics.hpp"
 
@@ -57,7 +57,7 @@ std::vector<std::string> at_large_strain(const std::string& law, const std::stri
 double error_at_large_strain(const ExactColumn& exact, std::vector<std::string> overrides) {
   const auto phase = make_phase(column(overrides));
   const auto u = statics::point_displacement(*phase, statics::solution(*phase));
-  const auto x = phase->places();
+  const auto x = phase->positions();
   double off = 0;
   for (std::size_t p = 0; p < phase->points(); ++p) {
     CHECK_THAT(u[2 * p], WithinAbs(0, 1e-9));
@@ -75,7 +75,7 @@ InPhases in_phases(const std::string& law, const std::vector<std::string>& overr
   scene.exact_u.clear();  // of small strain, and of undeformed places
   scene.phase.max_motion = 0.3;
   Summary s = run(scene);
-  const double off = scenes::probe(s, "top", "u.y") / ExactColumn{law}.u(s.probe_places.at("top")[1]) - 1;
+  const double off = scenes::probe(s, "top", "u.y") / ExactColumn{law}.u(s.probe_positions.at("top")[1]) - 1;
   return {std::move(s), off};
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("at large strain each cell of the linear column bears exactly the weig
       CAPTURE(law, state);
       const auto phase = make_phase(column(at_large_strain(law, state)));
       const auto u = statics::solution(*phase);
-      const auto x = phase->places(), stress = statics::point_stress(*phase, u);
+      const auto x = phase->positions(), stress = statics::point_stress(*phase, u);
       const double h = H / 16;
       for (std::size_t p = 0; p < phase->points(); ++p) {
         const double middle = (std::floor(x[2 * p + 1] / h) + 0.5) * h;
@@ -174,7 +174,7 @@ TEST_CASE("relaxed at large strain in a single phase, the column is the static s
     double top = 0;
     for (std::size_t p = 0; p < phase->points(); ++p) top = std::min(top, u[2 * p + 1]);
     CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(top, 1e-6));
-    CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(ExactColumn{law}.u(s.probe_places.at("top")[1]), 2e-3));
+    CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(ExactColumn{law}.u(s.probe_positions.at("top")[1]), 2e-3));
   }
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("relaxed at large strain in many phases, the quadratic column settles 
       CHECK(s.status == RunStatus::equilibrium);
       CHECK(s.phases > 5);
       CHECK(std::abs(off) < 0.003);
-      const double y = s.probe_places.at("base")[1];
+      const double y = s.probe_positions.at("base")[1];
       CHECK_THAT(scenes::probe(s, "base", "stress.yy"), WithinRel(-rho * g * (H - y), 0.01));
     }
   }

@@ -166,7 +166,7 @@ TEST_CASE("in a transient the error falls with the step at the order of the meth
                 .repeats = 0},
                to_time_20);
   CHECK(c.transient);
-  CHECK_FALSE(c.lower_bound);
+  CHECK_FALSE(c.chebyshev_estimate);
   REQUIRE(c.runs.size() == 12);
   const std::vector<double> orders = {2, 1, 3, 4};
   for (std::size_t k = 0; k < c.runs.size(); ++k) {

@@ -100,8 +100,8 @@ TEST_CASE("a point alone in a cell, next to its edge or on it, neither shortens 
       REQUIRE(s.status == RunStatus::end_time);
       CHECK(s.phases > 20);
       REQUIRE(s.transfer);
-      CHECK(s.transfer->added_inertia < 0.15);
-      if (from_edge >= 0) CHECK(s.transfer->added_inertia > 0.001);
+      CHECK(s.transfer->added_mass < 0.15);
+      if (from_edge >= 0) CHECK(s.transfer->added_mass > 0.001);
       // What is added to light nodes carries energy too: at most as much more as there is more of it.
       const double initial = 0.5 * 65 * mass * (0.5 * 0.5 + 0.3 * 0.3 + 0.2 * 0.2 * 0.5 * 0.5);
       CHECK(s.kinetic_energy < 1.2 * initial);

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "field_writer.hpp"
+#include "output/field_writer.hpp"
 
 using namespace stillpoint;
 

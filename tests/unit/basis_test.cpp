@@ -1,4 +1,4 @@
-#include <stillpoint/basis.hpp>
+#include "space/grid/basis.hpp"
 
 #include <catch2/catch.hpp>
 

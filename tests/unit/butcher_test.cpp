@@ -1,4 +1,4 @@
-#include "butcher.hpp"
+#include "solvers/integrators/butcher.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,5 +1,5 @@
 // The files of the fields as files; tests/scripts/fields_test.py reads them back.
-#include "field_writer.hpp"
+#include "output/field_writer.hpp"
 
 #include <cerrno>
 #include <csignal>

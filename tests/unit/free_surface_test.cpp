@@ -1,4 +1,4 @@
-#include <stillpoint/free_surface.hpp>
+#include "output/free_surface.hpp"
 
 #include <cmath>
 #include <functional>

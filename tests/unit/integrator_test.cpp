@@ -14,7 +14,7 @@
 
 #include "allocation_count.hpp"
 #include "integrator_setup.hpp"
-#include "sundials_compat.hpp"
+#include "linalg/sundials.hpp"
 
 namespace {
 

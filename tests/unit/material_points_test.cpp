@@ -1,4 +1,4 @@
-#include <stillpoint/material_points.hpp>
+#include "space/points/material_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ void check_cells(const MaterialPoints<2>& points) {
   for (std::size_t k = 0; k < points.cell.size(); ++k) {
     CHECK(points.cell_begin[k] < points.cell_begin[k + 1]);
     for (int p = points.cell_begin[k]; p < points.cell_begin[k + 1]; ++p)
-      CHECK(kGrid.cell_number(kGrid.cell_of(points.place(static_cast<std::size_t>(p)))) == points.cell[k]);
+      CHECK(kGrid.cell_number(kGrid.cell_of(points.position(static_cast<std::size_t>(p)))) == points.cell[k]);
   }
 }
 
@@ -90,9 +90,9 @@ TEST_CASE("a box has its points in every cell that it reaches, and its volume an
   for (std::size_t p = 0; p < placed.points.size(); ++p)
     CHECK(placed.points.mass[p] == Approx(7 * placed.points.volume[p]));
   // In the first cell's half, from 0.25 to 0.5, quarters.
-  CHECK(placed.points.place(0)[0] == Approx(0.3125));
-  CHECK(placed.points.place(1)[0] == Approx(0.4375));
-  CHECK(placed.points.place(2)[1] == Approx(0.5));
+  CHECK(placed.points.position(0)[0] == Approx(0.3125));
+  CHECK(placed.points.position(1)[0] == Approx(0.4375));
+  CHECK(placed.points.position(2)[1] == Approx(0.5));
 }
 
 TEST_CASE("points along the two coordinates may differ in number") {
@@ -101,8 +101,8 @@ TEST_CASE("points along the two coordinates may differ in number") {
   const auto points = place(body);
   check_cells(points);
   CHECK(points.size() == 24 * 3);
-  CHECK(points.place(1)[0] - points.place(0)[0] == Approx(0.5 / 3));
-  CHECK(points.place(1)[1] == points.place(0)[1]);
+  CHECK(points.position(1)[0] - points.position(0)[0] == Approx(0.5 / 3));
+  CHECK(points.position(1)[1] == points.position(0)[1]);
 }
 
 TEST_CASE("the volumes of a polygon sum to its area to rounding, convex or not, either way round") {
@@ -152,8 +152,8 @@ TEST_CASE("a cut cell keeps its points inside, or one at the centroid of its par
 
   const auto corner = place(polygon({{0, 0}, {0.06, 0}, {0, 0.06}}));
   REQUIRE(corner.size() == 1);
-  CHECK(corner.place(0)[0] == Approx(0.02));
-  CHECK(corner.place(0)[1] == Approx(0.02));
+  CHECK(corner.position(0)[0] == Approx(0.02));
+  CHECK(corner.position(0)[1] == Approx(0.02));
   CHECK(corner.volume[0] == Approx(0.0018));
 
   // The second cell's share is 1e-8.
@@ -173,19 +173,19 @@ TEST_CASE("jitter moves every point by at most its share of half the spacing, so
     CHECK(volume_of(jittered) == Approx(8).epsilon(1e-12));
     double farthest = 0;
     for (std::size_t p = 0; p < regular.size(); ++p)
-      farthest = std::max(farthest, std::abs(jittered.place(p)[0] - regular.place(p)[0]));
+      farthest = std::max(farthest, std::abs(jittered.position(p)[0] - regular.position(p)[0]));
     // Half the spacing; of three Gauss points the middle one has more room, 0.387 of half a cell.
     const double room = placement == Placement::uniform ? 0.5 / 3 / 2 : 0.25 * std::sqrt(0.6) / 2;
     CHECK(farthest < room);
     CHECK(farthest > 0.95 * room);
     // Neighbours keep their order.
     for (std::size_t p = 0; p + 1 < jittered.size(); ++p)
-      if (p % 3 != 2) CHECK(jittered.place(p)[0] < jittered.place(p + 1)[0]);
+      if (p % 3 != 2) CHECK(jittered.position(p)[0] < jittered.position(p + 1)[0]);
 
     body.jitter = 0.1;
     const auto little = place(body);
     for (std::size_t p = 0; p < regular.size(); ++p)
-      CHECK(std::abs(little.place(p)[0] - regular.place(p)[0]) <= 0.1 * room);
+      CHECK(std::abs(little.position(p)[0] - regular.position(p)[0]) <= 0.1 * room);
   }
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("the points of a full circle sum to the exact volume of a cylinder and
     const auto points = place(body, StressState::axisymmetric, 5);
     CHECK(volume_of(points) == Approx(pi * (9 - inner * inner) * 2).epsilon(1e-13));
     // The outer two of a cell's three points have the same area, 3/8 of it.
-    CHECK(points.volume[2] / points.volume[0] == Approx(points.place(2)[0] / points.place(0)[0]));
+    CHECK(points.volume[2] / points.volume[0] == Approx(points.position(2)[0] / points.position(0)[0]));
     CHECK(points.mass[0] == Approx(5 * points.volume[0]));
   }
   // Of a polygon's cut cells only the area is exact: a cone, to the error of the midpoint rule.
@@ -240,7 +240,7 @@ TEST_CASE("points written to a file and read back are the same to the bit, whate
     for (int p = read.cell_begin[k]; p < read.cell_begin[k + 1]; ++p) {
       const auto here = static_cast<std::size_t>(p);
       const auto there = static_cast<std::size_t>(read.cell_begin[k] + read.cell_begin[k + 1] - 1 - p);
-      CHECK(read.place(here) == written.place(there));
+      CHECK(read.position(here) == written.position(there));
       CHECK(read.volume[here] == written.volume[there]);
       CHECK(read.mass[here] == written.mass[there]);
     }

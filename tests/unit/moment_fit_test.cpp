@@ -1,4 +1,4 @@
-#include <stillpoint/moment_fit.hpp>
+#include "space/points/moment_fit.hpp"
 
 #include <cmath>
 #include <random>

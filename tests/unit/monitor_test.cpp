@@ -1,4 +1,4 @@
-#include <stillpoint/monitor.hpp>
+#include "simulation/monitor.hpp"
 
 #include <limits>
 
@@ -9,7 +9,7 @@ using namespace stillpoint;
 namespace {
 
 const MonitorOptions options{
-    .residual = 1e-3, .kinetic_energy = 1e-2, .hold = 10, .end_time = 0, .steps = 0, .wall_time = 0};
+    .residual = 1e-3, .kinetic_energy = 1e-2, .dwell = 10, .end_time = 0, .steps = 0, .wall_time = 0};
 
 }  // namespace
 
@@ -53,7 +53,7 @@ TEST_CASE("a residual that is not finite is divergence") {
 }
 
 TEST_CASE("each limit ends the run with its own status, and 0 is no limit") {
-  MonitorOptions limits{.residual = 0, .kinetic_energy = 0, .hold = 0, .end_time = 5, .steps = 100, .wall_time = 2};
+  MonitorOptions limits{.residual = 0, .kinetic_energy = 0, .dwell = 0, .end_time = 5, .steps = 100, .wall_time = 2};
   CHECK(Monitor(limits).check_limits(5, 1, 0) == RunStatus::end_time);
   CHECK(Monitor(limits).check_limits(1, 100, 0) == RunStatus::step_limit);
   CHECK(Monitor(limits).check_limits(1, 1, 2) == RunStatus::time_limit);

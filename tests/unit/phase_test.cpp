@@ -1,4 +1,4 @@
-#include <stillpoint/relaxation.hpp>
+#include <stillpoint/relaxation_system.hpp>
 
 #include <cmath>
 #include <random>
@@ -148,7 +148,7 @@ TEST_CASE("initial values of a polynomial that the basis holds are reproduced at
   phase->point_displacement(0, phase->initial_displacement(0), u);
   phase->point_velocity(0, phase->initial_velocity(0), v);
   for (std::size_t p = 0; p < phase->points(); ++p) {
-    const double x = phase->places()[p];
+    const double x = phase->positions()[p];
     CHECK(u[p] == Approx(x * x * x - 2 * x).epsilon(1e-9));
     CHECK(v[p] == Approx(x * x).epsilon(1e-9));
   }

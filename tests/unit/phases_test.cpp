@@ -13,9 +13,9 @@
 #include <catch2/catch.hpp>
 
 #include "free_block.hpp"
-#include "point_order.hpp"
-#include "scene_grid.hpp"
 #include "scenes.hpp"
+#include "space/grid/scene_grid.hpp"
+#include "space/points/point_order.hpp"
 
 using namespace stillpoint;
 using stillpoint::testing::free_block;
@@ -46,7 +46,7 @@ void advance(Model& model, double t_end, const std::function<void(const Moment&,
       REQUIRE(step.status == StepReport::Status::ok);
       t = step.t;
       if (system.accept(t, y.span(), integrator->force_is_current())) integrator->velocity_changed();
-    } while (t < t_end && model.phase->share_of_phase(t, first_half(y.span())) < 1);
+    } while (t < t_end && model.phase->phase_progress(t, first_half(y.span())) < 1);
     u.assign(first_half(y.span()).begin(), first_half(y.span()).end());
     v.assign(second_half(y.span()).begin(), second_half(y.span()).end());
     at_change({t, *model.phase, u, v}, false);
@@ -119,7 +119,7 @@ TEST_CASE("linear momentum goes over from each phase to the next, whatever the b
         CHECK(errors.momentum < 1e-13);
         // Within a phase forces move nodes that were given inertia less than their mass says, so that a free body's
         // momentum is not quite kept: it is off by up to 0.3 % of 0.8 m/s here.
-        CHECK(errors.added_inertia < 0.15);
+        CHECK(errors.added_mass < 0.15);
         CHECK(std::abs(before[0] - 0.8 * scale) < 0.005 * 0.8 * scale);
         CHECK(std::abs(before[1] - 0.025 * scale) < 0.005 * 0.8 * scale);
       }
@@ -181,7 +181,7 @@ TEST_CASE("a block falls freely as it should in one phase, and in several slower
     // Light nodes weigh what their mass says but move as if they had more. Measured 3 % for 10 % of added inertia.
     const double lag = 1 - scenes::probe(s, "middle", "u.y") / way;
     CHECK(lag > -1e-12);
-    CHECK(lag < s.transfer->added_inertia);
+    CHECK(lag < s.transfer->added_mass);
     CHECK(lag < 0.05);
   }
 }
@@ -252,7 +252,7 @@ TEST_CASE("sorting keeps points by material and cell, and their numbers with the
     for (std::size_t p = 0; p < n; ++p) {
       const auto from = static_cast<std::size_t>(order.order()[p]);
       CHECK(points.number[p] == before.number[from]);
-      CHECK(points.place(p) == before.place(from));
+      CHECK(points.position(p) == before.position(from));
       CHECK(points.volume[p] == points.number[p]);
       CHECK(points.mass[p] == points.number[p]);
       CHECK(points.v[0][p] == points.number[p]);
@@ -261,7 +261,7 @@ TEST_CASE("sorting keeps points by material and cell, and their numbers with the
     for (std::size_t k = 0; k < points.cells(); ++k) {
       CHECK(points.begin(k) < points.end(k));
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        CHECK(grid.cell_number(grid.cell_of(points.place(p))) == points.cell[k]);
+        CHECK(grid.cell_number(grid.cell_of(points.position(p))) == points.cell[k]);
         CHECK(points.material_of_cell(k) == (p < 200 ? 0 : 1));
       }
       const bool same_material = k > 0 && points.material_of_cell(k) == points.material_of_cell(k - 1);
@@ -283,7 +283,7 @@ TEST_CASE("every output of a point keeps its number from phase to phase, with tw
   const Scene scene = free_block(overrides);
   Model model = make_model(scene);
   const LagrangianPhase& phase = *model.phase;
-  const std::vector<double> start = phase.places(), volume = phase.volumes();
+  const std::vector<double> start = phase.positions(), volume = phase.volumes();
   const std::vector<int> material = phase.materials();
   REQUIRE(std::ranges::count(material, 0) > 20);  // 'stuff' comes first by name, though second by body
   REQUIRE(material.front() == 1);
@@ -300,12 +300,12 @@ TEST_CASE("every output of a point keeps its number from phase to phase, with tw
       CHECK(u[2 * p + 1] == Approx(moment.t * (0.5 + 0.1 * (x - 2))).margin(0.03));
       CHECK(phase.volumes()[p] == Approx(volume[p]).epsilon(0.1));
     }
-    CHECK(phase.places_at_start() == start);
+    CHECK(phase.initial_positions() == start);
     CHECK(phase.materials() == material);
   });
   CHECK(changes > 20);
   const Summary s = run(scene, {.threads = 1});
-  CHECK(s.probe_places.at("far") == std::vector<double>{start[2 * 69], start[2 * 69 + 1]});
+  CHECK(s.probe_positions.at("far") == std::vector<double>{start[2 * 69], start[2 * 69 + 1]});
   CHECK(scenes::probe(s, "far", "u.x") == Approx(0.8 * (1 - 0.1 * (start[2 * 69 + 1] - 1.5))).margin(0.03));
   CHECK(scenes::probe(s, "far", "u.y") == Approx(0.8 * (0.5 + 0.1 * (start[2 * 69] - 2))).margin(0.03));
 }

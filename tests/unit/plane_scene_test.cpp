@@ -177,7 +177,7 @@ TEST_CASE("a plane scene loads with every key that it says") {
   CHECK(scene.geostatic->surface == 3);
 
   CHECK(scene.output.every == 0.5);
-  CHECK(scene.output.stages == std::vector{0.0, 0.5, 2.0});
+  CHECK(scene.output.snapshots == std::vector{0.0, 0.5, 2.0});
   CHECK(scene.output.fields_every == 4);
   CHECK(scene.probes.at(0).kind == ProbeKind::slope_angle);
   CHECK(scene.probes.at(0).fields.empty());
@@ -203,7 +203,7 @@ TEST_CASE("what a plane scene leaves out has its default") {
   CHECK(scene.phase.transfer == Transfer::flip);
   CHECK(scene.phase.flip_share == 1);
   CHECK_FALSE(scene.geostatic);
-  CHECK(scene.output.stages.empty());
+  CHECK(scene.output.snapshots.empty());
   const Scene walled = load_block("[[wall]]\nname = \"lid\"\nface = \"top\"\n");
   CHECK(walled.walls.at(0).friction == 0);
   CHECK(walled.walls.at(0).motion({}, 1) == 0);
@@ -241,7 +241,7 @@ TEST_CASE("an override reaches every key of a plane scene") {
   CHECK(std::isinf(load_slope({"wall[0].friction=rough"}).walls.at(0).friction));
   CHECK(load_slope({"grid.cells=[24, 16]"}).grid.cells == std::vector{24, 16});
   CHECK(load_slope({"grid.basis=quadratic"}).grid.basis == BasisKind::quadratic);
-  CHECK(load_slope({"output.stages=[3]"}).output.stages == std::vector{3.0});
+  CHECK(load_slope({"output.snapshots=[3]"}).output.snapshots == std::vector{3.0});
   CHECK(load_slope({"initial.geostatic.K0=0.5"}).geostatic->K0 == 0.5);
   CHECK(load_slope({"support[1].kind=fixed"}).supports.at(1).roller == false);
 }

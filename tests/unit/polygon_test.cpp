@@ -1,4 +1,4 @@
-#include "polygon.hpp"
+#include "base/polygon.hpp"
 
 #include <array>
 #include <cmath>

@@ -91,7 +91,7 @@ TEST_CASE("every number may be an integer, a float or a formula of the constants
   const Scene scene = load_smallest("[stop]\nsteps = \"10^n\"\ntime = 3\nhold = 2.5\n", "[constants]\nn = 4\n");
   CHECK(scene.stop.steps == 10000);
   CHECK(scene.stop.time == 3);
-  CHECK(scene.stop.hold == 2.5);
+  CHECK(scene.stop.dwell == 2.5);
 }
 
 TEST_CASE("constants may be defined from each other in any order") {

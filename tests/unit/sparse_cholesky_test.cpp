@@ -1,4 +1,4 @@
-#include <stillpoint/sparse_cholesky.hpp>
+#include "linalg/sparse_cholesky.hpp"
 
 #include <cmath>
 #include <limits>

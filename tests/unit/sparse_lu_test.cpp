@@ -1,4 +1,4 @@
-#include <stillpoint/sparse_lu.hpp>
+#include "linalg/sparse_lu.hpp"
 
 #include <cmath>
 #include <limits>

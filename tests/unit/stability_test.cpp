@@ -11,8 +11,8 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
-#include "butcher.hpp"
 #include "chain.hpp"
+#include "solvers/integrators/butcher.hpp"
 
 using namespace stillpoint;
 using stillpoint::test::Chain;

@@ -6,10 +6,10 @@
 
 #include "chain.hpp"
 #include "driven.hpp"
-#include "exact_error.hpp"
-#include "out_of_balance.hpp"
+#include "output/exact_error.hpp"
 #include "scenes.hpp"
 #include "statics.hpp"
+#include "system/static_balance.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
@@ -186,7 +186,7 @@ TEST_CASE("Newton's method gives the yielding column its exact stresses in three
   INFO(shown(s.report));
   CHECK(s.report.converged);
   CHECK(s.report.iterations == 3);  // all points on one branch of the return, whose strains are small
-  const auto x = s.phase->places(), stress = statics::point_stress(*s.phase, s.u);
+  const auto x = s.phase->positions(), stress = statics::point_stress(*s.phase, s.u);
   std::size_t yielding = 0;
   for (std::size_t p = 0; p < s.phase->points(); ++p) {
     const double h = H / 16, middle = (std::floor(x[2 * p + 1] / h) + 0.5) * h, s_yy = -weight * (H - middle);
@@ -358,7 +358,7 @@ TEST_CASE("a beam bends by half its length in one load step, by full steps where
   CHECK(report.residual < 1e-10);
 
   // The mean of the last points, which lie 1/24 before the end.
-  const std::vector<double> x = phase->places(), moved = statics::point_displacement(*phase, u);
+  const std::vector<double> x = phase->positions(), moved = statics::point_displacement(*phase, u);
   double back = 0, down = 0, count = 0;
   for (std::size_t k = 0; k < x.size(); k += 2) {
     if (x[k] < 10 - 0.05) continue;

@@ -14,7 +14,7 @@
 #include <nvector/nvector_serial.h>
 #include <omp.h>
 
-#include "sundials_compat.hpp"
+#include "linalg/sundials.hpp"
 
 namespace {
 

@@ -1,7 +1,5 @@
 // Mass, momentum and velocity fields on their way between material points and grid.
-#include "velocity_transfer.hpp"
-
-#include <stillpoint/material_points.hpp>
+#include "space/kernels/velocity_transfer.hpp"
 
 #include <cmath>
 #include <functional>
@@ -12,8 +10,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "nodal_sum.hpp"
-#include "point_order.hpp"
+#include "space/kernels/nodal_sum.hpp"
+#include "space/points/material_points.hpp"
+#include "space/points/point_order.hpp"
 
 using namespace stillpoint;
 
@@ -60,7 +59,7 @@ class FreeBlock {
     for (auto& v : points.v) v.assign(n, 0);
     for (auto& B_p : points.B_apic) B_p.assign(n, 0);
     for (std::size_t p = 0; p < n; ++p) {
-      const Point<2> v = velocity(points.place(p));
+      const Point<2> v = velocity(points.position(p));
       for (std::size_t i = 0; i < 2; ++i) points.v[i][p] = v[i];
     }
     begin_phase();
@@ -166,7 +165,7 @@ TEMPLATE_TEST_CASE("mass and linear momentum survive every transfer over several
     const double scale = 2 * mass;  // of the largest velocities
     std::mt19937 random(1);
     for (int phase = 0; phase < 5; ++phase) {
-      by.audit().compare_mass(mass, block.mass);
+      by.conservation().compare_mass(mass, block.mass);
       const std::vector<double> v_start = block.to_grid(by);
       std::vector<double> v = v_start;
       for (std::size_t unknown = 0; unknown < v.size(); ++unknown) {  // an impulse at every node
@@ -182,8 +181,8 @@ TEMPLATE_TEST_CASE("mass and linear momentum survive every transfer over several
       CHECK(std::abs(nodal - mass) < 1e-14 * mass);
       for (std::size_t i = 0; i < 2; ++i) CHECK(std::abs(block.momentum(i) - expected[i]) < 1e-13 * scale);
     }
-    CHECK(by.audit().mass() < 1e-14);
-    CHECK(by.audit().momentum() < 1e-14);
+    CHECK(by.conservation().mass() < 1e-14);
+    CHECK(by.conservation().momentum() < 1e-14);
   }
 }
 

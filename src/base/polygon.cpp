@@ -1,0 +1,101 @@
+#include "base/polygon.hpp"
+
+#include <algorithm>
+
+namespace stillpoint {
+namespace {
+
+/// Twice the signed area of the triangle a, b, c: positive where c lies left of the way from a to b.
+double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+int sign(double value) { return (value > 0) - (value < 0); }
+
+/// c, known to be in line with a and b, lies between them.
+bool between(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+  return std::min(a[0], b[0]) <= c[0] && c[0] <= std::max(a[0], b[0]) && std::min(a[1], b[1]) <= c[1] &&
+         c[1] <= std::max(a[1], b[1]);
+}
+
+/// The segments ab and cd have a point in common.
+bool meet(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
+  const int abc = sign(turn(a, b, c)), abd = sign(turn(a, b, d));
+  const int cda = sign(turn(c, d, a)), cdb = sign(turn(c, d, b));
+  if (abc * abd < 0 && cda * cdb < 0) return true;
+  return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
+         (cdb == 0 && between(c, d, b));
+}
+
+/// The edges ab and bc lie on each other.
+bool folds_back(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+  return turn(a, b, c) == 0 && (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]) <= 0;
+}
+
+/// The part where direction · (x_axis − border) ≥ 0.
+Polygon clipped(const Polygon& polygon, std::size_t axis, double border, double direction) {
+  Polygon kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const PlanePoint &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+    const double before = direction * (from[axis] - border), after = direction * (to[axis] - border);
+    if (before >= 0) kept.push_back(from);
+    if ((before > 0 && after < 0) || (before < 0 && after > 0)) {
+      PlanePoint crossing;
+      crossing[axis] = border;
+      crossing[1 - axis] = from[1 - axis] + before / (before - after) * (to[1 - axis] - from[1 - axis]);
+      kept.push_back(crossing);
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+double signed_area(const Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) twice += turn(polygon[0], polygon[k - 1], polygon[k]);
+  return twice / 2;
+}
+
+PlanePoint centroid(const Polygon& polygon) {
+  // Of the triangles between corner 0 and each edge, as seen from corner 0.
+  double twice = 0;
+  PlanePoint moment{0, 0};
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const double area = turn(polygon[0], polygon[k - 1], polygon[k]);
+    twice += area;
+    for (std::size_t d = 0; d < 2; ++d) moment[d] += area * (polygon[k - 1][d] + polygon[k][d] - 2 * polygon[0][d]) / 3;
+  }
+  return {polygon[0][0] + moment[0] / twice, polygon[0][1] + moment[1] / twice};
+}
+
+bool contains(const Polygon& polygon, const PlanePoint& x) {
+  // The ray from x to the right crosses the border an odd number of times.
+  bool inside = false;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    if ((a[1] > x[1]) == (b[1] > x[1])) continue;
+    const bool left_of_edge = b[1] > a[1] ? turn(a, b, x) > 0 : turn(b, a, x) > 0;
+    if (left_of_edge) inside = !inside;
+  }
+  return inside;
+}
+
+Polygon clipped_to_unit_square(const Polygon& polygon) {
+  Polygon part = polygon;
+  for (std::size_t axis = 0; axis < 2; ++axis) part = clipped(clipped(part, axis, 0, 1), axis, 1, -1);
+  return part;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon& polygon) {
+  const std::size_t n = polygon.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % n];
+    if (folds_back(a, b, polygon[(k + 2) % n])) return std::pair(k, (k + 1) % n);
+    for (std::size_t j = k + 2; j < n && !(k == 0 && j == n - 1); ++j)
+      if (meet(a, b, polygon[j], polygon[(j + 1) % n])) return std::pair(k, j);
+  }
+  return std::nullopt;
+}
+
+}  // namespace stillpoint

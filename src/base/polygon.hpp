@@ -1,0 +1,31 @@
+// Plane polygons: corners in order, either way round, the last joined to the first.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace stillpoint {
+
+using PlanePoint = std::array<double, 2>;
+using Polygon = std::vector<PlanePoint>;
+
+/// Positive where the corners run counter-clockwise.
+double signed_area(const Polygon& polygon);
+
+/// Of a polygon with an area.
+PlanePoint centroid(const Polygon& polygon);
+
+/// A place on the border counts as inside one of the polygons that share it.
+bool contains(const Polygon& polygon, const PlanePoint& x);
+
+/// The part in the unit square [Sutherland and Hodgman 1974]. Where that falls into several, borders of the square that
+/// are run through both ways join them: area and centroid are right all the same.
+Polygon clipped_to_unit_square(const Polygon& polygon);
+
+/// Two edges (k: from corner k to the next) that cross, touch or lie on each other, though no corner joins them or they
+/// fold back at it; empty where the polygon is simple. Corners that repeat their neighbour count as such edges.
+std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon& polygon);
+
+}  // namespace stillpoint

@@ -1,0 +1,19 @@
+// Preconditioned conjugate gradients on A x = b, A symmetric positive definite.
+#pragma once
+
+#include "linalg/power_iteration.hpp"  // LinearMap
+
+namespace stillpoint {
+
+struct ConjugateGradientResult {
+  int iterations = 0;  // products with A
+  bool converged = false;
+  bool indefinite = false;  // a direction with pᵀAp ≤ 0, or not a number, ended it
+};
+
+/// x = A⁻¹ b from x = 0 with the preconditioner diag(D)⁻¹, until ‖b − A x‖ ≤ tolerance ‖b‖ by its recurrence.
+/// D, b, x: (n). each(‖b − A x‖) after every iteration. [Hestenes and Stiefel 1952; Saad 2003, algorithm 9.1]
+ConjugateGradientResult conjugate_gradients(const LinearMap& A, ConstVec D, ConstVec b, Vec x, double tolerance,
+                                            int max_iterations, const std::function<void(double)>& each = {});
+
+}  // namespace stillpoint

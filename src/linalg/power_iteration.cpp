@@ -1,0 +1,88 @@
+#include "linalg/power_iteration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+
+namespace stillpoint {
+namespace {
+
+double dot(ConstVec x, ConstVec y) { return std::inner_product(x.begin(), x.end(), y.begin(), 0.0); }
+
+// What ρ_k still misses, from its changes δ_k = ρ_k − ρ_{k−1}. The change alone would stop a slow iteration far from λ.
+//   one mode left beside the dominant one:  λ − ρ_k = δ_k (q + q² + …) = δ_k q/(1 − q),   q = δ_k/δ_{k−1};
+//   many, where the spectrum is crowded near λ, and q still grows:  λ − ρ_k ∝ 1/k, so λ − ρ_k ≈ k δ_k.
+// The larger one has to be within the tolerance three times running. Changes of rounding size end the iteration as
+// well.
+class MissingPart {
+ public:
+  explicit MissingPart(double tolerance) : tolerance_(tolerance) {}
+
+  // rho after k iterations.
+  bool converged(double rho, int k) {
+    const double change = std::abs(rho - previous_), q = change / previous_change_;
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(rho);
+    if (change <= rounding) {
+      error_ = std::numeric_limits<double>::epsilon();
+    } else {
+      error_ =
+          q < 1 ? change * std::max<double>(q / (1 - q), k) / std::abs(rho) : std::numeric_limits<double>::infinity();
+    }
+    held_ = error_ <= std::max(tolerance_, std::numeric_limits<double>::epsilon()) ? held_ + 1 : 0;
+    previous_ = rho;
+    previous_change_ = change;
+    return held_ >= 3;
+  }
+  double error() const { return error_; }
+
+ private:
+  double tolerance_;
+  double previous_ = std::numeric_limits<double>::quiet_NaN(), previous_change_ = previous_;  // none so far
+  double error_ = std::numeric_limits<double>::infinity();
+  int held_ = 0;
+};
+
+}  // namespace
+
+PowerIterationResult power_iteration(std::size_t n, const LinearMap& apply_A, const LinearMap& solve_B,
+                                     double tolerance, int max_iterations) {
+  PowerIterationResult result;
+  MissingPart missing(tolerance);
+  std::vector<double> x(n), Ax(n), Bx = start_vector(n);  // B x needs no product: B (B⁻¹A x) = A x
+  solve_B(Bx, x);
+  while (result.iterations < max_iterations) {
+    const double norm = std::sqrt(dot(x, Bx));  // ‖x‖_B
+    if (norm == 0) {                            // A x = 0 for a random x: A = 0
+      result = {0, 0, result.iterations, true};
+      return result;
+    }
+    for (double& value : x) value /= norm;
+    apply_A(x, Ax);
+    ++result.iterations;
+    result.eigenvalue = dot(x, Ax);  // ρ = xᵀAx, xᵀBx = 1
+    result.converged = missing.converged(result.eigenvalue, result.iterations);
+    result.relative_error = missing.error();
+    if (result.converged || !std::isfinite(result.eigenvalue)) return result;
+    solve_B(Ax, x);
+    std::swap(Ax, Bx);
+  }
+  return result;
+}
+
+std::vector<double> start_vector(std::size_t n) {
+  // splitmix64 [Steele, Lea, Flood, OOPSLA 2014], 53 bits of each number.
+  std::vector<double> x(n);
+  std::uint64_t state = 0;
+  for (double& value : x) {
+    std::uint64_t bits = (state += 0x9e3779b97f4a7c15);
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
+    bits ^= bits >> 31;
+    value = static_cast<double>(bits >> 11) * 0x1p-52 - 1;
+  }
+  return x;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,96 @@
+// P R A Q = L U by UMFPACK [Davis, ACM TOMS 30(2), 2004, algorithm 832].
+// The C API itself: its wsolve takes the work space, Eigen's wrapper allocates on each solve.
+// solve() writes into that space, so one object serves one thread at a time.
+#include "linalg/sparse_lu.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <suitesparse/umfpack.h>
+
+namespace stillpoint {
+
+struct SparseLu::Impl {
+  explicit Impl(const SparseMatrix& matrix)
+      : A(matrix), n(static_cast<std::size_t>(A.rows())), integers(n), reals(5 * n), solution(n) {
+    A.makeCompressed();
+    umfpack_di_defaults(control.data());
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() { umfpack_di_free_numeric(&numeric); }
+
+  void factorise() {
+    regular = n == 0;
+    if (A.nonZeros() == 0) return;  // an argument that is missing, to UMFPACK
+    const int rows = static_cast<int>(n), *begin = A.outerIndexPtr(), *row = A.innerIndexPtr();
+    void* symbolic = nullptr;
+    const int analysed =
+        umfpack_di_symbolic(rows, rows, begin, row, A.valuePtr(), &symbolic, control.data(), info.data());
+    if (analysed != UMFPACK_OK) umfpack_di_free_symbolic(&symbolic);
+    check(analysed, "symbolic");
+    const int factorised =
+        umfpack_di_numeric(begin, row, A.valuePtr(), symbolic, &numeric, control.data(), info.data());
+    umfpack_di_free_symbolic(&symbolic);
+    check(factorised, "numeric");
+    regular = factorised == UMFPACK_OK && info[UMFPACK_RCOND] > 0 && std::isfinite(info[UMFPACK_RCOND]);
+  }
+
+  void solve(ConstVec b, Vec x) {
+    check(umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), solution.data(), b.data(),
+                            numeric, control.data(), nullptr, integers.data(), reals.data()),
+          "wsolve");
+    std::ranges::copy(solution, x.begin());
+  }
+
+  // The one check of UMFPACK's status: errors are negative, a singular matrix and other warnings positive.
+  void check(int status, const char* step) const {
+    if (status >= UMFPACK_OK) return;
+    const char* why = status == UMFPACK_ERROR_out_of_memory ? "out of memory" : "internal error";
+    throw std::runtime_error("UMFPACK's " + std::string(step) + " failed on a system of size " + std::to_string(n) +
+                             ": " + why);
+  }
+
+  std::size_t bytes() const {
+    const auto nonzeros = static_cast<std::size_t>(A.nonZeros());
+    return static_cast<std::size_t>(info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT]) +
+           nonzeros * (sizeof(double) + sizeof(int)) + n * (6 * sizeof(double) + 2 * sizeof(int));
+  }
+
+  SparseMatrix A;
+  std::size_t n;
+  std::array<double, UMFPACK_CONTROL> control{};
+  std::array<double, UMFPACK_INFO> info{};
+  void* numeric = nullptr;
+  bool regular = false;
+  std::vector<int> integers;            // Wi of wsolve
+  std::vector<double> reals, solution;  // its W; and x, which must not be b
+};
+
+SparseLu::SparseLu(const SparseMatrix& A) {
+  if (A.rows() != A.cols()) throw std::invalid_argument("LU factor of a matrix that is not square");
+  impl_ = std::make_unique<Impl>(A);
+  impl_->factorise();
+}
+
+SparseLu::SparseLu(SparseLu&&) noexcept = default;
+SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
+SparseLu::~SparseLu() = default;
+
+bool SparseLu::regular() const { return impl_->regular; }
+
+void SparseLu::solve(ConstVec b, Vec x) const {
+  if (!regular()) throw std::logic_error("solve() with a matrix that is singular");
+  if (b.size() != size() || x.size() != size())
+    throw std::invalid_argument("solve(): b or x is not of the factor's size");
+  if (size() > 0) impl_->solve(b, x);
+}
+
+std::size_t SparseLu::size() const { return impl_->n; }
+std::size_t SparseLu::bytes() const { return impl_->bytes(); }
+
+}  // namespace stillpoint

@@ -1,0 +1,36 @@
+// A sparse LU factor (SuiteSparse's UMFPACK) that solves again and again without allocating.
+#pragma once
+
+#include <stillpoint/types.hpp>
+
+#include <memory>
+
+#include "linalg/sparse_cholesky.hpp"
+
+namespace stillpoint {
+
+/// P R A Q = L U for a square A (n × n): P, Q permutations, R a scaling of the rows.
+class SparseLu {
+ public:
+  /// Factorises A, of which it keeps a copy. Throws std::runtime_error where UMFPACK itself fails (memory); a matrix
+  /// that is singular or not finite is no error: see regular().
+  explicit SparseLu(const SparseMatrix& A);
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+  ~SparseLu();
+
+  /// Whether every pivot is finite and not zero: min |U_ii|/max |U_ii| > 0.
+  bool regular() const;
+  /// x = A⁻¹ b with up to two steps of iterative refinement; b, x: (n), may be the same array. Allocates nothing.
+  /// Needs regular().
+  void solve(ConstVec b, Vec x) const;
+  std::size_t size() const;
+  /// What the factor, the copy of A and the work space take [bytes].
+  std::size_t bytes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stillpoint

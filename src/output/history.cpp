@@ -1,0 +1,94 @@
+#include "output/history.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "output/point_fields.hpp"
+#include "output/snapshots.hpp"
+
+namespace stillpoint {
+namespace {
+
+std::size_t nearest_point(const std::vector<double>& places, std::size_t dim, const std::vector<double>& at) {
+  std::size_t best = 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < places.size() / dim; ++p) {
+    double square = 0;
+    for (std::size_t d = 0; d < dim; ++d) square += (places[dim * p + d] - at[d]) * (places[dim * p + d] - at[d]);
+    if (square < smallest) smallest = square, best = p;
+  }
+  return best;
+}
+
+}  // namespace
+
+Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase), specs_(scene.probes) {
+  const std::vector<double> places = phase.positions();
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  for (const ProbeSpec& probe : specs_) {
+    if (probe.kind == ProbeKind::slope_angle) {
+      place_.emplace_back();
+      columns_.push_back(probe.name + ".slope_angle");
+      sources_.push_back({"slope_angle", 0, 0, 0});
+      continue;
+    }
+    const std::size_t point =
+        probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(places, dim, probe.at);
+    place_.emplace_back(places.begin() + static_cast<std::ptrdiff_t>(dim * point),
+                        places.begin() + static_cast<std::ptrdiff_t>(dim * (point + 1)));
+    for (const std::string& field : probe.fields) {
+      columns_.push_back(probe.name + "." + field);
+      const auto [name, component, components] = find_point_field(phase, field);
+      sources_.push_back({name, component, components, point});
+    }
+  }
+  for (const WallReaction& wall : phase.wall_reactions(0)) {
+    columns_.push_back(wall.name + ".normal");
+    columns_.push_back(wall.name + ".shear");
+  }
+}
+
+std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
+  std::map<std::string, std::vector<double>> fields;  // each asked for once
+  std::vector<double> values;
+  for (const Source& source : sources_) {
+    if (source.components == 0) {
+      values.push_back(slope_angle_of(scene_, phase_, t, u));
+      continue;
+    }
+    auto [field, missing] = fields.try_emplace(source.field);
+    if (missing) field->second = point_field(phase_, source.field, t, u, v);
+    values.push_back(field->second[source.components * source.point + source.component]);
+  }
+  for (const WallReaction& wall : phase_.wall_reactions(t)) {
+    values.push_back(wall.normal);
+    values.push_back(wall.shear);
+  }
+  return values;
+}
+
+History::History(const std::filesystem::path& folder, const std::vector<std::string>& probe_columns) {
+  if (folder.empty()) return;
+  file_.emplace(folder / "history.csv");
+  std::string header = "t,steps,rhs_evaluations,residual,kinetic_energy";
+  for (const std::string& column : probe_columns) header += "," + column;
+  file_->write(header + "\n");
+}
+
+void History::add(const HistoryRow& row, const std::vector<double>& probes) {
+  if (!file_) return;
+  // 17 significant digits bring every double back
+  std::string line = fmt::format("{:.17g},{},{},{:.17g},{:.17g}", row.t, row.steps, row.rhs_evaluations, row.residual,
+                                 row.kinetic_energy);
+  for (const double value : probes) line += fmt::format(",{:.17g}", value);
+  file_->write(line + "\n");
+}
+
+void History::finish() {
+  if (file_) file_->finish();
+}
+
+}  // namespace stillpoint

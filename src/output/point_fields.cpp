@@ -1,0 +1,49 @@
+#include "output/point_fields.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace stillpoint {
+namespace {
+
+std::vector<std::string> suffixes(const LagrangianPhase& phase, const std::string& name) {
+  if (phase.dim() == 1) return {""};
+  if (name == "u" || name == "v") return {"x", "y"};
+  if (name == "stress") return {"xx", "yy", "zz", "xy"};
+  if (name == "strain") {
+    std::vector<std::string> components = {"xx", "xy", "yx", "yy"};
+    if (phase.gradient_components() == 5) components.emplace_back("zz");
+    return components;
+  }
+  return {""};
+}
+
+}  // namespace
+
+std::vector<double> point_field(const LagrangianPhase& phase, const std::string& name, double t, ConstVec u,
+                                ConstVec v) {
+  std::vector<double> values(suffixes(phase, name).size() * phase.points());
+  if (name == "u") {
+    phase.point_displacement(t, u, values);
+  } else if (name == "v") {
+    phase.point_velocity(t, v, values);
+  } else if (name == "strain") {
+    phase.point_strain(t, u, values);
+  } else if (name == "stress") {
+    phase.point_stress(t, u, values);
+  } else {
+    phase.point_history(name, values);
+  }
+  return values;
+}
+
+PointFieldComponent find_point_field(const LagrangianPhase& phase, const std::string& field) {
+  const std::size_t dot = field.find('.');
+  const std::string name = field.substr(0, dot), suffix = dot == std::string::npos ? "" : field.substr(dot + 1);
+  const std::vector<std::string> components = suffixes(phase, name);
+  const auto found = std::ranges::find(components, suffix);
+  if (found == components.end()) throw std::invalid_argument("there is no field " + field);
+  return {name, static_cast<std::size_t>(found - components.begin()), components.size()};
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,22 @@
+// Fields at the material points, by the names that scenes and outputs use.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// "u", "v", "strain", "stress" and what the laws remember ("plastic_strain"), as (P × components).
+std::vector<double> point_field(const LagrangianPhase& phase, const std::string& name, double t, ConstVec u,
+                                ConstVec v);
+
+/// A field as a probe names it, "u" in one dimension, "stress.xy" in the plane.
+struct PointFieldComponent {
+  std::string name;
+  std::size_t component, components;
+};
+PointFieldComponent find_point_field(const LagrangianPhase& phase, const std::string& field);
+
+}  // namespace stillpoint

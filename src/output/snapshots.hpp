@@ -1,0 +1,46 @@
+// Stages of a run: the moments at which all fields are written.
+#pragma once
+
+#include <stillpoint/run.hpp>
+#include <stillpoint/scene.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "output/field_writer.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// At the times of output.snapshots and every output.fields_every; a run that ends writes its last state as well.
+class Snapshots {
+ public:
+  /// Nothing is written where the scene asks for no fields or the folder is empty; angles are taken all the same.
+  Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder);
+
+  /// The next moment that a step must not pass; infinite where there is none.
+  double next_time() const;
+  /// Writes the state at (t, u, v) where it is due.
+  void sample(double t, ConstVec u, ConstVec v);
+  /// The run ends: writes its last state where the scene asks for fields, and closes the files.
+  void finish(double t, ConstVec u, ConstVec v);
+
+  const std::vector<Snapshot>& taken() const { return taken_; }
+
+ private:
+  void take(double t, ConstVec u, ConstVec v);
+
+  const Scene& scene_;
+  const LagrangianPhase& phase_;
+  std::optional<FieldWriter> writer_;
+  std::size_t next_snapshot_ = 0;
+  long next_regular_ = 0;
+  std::vector<Snapshot> taken_;
+};
+
+/// The angle of the free surface of the points as they are at (t, u), in a scene of the plane [degrees]; NaN where
+/// there is no slope.
+double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
+
+}  // namespace stillpoint

@@ -1,7 +1,0 @@
-#include "phase_of_basis.hpp"
-
-namespace stillpoint {
-
-template std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::plane>(const Scene& scene);
-
-}  // namespace stillpoint

@@ -1,0 +1,206 @@
+#include <stillpoint/expression.hpp>
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include "base/text.hpp"
+#include "scene/expression_functions.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr std::string_view kVariables = "xyzt";
+
+/// The value of a text that is nothing but a decimal number; muParser is not needed for it.
+std::optional<double> plain_number(std::string_view text) {
+  const auto is_space = [](char letter) { return letter == ' ' || letter == '\t'; };
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // "inf" and "nan" are numbers to from_chars; here they are names that no one defined.
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// Refuses what muParser would accept although no formula here means it: strings, assignments to x, several results.
+void check_characters(const std::string& text) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw ExpressionError("the formula is empty", 0);
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char letter = text[k];
+    const bool printable = letter >= 0x20 && letter < 0x7f;
+    const bool space = letter == '\t' || letter == '\n' || letter == '\r';
+    // All letters before this one are ASCII, so the byte number is the character number.
+    if ((!printable && !space) || letter == '"') {
+      std::size_t length = 1;
+      while (k + length < text.size() && (static_cast<unsigned char>(text[k + length]) & 0xC0) == 0x80) ++length;
+      throw ExpressionError(fmt::format("a formula cannot hold {}", in_quotes(text.substr(k, length))),
+                            static_cast<int>(k));
+    }
+    if (letter != '=') continue;
+    const bool second = k > 0 && std::string_view("=<>!").find(text[k - 1]) != std::string_view::npos;
+    const bool first = k + 1 < text.size() && text[k + 1] == '=';
+    if (!first && !second) throw ExpressionError("'=' assigns; to compare, write '=='", static_cast<int>(k));
+  }
+}
+
+/// muParser's error in this program's words, with the place of the offending token.
+ExpressionError in_our_words(const mu::ParserError& error, const std::string& text,
+                             const std::vector<std::string>& names, const std::string& variables) {
+  std::string token = error.GetToken();
+  while (!token.empty() && token.back() == ' ') token.pop_back();
+  // After an unexpected end muParser counts a space that it appended.
+  int position = std::min(error.GetPos(), static_cast<int>(text.size()));
+  switch (error.GetCode()) {
+    case mu::ecUNASSIGNABLE_TOKEN: {
+      const char letter = token.empty() ? '\0' : token.front();
+      const bool is_name = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || letter == '_';
+      if (!is_name) return {fmt::format("unexpected {}", in_quotes(token)), position};
+      if (token.size() == 1 && kVariables.find(letter) != std::string_view::npos)
+        return {fmt::format("'{}' cannot be used here: this is a {}", token,
+                            variables.empty() ? "number, the same everywhere and at all times"
+                                              : fmt::format("formula of {}", fmt::join(variables, ", "))),
+                position};
+      const std::string meant = nearest(token, names);
+      const bool is_function = std::find(names.begin(), names.end(), token) != names.end();
+      if (is_function) return {fmt::format("the function {} needs its arguments in ( )", in_quotes(token)), position};
+      return {
+          fmt::format("unknown name {}{}", in_quotes(token), meant.empty() ? "" : "; did you mean '" + meant + "'?"),
+          position};
+    }
+    case mu::ecUNEXPECTED_EOF:
+      return {"the formula ends too early", position};
+    case mu::ecMISSING_PARENS:
+      return {"a ')' is missing", position};
+    case mu::ecUNEXPECTED_OPERATOR:
+    case mu::ecUNEXPECTED_PARENS:
+    case mu::ecUNEXPECTED_VAL:
+    case mu::ecUNEXPECTED_VAR:
+    case mu::ecUNEXPECTED_FUN:
+    case mu::ecUNEXPECTED_ARG_SEP:
+      return {fmt::format("unexpected {}", in_quotes(token.empty() ? "," : token)), position};
+    case mu::ecTOO_MANY_PARAMS:
+    case mu::ecTOO_FEW_PARAMS: {
+      // muParser points behind the arguments; the function's name is the better place.
+      const auto name = text.rfind(token, static_cast<std::size_t>(std::max(position, 0)));
+      if (name != std::string::npos) position = static_cast<int>(name);
+      const bool few = error.GetCode() == mu::ecTOO_FEW_PARAMS;
+      return {fmt::format("too {} arguments for {}", few ? "few" : "many", in_quotes(token)), position};
+    }
+    case mu::ecMISSING_ELSE_CLAUSE:
+      return {"'?' without its ':'", position};
+    default:
+      return {error.GetMsg(), position};
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& expression_functions() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> found;
+    const mu::Parser parser;
+    for (const auto& function : parser.GetFunDef()) found.push_back(function.first);
+    return found;
+  }();
+  return names;
+}
+
+/// A compiled formula. It keeps what it was made of, since a copy needs a parser bound to its own variables.
+struct Expression::Impl {
+  std::string text, variables;
+  Constants constants;
+  std::array<double, 4> values{};  // of x, y, z, t; the parser reads them in place
+  std::string used;                // those of x, y, z, t that the formula depends on
+  mu::Parser parser;
+
+  Impl(std::string text_, const Constants& constants_, std::string variables_)
+      : text(std::move(text_)), variables(std::move(variables_)), constants(constants_) {
+    check_characters(text);
+    constants.try_emplace("pi", std::numbers::pi);
+    constants.try_emplace("e", std::numbers::e);
+    parser.ClearConst();  // muParser's own are called _pi and _e
+    std::vector<std::string> names = expression_functions();
+    try {
+      for (const auto& [name, value] : constants) {
+        if (name.size() == 1 && variables.find(name) != std::string::npos)
+          throw ExpressionError(fmt::format("the constant '{}' has the name of a variable", name), -1);
+        parser.DefineConst(name, value);
+        names.push_back(name);
+      }
+      for (const char name : variables) {
+        parser.DefineVar(std::string(1, name), &values.at(kVariables.find(name)));
+        names.emplace_back(1, name);
+      }
+      parser.SetExpr(text);
+      parser.Eval();
+      if (parser.GetNumResults() != 1) throw ExpressionError("a formula has one value; ',' makes more of them", -1);
+      for (const auto& variable : parser.GetUsedVar()) used += variable.first;
+    } catch (const mu::ParserError& error) {
+      throw in_our_words(error, text, names, variables);
+    }
+  }
+
+  double evaluate() {
+    try {
+      return parser.Eval();
+    } catch (const mu::ParserError& error) {
+      throw ExpressionError(error.GetMsg(), error.GetPos());
+    }
+  }
+};
+
+Expression::Expression() : Expression(0.0) {}
+
+Expression::Expression(double value) : value_(value), text_(fmt::format("{}", value)) {}
+
+Expression::Expression(const std::string& text, const Constants& constants, const std::string& variables)
+    : text_(text) {
+  if (const auto number = plain_number(text)) {
+    value_ = *number;
+    return;
+  }
+  impl_ = std::make_unique<Impl>(text, constants, variables);
+  if (!impl_->used.empty()) return;
+  value_ = impl_->evaluate();
+  impl_.reset();
+  if (!std::isfinite(value_)) throw ExpressionError(fmt::format("the value {} is not a finite number", value_), -1);
+}
+
+Expression::Expression(const Expression& other)
+    : impl_(other.impl_ ? std::make_unique<Impl>(other.impl_->text, other.impl_->constants, other.impl_->variables)
+                        : nullptr),
+      value_(other.value_),
+      text_(other.text_) {}
+
+Expression& Expression::operator=(const Expression& other) {
+  if (this != &other) *this = Expression(other);
+  return *this;
+}
+
+Expression::Expression(Expression&&) noexcept = default;
+Expression& Expression::operator=(Expression&&) noexcept = default;
+Expression::~Expression() = default;
+
+double Expression::operator()(std::span<const double> x, double t) const {
+  if (!impl_) return value_;
+  for (std::size_t axis = 0; axis < 3; ++axis) impl_->values[axis] = axis < x.size() ? x[axis] : 0;
+  impl_->values[3] = t;
+  return impl_->evaluate();
+}
+
+bool Expression::uses(char variable) const { return impl_ && impl_->used.find(variable) != std::string::npos; }
+
+const std::string& Expression::text() const { return text_; }
+
+}  // namespace stillpoint

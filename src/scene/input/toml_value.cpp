@@ -1,0 +1,164 @@
+#include "scene/input/toml_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "scene/input/toml_source.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// Where in the file character `position` of a string stands; empty where that cannot be told from the string alone.
+std::optional<Location> place_in_string(const toml::value<std::string>& text, int position) {
+  const toml::source_region& region = text.source();
+  Location where = location_of(region);
+  if (position < 0 || where.line == 0 || region.begin.line != region.end.line) return std::nullopt;
+  // Two quotes around as many columns as the string has characters: no escapes, no triple quotes.
+  const auto characters =
+      std::count_if(text->begin(), text->end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  if (static_cast<long>(region.end.column - region.begin.column) != characters + 2) return std::nullopt;
+  where.column += 1 + position;
+  return where;
+}
+
+/// Compiles the formula in a string.
+std::optional<Expression> compile(const toml::value<std::string>& text, const std::string& path,
+                                  const std::string& variables, Reading& reading) {
+  for (const std::string& name : names_in(*text))
+    if (reading.broken.contains(name)) return std::nullopt;
+  try {
+    return Expression(*text, reading.constants, variables);
+  } catch (const ExpressionError& error) {
+    if (const auto where = place_in_string(text, error.position())) {
+      reading.problem(*where, path, error.what());
+    } else if (error.position() >= 0 && !text->empty()) {
+      reading.problem(location_of(text.source()), path,
+                      fmt::format("{} (at character {} of {})", error.what(), error.position() + 1, in_quotes(*text)));
+    } else {
+      reading.problem(location_of(text.source()), path, error.what());
+    }
+    return std::nullopt;
+  }
+}
+
+std::optional<double> checked(double value, const toml::node& node, const std::string& path, const Range& range,
+                              Reading& reading) {
+  if (!std::isfinite(value)) {
+    reading.problem(location_of(node.source()), path, fmt::format("expected a finite number, found {}", value));
+  } else if (!range.contains(value)) {
+    reading.problem(location_of(node.source()), path, fmt::format("must be {}, not {}", range.text(), value));
+  } else {
+    return value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void Reading::problem(const Location& where, const std::string& path, const std::string& message) {
+  problems.push_back({where, path.empty() ? message : path + ": " + message});
+}
+
+bool Range::contains(double value) const {
+  return (lower_allowed ? value >= lower : value > lower) && (upper_allowed ? value <= upper : value < upper);
+}
+
+std::string Range::text() const {
+  const std::string above =
+      std::isfinite(lower) ? fmt::format("{} {}", lower_allowed ? "at least" : "greater than", lower) : "";
+  const std::string below =
+      std::isfinite(upper) ? fmt::format("{} {}", upper_allowed ? "at most" : "less than", upper) : "";
+  return above + (!above.empty() && !below.empty() ? " and " : "") + below;
+}
+
+std::string kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return node.is_array_of_tables() ? "an array of tables" : "an array";
+    case toml::node_type::string:
+      return "the string " + in_quotes(*node.value<std::string>());
+    case toml::node_type::integer:
+      return fmt::format("the number {}", *node.value<std::int64_t>());
+    case toml::node_type::floating_point:
+      return fmt::format("the number {}", *node.value<double>());
+    case toml::node_type::boolean:
+      return *node.value<bool>() ? "true" : "false";
+    default:
+      return "a date or time";
+  }
+}
+
+std::vector<std::string> names_in(std::string_view formula) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < formula.size();) {
+    const std::size_t begin = k;
+    if (is_letter(formula[k])) {
+      while (k < formula.size() && (is_letter(formula[k]) || is_digit(formula[k]))) ++k;
+      names.emplace_back(formula.substr(begin, k - begin));
+    } else if (is_digit(formula[k])) {
+      // The e of 1e-3 is no name.
+      while (k < formula.size() && (is_letter(formula[k]) || is_digit(formula[k]) || formula[k] == '.')) ++k;
+    } else {
+      ++k;
+    }
+  }
+  return names;
+}
+
+std::optional<double> read_number(const toml::node& node, const std::string& path, const Range& range,
+                                  Reading& reading) {
+  if (const auto* integer = node.as_integer())
+    return checked(static_cast<double>(integer->get()), node, path, range, reading);
+  if (const auto* real = node.as_floating_point()) return checked(real->get(), node, path, range, reading);
+  if (const auto* text = node.as_string()) {
+    const auto formula = compile(*text, path, "", reading);
+    return formula ? checked((*formula)({}, 0), node, path, range, reading) : std::nullopt;
+  }
+  reading.problem(location_of(node.source()), path,
+                  fmt::format("expected a number or a formula, found {}", kind_of(node)));
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> read_integer(const toml::node& node, const std::string& path, std::int64_t lower,
+                                         std::int64_t upper, Reading& reading) {
+  std::optional<std::int64_t> value;
+  std::string found;
+  if (const auto* integer = node.as_integer()) {
+    value = integer->get();
+    found = fmt::format("{}", *value);
+  } else {
+    const auto real = read_number(node, path, kAnyNumber, reading);
+    if (!real) return std::nullopt;
+    found = fmt::format("{}", *real);
+    constexpr double exact = 9007199254740992.0;  // 2^53: up to here doubles and whole numbers are the same
+    if (std::abs(*real) <= exact && std::trunc(*real) == *real) value = static_cast<std::int64_t>(*real);
+  }
+  if (value && *value >= lower && *value <= upper) return value;
+  const std::string limits = upper == std::numeric_limits<std::int64_t>::max()
+                                 ? fmt::format("of at least {}", lower)
+                                 : fmt::format("from {} to {}", lower, upper);
+  reading.problem(location_of(node.source()), path, fmt::format("must be a whole number {}, not {}", limits, found));
+  return std::nullopt;
+}
+
+std::optional<Expression> read_formula(const toml::node& node, const std::string& path, const std::string& variables,
+                                       Reading& reading) {
+  if (const auto* text = node.as_string()) return compile(*text, path, variables, reading);
+  if (const auto value = read_number(node, path, kAnyNumber, reading)) return Expression(*value);
+  return std::nullopt;
+}
+
+std::optional<std::string> read_text(const toml::node& node, const std::string& path, Reading& reading) {
+  if (const auto* text = node.as_string()) return text->get();
+  reading.problem(location_of(node.source()), path, fmt::format("expected a string, found {}", kind_of(node)));
+  return std::nullopt;
+}
+
+}  // namespace stillpoint

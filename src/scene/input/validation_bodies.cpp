@@ -1,0 +1,225 @@
+// Bodies: where they lie in the grid, how many points they have, what they are made of.
+#include <stillpoint/material_laws.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/polygon.hpp"
+#include "base/text.hpp"
+#include "scene/input/scene_check.hpp"
+#include "scene/point_file.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// True where the body has a size, after moving its faces onto grid lines that they miss by a sliver.
+bool check_box(SceneCheck& check, std::size_t k) {
+  const GridSpec& grid = check.scene().grid;
+  BodySpec& body = check.scene().bodies[k];
+  if (body.min.empty() || body.max.empty()) return false;
+  const bool min_inside = check.inside(body.min, grid.min, grid.max, "grid", check.body_key(k, "min"));
+  const bool max_inside = check.inside(body.max, grid.min, grid.max, "grid", check.body_key(k, "max"));
+  if (!min_inside || !max_inside) return false;
+  check.snap_to_grid(body.min);
+  check.snap_to_grid(body.max);
+  for (std::size_t axis = 0; axis < body.min.size(); ++axis) {
+    if (body.max[axis] > body.min[axis]) continue;
+    const std::string max = check.body_key(k, "max"), min = check.body_key(k, "min");
+    check.add(check.axis_key(max, axis), fmt::format("must be greater than {} = {}, not {}", check.axis_key(min, axis),
+                                                     body.min[axis], body.max[axis]));
+    return false;
+  }
+  return true;
+}
+
+void set_bounding_box(BodySpec& body, const std::vector<std::vector<double>>& places) {
+  body.min = body.max = places.front();
+  for (const auto& place : places) {
+    for (std::size_t axis = 0; axis < place.size(); ++axis) {
+      body.min[axis] = std::min(body.min[axis], place[axis]);
+      body.max[axis] = std::max(body.max[axis], place[axis]);
+    }
+  }
+}
+
+Polygon polygon_of(const BodySpec& body) {
+  Polygon polygon;
+  for (const auto& corner : body.polygon) polygon.push_back({corner[0], corner[1]});
+  return polygon;
+}
+
+/// The same for a polygon, and its bounding box.
+bool check_polygon(SceneCheck& check, std::size_t k) {
+  const GridSpec& grid = check.scene().grid;
+  BodySpec& body = check.scene().bodies[k];
+  const std::string key = check.body_key(k, "polygon");
+  const auto wrong = [&](const std::string& message) { return check.add(key, message), false; };
+  const std::size_t n = body.polygon.size();
+  if (n == 0) return false;  // has been said
+  bool inside = true;
+  for (std::size_t c = 0; c < n; ++c)
+    inside = check.inside(body.polygon[c], grid.min, grid.max, "grid", fmt::format("{}[{}]", key, c)) && inside;
+  if (!inside) return false;
+  for (auto& corner : body.polygon) check.snap_to_grid(corner);
+  set_bounding_box(body, body.polygon);
+  if (body.polygon.front() == body.polygon.back())
+    return wrong("the last corner repeats the first; a polygon closes by itself");
+  const Polygon polygon = polygon_of(body);
+  const double box = (body.max[0] - body.min[0]) * (body.max[1] - body.min[1]);
+  constexpr double rounding = 1e-12;
+  if (std::abs(signed_area(polygon)) <= rounding * box) return wrong("has no area");
+  if (const auto edges = crossing_edges(polygon)) {
+    const auto [a, b] = *edges;
+    return wrong(fmt::format("must not cross or touch itself, as the edges from corner {} to {} and from {} to {} do",
+                             a, (a + 1) % n, b, (b + 1) % n));
+  }
+  return true;
+}
+
+/// The same for points from a file.
+bool check_file(SceneCheck& check, std::size_t k, bool grid) {
+  const Scene& scene = check.scene();
+  BodySpec& body = check.scene().bodies[k];
+  const auto axes = static_cast<std::size_t>(scene.dim);
+  std::vector<double> min(axes, -std::numeric_limits<double>::infinity());
+  std::vector<double> max(axes, std::numeric_limits<double>::infinity());
+  if (grid) min = scene.grid.min, max = scene.grid.max;
+  std::vector<Problem> problems;
+  const PointFile points = read_point_file(body.file, min, max, problems);
+  for (Problem& problem : problems) {
+    if (problem.where.line == 0) {  // the file as a whole: said where it is named
+      check.add(check.body_key(k, "file"), fmt::format("{} {}", in_quotes(body.file.string()), problem.message));
+    } else {
+      check.problems().push_back(std::move(problem));
+    }
+  }
+  if (!problems.empty() || !grid) return false;
+  body.min.clear();
+  body.max.clear();
+  for (const std::vector<double>& x : points.x) {
+    const auto [low, high] = std::ranges::minmax_element(x);
+    body.min.push_back(*low);
+    body.max.push_back(*high);
+  }
+  return true;
+}
+
+/// The number of points of bodies in order, about; a body that is not counts as one that fills the grid.
+void check_number_of_points(SceneCheck& check, const std::vector<bool>& in_order) {
+  const Scene& scene = check.scene();
+  if (scene.grid.cells.empty()) return;
+  constexpr double most = 5e7;  // about 10 GB of material points
+  double all = 0;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const BodySpec& body = scene.bodies[k];
+    if (!body.file.empty()) continue;
+    double points = 1;
+    for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis) {
+      const double share =
+          in_order[k] ? (body.max[axis] - body.min[axis]) / (scene.grid.max[axis] - scene.grid.min[axis]) : 1;
+      points *= share * scene.grid.cells[axis] * body.points_per_cell[axis];
+    }
+    all += points;
+    if (all <= most) continue;
+    check.add(check.body_key(k, "points_per_cell"),
+              fmt::format("{:.3g} material points are more than this program takes ({:g})", all, most));
+    return;
+  }
+}
+
+void check_material(SceneCheck& check, std::size_t k) {
+  const Scene& scene = check.scene();
+  const std::string& name = scene.bodies[k].material;
+  if (name.empty()) return;
+  const auto found = scene.materials.find(name);
+  if (found == scene.materials.end()) {
+    std::vector<std::string> names;
+    for (const auto& material : scene.materials) names.push_back(material.first);
+    const std::string meant = nearest(name, names);
+    check.add(check.body_key(k, "material"),
+              fmt::format("there is no material {}{}", in_quotes(name),
+                          !meant.empty()  ? "; did you mean '" + meant + "'?"
+                          : names.empty() ? "; describe it in a table [material.<name>]"
+                                          : fmt::format("; there is {}", fmt::join(names, ", "))));
+    return;
+  }
+  if (has_state(found->second, scene.state)) return;
+  const LawInfo& law = *std::ranges::find(material_laws(), found->second.law, &LawInfo::name);
+  std::vector<std::string_view> states;
+  for (const StressState state : law.states) states.push_back(to_string(state));
+  check.add(check.body_key(k, "material"), fmt::format("law '{}' has no state '{}'; it has {}", law.name,
+                                                       to_string(scene.state), fmt::join(states, ", ")));
+}
+
+/// A material that dilates more than it rubs would create energy.
+void check_dilation(SceneCheck& check, const MaterialSpec& material) {
+  const auto phi = material.parameters.find("phi"), psi = material.parameters.find("psi");
+  if (phi == material.parameters.end() || psi == material.parameters.end()) return;
+  if (psi->second <= phi->second) return;
+  check.add(fmt::format("material.{}.psi", material.name),
+            fmt::format("must be at most phi = {}, not {}", phi->second, psi->second));
+}
+
+}  // namespace
+
+bool has_history(const MaterialSpec& material) { return material.law == "drucker-prager"; }
+
+bool has_state(const MaterialSpec& material, StressState state) {
+  const auto law = std::ranges::find(material_laws(), material.law, &LawInfo::name);
+  return law == material_laws().end() || std::ranges::find(law->states, state) != law->states.end();
+}
+
+std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
+  Scene& scene = check.scene();
+  const std::size_t count = scene.bodies.size();
+  std::vector<bool> in_order(count, false);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!scene.bodies[k].file.empty()) {
+      in_order[k] = check_file(check, k, grid);
+    } else if (scene.dim == 2 && check.written(check.body_key(k, "polygon"))) {
+      in_order[k] = grid && check_polygon(check, k);
+    } else {
+      in_order[k] = grid && check_box(check, k);
+    }
+    check_material(check, k);
+    if (const std::string key = check.body_key(k, "thickness");
+        scene.state == StressState::axisymmetric && check.written(key))
+      check.add(key, "an axisymmetric body goes all the way round and has none");
+  }
+  for (const auto& [name, material] : scene.materials) check_dilation(check, material);
+  if (grid) check_number_of_points(check, in_order);
+
+  if (std::ranges::find(in_order, false) != in_order.end()) return std::nullopt;
+  BodyBox box{scene.bodies[0].min, scene.bodies[0].max, count == 1 ? "body" : "bodies"};
+  for (const BodySpec& body : scene.bodies) {
+    for (std::size_t axis = 0; axis < box.min.size(); ++axis) {
+      box.min[axis] = std::min(box.min[axis], body.min[axis]);
+      box.max[axis] = std::max(box.max[axis], body.max[axis]);
+    }
+  }
+  return box;
+}
+
+long known_points(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  if (scene.grid.cells.empty()) return 0;
+  long all = 0;
+  for (const BodySpec& body : scene.bodies) {
+    if (!body.polygon.empty() || !body.file.empty()) return 0;
+    long points = 1;
+    for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis) {
+      const double h = check.cell_length(axis);
+      const double first = (body.min[axis] - scene.grid.min[axis]) / h;
+      const double last = (body.max[axis] - scene.grid.min[axis]) / h;
+      if (std::abs(first - std::round(first)) > kSliver || std::abs(last - std::round(last)) > kSliver) return 0;
+      points *= std::lround(std::round(last) - std::round(first)) * body.points_per_cell[axis];
+    }
+    all += points;
+  }
+  return all;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,94 @@
+// When phases end, and what scenes of more than one phase can have.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "scene/input/scene_check.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// The materials of the bodies, each once; none whose law is not for this scene, which has been said.
+std::vector<const MaterialSpec*> materials_in_use(const Scene& scene) {
+  std::vector<const MaterialSpec*> materials;
+  for (const BodySpec& body : scene.bodies) {
+    const auto found = scene.materials.find(body.material);
+    if (found == scene.materials.end() || !has_state(found->second, scene.state)) continue;
+    if (std::ranges::find(materials, &found->second) == materials.end()) materials.push_back(&found->second);
+  }
+  return materials;
+}
+
+/// A wall that moves stays on a grid line only where the grid follows it.
+void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
+  const Scene& scene = check.scene();
+  const std::string& follow = scene.grid.follow;
+  // Whom the grid follows has to be put right first.
+  if (!follow.empty() && std::ranges::find(scene.walls, follow, &WallSpec::name) == scene.walls.end()) return;
+  for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+    const WallSpec& wall = scene.walls[k];
+    if (!wall.motion.uses('t') || wall.name.empty() || follow == wall.name) continue;
+    check.add(
+        fmt::format("wall[{}].motion", k),
+        fmt::format("a wall that moves has to stay on a grid line from phase to phase{}, {}",
+                    follow.empty() ? fmt::format(": give grid.follow = {}", in_quotes(wall.name))
+                                   : fmt::format(", but the grid follows {}: let this one rest", in_quotes(follow)),
+                    one_phase));
+  }
+}
+
+}  // namespace
+
+void check_phases(SceneCheck& check) {
+  Scene& scene = check.scene();
+  PhaseSpec& phase = scene.phase;
+  const auto materials = materials_in_use(scene);
+  // Where phases are asked for; with history they are there unasked.
+  std::string asked = "phase.max_motion";
+  if (!check.written(asked) && phase.max_strain) asked = "phase.max_strain";
+  const bool unasked = !check.written(asked);
+  constexpr double usual_motion = 0.1;
+  if (!check.written("phase.max_motion") &&
+      std::ranges::any_of(materials, [](const MaterialSpec* m) { return has_history(*m); }))
+    phase.max_motion = usual_motion;
+  if (!phase.max_motion && !phase.max_strain) return;
+
+  const std::string one_phase =
+      fmt::format("or {}{}{} for a single phase", phase.max_motion ? "phase.max_motion = \"none\"" : "",
+                  phase.max_motion && phase.max_strain ? " and " : "", phase.max_strain ? "no phase.max_strain" : "");
+  for (const MaterialSpec* material : materials) {
+    if (material->law != "linear-elastic") continue;
+    const std::string law = fmt::format("material.{}.law", material->name);
+    check.add(unasked ? law : asked,
+              fmt::format("'linear-elastic' is a law of small strain, whose places never change, so that no phase "
+                          "ends; take hencky or neo-hookean, {}",
+                          one_phase));
+    return;  // the rest is not worth putting right
+  }
+  if (scene.grid.basis == BasisKind::hermite) {
+    check.add("grid.basis", fmt::format("'hermite' has no lumped mass to carry velocities from phase to phase; take "
+                                        "linear, quadratic or cubic, {}",
+                                        one_phase));
+  } else if (scene.mass.kind != MassKind::lumped) {
+    check.add(
+        check.written("mass.kind") ? "mass.kind" : asked,
+        fmt::format("velocities are carried from phase to phase by a lumped mass; take mass.kind = \"lumped\", {}",
+                    one_phase));
+  }
+  for (std::size_t k = 0; k < scene.forces.size(); ++k)
+    check.add(fmt::format("force[{}].at", k),
+              fmt::format("the material leaves this place from phase to phase; take a traction or a body force, {}",
+                          one_phase));
+  if (!scene.exact_u.empty())
+    check.add(
+        "exact.u",
+        fmt::format("is a function of undeformed places, which later phases do not know; leave it out, {}", one_phase));
+  if (scene.stop.distance > 0)
+    check.add("stop.distance", fmt::format("is certified for one set of unknowns, not from phase to phase; take "
+                                           "stop.residual, {}",
+                                           one_phase));
+  check_moving_walls(check, one_phase);
+}
+
+}  // namespace stillpoint

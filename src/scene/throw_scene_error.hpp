@@ -1,0 +1,27 @@
+// How bad input is reported that only shows after the scene was read: once it is discretised, or in an option.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+/// Throws a SceneError with one problem, at the place of a key (or of the nearest table around it).
+[[noreturn]] inline void throw_scene_error(const Scene& scene, const std::string& key, const std::string& message) {
+  throw SceneError({{scene.location(key), message}});
+}
+
+/// The same for an option of the command, "--out DIR".
+[[noreturn]] inline void throw_option_error(const std::string& option, const std::string& given,
+                                            const std::string& message) {
+  throw SceneError(std::vector<Problem>(1, {{option + " " + given, 0, 0}, message}));
+}
+[[noreturn]] inline void throw_folder_error(const std::filesystem::path& out,
+                                            const std::filesystem::filesystem_error& error) {
+  throw_option_error("--out", out.string(), "cannot be written: " + error.code().message());
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,24 @@
+#include "simulation/error_bound.hpp"
+
+#include <stillpoint/spectrum.hpp>
+
+namespace stillpoint {
+
+ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1)
+    : phase_(phase), omega_1_(phase.updated_lagrangian() ? std::nullopt : omega_1) {}
+
+std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u) const {
+  if (!omega_1_) return std::nullopt;
+  return relaxation.distance(u, *omega_1_);
+}
+
+bool ErrorBound::refresh(double t, ConstVec u, double residual) {
+  constexpr double much_nearer = 0.25;
+  if (!omega_1_ || !phase_.nonlinear() || !(residual < much_nearer * refreshed_at_)) return false;
+  refreshed_at_ = residual;
+  const FrequencyEstimate lowest = omega_1_of_tangent(phase_, t, u);
+  omega_1_ = lowest.converged ? std::optional(lowest.omega) : std::nullopt;
+  return true;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,31 @@
+// How far from equilibrium a state is at most, from its residual and the lowest frequency.
+#pragma once
+
+#include <stillpoint/relaxation_system.hpp>
+
+#include <limits>
+#include <optional>
+
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// ‖u − u*‖_M ≤ ‖M⁻¹(F − R)‖_M/ω₁², relative to ‖u‖_M. A bound where K is constant, with the ω₁ of the beginning; where
+/// it is not, an estimate with the ω₁ of the tangent where refresh() last looked.
+class ErrorBound {
+ public:
+  /// omega_1: of the beginning; empty where there is none, and then there is no distance.
+  ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1);
+
+  std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u) const;
+  /// Looks at the tangent at (t, u), where that may have changed since it last did with a larger residual. Where the
+  /// tangent is not positive definite there is no distance any more. False where nothing was done.
+  bool refresh(double t, ConstVec u, double residual);
+
+ private:
+  const LagrangianPhase& phase_;
+  std::optional<double> omega_1_;
+  double refreshed_at_ = std::numeric_limits<double>::infinity();  // the residual then
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,63 @@
+#include "simulation/load_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stillpoint {
+
+bool loads_vary(const Scene& scene) {
+  const auto varies = [](const Expression& formula) { return formula.uses('t'); };
+  const auto any = [&](const std::vector<Expression>& formulas) { return std::ranges::any_of(formulas, varies); };
+  const auto pressure_varies = [&](const TractionSpec& f) { return f.pressure && varies(*f.pressure); };
+  return any(scene.body_force) || std::ranges::any_of(scene.tractions, pressure_varies) ||
+         std::ranges::any_of(scene.walls, [&](const WallSpec& w) { return varies(w.motion); }) ||
+         std::ranges::any_of(scene.forces, [&](const auto& f) { return any(f.value); }) ||
+         std::ranges::any_of(scene.tractions, [&](const auto& f) { return any(f.value); }) ||
+         std::ranges::any_of(scene.supports, [&](const auto& s) { return varies(s.motion); });
+}
+
+std::vector<double> loads_at(const SemiDiscrete& system, double t) {
+  const std::vector<double> rest(system.size(), 0.0);
+  std::vector<double> F(system.size());
+  system.external_force(t, F);
+  system.add_following_force(t, rest, F);
+  return F;
+}
+
+std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
+  const std::vector<double> rest(system.size(), 0.0);
+  std::vector<double> Q = loads_at(system, t), R(system.size());
+  system.internal_force(t, rest, R);
+  for (std::size_t i = 0; i < Q.size(); ++i) Q[i] -= R[i];
+  return Q;
+}
+
+LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time)
+    : scene_(scene), system_(system), end_time_(end_time) {
+  supports_move_ = std::ranges::any_of(scene.supports, [](const auto& s) { return s.motion.uses('t'); });
+  if (end_time > 0 && loads_vary(scene)) at_end_ = pull(end_time);
+}
+
+// The loads alone where no support moves: R(u = 0) changes with what a body remembers.
+std::vector<double> LoadSchedule::pull(double t) const {
+  return supports_move_ ? total_load_at(system_, t) : loads_at(system_, t);
+}
+
+bool LoadSchedule::settled(double t) const {
+  if (at_end_.empty()) return true;
+  constexpr double rounding = 1e-9;
+  for (const WallSpec& wall : scene_.walls) {
+    const double end = wall.motion({}, end_time_), left = std::abs(end - wall.motion({}, t));
+    if (left > rounding * std::abs(end - wall.motion({}, 0))) return false;
+  }
+  const bool remembers = supports_move_ && system_.history_dependent();
+  const std::vector<double> now = pull(t), end = remembers ? pull(end_time_) : at_end_;
+  double difference = 0, scale = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    difference = std::max(difference, std::abs(now[i] - end[i]));
+    scale = std::max({scale, std::abs(now[i]), std::abs(end[i])});
+  }
+  return difference <= rounding * scale;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,328 @@
+#include "simulation/model.hpp"
+
+#include <stillpoint/spectrum.hpp>
+#include <stillpoint/stability.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/throw_scene_error.hpp"
+#include "simulation/load_schedule.hpp"
+#include "simulation/stiffening_step.hpp"
+#include "solvers/spectrum/direct_solver_limit.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+// ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
+double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
+  const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
+  constexpr int applications = 30;
+  const FrequencyEstimate estimate = phase.size() > direct_solver_limit
+                                         ? omega_max_by_lanczos(phase, 0, u, applications)
+                                         : omega_max_by_power_iteration(phase, 0, u, options);
+  if (!(estimate.omega > 0) || !std::isfinite(estimate.omega)) {
+    throw_scene_error(
+        scene, "initial",
+        fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
+  }
+  if (estimate.converged) return estimate.omega;
+  constexpr double margin = 1.02;  // after 300 iterations an underestimate of 0.1 % is usual
+  return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
+}
+
+// The same for auto, which counts what it spends.
+double highest_frequency_for_auto(const Scene& scene, Model& model, const LagrangianPhase& phase, ConstVec u) {
+  const FrequencyEstimate estimate = omega_max_by_lanczos(phase, 0, u);
+  model.tangent_applications += estimate.iterations;
+  if (estimate.converged) return estimate.omega;
+  throw_scene_error(
+      scene, "initial",
+      fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
+}
+
+// Whether nothing but equilibrium is asked for, under a pull that stays: then inertia is free, and velocities may be
+// reset.
+bool wants_equilibrium_only(const Scene& scene) { return scene.stop.wants_equilibrium() && !loads_vary(scene); }
+
+// auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
+// body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
+// of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes where the scene leaves the kind open.
+void choose_mass_for_auto(const Scene& scene, Model& model) {
+  const std::vector<double> u = model.phase->initial_displacement(0);
+  model.omega_max = highest_frequency_for_auto(scene, model, *model.phase, u);
+  if (!wants_equilibrium_only(scene)) {
+    model.notes.push_back(
+        "auto keeps the physical mass and halts no motion, as loads or supports depend on t or the transient is asked "
+        "for; its c M v holds back a body that flows: take one-sided or cundall there");
+    return;
+  }
+  const bool kind_is_fixed = scene.where.contains("mass.kind") && scene.mass.kind == MassKind::consistent;
+  if (scene.where.contains("mass.scaling") || kind_is_fixed || scene.grid.basis == BasisKind::hermite) return;
+  Scene scaled = scene;
+  scaled.mass.kind = MassKind::lumped;
+  scaled.mass.scaling = MassScaling::gershgorin;
+  std::unique_ptr<LagrangianPhase> phase = make_phase(scaled);
+  const double omega_max = highest_frequency_for_auto(scene, model, *phase, phase->initial_displacement(0));
+  const double gain = model.omega_max * model.omega_max / (omega_max * omega_max);
+  constexpr double worthwhile = 1.05;
+  if (gain < worthwhile) return;
+  model.phase = std::move(phase);
+  model.omega_max = omega_max;
+  model.notes.push_back(fmt::format(
+      "auto scales the mass by Gershgorin's bound: the condition number becomes about {:.3g} times smaller", gain));
+}
+
+// Whether R can be evaluated where the motion begins.
+void check_initial_state(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
+  std::vector<double> R(phase.size());
+  if (phase.internal_force(0, u, R)) return;
+  throw_scene_error(scene, "initial",
+                    "the initial state cannot be evaluated: det f <= 0 or a stress that is not finite");
+}
+
+void check_probes(const Scene& scene, const LagrangianPhase& phase) {
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const auto& point = scene.probes[k].point;
+    if (!point || static_cast<std::size_t>(*point) <= phase.points()) continue;
+    throw_scene_error(scene, fmt::format("probe[{}].point", k),
+                      fmt::format("there is no material point {}; expected 1 to {}", *point, phase.points()));
+  }
+}
+
+int degree_of(BasisKind basis) {
+  switch (basis) {
+    case BasisKind::linear:
+      return 1;
+    case BasisKind::quadratic:
+      return 2;
+    case BasisKind::cubic:
+    case BasisKind::hermite:
+      return 3;
+  }
+  throw std::logic_error("a basis without a degree");
+}
+
+// A basis of degree p keeps its order of convergence where the points integrate degree 2p − 2 [Strang and Fix
+// 1973, 4.3].
+std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureReport& quadrature) {
+  std::vector<std::string> notes;
+  if (quadrature.cells_limited_by_sign > 0) {
+    notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
+                                quadrature.cells_limited_by_sign));
+  }
+  if (quadrature.smallest_share < 0.05) {
+    notes.push_back(
+        fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
+                    "faces on grid lines",
+                    quadrature.smallest_share));
+  }
+  const int needed = 2 * degree_of(scene.grid.basis) - 2;
+  if (quadrature.degree < needed) {
+    const bool equal =
+        std::ranges::any_of(scene.bodies, [](const BodySpec& body) { return body.volumes == VolumeRule::equal; });
+    notes.push_back(fmt::format("the points integrate degree {}, this basis needs {} for its full order: {}",
+                                quadrature.degree, needed,
+                                equal ? "take consistent volumes" : "take more points per cell or Gauss points"));
+  }
+  return notes;
+}
+
+// Where a point crosses a line of the grid its share of a linear function's gradient changes sign: what an elastic body
+// settles over many phases comes out too large [Steffen, Kirby and Berzins 2008].
+std::vector<std::string> phase_notes(const Scene& scene, const LagrangianPhase& phase) {
+  if (!phase.updated_lagrangian() || phase.history_dependent() || scene.grid.basis != BasisKind::linear) return {};
+  return {
+      "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % too "
+      "far; a quadratic basis is within 0.3 %"};
+}
+
+std::vector<std::string> support_notes(const Scene& scene) {
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    for (std::size_t d = 0; d < scene.supports[k].at.size(); ++d) {
+      const double at = scene.supports[k].at[d];
+      const bool inside = std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
+        return body.file.empty() ? at >= body.min[d] && at <= body.max[d] : true;
+      });
+      if (inside) continue;
+      notes.push_back(fmt::format(
+          "support[{}] at {:.6g} lies outside the body: it holds the cell that the body shares with it", k, at));
+    }
+  }
+  return notes;
+}
+
+// The size of the motion to expect, so that tolerances need no number from the user: the largest displacement of a
+// material point under the loads of any time, u = K⁻¹ Q(t), or under the initial values.
+double displacement_scale(const Scene& scene, const Model& model) {
+  const LagrangianPhase& phase = *model.phase;
+  double scale = 0;
+  std::vector<double> at_points(phase.points() * static_cast<std::size_t>(phase.dim()));
+  const auto widen = [&](double factor) {
+    for (const double u : at_points) scale = std::max(scale, factor * std::abs(u));
+  };
+  phase.point_displacement(0, model.u, at_points);
+  widen(1);
+  phase.point_velocity(0, model.v, at_points);
+  widen(1 / *model.omega_1);
+
+  const SparseCholesky K(phase.elastic_tangent_matrix(0, model.u));
+  const double span = scene.stop.time > 0 ? scene.stop.time : two_pi / *model.omega_1;
+  const int samples = loads_vary(scene) ? 32 : 0;
+  for (int k = 0; k <= samples; ++k) {
+    const double t = samples > 0 ? span * k / samples : 0;
+    std::vector<double> u = total_load_at(phase, t);
+    K.solve(u, u);
+    phase.point_displacement(t, u, at_points);
+    widen(1);
+  }
+  return scale;
+}
+
+void set_tolerances(const Scene& scene, Model& model) {
+  const IntegratorSpec& spec = scene.integrator;
+  model.integrator.rtol = spec.rtol;
+  if (!spec.rtol) return;
+  if (!spec.atol_u || !spec.atol_v) {
+    const double scale = model.omega_1 ? displacement_scale(scene, model) : 0;
+    if (!(scale > 0)) {
+      throw_scene_error(
+          scene, "integrator.rtol",
+          "the size of the motion is not known beforehand; expected integrator.atol_u and integrator.atol_v beside "
+          "rtol");
+    }
+    model.integrator.atol_u = *spec.rtol * scale;
+    model.integrator.atol_v = *spec.rtol * scale * *model.omega_1;
+  }
+  if (spec.atol_u) model.integrator.atol_u = *spec.atol_u;
+  if (spec.atol_v) model.integrator.atol_v = *spec.atol_v;
+}
+
+// Chebyshev's polynomial takes the spectrum to its end; where that moves, StiffeningStep follows in notches of 1.1.
+// auto has a bound of it, and watches.
+double step_fraction(const Scene& scene, const LagrangianPhase& phase) {
+  constexpr double of_auto = 0.95;
+  if (scene.damping.strategy == "chebyshev") return phase.stiffens() ? 1 / StiffeningStep::notch : 1;
+  if (scene.damping.strategy == "auto") return of_auto;
+  return scene.integrator.step_fraction;
+}
+
+void choose_step(const Scene& scene, Model& model) {
+  const IntegratorSpec& spec = scene.integrator;
+  const bool adaptive = spec.rtol.has_value();
+  if (model.method.amplification) {
+    const DampedSpectrum spectrum =
+        damped_spectrum(model.omega_1.value_or(0), model.omega_max, *model.damping, model.phase->mass());
+    model.critical_step = critical_step(model.method.amplification, spectrum);
+  }
+  if (spec.step) {
+    model.integrator.max_step = *spec.step;
+    // Past its stability limit an adaptive step stalls near equilibrium, where it excites what it should damp.
+    if (adaptive && model.critical_step && *model.critical_step > 0 && spec.unstable_reason.empty()) {
+      model.integrator.max_step = std::min(*spec.step, spec.step_fraction * *model.critical_step);
+    }
+    if (!adaptive && model.critical_step && *spec.step > *model.critical_step * (1 + 1e-9) &&
+        spec.unstable_reason.empty()) {
+      throw_scene_error(
+          scene, "integrator.step",
+          fmt::format("the step {:.6g} is past the critical one of {} here, {:.6g}; expected a smaller step, "
+                      "integrator.step_fraction, or integrator.unstable_reason to say why",
+                      *spec.step, model.method.name, *model.critical_step));
+    }
+  } else if (model.critical_step && *model.critical_step > 0) {
+    model.integrator.max_step = step_fraction(scene, *model.phase) * *model.critical_step;
+  } else if (adaptive) {
+    model.integrator.max_step = 1 / model.omega_max;  // no limit of its own: the error control is what bounds the step
+  } else {
+    throw_scene_error(
+        scene, "integrator.method",
+        fmt::format("{} has no stable step on this scene; expected another method, damping, or integrator.step with "
+                    "integrator.unstable_reason",
+                    model.method.name));
+  }
+}
+
+}  // namespace
+
+Model make_model(const Scene& scene) {
+  Model model;
+  const bool is_auto = scene.damping.strategy == "auto";
+  model.phase = make_phase(scene);
+  if (is_auto) choose_mass_for_auto(scene, model);
+  std::ranges::copy(quadrature_notes(scene, model.phase->quadrature()), std::back_inserter(model.notes));
+  std::ranges::copy(support_notes(scene), std::back_inserter(model.notes));
+  std::ranges::copy(phase_notes(scene, *model.phase), std::back_inserter(model.notes));
+  model.u = model.phase->initial_displacement(0);
+  model.v = model.phase->initial_velocity(0);
+  check_probes(scene, *model.phase);
+  check_initial_state(scene, *model.phase, model.u);
+  if (!is_auto) model.omega_max = highest_frequency(scene, *model.phase, model.u);
+
+  const DampingInfo& strategy = find_damping(scene.damping.strategy);
+  const bool critical = strategy.takes_c && !scene.damping.c;
+  const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
+  // auto works without, and of a large body the factor alone would cost more than the way to rest.
+  const bool useful = scene.stop.wants_equilibrium() &&
+                      (!is_auto || scene.stop.distance > 0 || model.phase->size() <= direct_solver_limit);
+  if (critical || own_scale || strategy.needs_omega_1 || useful) {
+    const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
+    if (lowest.converged) {
+      model.omega_1 = lowest.omega;
+    } else {
+      if (scene.stop.distance > 0) {
+        throw_scene_error(
+            scene, "stop.distance",
+            fmt::format("a distance is certified by omega_1, but {}; expected a support, or stop.residual",
+                        lowest.status));
+      }
+      model.notes.push_back(
+          fmt::format("omega_1 is not known ({}): equilibrium is held for 100 of the shortest periods", lowest.status));
+    }
+    if (strategy.needs_omega_1 && !model.omega_1) {
+      throw_scene_error(
+          scene, "damping.strategy",
+          fmt::format("'{}' needs omega_1, but {}; expected a support, more points per cell, or another strategy",
+                      strategy.name, lowest.status));
+    }
+    if (critical && !model.omega_1) {
+      throw_scene_error(
+          scene, "damping.c",
+          fmt::format("critical damping needs omega_1, but {}; expected a support, more points per cell, or a number",
+                      lowest.status));
+    }
+  }
+  if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
+    model.notes.push_back(
+        "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.dwell counts as "
+        "equilibrium");
+  }
+  // A body that is not held has no lowest frequency: a hundred of its shortest periods stand in for the longest.
+  model.dwell = scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
+  if (strategy.is_static) model.dwell = 0;  // no motion that may only be turning round
+
+  if (strategy.takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
+  model.damping = make_damping(scene.damping.strategy, model.c.value_or(0), scene.damping.alpha);
+  model.method = find_method(scene.integrator.method, scene.integrator.treatment);
+  model.integrator.method = scene.integrator.method;
+  model.integrator.treatment = scene.integrator.treatment;
+  model.integrator.strategy = {.peak = scene.damping.peak,
+                               .quotient = scene.damping.quotient,
+                               .omega_1 = model.omega_1.value_or(0),
+                               .steady = wants_equilibrium_only(scene)};
+  set_tolerances(scene, model);
+  choose_step(scene, model);
+  if (model.phase->stiffens() && !scene.integrator.step) {
+    model.initial_stiffening = model.phase->stiffening(0, model.u);
+  }
+  return model;
+}
+
+}  // namespace stillpoint

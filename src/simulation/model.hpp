@@ -1,0 +1,38 @@
+// Everything that a run is made of, from a scene: the phase, the damping, the frequencies and the step.
+#pragma once
+
+#include <stillpoint/damping.hpp>
+#include <stillpoint/integrator.hpp>
+#include <stillpoint/scene.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+struct Model {
+  std::unique_ptr<LagrangianPhase> phase;
+  std::vector<double> u, v;       // initial values, (n) each
+  std::optional<double> omega_1;  // [rad/s]; only where something needs it and the body is held
+  double omega_max = 0;           // [rad/s], by power iteration; for auto a bound by few Lanczos steps
+  int tangent_applications = 0;   // that auto spent on ω_max
+  std::optional<double> c;        // of viscous and identity damping
+  std::unique_ptr<Damping> damping;
+  Method method;
+  std::optional<double> critical_step;  // [s]; none for a multistep method
+  IntegratorOptions integrator;         // ready for make_integrator()
+  double dwell = 0;                     // how long equilibrium has to hold [s]
+  // stiffening() at the beginning, where the step is to follow it: it was not asked for as such.
+  std::optional<double> initial_stiffening;
+  std::vector<std::string> notes;  // what a user should know of this scene's accuracy, a sentence each
+};
+
+/// Throws SceneError for what only shows once the scene is discretised: a body that is not held where c = "critical",
+/// a step past the critical one without a reason, a method that does not fit the damping.
+Model make_model(const Scene& scene);
+
+}  // namespace stillpoint

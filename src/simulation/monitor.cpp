@@ -1,0 +1,84 @@
+#include "simulation/monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace stillpoint {
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::running:
+      return "running";
+    case RunStatus::equilibrium:
+      return "equilibrium";
+    case RunStatus::end_time:
+      return "end-time";
+    case RunStatus::step_limit:
+      return "step-limit";
+    case RunStatus::time_limit:
+      return "time-limit";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale, bool settled,
+                           std::optional<double> distance) {
+  next_check_ = t + options_.dwell / checks_a_dwell;
+  peak_kinetic_energy_ = std::max(peak_kinetic_energy_, kinetic_energy);
+  if (!std::isfinite(residual) || !std::isfinite(kinetic_energy)) {
+    reason_ =
+        fmt::format("residual {:.3g} and kinetic energy {:.3g} at t = {:.6g}: not finite", residual, kinetic_energy, t);
+    return RunStatus::diverged;
+  }
+  if (options_.residual <= 0 && options_.distance <= 0) return RunStatus::running;
+
+  const bool near = options_.distance <= 0 || (distance && *distance <= options_.distance);
+  const bool balanced = settled && near && (options_.residual <= 0 || residual <= options_.residual);
+  constexpr double rounding = 1e-20;  // of an energy: velocities to ten digits
+  const double rest = std::max(options_.kinetic_energy * peak_kinetic_energy_, rounding * work_scale);
+  const bool at_rest = options_.kinetic_energy <= 0 || kinetic_energy <= rest;
+  if (!balanced || !at_rest) {
+    balanced_since_ = -1;
+    return RunStatus::running;
+  }
+  if (balanced_since_ < 0) balanced_since_ = t;
+  if (t - balanced_since_ < options_.dwell * (1 - 1e-12)) return RunStatus::running;
+  std::vector<std::string> tests;
+  if (options_.residual > 0) tests.push_back(fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual));
+  if (options_.distance > 0) tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
+  if (options_.kinetic_energy > 0) {
+    tests.push_back(fmt::format("kinetic energy {:.3g} <= {:.3g} of its peak",
+                                peak_kinetic_energy_ > 0 ? kinetic_energy / peak_kinetic_energy_ : 0.0,
+                                options_.kinetic_energy));
+  }
+  reason_ = fmt::format("{}", fmt::join(tests, " and "));
+  reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);
+  return RunStatus::equilibrium;
+}
+
+RunStatus Monitor::check_limits(double t, long steps, double wall_time) {
+  if (options_.end_time > 0 && t >= options_.end_time) {
+    reason_ = fmt::format("t = {:.6g} reached stop.time", t);
+    return RunStatus::end_time;
+  }
+  if (options_.steps > 0 && steps >= options_.steps) {
+    reason_ = fmt::format("{} steps reached stop.steps", steps);
+    return RunStatus::step_limit;
+  }
+  if (options_.wall_time > 0 && wall_time >= options_.wall_time) {
+    reason_ = fmt::format("{:.3g} s of wall time reached stop.wall_time", wall_time);
+    return RunStatus::time_limit;
+  }
+  return RunStatus::running;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,64 @@
+// Decides when a relaxation is over: at rest and in balance for a whole period, at an end, or gone wrong.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace stillpoint {
+
+enum class RunStatus {
+  running,
+  equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, all held
+  end_time,     // t = stop.time
+  step_limit,   // stop.steps taken
+  time_limit,   // stop.wall_time spent
+  interrupted,  // by the user
+  diverged,     // a state that is not finite, or a trial that cannot be evaluated
+  failed        // the integrator gave up
+};
+
+/// "equilibrium", "end-time", ...
+std::string to_string(RunStatus status);
+
+struct MonitorOptions {
+  double residual = 0;        // ‖F − R‖/‖F‖; 0: no test of it
+  double distance = 0;        // certified, relative; 0: no test of it. Without either there is no equilibrium
+  double kinetic_energy = 0;  // share of the largest kinetic energy so far; 0: only the others count
+  double dwell = 0;           // all held for this long [s]: a kinetic energy alone is small at every turning point
+  double end_time = 0;        // [s]; 0: none
+  long steps = 0;             // 0: no limit
+  double wall_time = 0;       // [s]; 0: no limit
+};
+
+class Monitor {
+ public:
+  explicit Monitor(const MonitorOptions& options) : options_(options), next_check_(options.dwell / checks_a_dwell) {}
+
+  /// The hold from now on [s], where a period of the slowest motion shows on the way.
+  void set_dwell(double hold) { options_.dwell = hold; }
+  /// Whether observe() wants residual and kinetic energy at t; in between, looking costs nothing.
+  bool due(double t) const { return t >= next_check_; }
+  /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
+  /// the work counts as rest, also in a body that never moved.
+  /// settled: whether the loads are what they will be at the end; before, balance is none.
+  /// distance: where there is a test of it; unknown counts as far.
+  RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true,
+                    std::optional<double> distance = std::nullopt);
+  /// The limits that do not need the state; call after every step.
+  RunStatus check_limits(double t, long steps, double wall_time);
+
+  /// The inequality that ended the run.
+  const std::string& reason() const { return reason_; }
+  double peak_kinetic_energy() const { return peak_kinetic_energy_; }
+
+ private:
+  static constexpr int checks_a_dwell = 16;
+
+  MonitorOptions options_;
+  double next_check_;
+  double balanced_since_ = -1;  // [s]; negative: not in balance
+  double peak_kinetic_energy_ = 0;
+  std::string reason_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,113 @@
+// Leapfrog, the central differences of the finite element and discrete element codes:
+//
+//   M (v⁺ − v⁻)/h + C (v⁻ + v⁺)/2 = Q_n,   u_{n+1} = u_n + h v⁺,   v⁻ at t_n − h/2, v⁺ at t_n + h/2,
+//
+// with C v⁻ in place of the mean where the damping is lagged. Here in its synchronised form, with v_n = (v⁻ + v⁺)/2
+// known at every t_n, so that the step may change between calls:
+//
+//   v⁺ = v_n + h/2 a_n                                kick
+//   u_{n+1} = u_n + h v⁺                              drift
+//   M a_{n+1} = Q_{n+1} + D(v⁺, Q_{n+1}) − C (v⁺ + h/2 a_{n+1})     [lagged: − C v⁺]
+//   v_{n+1} = v⁺ + h/2 a_{n+1}                        kick
+//
+// Local damping D sees the half-step velocity, as in FLAC. One force evaluation a step, and one at the start.
+
+#include <stdexcept>
+#include <utility>
+
+#include "base/parallel_loop.hpp"
+#include "solvers/integrators/damped_acceleration.hpp"
+#include "solvers/integrators/staggered_integrators.hpp"
+#include "solvers/integrators/stepping_integrator.hpp"
+
+namespace stillpoint {
+namespace {
+
+DampingTreatment treatment_of_leapfrog(DampingTreatment treatment) {
+  if (treatment == DampingTreatment::automatic) return DampingTreatment::averaged;
+  if (treatment == DampingTreatment::averaged || treatment == DampingTreatment::lagged) return treatment;
+  throw std::invalid_argument("leapfrog treats damping 'averaged' or 'lagged'");
+}
+
+class Leapfrog final : public SteppingIntegrator {
+ public:
+  Leapfrog(const IntegratorOptions& options, RelaxationSystem& system)
+      : SteppingIntegrator(options, system),
+        initial_acceleration_(DampingTreatment::lagged, system.damping().linear(), system.system().mass()),
+        acceleration_(treatment_of_leapfrog(options.treatment), system.damping().linear(), system.system().mass()),
+        a_(system.vectors().make(system.size())),
+        next_a_(system.vectors().make(system.size())) {}
+
+  // A step ends with the force at its end, unless it was refused.
+  bool force_is_current() const override { return force_is_current_; }
+
+ private:
+  // M a_0 = Q_0 + D(v_0, Q_0) − C v_0
+  void begin(double t, const Vector& y) override {
+    admissible_ = evaluate(t, y.span(), initial_acceleration_, 0, a_.span());
+    force_is_current_ = true;
+  }
+
+  void restart(double t, const Vector& y) override {
+    system().last_out_of_balance(t, a_.span());
+    const ConstVec v = second_half(y.span());
+    system().add_local_damping(v, a_.span());
+    initial_acceleration_(0, v, a_.span());
+  }
+
+  Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
+    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span()), a = a_.span();
+    const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a_new = next_a_.span();
+
+    for_each_index(u.size(), [=](std::size_t i) {
+      v_new[i] = v[i] + h / 2 * a[i];
+      u_new[i] = u[i] + h * v_new[i];
+    });
+    force_is_current_ = false;
+    if (!evaluate(t + h, trial.span(), acceleration_, h, a_new)) {
+      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
+    }
+    for_each_index(u.size(), [=](std::size_t i) { v_new[i] += h / 2 * a_new[i]; });
+    return {.h = h};
+  }
+
+  void accepted() override {
+    std::swap(a_, next_a_);
+    force_is_current_ = true;
+  }
+
+  // M a = Q + D(v, Q) − C (v + θ h a),  Q = F(t) − R(u)
+  bool evaluate(double t, ConstVec y, DampedAcceleration& acceleration, double h, Vec a) {
+    const ConstVec u = first_half(y), v = second_half(y);
+    if (!system().out_of_balance(t, u, a)) return false;
+    system().add_local_damping(v, a);
+    acceleration(h, v, a);
+    return true;
+  }
+
+  DampedAcceleration initial_acceleration_, acceleration_;
+  Vector a_, next_a_;  // (n) at t_n and at the trial's time
+  bool admissible_ = true;
+  bool force_is_current_ = false;
+};
+
+}  // namespace
+
+Method leapfrog_method(DampingTreatment treatment) {
+  const DampingTreatment used = treatment_of_leapfrog(treatment);
+  Method method;
+  method.name = "leapfrog";
+  method.description =
+      "central differences, synchronised; damping averaged (default) or lagged (first order where damped)";
+  method.order = 2;
+  method.evaluations_per_step = 1;
+  method.amplification = kick_drift_amplification(used);
+  return method;
+}
+
+std::unique_ptr<Integrator> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system) {
+  return std::make_unique<Leapfrog>(options, system);
+}
+
+}  // namespace stillpoint

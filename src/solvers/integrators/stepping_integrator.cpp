@@ -1,0 +1,65 @@
+#include "solvers/integrators/stepping_integrator.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "linalg/vector_operations.hpp"
+
+namespace stillpoint {
+
+SteppingIntegrator::SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system)
+    : system_(system), options_(options), division_(options.max_step) {}
+
+void SteppingIntegrator::start(double t, Vector& y) {
+  if (y.size() != 2 * system_.size()) {
+    throw std::invalid_argument(fmt::format("y has {} entries, 2n is {}", y.size(), 2 * system_.size()));
+  }
+  if (!trial_) trial_ = system_.vectors().like(y);
+  if (!same_kind(*trial_, y)) throw std::invalid_argument("y is another kind of N_Vector than at the first start");
+  t_ = t;
+  y_ = &y;
+  system_.forget_force();
+  begin(t, y);
+  system_.remember_force();
+}
+
+StepReport SteppingIntegrator::step(double t_stop) {
+  if (!y_) throw std::logic_error("step() before start()");
+  if (!(t_stop > t_) || !std::isfinite(t_stop)) {
+    throw std::invalid_argument(fmt::format("there is no step from t = {} to {}", t_, t_stop));
+  }
+  double h = adaptive() ? options_.max_step : division_.step_from(t_, t_stop);
+  for (int halvings = 0;; ++halvings) {
+    Attempt tried = attempt(t_, *y_, h, t_stop, *trial_);
+    if (tried.status == StepReport::Status::ok) {
+      // A sum of squares is not finite where any entry is not.
+      if (std::isfinite(dot(*trial_, *trial_))) return accept(tried);
+      refused();
+      tried = {.status = StepReport::Status::not_finite, .h = tried.h, .message = "the new state is not finite"};
+    }
+    const bool retry = tried.status == StepReport::Status::inadmissible && tried.h > 0 && halvings < max_halvings;
+    if (!retry) return {.status = tried.status, .t = t_, .h = tried.h, .message = tried.message};
+    ++rejected_;
+    h = tried.h / 2;
+  }
+}
+
+void SteppingIntegrator::set_max_step(double h) {
+  if (h == options_.max_step) return;
+  options_.max_step = h;
+  division_ = StepDivision(h);
+  max_step_changed();
+}
+
+StepReport SteppingIntegrator::accept(const Attempt& attempt) {
+  copy(*trial_, *y_);
+  accepted();
+  system_.remember_force();
+  t_ = adaptive() ? attempt.t : division_.arrive(t_, attempt.h);
+  ++steps_;
+  return {.status = StepReport::Status::ok, .t = t_, .h = attempt.h};
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,68 @@
+// What all integrators do alike around their own step: divide the way to t_stop, try, look at the trial, retry, accept.
+#pragma once
+
+#include <stillpoint/integrator.hpp>
+
+#include <optional>
+#include <string>
+
+#include "solvers/integrators/step_division.hpp"
+
+namespace stillpoint {
+
+class SteppingIntegrator : public Integrator {
+ public:
+  /// An inadmissible trial is tried again with half its step, at most so many times.
+  static constexpr int max_halvings = 10;
+
+  void start(double t, Vector& y) final;
+  StepReport step(double t_stop) final;
+  void set_max_step(double h) final;
+  void velocity_changed() final { restart(t_, *y_); }
+  long steps() const final { return steps_; }
+  long rejected_steps() const final { return rejected_; }
+
+ protected:
+  struct Attempt {
+    StepReport::Status status = StepReport::Status::ok;
+    double h = 0;  // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
+    double t = 0;  // adaptive: where the trial is [s]
+    std::string message{};
+  };
+
+  SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system);
+
+  /// Begins at (t, y).
+  virtual void begin(double t, const Vector& y) = 0;
+  /// Begins again at (t, y) where only v has changed; the last force evaluation was there.
+  virtual void restart(double t, const Vector& y) { begin(t, y); }
+  /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
+  /// read.
+  virtual Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) = 0;
+  /// The last trial has become the state.
+  virtual void accepted() {}
+  /// The last trial, though attempt() thought it good, has not.
+  virtual void refused() {}
+  /// options().max_step is another one.
+  virtual void max_step_changed() {}
+  void count_rejected(long rejected) { rejected_ += rejected; }
+
+  RelaxationSystem& system() { return system_; }
+  const IntegratorOptions& options() const { return options_; }
+  bool adaptive() const { return options_.rtol.has_value(); }
+  /// y, which an integration has begun on, (2n).
+  Vector& state() { return *y_; }
+
+ private:
+  StepReport accept(const Attempt& attempt);
+
+  RelaxationSystem& system_;
+  IntegratorOptions options_;
+  StepDivision division_;
+  std::optional<Vector> trial_;  // (2n), of y's kind
+  Vector* y_ = nullptr;
+  double t_ = 0;
+  long steps_ = 0, rejected_ = 0;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,93 @@
+// Symplectic Euler:  M (v_{n+1} − v_n)/h = Q_n + D(v_n, Q_n) − C v,   u_{n+1} = u_n + h v_{n+1},
+//
+// with C v_n (lagged), C v_{n+1} (implicit, the default), or v' = M⁻¹(Q_n − C v) solved exactly over the step
+// (e^{−ch}). Q_{n+1} is evaluated at the end of a step, so that a state that cannot be evaluated is never accepted: one
+// force evaluation a step, and one at the start.
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "base/parallel_loop.hpp"
+#include "solvers/integrators/damped_acceleration.hpp"
+#include "solvers/integrators/staggered_integrators.hpp"
+#include "solvers/integrators/stepping_integrator.hpp"
+
+namespace stillpoint {
+namespace {
+
+DampingTreatment treatment_of_symplectic_euler(DampingTreatment treatment) {
+  if (treatment == DampingTreatment::automatic) return DampingTreatment::implicit;
+  if (treatment != DampingTreatment::averaged) return treatment;
+  throw std::invalid_argument("symplectic-euler treats damping 'implicit', 'lagged' or 'exact'");
+}
+
+class SymplecticEuler final : public SteppingIntegrator {
+ public:
+  SymplecticEuler(const IntegratorOptions& options, RelaxationSystem& system)
+      : SteppingIntegrator(options, system),
+        acceleration_(treatment_of_symplectic_euler(options.treatment), system.damping().linear(),
+                      system.system().mass()),
+        Q_(system.vectors().make(system.size())),
+        next_Q_(system.vectors().make(system.size())),
+        a_(system.vectors().make(system.size())) {}
+
+  // A step ends with the force at its end, unless it was refused.
+  bool force_is_current() const override { return force_is_current_; }
+
+ private:
+  void begin(double t, const Vector& y) override {
+    admissible_ = system().out_of_balance(t, first_half(y.span()), Q_.span());
+    force_is_current_ = true;
+  }
+  void restart(double t, const Vector& /*y*/) override { system().last_out_of_balance(t, Q_.span()); }
+
+  Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
+    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span());
+    const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
+
+    std::ranges::copy(std::as_const(Q_).span(), a.begin());
+    system().add_local_damping(v, a);
+    acceleration_(h, v, a);
+    for_each_index(u.size(), [=](std::size_t i) {
+      v_new[i] = v[i] + h * a[i];
+      u_new[i] = u[i] + h * v_new[i];
+    });
+    force_is_current_ = false;
+    if (!system().out_of_balance(t + h, u_new, next_Q_.span())) {
+      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
+    }
+    return {.h = h};
+  }
+
+  void accepted() override {
+    std::swap(Q_, next_Q_);
+    force_is_current_ = true;
+  }
+
+  DampedAcceleration acceleration_;
+  Vector Q_, next_Q_;  // (n) at t_n and at the trial's time
+  Vector a_;           // (n)
+  bool admissible_ = true;
+  bool force_is_current_ = false;
+};
+
+}  // namespace
+
+Method symplectic_euler_method(DampingTreatment treatment) {
+  const DampingTreatment used = treatment_of_symplectic_euler(treatment);
+  Method method;
+  method.name = "symplectic-euler";
+  method.description = "semi-implicit Euler; damping implicit (default), lagged or exact";
+  method.order = 1;
+  method.evaluations_per_step = 1;
+  method.amplification = kick_drift_amplification(used);
+  return method;
+}
+
+std::unique_ptr<Integrator> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system) {
+  return std::make_unique<SymplecticEuler>(options, system);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,52 @@
+// Adaptive damping: critical for the mode that dominates the motion, whichever that is at the time [Underwood 1983].
+//
+//   M a = Q − c M v,   c = 2 √ω²,   ω² a Rayleigh quotient of the last step (rayleigh_quotient.hpp)
+//
+// High modes die first; what remains is slower and slower, and c falls towards 2 ω₁. Too large a c only holds the slow
+// modes back until they dominate the quotient, which then falls: the estimate corrects itself. c ≤ 2/k, where β = 0.
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/relaxation/rayleigh_quotient.hpp"
+#include "solvers/relaxation/relaxations.hpp"
+#include "solvers/relaxation/staggered_iteration.hpp"
+
+namespace stillpoint {
+namespace {
+
+class Adaptive final : public StaggeredIteration {
+ public:
+  Adaptive(const IntegratorOptions& options, RelaxationSystem& system)
+      : StaggeredIteration(options, system),
+        quotient_(options.strategy.quotient),
+        c_(options.strategy.from.rate.value_or(0)) {}
+
+  std::optional<double> damping_rate() const override { return c_; }
+
+ private:
+  void propose(double h, Vec u_new, Vec v_new) override {
+    const double k = kick(h);
+    kick_and_drift(leapfrog(std::min(c_, 2 / k), k), k, h, u_new, v_new);
+  }
+
+  void moved(double h) override {
+    const ConstVec v_now = v().span(), Q_before = last_Q().span(), Q_now = Q().span();
+    const double omega_squared = quotient_ == Quotient::global
+                                     ? global_quotient(v_now, Q_before, Q_now, h, mass_dot(v(), v()))
+                                     : diagonal_quotient(u().span(), v_now, Q_before, Q_now, h, mass_dot(u(), u()));
+    c_ = 2 * std::sqrt(omega_squared);
+    set_rate(c_);
+  }
+
+  Quotient quotient_;
+  double c_;  // [1/s]
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_adaptive(const IntegratorOptions& options, RelaxationSystem& system) {
+  return std::make_unique<Adaptive>(options, system);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,92 @@
+#include "solvers/relaxation/staggered_iteration.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel_loop.hpp"
+
+namespace stillpoint {
+
+StaggeredIteration::StaggeredIteration(const IntegratorOptions& options, RelaxationSystem& system)
+    : SteppingIntegrator(options, system),
+      Q_(system.vectors().make(system.size())),
+      a_(system.vectors().make(system.size())),
+      next_Q_(system.vectors().make(system.size())),
+      next_a_(system.vectors().make(system.size())),
+      Mx_(system.vectors().make(system.size())),
+      x_(system.vectors().make(system.size())) {}
+
+void StaggeredIteration::begin(double t, const Vector& /*y*/) {
+  u_.emplace(system().vectors().view(first_half(state().span())));
+  v_.emplace(system().vectors().view(second_half(state().span())));
+  t_ = t;
+  last_step_ = options().strategy.from.last_step;
+  system().set_damping_rate(options().strategy.from.rate.value_or(0));
+  admissible_ = system().out_of_balance(t, u_->span(), Q_.span());
+  if (admissible_) system().system().mass().solve(Q_.span(), a_.span());
+  force_is_current_ = true;
+  if (admissible_) on_restart();
+}
+
+void StaggeredIteration::restart(double t, const Vector& /*y*/) {
+  system().last_out_of_balance(t, Q_.span());
+  system().system().mass().solve(Q_.span(), a_.span());
+  on_restart();
+}
+
+SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/, double h, double /*t_stop*/,
+                                                        Vector& trial) {
+  if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+  const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span());
+  propose(h, u_new, v_new);
+  force_is_current_ = false;
+  if (!system().out_of_balance(t + h, u_new, next_Q_.span())) {
+    return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
+  }
+  system().system().mass().solve(next_Q_.span(), next_a_.span());
+  trial_step_ = h;
+  trial_t_ = t + h;
+  return {.h = h};
+}
+
+void StaggeredIteration::accepted() {
+  std::swap(Q_, next_Q_);
+  std::swap(a_, next_a_);
+  force_is_current_ = true;
+  last_step_ = trial_step_;
+  t_ = trial_t_;
+  moved(trial_step_);
+}
+
+void StaggeredIteration::kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new) const {
+  const ConstVec u = u_->span(), v = v_->span(), a = a_.span();
+  for_each_index(u.size(), [=, beta = coefficients.beta, kick = coefficients.gamma * k](std::size_t i) {
+    v_new[i] = beta * v[i] + kick * a[i];
+    u_new[i] = u[i] + h * v_new[i];
+  });
+}
+
+void StaggeredIteration::stop() {
+  std::ranges::fill(v_->span(), 0.0);
+  last_step_ = 0;
+}
+
+void StaggeredIteration::set_rate(double c) {
+  system().set_damping_rate(c);
+  // What holds a contact, and what a moving support does through a consistent mass, depend on c.
+  if (!system().system().has_contact() && system().system().mass().is_lumped()) return;
+  system().last_out_of_balance(t_, Q_.span());
+  system().system().mass().solve(Q_.span(), a_.span());
+}
+
+double StaggeredIteration::mass_dot(const Vector& x, const Vector& y) {
+  system().system().mass().apply(x.span(), Mx_.span());
+  return dot(Mx_, y);
+}
+
+double StaggeredIteration::mass_norm_squared(ConstVec x) {
+  std::ranges::copy(x, x_.span().begin());
+  return mass_dot(x_, x_);
+}
+
+}  // namespace stillpoint

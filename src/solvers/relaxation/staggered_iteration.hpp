@@ -1,0 +1,79 @@
+// What the dynamic strategies share: one force a step, in leapfrog's staggered form with coefficients that may vary,
+//
+//   v⁺ = β v⁻ + γ k M⁻¹Q(u_n),   u_{n+1} = u_n + h v⁺,   v⁻ at t_n − h⁻/2,  v⁺ at t_n + h/2,  k = (h⁻ + h)/2.
+//
+// A start from a velocity that is known at t_n has h⁻ = 0: half a kick, as in leapfrog's first step. With
+//
+//   β = (1 − c k/2)/(1 + c k/2),   γ = 1/(1 + c k/2)
+//
+// this is leapfrog with C = c M: the same displacements as its synchronised form. It is also the heavy ball
+// [Polyak 1964]: u_{n+1} = u_n + β (u_n − u_{n−1}) + γ h² M⁻¹Q. The v of y is v⁺, half a step behind u. A step ends
+// with the force at its end.
+#pragma once
+
+#include "solvers/integrators/stepping_integrator.hpp"
+
+namespace stillpoint {
+
+class StaggeredIteration : public SteppingIntegrator {
+ public:
+  bool force_is_current() const final { return force_is_current_; }
+  CarriedOver carried_over() const final {
+    return {.last_step = last_step_, .rate = damping_rate(), .step_share = step_share()};
+  }
+
+ protected:
+  StaggeredIteration(const IntegratorOptions& options, RelaxationSystem& system);
+
+  struct Coefficients {
+    double beta, gamma;
+  };
+  /// β and γ of C = c M for the kick k.
+  static Coefficients leapfrog(double c, double k) { return {(1 - c * k / 2) / (1 + c * k / 2), 1 / (1 + c * k / 2)}; }
+
+  /// The trial of a step h from the present state: u_new, v_new, (n). Repeatable: a trial that cannot be evaluated is
+  /// made again with a shorter step.
+  virtual void propose(double h, Vec u_new, Vec v_new) = 0;
+  /// The trial has become the state; the force there is Q(), the one before last_Q().
+  virtual void moved(double h) = 0;
+  /// Begins afresh from the state, or from one of which a contact has changed v.
+  virtual void on_restart() {}
+
+  /// The share of the step given that is taken, where the strategy chooses one; 0: where it does not.
+  virtual double step_share() const { return 0; }
+
+  /// v⁺ = β v⁻ + γ k M⁻¹Q,  u⁺ = u + h v⁺
+  void kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new) const;
+  double kick(double h) const { return (last_step_ + h) / 2; }  // k
+  /// v = 0, and half a kick next.
+  void stop();
+  /// c, where one is in force: supports and walls that move take it along.
+  void set_rate(double c);
+
+  // The present state, (n) each; valid from on_restart() on.
+  Vector& u() { return *u_; }
+  Vector& v() { return *v_; }
+  const Vector& Q() const { return Q_; }            // out-of-balance force [N]
+  const Vector& a() const { return a_; }            // M⁻¹Q [m/s²]
+  const Vector& last_Q() const { return next_Q_; }  // before the step; in moved() only
+  double last_step() const { return last_step_; }   // h⁻
+  /// xᵀMy, by a work array.
+  double mass_dot(const Vector& x, const Vector& y);
+  /// uᵀMu of what is not a Vector; x: (n).
+  double mass_norm_squared(ConstVec x);
+  double t() const { return t_; }
+
+ private:
+  void begin(double t, const Vector& y) final;
+  void restart(double t, const Vector& y) final;
+  Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
+  void accepted() final;
+
+  std::optional<Vector> u_, v_;  // the halves of y, in place
+  Vector Q_, a_, next_Q_, next_a_, Mx_, x_;
+  double t_ = 0, trial_t_ = 0;
+  double last_step_ = 0, trial_step_ = 0;
+  bool admissible_ = true, force_is_current_ = false;
+};
+
+}  // namespace stillpoint

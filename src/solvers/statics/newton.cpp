@@ -1,0 +1,210 @@
+#include <stillpoint/static_solution.hpp>
+
+#include <fmt/format.h>
+
+#include "base/stopwatch.hpp"
+#include "linalg/conjugate_gradients.hpp"
+#include "linalg/sparse_lu.hpp"
+#include "system/static_balance.hpp"
+
+namespace stillpoint {
+namespace {
+
+bool symmetric(const SparseMatrix& K, double tolerance) {
+  return (K - SparseMatrix(K.transpose())).norm() <= tolerance * K.norm();
+}
+
+class Newton {
+ public:
+  Newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options)
+      : system_(system), t_(t), u_(u), options_(options), balance_(system, t), trial_(u.size()), du_(u.size()) {}
+
+  StaticReport solve() {
+    if (!balance_.start(u_)) {
+      report_.reason = "the state at the start is inadmissible";
+      return finished();
+    }
+    std::vector<double> u(u_.begin(), u_.end());
+    double size = std::min(1.0 / options_.load_steps, options_.max_load_step);
+    while (report_.load_factor < 1) {
+      const double s = report_.load_factor, left = 1 - s;
+      LoadStep& step = report_.load_steps.emplace_back();
+      step.from = s;
+      step.to = size < 0.999 * left ? s + size : 1;
+      std::ranges::copy(u_, u.begin());
+      if (load_step(step, u)) {
+        std::ranges::copy(u, u_.begin());
+        report_.load_factor = step.to;
+        if (system_.history_dependent()) system_.commit(t_, u_);
+        constexpr std::size_t easy = 9;
+        if (step.residuals.size() <= easy) size = std::min(2 * size, options_.max_load_step);
+      } else {
+        size = (step.to - s) / 2;
+        if (size < options_.min_load_step) {
+          report_.reason = fmt::format("no equilibrium beyond the load factor {:.4g}: {}; load step {:.3g} < {:.3g}", s,
+                                       report_.reason, size, options_.min_load_step);
+          return finished();
+        }
+      }
+    }
+    report_.converged = true;
+    return finished();
+  }
+
+ private:
+  // u: the state at step.from, then the equilibrium at step.to. Where there is none report_.reason says why.
+  // A slender body has a valley of bent states between walls of stretched ones: a search that asks each step for a
+  // smaller ‖Q‖ crawls along it, while full steps cross the walls and come down on the other side. Points that yield
+  // would remember such a detour's end: beyond a limit load there may be one, on no path that the load could take.
+  bool load_step(LoadStep& step, Vec u) {
+    const std::vector<double> start(u.begin(), u.end());
+    full_steps_ = false;
+    if (iterate(step, u)) return true;
+    if (!crawling()) return false;
+    std::ranges::copy(start, u.begin());
+    step.residuals.clear();
+    full_steps_ = true;
+    return iterate(step, u);
+  }
+
+  bool crawling() const { return short_steps_ >= most_short_steps && !system_.history_dependent(); }
+
+  bool iterate(LoadStep& step, Vec u) {
+    short_steps_ = 0;
+    double residual = balance_.evaluate(step.to, u) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
+    step.residuals.push_back(residual);
+    indefinite_ = false;
+    for (int iteration = 0; !(residual <= options_.tolerance); ++iteration) {
+      if (iteration == options_.max_iterations || !std::isfinite(residual) || (!full_steps_ && crawling())) {
+        report_.reason = fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations", residual,
+                                     options_.tolerance, iteration);
+        return false;
+      }
+      ++report_.iterations;
+      if (!(consistent_direction(step.to, u) && descend(step.to, u, residual))) {
+        // Open or just yielding points may leave K singular; K_e never is in a body that is held.
+        ++report_.elastic_iterations;
+        if (!balance_.evaluate(step.to, u) || !elastic_direction(u) || !descend(step.to, u, residual)) {
+          report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller", residual);
+          return false;
+        }
+      }
+      residual = balance_.residual();
+      step.residuals.push_back(residual);
+    }
+    if (indefinite_) {
+      report_.reason = "the equilibrium found is unstable: K is indefinite";
+      return false;
+    }
+    step.converged = true;
+    report_.residual = residual;
+    report_.reason = fmt::format("residual {:.3g} ≤ tolerance {:.3g}", residual, options_.tolerance);
+    return true;
+  }
+
+  // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays where none does.
+  bool descend(double s, Vec u, double before) {
+    constexpr int most_halvings = 10;
+    constexpr double decrease = 1e-4;
+    for (int halvings = 0; halvings < most_halvings; ++halvings) {
+      const double lambda = std::ldexp(1, -halvings);
+      for (std::size_t i = 0; i < u.size(); ++i) trial_[i] = u[i] + lambda * du_[i];
+      if (!balance_.evaluate(s, trial_)) continue;
+      if (!full_steps_ && !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
+      std::ranges::copy(trial_, u.begin());
+      short_steps_ = lambda < short_step ? short_steps_ + 1 : 0;
+      return true;
+    }
+    return false;
+  }
+
+  // K du = Q, Q as last evaluated, at u. False where K cannot be solved with.
+  bool consistent_direction(double s, ConstVec u) {
+    indefinite_ = false;
+    const SparseMatrix following = system_.following_tangent_matrix(t_, u);
+    if (options_.solver == LinearSolver::conjugate_gradients) {
+      return by_conjugate_gradients([&](ConstVec x, Vec Kx) {
+        system_.tangent(t_, u, x, Kx);
+        subtract_product(s, following, x, Kx);
+      });
+    }
+    SparseMatrix K = system_.tangent_matrix(t_, u);
+    if (following.nonZeros() > 0) K -= s * following;
+    if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
+    if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
+      if (by_cholesky(K)) return true;
+      indefinite_ = true;
+    }
+    return by_lu(K);
+  }
+  bool elastic_direction(ConstVec u) {
+    if (options_.solver == LinearSolver::conjugate_gradients)
+      return by_conjugate_gradients([&](ConstVec x, Vec Kx) { system_.elastic_tangent(t_, u, x, Kx); });
+    return by_cholesky(system_.elastic_tangent_matrix(t_, u));
+  }
+
+  bool by_cholesky(const SparseMatrix& K) {
+    const SparseCholesky factor(K);
+    ++report_.cholesky_factorisations;
+    report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
+    if (factor.positive_definite()) factor.solve(balance_.Q, du_);
+    return factor.positive_definite();
+  }
+  bool by_lu(const SparseMatrix& K) {
+    const SparseLu factor(K);
+    ++report_.lu_factorisations;
+    report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
+    if (factor.regular()) factor.solve(balance_.Q, du_);
+    return factor.regular();
+  }
+  bool by_conjugate_gradients(const LinearMap& K) {
+    const std::size_t n = du_.size();
+    const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
+    const double forcing = std::min(0.1, balance_.residual());
+    const auto result = stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q, du_, forcing, most);
+    report_.tangent_products += result.iterations;
+    return result.converged;
+  }
+
+  StaticReport finished() {
+    report_.force_evaluations = balance_.evaluations;
+    report_.wall_s = watch_.seconds();
+    if (!report_.converged)
+      report_.residual = balance_.evaluate(1, u_) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
+    return report_;
+  }
+
+  const Stopwatch watch_;
+  SemiDiscrete& system_;
+  double t_;
+  Vec u_;
+  const NewtonOptions& options_;
+  OutOfBalance balance_;
+  std::vector<double> trial_, du_;
+  static constexpr int most_short_steps = 3;
+  static constexpr double short_step = 0.3;
+  bool full_steps_ = false;  // whatever ‖Q‖ does
+  int short_steps_ = 0;      // one after the other
+  bool indefinite_ = false;  // K of the last iteration, where symmetric
+  StaticReport report_;
+};
+
+}  // namespace
+
+std::string NewtonOptions::validate() const {
+  if (!(tolerance > 0)) return fmt::format("tolerance = {}, expected > 0", tolerance);
+  if (max_iterations < 1) return fmt::format("max_iterations = {}, expected ≥ 1", max_iterations);
+  if (load_steps < 1) return fmt::format("load_steps = {}, expected ≥ 1", load_steps);
+  if (!(max_load_step > 0)) return fmt::format("max_load_step = {}, expected > 0", max_load_step);
+  if (!(min_load_step > 0)) return fmt::format("min_load_step = {}, expected > 0", min_load_step);
+  if (!(symmetry >= 0)) return fmt::format("symmetry = {}, expected ≥ 0", symmetry);
+  if (max_cg_iterations < 0) return fmt::format("max_cg_iterations = {}, expected ≥ 0", max_cg_iterations);
+  return "";
+}
+
+StaticReport newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options) {
+  if (const std::string wrong = options.validate(); !wrong.empty()) throw std::invalid_argument(wrong);
+  return Newton(system, t, u, options).solve();
+}
+
+}  // namespace stillpoint

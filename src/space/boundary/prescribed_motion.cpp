@@ -1,0 +1,52 @@
+#include "space/boundary/prescribed_motion.hpp"
+
+#include <cmath>
+
+namespace stillpoint {
+namespace {
+
+// difference(t), or at t + 2h where it reaches to where the formula has no value.
+template <class Difference>
+double where_defined(const Difference& difference, double t, double h) {
+  const double value = difference(t);
+  return std::isfinite(value) ? value : difference(t + 2 * h);
+}
+
+}  // namespace
+
+// u' = (u(t − 2h) − 8 u(t − h) + 8 u(t + h) − u(t + 2h))/(12 h) + O(h⁴)
+double PrescribedMotion::velocity(double t) const {
+  if (!moves_) return 0;
+  const auto difference = [this, h = h_](double at) {
+    return (displacement(at - 2 * h) - 8 * displacement(at - h) + 8 * displacement(at + h) - displacement(at + 2 * h)) /
+           (12 * h);
+  };
+  return where_defined(difference, t, h_);
+}
+
+// u'' = (−u(t − 2h) + 16 u(t − h) − 30 u(t) + 16 u(t + h) − u(t + 2h))/(12 h²) + O(h⁴)
+double PrescribedMotion::acceleration(double t) const {
+  if (!moves_) return 0;
+  const auto difference = [this, h = h_](double at) {
+    return (16 * (displacement(at - h) + displacement(at + h)) - (displacement(at - 2 * h) + displacement(at + 2 * h)) -
+            30 * displacement(at)) /
+           (12 * h * h);
+  };
+  return where_defined(difference, t, h_);
+}
+
+double PrescribedMotion::velocity_over(double t, double h) const {
+  if (!moves_) return 0;
+  const auto difference = [this, h](double at) { return (displacement(at + h) - displacement(at - h)) / (2 * h); };
+  return where_defined(difference, t, h);
+}
+
+double PrescribedMotion::acceleration_over(double t, double h) const {
+  if (!moves_) return 0;
+  const auto difference = [this, h](double at) {
+    return (displacement(at - h) - 2 * displacement(at) + displacement(at + h)) / (h * h);
+  };
+  return where_defined(difference, t, h);
+}
+
+}  // namespace stillpoint

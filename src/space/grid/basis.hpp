@@ -1,0 +1,192 @@
+// Bases on an axis, and their tensor products on a grid.
+//
+// On a cell an axis basis has `per_cell` functions, numbered contiguously from first(cell):
+//   BSpline<p>     p + 1 functions, C^(p-1), knots at the nodes and p + 1 of them at each end, so that the boundary
+//                  functions interpolate there [Piegl and Tiller 1997, algorithms A2.2 and A2.3]
+//   CubicHermite   value and slope at both nodes, C¹; a slope's degree of freedom is du/dx
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <vector>
+
+#include "space/grid/grid.hpp"
+
+namespace stillpoint {
+
+template <class B>
+concept AxisBasis = requires(const Axis& axis, int cell, double x, double* N) {
+  { B::degree } -> std::convertible_to<int>;
+  { B::per_cell } -> std::convertible_to<int>;
+  // Whether Σ_i N_i = 1, so that row sums lump the mass.
+  { B::partition_of_unity } -> std::convertible_to<bool>;
+  // Whether local function a is a value (and not a slope).
+  { B::is_value(cell) } -> std::convertible_to<bool>;
+  { B::count(axis) } -> std::convertible_to<int>;
+  { B::first(cell) } -> std::convertible_to<int>;
+  // N[a], dN[a] = dN_a/dx of the cell's functions at x; N, dN: (per_cell).
+  {B::evaluate(axis, cell, x, N, N)};
+};
+
+template <int Degree>
+struct BSpline {
+  static constexpr int degree = Degree;
+  static constexpr int per_cell = Degree + 1;
+  static constexpr bool partition_of_unity = true;
+  static constexpr bool is_value(int) { return true; }
+  static int count(const Axis& axis) { return axis.cells() + Degree; }
+  static int first(int cell) { return cell; }
+
+  static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {
+    const auto knot = [&](int k) { return axis.nodes[static_cast<std::size_t>(std::clamp(k, 0, axis.cells()))]; };
+    // N_i,q = (x − t_i)/(t_i+q − t_i) N_i,q−1 + (t_i+q+1 − x)/(t_i+q+1 − t_i+1) N_i+1,q−1
+    std::array<double, per_cell> lower{};  // the functions of degree p − 1
+    N[0] = 1;
+    for (int q = 1; q <= Degree; ++q) {
+      if (q == Degree) std::copy(N, N + Degree, lower.begin());
+      double saved = 0;
+      for (int r = 0; r < q; ++r) {
+        const double right = knot(cell + r + 1), left = knot(cell + 1 + r - q);
+        const double share = N[r] / (right - left);
+        N[r] = saved + (right - x) * share;
+        saved = (x - left) * share;
+      }
+      N[q] = saved;
+    }
+    // N'_i,p = p N_i,p−1/(t_i+p − t_i) − p N_i+1,p−1/(t_i+p+1 − t_i+1)
+    for (int r = 0; r <= Degree; ++r) {
+      const auto slope = [&](int k) {
+        return Degree * lower[static_cast<std::size_t>(k)] / (knot(cell + k + 1) - knot(cell + 1 + k - Degree));
+      };
+      dN[r] = (r > 0 ? slope(r - 1) : 0.0) - (r < Degree ? slope(r) : 0.0);
+    }
+  }
+};
+
+struct CubicHermite {
+  static constexpr int degree = 3;
+  static constexpr int per_cell = 4;
+  static constexpr bool partition_of_unity = false;
+  static constexpr bool is_value(int a) { return a % 2 == 0; }
+  static int count(const Axis& axis) { return 2 * (axis.cells() + 1); }
+  static int first(int cell) { return 2 * cell; }
+
+  // With s = (x − x_c)/h:  1 − 3s² + 2s³,  h s(1 − s)²,  3s² − 2s³,  −h s²(1 − s)
+  static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {
+    const double left = axis.nodes[static_cast<std::size_t>(cell)];
+    const double h = axis.nodes[static_cast<std::size_t>(cell) + 1] - left;
+    const double s = (x - left) / h;
+    N[0] = 1 + s * s * (2 * s - 3);
+    N[1] = h * s * (1 - s) * (1 - s);
+    N[2] = s * s * (3 - 2 * s);
+    N[3] = h * s * s * (s - 1);
+    dN[0] = 6 * s * (s - 1) / h;
+    dN[1] = (1 - s) * (1 - 3 * s);
+    dN[2] = -dN[0];
+    dN[3] = s * (3 * s - 2);
+  }
+};
+
+constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+
+/// The product of one axis basis with itself over Dim coordinates; local functions with the first coordinate fastest.
+template <AxisBasis B, int Dim>
+struct TensorBasis {
+  static constexpr int per_cell = power(B::per_cell, Dim);
+
+  /// N[a] and dN[d][a] = ∂N_a/∂x_d at a place.
+  struct Values {
+    std::array<double, per_cell> N;
+    std::array<std::array<double, per_cell>, Dim> dN;
+  };
+
+  static int count(const Grid<Dim>& grid) {
+    int total = 1;
+    for (const Axis& axis : grid.axes) total *= B::count(axis);
+    return total;
+  }
+  static constexpr int axis_index(int a, int d) { return a / power(B::per_cell, d) % B::per_cell; }
+  static constexpr bool is_value(int a) {
+    for (int d = 0; d < Dim; ++d) {
+      if (!B::is_value(axis_index(a, d))) return false;
+    }
+    return true;
+  }
+  /// Global number of a cell's first function.
+  static int first(const Grid<Dim>& grid, const std::array<int, Dim>& cell) {
+    int number = 0;
+    for (int d = Dim - 1; d >= 0; --d) number = number * B::count(grid.axes[d]) + B::first(cell[d]);
+    return number;
+  }
+  /// What to add to first() for local function a.
+  static std::array<int, per_cell> offsets(const Grid<Dim>& grid) {
+    std::array<int, per_cell> offset{};
+    for (int a = 0; a < per_cell; ++a) {
+      for (int d = Dim - 1; d >= 0; --d) offset[a] = offset[a] * B::count(grid.axes[d]) + axis_index(a, d);
+    }
+    return offset;
+  }
+  static Values evaluate(const Grid<Dim>& grid, const std::array<int, Dim>& cell, const Point<Dim>& x) {
+    std::array<std::array<double, B::per_cell>, Dim> N, dN;
+    for (int d = 0; d < Dim; ++d) B::evaluate(grid.axes[d], cell[d], x[d], N[d].data(), dN[d].data());
+    Values values;
+    for (int a = 0; a < per_cell; ++a) {
+      values.N[a] = 1;
+      for (int d = 0; d < Dim; ++d) values.N[a] *= N[d][axis_index(a, d)];
+      for (int e = 0; e < Dim; ++e) {
+        values.dN[e][a] = 1;
+        for (int d = 0; d < Dim; ++d) values.dN[e][a] *= (d == e ? dN : N)[d][axis_index(a, d)];
+      }
+    }
+    return values;
+  }
+  /// The functions that are not zero on a face of the grid, ascending; face_values() leaves out slopes along the face.
+  static std::vector<int> face_functions(const Grid<Dim>& grid, int axis, bool upper) {
+    // Across the face the one value there is: the last function, or the last but one where a slope follows it.
+    const int count = B::count(grid.axes[static_cast<std::size_t>(axis)]);
+    const int across = !upper ? 0 : B::is_value(B::per_cell - 1) ? count - 1 : count - 2;
+    int stride = 1;
+    for (int d = 0; d < axis; ++d) stride *= B::count(grid.axes[static_cast<std::size_t>(d)]);
+    std::vector<int> found;
+    for (int begin = across * stride; begin < TensorBasis::count(grid); begin += count * stride) {
+      for (int number = begin; number < begin + stride; ++number) found.push_back(number);
+    }
+    return found;
+  }
+  static std::vector<int> face_values(const Grid<Dim>& grid, int axis, bool upper) {
+    std::vector<int> values = face_functions(grid, axis, upper);
+    std::erase_if(values, [&](int number) {
+      for (int d = 0; d < Dim; ++d) {
+        if (!B::is_value(index_along(grid, number, d))) return true;
+      }
+      return false;
+    });
+    return values;
+  }
+  /// Index along an axis of a function by its global number.
+  static int index_along(const Grid<Dim>& grid, int number, int axis) {
+    for (int d = 0; d < axis; ++d) number /= B::count(grid.axes[static_cast<std::size_t>(d)]);
+    return number % B::count(grid.axes[static_cast<std::size_t>(axis)]);
+  }
+  /// The function that alone carries the value at x (1 there, all others 0), by its global number; none inside a
+  /// spline.
+  static std::optional<int> interpolating_function(const Grid<Dim>& grid, const Point<Dim>& x) {
+    constexpr double rounding = 1e-12;
+    const auto cell = grid.cell_of(x);
+    const Values values = evaluate(grid, cell, x);
+    const auto offset = offsets(grid);
+    std::optional<int> found;
+    for (int a = 0; a < per_cell; ++a) {
+      if (std::abs(values.N[a] - 1) < rounding) {
+        found = first(grid, cell) + offset[a];
+      } else if (std::abs(values.N[a]) > rounding) {
+        return std::nullopt;
+      }
+    }
+    return found;
+  }
+};
+
+}  // namespace stillpoint

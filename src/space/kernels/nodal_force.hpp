@@ -1,0 +1,180 @@
+// Internal nodal forces from the stresses of the material points: the hot loop of every evaluation.
+//
+//   H_p = Σ_i u_i ⊗ ∇N_ip  →  P_p, by the law of the point  →  R_i = Σ_p V_p P_p ∇N_ip
+//
+// block by block of points, so that what is between the arrows stays in the first-level cache: cell by cell the nodes'
+// displacements are gathered and, after the law, the forces summed into the cell's corners; then corners are summed
+// into nodes, each in a fixed order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/parallel_loop.hpp"
+#include "space/kernels/corner_sum.hpp"
+#include "space/kernels/gather_scatter.hpp"
+#include "space/kernels/gather_scatter_bilinear.hpp"
+#include "space/kernels/point_weights.hpp"
+#include "space/materials/point_material.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class NodalForce {
+  using Weights = PointWeights<B, K>;
+  using Block = PointBlock<K>;
+  static constexpr int dim = Weights::dim;
+  static constexpr int per_cell = Weights::per_cell;
+  using Cells = GatherScatter<B, K>;
+  static constexpr std::size_t points_for_threads = 8192;  // below, waking threads costs more than it saves
+
+ public:
+  /// For the phase of these points and weights, which outlive it or the next rebuild().
+  void rebuild(const MaterialPoints<dim>& points, const Weights& weights, std::size_t functions) {
+    points_ = &points;
+    weights_ = &weights;
+    function_of_corner_.resize(per_cell * points.cells());
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      for (int a = 0; a < per_cell; ++a) function_of_corner_[per_cell * k + a] = weights.function(k, a);
+    }
+    corner_sum_.rebuild(function_of_corner_, functions);
+    corner_.resize(dim * per_cell * points.cells());
+    divide_into_blocks();
+  }
+
+  void set_prescribed(std::size_t count) { reactions_.assign(count, 0); }
+
+  const CornerSum& corner_sum() const { return corner_sum_; }
+  /// At the prescribed degrees of freedom, of the last evaluation [N].
+  const std::vector<double>& reactions() const { return reactions_; }
+
+  /// answer(material number, block) turns block.H (and dH, of u − u_before, where Increments) into block.VP and returns
+  /// 0, or NaN where it cannot. u, u_before and, where Directed, the direction that goes to block.direction: over the
+  /// grid's functions, component i at [dim function + i].
+  /// R: forces at the free degrees of freedom, (n); at the prescribed ones they become reactions().
+  /// False where an answer was NaN.
+  template <bool Increments, bool Directed = false, class Answer>
+  bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
+                const double* direction = nullptr) {
+    double bad = 0;
+    const std::size_t blocks = blocks_.size();
+    const int* number = dofs.number.data();
+    const int n = static_cast<int>(R.size());
+#pragma omp parallel if (points_->size() > points_for_threads)
+    {
+      Block block;
+#pragma omp for schedule(static) reduction(+ : bad)
+      for (std::size_t b = 0; b < blocks; ++b) {
+        for_each_part(blocks_[b], block, [&] {
+          gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
+          if constexpr (Directed)
+            gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
+          bad += answer(blocks_[b].material, block);
+          scatter(blocks_[b], block);
+        });
+      }
+      const double* corners = corner_.data();
+#pragma omp for schedule(static)
+      for (std::size_t f = 0; f < corner_sum_.functions(); ++f) {
+        if (!corner_sum_.reaches(f)) continue;
+        const auto total = corner_sum_.template sum<dim>(f, corners);
+        for (int i = 0; i < dim; ++i) {
+          const int dof = number[dim * f + i];
+          if (dof >= n) {
+            reactions_[static_cast<std::size_t>(dof - n)] = total[i];
+          } else if (dof >= 0) {
+            R[static_cast<std::size_t>(dof)] = total[i];
+          }
+        }
+      }
+    }
+    return bad == 0;
+  }
+
+  /// visit(material number, block) with block.H filled, in parallel.
+  template <class Visit>
+  void visit(const double* u, const Visit& visit) const {
+#pragma omp parallel if (points_->size() > points_for_threads)
+    {
+      Block block;
+#pragma omp for schedule(static)
+      for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        for_each_part(blocks_[b], block, [&] {
+          gather<false>(blocks_[b], u, nullptr, block, block.H, block.dH);
+          visit(blocks_[b].material, block);
+        });
+      }
+    }
+  }
+
+ private:
+  struct BlockOfCells {
+    std::size_t first_cell, last_cell;  // one past the last
+    std::size_t material;
+  };
+
+  // As many whole cells of one material as fit, or one cell that does not.
+  void divide_into_blocks() {
+    blocks_.clear();
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < points_->cells(); ++k) {
+      const auto material = static_cast<std::size_t>(points_->material_of_cell(k));
+      const bool fits =
+          !blocks_.empty() && blocks_.back().material == material && points_->end(k) - begin <= Block::size;
+      if (!fits) {
+        blocks_.push_back({k, k, material});
+        begin = points_->begin(k);
+      }
+      blocks_.back().last_cell = k + 1;
+    }
+  }
+  // work() with as many points in the block as it holds: once, but for a cell that has more.
+  template <class Work>
+  void for_each_part(const BlockOfCells& cells, Block& block, const Work& work) const {
+    const std::size_t end = points_->begin(cells.last_cell);
+    for (block.first = points_->begin(cells.first_cell); block.first < end; block.first += block.count) {
+      block.count = std::min(Block::size, end - block.first);
+      work();
+    }
+  }
+  // The points of cell k that are in the block.
+  std::size_t begin(std::size_t k, const Block& block) const { return std::max(points_->begin(k), block.first); }
+  std::size_t end(std::size_t k, const Block& block) const {
+    return std::min(points_->end(k), block.first + block.count);
+  }
+
+  // H, and dH where Increments, of the points in the block.
+  template <bool Increments>
+  void gather(const BlockOfCells& cells, const double* u, const double* u_before, const Block& block,
+              typename Block::Rows& H, typename Block::Rows& dH) const {
+    for (std::size_t k = cells.first_cell; k < cells.last_cell; ++k) {
+      Cells::template gather<Increments>(*weights_, k, begin(k, block), end(k, block), u, u_before, block.first, H, dH);
+    }
+  }
+  // corner_[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points.
+  void scatter(const BlockOfCells& cells, const Block& block) {
+    constexpr std::size_t corners = dim * per_cell;
+    for (std::size_t k = cells.first_cell; k < cells.last_cell; ++k) {
+      double* corner = corner_.data() + corners * k;
+      if (begin(k, block) == points_->begin(k)) {
+        Cells::scatter(*weights_, k, begin(k, block), end(k, block), block, corner);
+      } else {
+        std::array<double, corners> rest;
+        Cells::scatter(*weights_, k, begin(k, block), end(k, block), block, rest.data());
+        for (std::size_t c = 0; c < corners; ++c) corner[c] += rest[c];
+      }
+    }
+  }
+
+  const MaterialPoints<dim>* points_ = nullptr;
+  const Weights* weights_ = nullptr;
+  CornerSum corner_sum_;
+  std::vector<int> function_of_corner_;  // (cells × per_cell)
+  std::vector<BlockOfCells> blocks_;
+  std::vector<double> corner_;     // (cells × per_cell × dim) [N]
+  std::vector<double> reactions_;  // (prescribed degrees of freedom) [N]
+};
+
+}  // namespace stillpoint

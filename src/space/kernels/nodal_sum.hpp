@@ -1,0 +1,83 @@
+// Sums over material points at the grid's functions, as Σ_p m_p N_ip, the same bits for any number of threads.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/parallel_loop.hpp"
+#include "space/kernels/corner_sum.hpp"
+#include "space/kernels/point_weights.hpp"
+
+namespace stillpoint {
+
+/// Values of one cell at its corners: component c of local function a at [Components a + c].
+template <int Components, int PerCell>
+using Corners = std::array<double, static_cast<std::size_t>(Components* PerCell)>;
+
+/// out: (functions × Components). add_cell(k, corners) adds what the points of cell k give.
+template <int Components, AxisBasis B, Kinematics K, class AddCell>
+std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>&,
+                              const CornerSum& corner_sum, const AddCell& add_cell) {
+  constexpr int per_cell = PointWeights<B, K>::per_cell;
+  std::vector<double> of_corners(Components * per_cell * points.cells());
+  for_each_block(points.cells(), [&](std::size_t k) {
+    Corners<Components, per_cell> corners{};
+    add_cell(k, corners);
+    std::copy(corners.begin(), corners.end(), of_corners.begin() + static_cast<std::ptrdiff_t>(corners.size() * k));
+  });
+  std::vector<double> sums(Components * corner_sum.functions());
+  for_each_block(corner_sum.functions(), [&](std::size_t f) {
+    const auto total = corner_sum.sum<Components>(f, of_corners.data());
+    for (int i = 0; i < Components; ++i) sums[Components * f + i] = total[i];
+  });
+  return sums;
+}
+
+/// Mass of each grid function that keeps each cell's mass, (functions):
+///   row sums Σ_p m_p N_ip where the basis is a partition of unity; otherwise, cell by cell, the diagonal of the
+///   consistent mass scaled so that its values (not its slopes) sum to the cell's mass [Hinton, Rock, Zienkiewicz
+///   1976].
+template <AxisBasis B, Kinematics K>
+std::vector<double> nodal_mass(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
+                               const CornerSum& corner_sum) {
+  using Basis = typename PointWeights<B, K>::Basis;
+  return nodal_sum<1>(points, weights, corner_sum, [&](std::size_t k, Corners<1, Basis::per_cell>& corner) {
+    double cell_mass = 0;
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      const auto N = weights.N(k, p);
+      cell_mass += points.mass[p];
+      for (int a = 0; a < Basis::per_cell; ++a)
+        corner[a] += points.mass[p] * (B::partition_of_unity ? N[a] : N[a] * N[a]);
+    }
+    if (B::partition_of_unity) return;
+    double values_mass = 0;
+    for (int a = 0; a < Basis::per_cell; ++a) values_mass += Basis::is_value(a) ? corner[a] : 0;
+    for (double& mass : corner) mass *= cell_mass / values_mass;
+  });
+}
+
+/// G_i = Σ_p V_p A_p |∇N_ip| Σ_j |∇N_jp| with the wave modulus A_p = λ + 2μ, (functions) [N/m]: a bound of Σ_j |K_ij|
+/// in the norm of 2 × 2 blocks, since |B_iᵀ C B_j| ≤ (λ + 2μ) |∇N_i| |∇N_j|. By Gershgorin no frequency of a lumped M
+/// exceeds max √(G_i/M_i).
+template <AxisBasis B, Kinematics K>
+std::vector<double> stiffness_bound(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
+                                    const CornerSum& corner_sum, const std::vector<double>& wave_modulus) {
+  constexpr int per_cell = PointWeights<B, K>::per_cell, rows = PointWeights<B, K>::rows;
+  return nodal_sum<1>(points, weights, corner_sum, [&](std::size_t k, Corners<1, per_cell>& corner) {
+    const double A = wave_modulus[static_cast<std::size_t>(points.material_of_cell(k))];
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      const auto dN = weights.dN(k, p);
+      std::array<double, per_cell> length;
+      double together = 0;
+      for (int a = 0; a < per_cell; ++a) {
+        double square = 0;
+        for (int j = 0; j < rows; ++j) square += dN[per_cell * j + a] * dN[per_cell * j + a];
+        length[a] = std::sqrt(square);
+        together += length[a];
+      }
+      for (int a = 0; a < per_cell; ++a) corner[a] += points.volume[p] * A * length[a] * together;
+    }
+  });
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,166 @@
+// The frozen weights N_ip and gradients ∇N_ip of a phase.
+#pragma once
+
+#include <stillpoint/material.hpp>
+#include <stillpoint/types.hpp>
+
+#include <array>
+#include <concepts>
+#include <vector>
+
+#include "base/parallel_loop.hpp"
+#include "space/grid/basis.hpp"
+#include "space/grid/degrees_of_freedom.hpp"
+#include "space/materials/deformation.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+#include "space/points/material_points.hpp"
+
+namespace stillpoint {
+
+/// All weights of a point lie together: the loops over cells go from point to point and take the local functions of one
+/// at a time. A row of gradients is ∂N_a/∂x_j for one j, and where axisymmetric the last row is N_a/r.
+///
+/// Linear functions in the plane are made anew where they are needed, from the place of a point in its cell: that is
+/// less work than to read them from memory, and an eighth of the bytes.
+template <AxisBasis B, Kinematics K>
+class PointWeights {
+ public:
+  static constexpr int dim = dimensions(K);
+  using Basis = TensorBasis<B, dim>;
+  static constexpr int per_cell = Basis::per_cell;
+  static constexpr int slack = 4;  // entries after the last, for who reads a few at a time
+  static constexpr int rows = K == Kinematics::axisymmetric ? dim + 1 : dim;
+  static constexpr bool from_places = dim == 2 && std::same_as<B, BSpline<1>>;
+
+  /// A cell's corner and sides, from which its linear functions are made.
+  struct Cell {
+    Point<dim> left, side, inverse_side;  // [m], [m], [1/m]
+  };
+
+  void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
+    offset_ = Basis::offsets(grid);
+    first_.resize(points.cells());
+    if constexpr (from_places) {
+      cell_.resize(points.cells());
+      for (auto& along : position_) along.resize(points.size() + slack);
+    } else {
+      N_.resize(per_cell * points.size());
+      dN_.resize(rows * per_cell * points.size() + slack);
+    }
+    for_each_block(points.cells(), [&](std::size_t k) {
+      const auto cell = grid.cell_at(points.cell[k]);
+      first_[k] = Basis::first(grid, cell);
+      if constexpr (from_places) {
+        locate_in_cell(grid, cell, points, k);
+        return;
+      }
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        const auto values = Basis::evaluate(grid, cell, points.position(p));
+        double* N = N_.data() + per_cell * p;
+        double* dN = dN_.data() + rows * per_cell * p;
+        for (int a = 0; a < per_cell; ++a) {
+          N[a] = values.N[a];
+          for (int j = 0; j < dim; ++j) dN[per_cell * j + a] = values.dN[j][a];
+          if constexpr (rows > dim) dN[per_cell * dim + a] = values.N[a] / points.x[0][p];
+        }
+      }
+    });
+  }
+
+  /// Grid number of local function a in occupied cell k.
+  int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
+  /// N_a, [a] (per_cell), of point p in occupied cell k.
+  auto N([[maybe_unused]] std::size_t k, std::size_t p) const {
+    if constexpr (from_places) {
+      const double x = position_[0][p], y = position_[1][p];
+      return std::array{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+    } else {
+      return N_.data() + per_cell * p;
+    }
+  }
+  /// Its gradients, [per_cell row + a] (rows × per_cell).
+  auto dN([[maybe_unused]] std::size_t k, std::size_t p) const {
+    if constexpr (from_places) {
+      const double x = position_[0][p], y = position_[1][p];
+      const auto [per_x, per_y] = cell_[k].inverse_side;
+      std::array<double, rows * per_cell> of_point{-(1 - y) * per_x, (1 - y) * per_x, -y * per_x,      y * per_x,
+                                                   -(1 - x) * per_y, -x * per_y,      (1 - x) * per_y, x * per_y};
+      if constexpr (rows > dim) {
+        const auto values = N(k, p);
+        for (int a = 0; a < per_cell; ++a)
+          of_point[per_cell * dim + a] = values[a] / (cell_[k].left[0] + x * cell_[k].side[0]);
+      }
+      return of_point;
+    } else {
+      return dN_.data() + rows * per_cell * p;
+    }
+  }
+  /// What is kept for each point.
+  static std::vector<PointArray> arrays() {
+    constexpr double real = sizeof(double);
+    if constexpr (from_places) return {{"place in the cell", dim * real}};
+    return {{"weights N", per_cell * real}, {"gradients of N", rows * per_cell * real}};
+  }
+  /// Where the points lie in their cells, 0 to 1 along an axis, (P + slack); from_places alone.
+  const double* position_in_cell(int axis) const { return position_[static_cast<std::size_t>(axis)].data(); }
+  const Cell& cell(std::size_t k) const { return cell_[k]; }
+
+  /// F_a += N_ap value, in one component, at the free degrees of freedom; F: (n).
+  void add_at_functions(std::size_t k, std::size_t p, int component, double value, const DegreesOfFreedom& dofs,
+                        Vec F) const {
+    const auto values = N(k, p);
+    for (int a = 0; a < per_cell; ++a) {
+      const int dof = dofs.number[static_cast<std::size_t>(dim * function(k, a) + component)];
+      if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += value * values[a];
+    }
+  }
+  /// Σ_a N_ap u_a at point p of cell k; u over the grid's functions, component i at [dim function + i].
+  std::array<double, dim> value(const double* u, std::size_t k, std::size_t p) const {
+    const auto values = N(k, p);
+    std::array<double, dim> sum{};
+    for (int a = 0; a < per_cell; ++a) {
+      for (int i = 0; i < dim; ++i) sum[i] += u[dim * function(k, a) + i] * values[a];
+    }
+    return sum;
+  }
+  /// H_ij = Σ_a u_a,i ∂N_a/∂x_j, and H_θθ = Σ_a u_a,r N_a/r
+  TensorOf<K> gradient(const double* u, std::size_t k, std::size_t p) const {
+    const auto gradients = dN(k, p);
+    TensorOf<K> H{};
+    for (int a = 0; a < per_cell; ++a) {
+      const double* of_function = u + dim * function(k, a);
+      for (int i = 0; i < dim; ++i) {
+        for (int j = 0; j < dim; ++j) H[dim * i + j] += of_function[i] * gradients[per_cell * j + a];
+      }
+      if constexpr (rows > dim) H[dim * dim] += of_function[0] * gradients[per_cell * dim + a];
+    }
+    return H;
+  }
+
+ private:
+  void locate_in_cell(const Grid<dim>& grid, const std::array<int, dim>& at, const MaterialPoints<dim>& points,
+                     std::size_t k) {
+    Cell& cell = cell_[k];
+    for (std::size_t d = 0; d < dim; ++d) {
+      const std::vector<double>& lines = grid.axes[d].nodes;
+      const auto line = static_cast<std::size_t>(at[d]);
+      cell.left[d] = lines[line];
+      cell.side[d] = lines[line + 1] - lines[line];
+      cell.inverse_side[d] = 1 / cell.side[d];
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        position_[d][p] = (points.x[d][p] - cell.left[d]) / cell.side[d];
+      }
+    }
+  }
+
+  std::array<int, per_cell> offset_;
+  std::vector<int> first_;  // (occupied cells)
+  // Either the functions,
+  std::vector<double> N_;   // (P × per_cell)
+  std::vector<double> dN_;  // (P × rows × per_cell) [1/m]
+  // or what they are made from.
+  std::array<std::vector<double>, dim> position_;
+  std::vector<Cell> cell_;  // (occupied cells)
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,221 @@
+// Velocities from material points to the grid when a phase begins, and back when it ends.
+//
+//   to the grid    v_i = Σ_p m_p N_ip v_p/m_i,   m_i = Σ_p m_p N_ip             [APIC: N_ip v_p + B_p w_ip]
+//   flip           v_p += Σ_i N_ip (v_i − v_i at the start), or a share of it and the rest of Σ_i N_ip v_i
+//   pic            v_p  = Σ_i N_ip v_i
+//   xpic(m)        v_p  = v_p − (I − S S⁺)^m v_p + Σ_i N_ip (v_i − v_i at the start), S to points, S⁺ to the grid;
+//                  what m passes of averaging do not keep is noise [Hammerquist and Nairn 2017]
+//   apic           v_p  = Σ_i N_ip v_i,  B_p = Σ_i N_ip v_i ⊗ (x_i − x_p), as they are at the end [Jiang et al. 2015]
+//
+// x_i is where function i has its centre, Σ_i N_i(x) x_i = x. B_p goes back to the grid by weights w_ip with Σ_i w_ip =
+// 0 and Σ_i x_i ⊗ w_ip = I, so that momentum and angular momentum Σ_p m_p x_p × v_p + m_p (B_p,yx − B_p,xy) are kept:
+// ∇N_ip for a linear basis, N_ip (x_i − x_p)/D, D = Σ_i N_ip (x_i − x_p)², for smoother ones.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "space/kernels/conservation_check.hpp"
+#include "space/kernels/nodal_sum.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class VelocityTransfer {
+  using Weights = PointWeights<B, K>;
+  static constexpr int dim = Weights::dim;
+  static constexpr int per_cell = Weights::per_cell;
+  using Points = MaterialPoints<dim>;
+  using Basis = typename Weights::Basis;
+
+ public:
+  explicit VelocityTransfer(const PhaseSpec& spec) : spec_(spec) {}
+
+  /// v_i from the points, (functions × dim). A node whose mass is next to nothing takes the velocity of its cells'
+  /// points. mass: m_i, (functions).
+  std::vector<double> to_grid(const Grid<dim>& grid, const Points& points, const Weights& weights,
+                              const CornerSum& corner_sum, const std::vector<double>& mass) {
+    constexpr double next_to_nothing = 1e-12;
+    std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
+    conservation_.compare_momentum(ConservationCheck<dim>::of_points(points), v);
+    const std::vector<double> of_cells =
+        nodal_sum<dim + 1>(points, weights, corner_sum, [&](std::size_t k, Corners<dim + 1, per_cell>& corner) {
+          std::array<double, dim + 1> of_cell{};
+          for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+            of_cell[dim] += points.mass[p];
+            for (int i = 0; i < dim; ++i) of_cell[i] += points.mass[p] * points.v[i][p];
+          }
+          for (int a = 0; a < per_cell; ++a) std::copy(of_cell.begin(), of_cell.end(), corner.begin() + (dim + 1) * a);
+        });
+    for_each_block(mass.size(), [&](std::size_t f) {
+      const double* cells = of_cells.data() + (dim + 1) * f;
+      const bool of_its_own = mass[f] > next_to_nothing * cells[dim];
+      const double m = of_its_own ? mass[f] : cells[dim];
+      for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? (of_its_own ? v[dim * f + i] : cells[i]) / m : 0;
+    });
+    return v;
+  }
+
+  const ConservationCheck<dim>& conservation() const { return conservation_; }
+  ConservationCheck<dim>& conservation() { return conservation_; }
+
+  /// Σ_p m_p (N_ip v_p + …), (functions × dim) [kg m/s].
+  std::vector<double> nodal_momentum(const Grid<dim>& grid, const Points& points, const Weights& weights,
+                                     const CornerSum& corner_sum) const {
+    const bool affine = spec_.transfer == Transfer::apic;
+    return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
+      const auto centre = affine ? centres(grid, points.cell[k]) : Centres{};
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        const auto N = weights.N(k, p);
+        const double m = points.mass[p];
+        const auto w = affine ? affine_weights(weights, centre, points.position(p), k, p) : AffineWeights{};
+        for (int a = 0; a < per_cell; ++a) {
+          for (int i = 0; i < dim; ++i) {
+            double share = N[a] * points.v[i][p];
+            if (affine) {
+              for (int j = 0; j < dim; ++j) share += points.B_apic[dim * i + j][p] * w[j][a];
+            }
+            corner[dim * a + i] += m * share;
+          }
+        }
+      }
+    });
+  }
+
+  /// Moves velocities to the points at a phase's end. u, v, v_start: over the grid's functions, (functions × dim);
+  /// mass: (functions). Places are still those of the phase's start.
+  void to_points(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
+                 const std::vector<double>& mass, const double* u, const std::vector<double>& v_end,
+                 const std::vector<double>& v_start) {
+    const auto before = ConservationCheck<dim>::of_points(points);
+    move(grid, points, weights, corner_sum, mass, u, v_end.data(), v_start.data());
+    check_momentum(before, points, mass, v_end, v_start);
+  }
+
+ private:
+  using Centres = std::array<std::array<double, per_cell>, dim>;
+  using AffineWeights = std::array<std::array<double, per_cell>, dim>;
+
+  void move(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
+            const std::vector<double>& mass, const double* u, const double* v, const double* v_start) const {
+    const std::array<std::vector<double>, dim> noise =
+        spec_.transfer == Transfer::xpic ? null_space_part(points, weights, corner_sum, mass) : decltype(noise){};
+    // Share of the increment in flip; the rest is the velocity itself.
+    const double share = spec_.transfer == Transfer::flip ? spec_.flip_share : 0;
+    for_each_block(points.cells(), [&](std::size_t k) {
+      const auto centre = spec_.transfer == Transfer::apic ? centres(grid, points.cell[k]) : Centres{};
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        const auto now = weights.value(v, k, p), before = weights.value(v_start, k, p);
+        for (int i = 0; i < dim; ++i) {
+          double& v_p = points.v[i][p];
+          v_p = spec_.transfer == Transfer::xpic ? v_p - noise[i][p] + now[i] - before[i]
+                                                 : share * (v_p + now[i] - before[i]) + (1 - share) * now[i];
+        }
+        if (spec_.transfer == Transfer::apic) set_affine(points, weights, centre, k, p, u, v);
+      }
+    });
+  }
+
+  // Σ_p m_p v_p has changed by Σ_i m_i (v_i − v_i at the start) in flip and xpic, and is Σ_i m_i v_i in pic and apic.
+  void check_momentum(const typename ConservationCheck<dim>::Momentum& before, const Points& points,
+                      const std::vector<double>& mass, const std::vector<double>& v,
+                      const std::vector<double>& v_start) {
+    const double share = spec_.transfer == Transfer::flip ? spec_.flip_share : spec_.transfer == Transfer::xpic ? 1 : 0;
+    std::vector<double> expected(v.size());
+    for_each_index(v.size(), [&](std::size_t i) { expected[i] = mass[i / dim] * (v[i] - share * v_start[i]); });
+    auto change = ConservationCheck<dim>::of_points(points);
+    for (int i = 0; i < dim; ++i) change.sum[i] -= share * before.sum[i];
+    change.scale = std::max(change.scale, before.scale);
+    conservation_.compare_momentum(change, expected);
+  }
+
+  Centres centres(const Grid<dim>& grid, int cell_number) const {
+    Centres of_cell{};
+    if constexpr (B::partition_of_unity) {
+      const auto cell = grid.cell_at(cell_number);
+      for (int d = 0; d < dim; ++d) {
+        const Axis& axis = grid.axes[d];
+        for (int a = 0; a < per_cell; ++a) {
+          const int i = B::first(cell[d]) + Basis::axis_index(a, d);
+          double sum = 0;
+          for (int q = i - B::degree + 1; q <= i; ++q)
+            sum += axis.nodes[static_cast<std::size_t>(std::clamp(q, 0, axis.cells()))];
+          of_cell[d][a] = sum / B::degree;
+        }
+      }
+    }
+    return of_cell;
+  }
+
+  static AffineWeights affine_weights(const Weights& weights, const Centres& centre, const Point<dim>& x, std::size_t k,
+                                      std::size_t p) {
+    constexpr double singular = 1e-6;  // D where only one function acts, at a boundary; of the distances' squares
+    const auto N = weights.N(k, p);
+    const auto dN = weights.dN(k, p);
+    AffineWeights w;
+    for (int j = 0; j < dim; ++j) {
+      double D = 0, scale = 0;
+      for (int a = 0; a < per_cell; ++a) {
+        const double r = centre[j][a] - x[j];
+        D += N[a] * r * r;
+        scale = std::max(scale, r * r);
+      }
+      const bool by_gradient = B::degree == 1 || D < singular * scale;
+      for (int a = 0; a < per_cell; ++a) {
+        w[j][a] = by_gradient ? dN[per_cell * j + a] : N[a] * (centre[j][a] - x[j]) / D;
+      }
+    }
+    return w;
+  }
+
+  // B_p = Σ_a N_a v_a ⊗ (x_a + u_a − x_p − u_p)
+  static void set_affine(Points& points, const Weights& weights, const Centres& centre, std::size_t k, std::size_t p,
+                         const double* u, const double* v) {
+    const auto u_p = weights.value(u, k, p);
+    const auto N = weights.N(k, p);
+    const Point<dim> x = points.position(p);
+    std::array<double, dim * dim> B_p{};
+    for (int a = 0; a < per_cell; ++a) {
+      const int f = dim * weights.function(k, a);
+      for (int i = 0; i < dim; ++i) {
+        for (int j = 0; j < dim; ++j) {
+          B_p[dim * i + j] += N[a] * v[f + i] * (centre[j][a] + u[f + j] - x[j] - u_p[j]);
+        }
+      }
+    }
+    for (int ij = 0; ij < dim * dim; ++ij) points.B_apic[ij][p] = B_p[ij];
+  }
+
+  // (I − S S⁺)^m v_p
+  std::array<std::vector<double>, dim> null_space_part(const Points& points, const Weights& weights,
+                                                       const CornerSum& corner_sum,
+                                                       const std::vector<double>& mass) const {
+    std::array<std::vector<double>, dim> r = points.v;
+    for (int pass = 0; pass < spec_.xpic_order; ++pass) {
+      std::vector<double> mean =
+          nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
+            for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+              const auto N = weights.N(k, p);
+              for (int a = 0; a < per_cell; ++a) {
+                for (int i = 0; i < dim; ++i) corner[dim * a + i] += points.mass[p] * N[a] * r[i][p];
+              }
+            }
+          });
+      for (std::size_t f = 0; f < mass.size(); ++f) {
+        for (int i = 0; i < dim; ++i) mean[dim * f + i] /= mass[f] > 0 ? mass[f] : 1;
+      }
+      for_each_block(points.cells(), [&](std::size_t k) {
+        for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+          const auto smooth = weights.value(mean.data(), k, p);
+          for (int i = 0; i < dim; ++i) r[i][p] -= smooth[i];
+        }
+      });
+    }
+    return r;
+  }
+
+  PhaseSpec spec_;
+  ConservationCheck<dim> conservation_;
+};
+
+}  // namespace stillpoint

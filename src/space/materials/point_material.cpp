@@ -1,0 +1,61 @@
+// Which law goes with which stress state: the instantiations.
+#include "space/materials/point_material.hpp"
+
+#include <stillpoint/drucker_prager.hpp>
+#include <stillpoint/hencky.hpp>
+#include <stillpoint/linear_elastic.hpp>
+#include <stillpoint/neo_hookean.hpp>
+
+#include <stdexcept>
+
+#include "space/materials/law_material.hpp"
+
+namespace stillpoint {
+namespace {
+
+template <Kinematics K>
+using Made = std::unique_ptr<PointMaterial<K>>;
+
+template <StressState S>
+Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::size_t count, bool updated_lagrangian) {
+  const auto lame = LameParameters::from(material.parameters.at("E"), material.parameters.at("nu"));
+  const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
+    return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian);
+  };
+  if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame));
+  if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
+  if (material.law == "hencky") return elastic(Hencky<S>(lame));
+  if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric) {
+    if (material.law == "drucker-prager") {
+      const DruckerPrager<S> law(DruckerPragerParameters::from(material));
+      return std::make_unique<HistoryMaterial<DruckerPrager<S>>>(law, begin, count);
+    }
+  }
+  throw std::logic_error("a material law without an instantiation for this stress state");
+}
+
+}  // namespace
+
+template <>
+Made<Kinematics::line> make_point_material(const MaterialSpec& material, StressState state, std::size_t begin,
+                                           std::size_t count, bool updated_lagrangian) {
+  if (state == StressState::uniaxial_stress)
+    return make<StressState::uniaxial_stress>(material, begin, count, updated_lagrangian);
+  return make<StressState::uniaxial_strain>(material, begin, count, updated_lagrangian);
+}
+
+template <>
+Made<Kinematics::plane> make_point_material(const MaterialSpec& material, StressState state, std::size_t begin,
+                                            std::size_t count, bool updated_lagrangian) {
+  if (state == StressState::plane_stress)
+    return make<StressState::plane_stress>(material, begin, count, updated_lagrangian);
+  return make<StressState::plane_strain>(material, begin, count, updated_lagrangian);
+}
+
+template <>
+Made<Kinematics::axisymmetric> make_point_material(const MaterialSpec& material, StressState, std::size_t begin,
+                                                   std::size_t count, bool updated_lagrangian) {
+  return make<StressState::axisymmetric>(material, begin, count, updated_lagrangian);
+}
+
+}  // namespace stillpoint

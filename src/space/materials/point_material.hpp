@@ -1,0 +1,109 @@
+// The material of a range of points: what a block of them answers to its deformation, and what it remembers.
+#pragma once
+
+#include <stillpoint/material.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/unroll.hpp"
+#include "space/materials/deformation.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// Work space for a block of consecutive points of one material, as structure of arrays that stays in the first-level
+/// cache.
+template <Kinematics K>
+struct PointBlock {
+  static constexpr std::size_t size = 128;
+  static constexpr std::size_t slack = 8;  // entries after the last, for who writes a few at a time
+  static constexpr int components = gradient_components(K);
+  using Rows = std::array<std::array<double, size + slack>, components>;
+
+  std::size_t first = 0, count = 0;  // points first … first + count − 1
+  alignas(64) Rows H;                // ∂u/∂x since the phase began
+  alignas(64) Rows dH;               // the part of it since commit
+  alignas(64) Rows VP;               // V_p P_p, the answer [J]
+  alignas(64) Rows direction;        // of a derivative
+
+  [[gnu::always_inline]] TensorOf<K> H_at(std::size_t q) const { return row(H, q); }
+  [[gnu::always_inline]] TensorOf<K> dH_at(std::size_t q) const { return row(dH, q); }
+  [[gnu::always_inline]] TensorOf<K> direction_at(std::size_t q) const { return row(direction, q); }
+  /// VP = V P at point q; 0, or NaN where P is not finite: a sum of these needs no branch.
+  [[gnu::always_inline]] double store_stress(std::size_t q, double V, const TensorOf<K>& P) {
+    double bad = 0;
+    unroll<components>([&](auto c) __attribute__((always_inline)) {
+      VP[c][q] = V * P[c];
+      bad += 0 * P[c];
+    });
+    return bad;
+  }
+
+ private:
+  [[gnu::always_inline]] static TensorOf<K> row(const Rows& rows, std::size_t q) {
+    TensorOf<K> tensor;
+    unroll<components>([&](auto c) __attribute__((always_inline)) { tensor[c] = rows[c][q]; });
+    return tensor;
+  }
+};
+
+/// consistent: the derivative of what stress() answers. elastic: as if no point yielded, symmetric, and no trial is
+/// stiffer. Of a law without history the two are the same.
+enum class Tangent { consistent, elastic };
+
+/// One virtual call serves a block of points, so that the loop over them knows its law and is vectorised, while the
+/// loops over cells are compiled once for all laws. Points have their numbers in the whole body.
+template <Kinematics K>
+class PointMaterial {
+ public:
+  using Stresses = std::array<double, stress_components(K)>;
+  using ModuliMatrix = std::array<double, gradient_components(K) * gradient_components(K)>;
+
+  virtual ~PointMaterial() = default;
+  virtual bool history_dependent() const = 0;
+  virtual bool finite_strain() const = 0;
+
+  /// block.VP = V_p P_p for the deformation in block.H (and dH, over dt, where history_dependent()); what the points
+  /// would remember becomes the trial history. V: volumes when the phase began, of all points.
+  /// Returns 0, or NaN where some P is not finite.
+  virtual double stress(PointBlock<K>& block, const double* V, double dt) = 0;
+  /// The trial history becomes the committed one; every block has had its stress() since the last commit.
+  virtual void commit() = 0;
+  /// block.VP = V_p (∂P/∂H at block.H, block.dH and dt) : block.direction.
+  virtual void tangent(Tangent kind, PointBlock<K>& block, const double* V, double dt) const = 0;
+
+  /// At point p under H, of which dH came over dt since commit: ∂P/∂H where both change alike.
+  virtual ModuliMatrix moduli(Tangent kind, const TensorOf<K>& H, const TensorOf<K>& dH, double dt,
+                              std::size_t p) const = 0;
+  /// The Cauchy stress of point p under H, of the committed history where there is one.
+  virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
+  /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite where it is not
+  /// finite.
+  virtual double stiffness_bound(const PointBlock<K>& block) const = 0;
+  /// λ + 2μ or its like in the undeformed state [Pa].
+  virtual double wave_modulus() const = 0;
+
+  /// The phase ends with the deformation in block.H: it becomes part of what the next phase starts from.
+  virtual void end_phase(const PointBlock<K>& block) = 0;
+  /// Points change places: the one that was number order[k] becomes number begin + k.
+  virtual void reorder(const std::vector<int>& order) = 0;
+  /// Points start under these Cauchy stresses, (points × stress components).
+  virtual void set_stress(const std::vector<Stresses>& stress) = 0;
+
+  /// What is kept for each point.
+  virtual std::vector<PointArray> arrays() const = 0;
+  /// Committed history that a user may want to see: name and values in order of the points.
+  virtual std::vector<std::pair<std::string, ConstVec>> shown_history() const = 0;
+};
+
+/// The material of points begin … begin + count − 1. updated_lagrangian: whether there will be another phase, which an
+/// elastic law meets with the deformation so far.
+template <Kinematics K>
+std::unique_ptr<PointMaterial<K>> make_point_material(const MaterialSpec& material, StressState state,
+                                                      std::size_t begin, std::size_t count, bool updated_lagrangian);
+
+}  // namespace stillpoint

@@ -1,0 +1,248 @@
+// How a phase begins and ends.
+#pragma once
+
+#include "space/phase/material_point_phase.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+double MaterialPointPhase<B, K>::phase_progress(double t, ConstVec u) const {
+  if (!updated_lagrangian_) return 0;
+  if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
+  double share = 0;
+  if (scene_.phase.max_motion) share = largest_motion(u) / *scene_.phase.max_motion;
+  constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
+  if (scene_.phase.max_strain && ++looks_ % between_looks == 0) {
+    spread(t, u, grid_u_);
+    share = std::max(share, largest_strain() / *scene_.phase.max_strain);
+  }
+  return share;
+}
+
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::begin_next_phase(double t, ConstVec u, ConstVec v) {
+  Grid<Dim> next_grid = grid_at<Dim>(scene_, boundary_.displacement_of(scene_.grid.follow, t));
+  check_inside(next_grid, t, u);  // before anything changes: a run that ends here shows the state it had
+  end_phase(t, u, v);
+  grid_ = std::move(next_grid);
+  order_.sort(body_.points, grid_);
+  for (const auto& material : body_.materials) material->reorder(order_.order());
+  begin_phase(t);
+  return velocity_from_points(t);
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::begin_phase(double t) {
+  weights_.rebuild(grid_, body_.points);
+  const std::size_t functions = static_cast<std::size_t>(Basis::count(grid_));
+  nodal_force_.rebuild(body_.points, weights_, functions);
+  const std::vector<char> reached = active_functions();
+  boundary_.template begin_phase<Basis>(scene_, grid_, reached, t);
+  dofs_.emplace(reached, Dim, boundary_.prescribed());
+  grid_u_.assign(Dim * functions, 0);
+  grid_work_.assign(Dim * functions, 0);
+  nodal_force_.set_prescribed(dofs_->prescribed.size());
+  committed_u_.assign(Dim * functions, 0);
+  spread_prescribed(t, committed_u_);
+  committed_t_ = last_t_ = t;
+  make_mass();
+  loads_.begin_phase(grid_, body_.points, weights_, *dofs_, inertia_.mass());
+}
+
+// Every function that a point gives mass to; where nodes get inertia anyhow, every one of a cell with material.
+template <AxisBasis B, Kinematics K>
+std::vector<char> MaterialPointPhase<B, K>::active_functions() const {
+  std::vector<char> reached(static_cast<std::size_t>(Basis::count(grid_)), 0);
+  for (std::size_t k = 0; k < body_.points.cells(); ++k) {
+    for (int a = 0; a < per_cell; ++a) {
+      char& of_function = reached[static_cast<std::size_t>(weights_.function(k, a))];
+      for (std::size_t p = body_.points.begin(k); p < body_.points.end(k) && !of_function; ++p) {
+        of_function = updated_lagrangian_ || weights_.N(k, p)[a] != 0;
+      }
+    }
+  }
+  return reached;
+}
+
+// A wave's time through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max [s].
+template <AxisBasis B, Kinematics K>
+double MaterialPointPhase<B, K>::time_scale() const {
+  double h = std::numeric_limits<double>::infinity(), shortest = h;
+  for (const Axis& axis : grid_.axes) {
+    for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
+  }
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+    const double density = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
+    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->wave_modulus()));
+  }
+  return shortest;
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::make_mass() {
+  std::vector<double> wave_modulus;
+  for (const auto& material : body_.materials) wave_modulus.push_back(material->wave_modulus());
+  inertia_.begin_phase(body_.points, weights_, nodal_force_.corner_sum(), wave_modulus);
+  if (!updated_lagrangian_) {
+    consistent_ = consistent_mass<B, K>(body_.points, weights_, *dofs_);
+    check_projection();
+  }
+  try {
+    if (scene_.mass.kind == MassKind::consistent) {
+      mass_.emplace(Mass::consistent(consistent_.free));
+    } else {
+      std::vector<double> diagonal(size());
+      for (std::size_t k = 0; k < diagonal.size(); ++k) {
+        diagonal[k] = inertia_.inertia()[static_cast<std::size_t>(dofs_->free[k] / Dim)];
+      }
+      mass_.emplace(Mass::lumped(std::move(diagonal)));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw_scene_error(scene_, "mass.kind", error.what());
+  }
+}
+
+// Initial values are fitted with the consistent mass, whatever the motion uses.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::check_projection() const {
+  const bool projects = !scene_.initial_u.empty() || !scene_.initial_v.empty();
+  if (!projects || scene_.mass.kind == MassKind::consistent || SparseCholesky(consistent_.free).positive_definite())
+    return;
+  throw_scene_error(
+      scene_, "initial",
+      "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
+}
+
+// σ_yy = −ρ b_y (surface − y)  from  ∂σ_yy/∂y + ρ b_y = 0,  σ_xx = σ_zz = K0 σ_yy
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::set_geostatic_stress() {
+  if constexpr (Dim == 2) {
+    const double b_y = scene_.body_force.at(1)({}, 0);
+    for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+      const double rho = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
+      std::vector<std::array<double, stillpoint::stress_components(K)>> stress;
+      for (int p = body_.points.material_begin[m]; p < body_.points.material_begin[m + 1]; ++p) {
+        const double depth = scene_.geostatic->surface - body_.points.x[1][static_cast<std::size_t>(p)];
+        const double vertical = rho * b_y * std::max(0.0, depth), side = scene_.geostatic->K0 * vertical;
+        stress.push_back({side, vertical, side, 0});
+      }
+      body_.materials[m]->set_stress(stress);
+    }
+  }
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::set_initial_point_velocity() {
+  if (scene_.initial_v.empty()) return;
+  for (std::size_t p = 0; p < points(); ++p) {
+    for (int i = 0; i < Dim; ++i) {
+      body_.points.v[i][p] = scene_.initial_v[static_cast<std::size_t>(i)](body_.points.position(p), 0);
+    }
+  }
+}
+
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
+  transfer_.conservation().compare_mass(initial_mass_, inertia_.mass());
+  const std::vector<double> grid_v =
+      transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
+  std::vector<double> v(size());
+  for (std::size_t k = 0; k < v.size(); ++k) v[k] = grid_v[static_cast<std::size_t>(dofs_->free[k])];
+  begin_contact(t, v);
+  start_velocity_ = nodal_velocity(t, v);
+  return v;
+}
+
+// v over the grid's functions.
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec v) const {
+  std::vector<double> grid_v(grid_u_.size(), 0.0);
+  for (std::size_t k = 0; k < v.size(); ++k) grid_v[static_cast<std::size_t>(dofs_->free[k])] = v[k];
+  for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
+    grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = boundary_.motion_of(s).velocity(t);
+  }
+  return grid_v;
+}
+
+// x_p += Σ N_ip u_i,  V_p *= det f_p, and velocities by the scene's transfer
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
+  spread(t, u, grid_u_);
+  const std::vector<double> grid_v = nodal_velocity(t, v);
+  transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), grid_u_.data(), grid_v,
+                      start_velocity_);
+  nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
+    if (!body_.materials[m]->finite_strain()) return;
+    body_.materials[m]->end_phase(block);
+    double* V = body_.points.volume.data() + block.first;
+    for (std::size_t q = 0; q < block.count; ++q) V[q] *= determinant<K>(plus_identity<K>(block.H_at(q)));
+  });
+  for_each_block(body_.points.cells(), [&](std::size_t k) {
+    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+      const auto u_p = weights_.value(grid_u_.data(), k, p);
+      for (int d = 0; d < Dim; ++d) body_.points.x[d][p] += u_p[d];
+    }
+  });
+  loads_.end_phase(grid_u_.data());
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, double t, ConstVec u) const {
+  spread(t, u, grid_u_);
+  const auto where_to = [&](std::size_t k, std::size_t p) {
+    Point<Dim> x = body_.points.position(p);
+    const auto u_p = weights_.value(grid_u_.data(), k, p);
+    for (int d = 0; d < Dim; ++d) x[d] += u_p[d];
+    return x;
+  };
+  std::size_t lost_cell = body_.points.cells();
+  for_each_block(body_.points.cells(), [&](std::size_t k) {
+    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+      const Point<Dim> x = where_to(k, p);
+      bool inside = true;
+      for (int d = 0; d < Dim; ++d)
+        inside = inside && x[d] >= next_grid.axes[d].min() && x[d] <= next_grid.axes[d].max();
+      if (inside) continue;
+#pragma omp critical(stillpoint_lost_point)
+      lost_cell = std::min(lost_cell, k);
+    }
+  });
+  if (lost_cell == body_.points.cells()) return;
+  for (std::size_t p = body_.points.begin(lost_cell); p < body_.points.end(lost_cell); ++p) {
+    const Point<Dim> x = where_to(lost_cell, p);
+    for (int d = 0; d < Dim; ++d) {
+      const Axis& axis = next_grid.axes[d];
+      if (x[d] >= axis.min() && x[d] <= axis.max()) continue;
+      throw PointLost(fmt::format(
+          "at t = {:.6g} s material point {} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected "
+          "a larger grid, a support or a wall",
+          t, body_.points.number[p] + 1, "xyz"[d], x[d], axis.min(), axis.max()));
+    }
+  }
+}
+
+// Largest |u_i| over a cell's width; no point moves further than the nodes around it where N_i ≥ 0 and Σ N_i = 1.
+template <AxisBasis B, Kinematics K>
+double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
+  std::array<double, Dim> h;
+  for (std::size_t d = 0; d < Dim; ++d) h[d] = (scene_.grid.max[d] - scene_.grid.min[d]) / scene_.grid.cells[d];
+  const int* number = dofs_->free.data();
+  return reduce(
+      u.size(), 0.0, [&](std::size_t k) { return std::abs(u[k]) / h[number[k] % Dim]; },
+      [](double a, double b) { return a > b ? a : b; });
+}
+
+template <AxisBasis B, Kinematics K>
+double MaterialPointPhase<B, K>::largest_strain() const {
+  double largest = 0;
+  nodal_force_.visit(grid_u_.data(), [&](std::size_t, const Block& block) {
+    double of_block = 0;
+    for (const auto& row : block.H) {
+      for (std::size_t q = 0; q < block.count; ++q) of_block = std::max(of_block, std::abs(row[q]));
+    }
+#pragma omp critical(stillpoint_largest_strain)
+    largest = std::max(largest, of_block);
+  });
+  return largest;
+}
+}  // namespace stillpoint

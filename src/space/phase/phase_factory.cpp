@@ -1,0 +1,20 @@
+// The kinematics and the basis of a scene become template parameters here, once.
+#include "space/phase/phase_factory.hpp"
+
+#include <stdexcept>
+
+namespace stillpoint {
+
+std::unique_ptr<LagrangianPhase> make_phase(const Scene& scene) {
+  switch (kinematics(scene.state)) {
+    case Kinematics::line:
+      return make_phase_of<Kinematics::line>(scene);
+    case Kinematics::plane:
+      return make_phase_of<Kinematics::plane>(scene);
+    case Kinematics::axisymmetric:
+      return make_phase_of<Kinematics::axisymmetric>(scene);
+  }
+  throw std::logic_error("a kinematics without an instantiation");
+}
+
+}  // namespace stillpoint

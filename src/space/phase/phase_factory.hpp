@@ -1,0 +1,13 @@
+// One source file for each kinematics, so that they compile side by side.
+#pragma once
+
+#include <stillpoint/material.hpp>
+
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+template <Kinematics K>
+std::unique_ptr<LagrangianPhase> make_phase_of(const Scene& scene);
+
+}  // namespace stillpoint

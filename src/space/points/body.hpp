@@ -1,0 +1,78 @@
+// The body of a scene: its material points and their materials.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "space/materials/point_material.hpp"
+#include "space/points/material_points.hpp"
+#include "space/points/point_order.hpp"
+
+namespace stillpoint {
+
+template <Kinematics K>
+struct Body {
+  static constexpr int dim = dimensions(K);
+  MaterialPoints<dim> points;
+  QuadratureReport quadrature;
+  std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
+  std::vector<std::string> material_names;
+};
+
+namespace detail {
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace detail
+
+/// Places every body of the scene. Points are numbered body by body, in the order in which a body is filled.
+/// updated_lagrangian: whether points will change cells.
+template <Kinematics K>
+Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool updated_lagrangian) {
+  constexpr int dim = dimensions(K);
+  Body<K> body;
+  MaterialPoints<dim>& points = body.points;
+  body.quadrature.degree = std::numeric_limits<int>::max();
+  std::map<std::string, std::vector<std::pair<MaterialPoints<dim>, int>>> by_material;  // with each first number
+  int number = 0;
+  for (const BodySpec& spec : scene.bodies) {
+    PlacedBody<dim> placed =
+        place_body<dim>(spec, grid, scene.materials.at(spec.material).parameters.at("rho"), scene.state);
+    body.quadrature.degree = std::min(body.quadrature.degree, placed.quadrature.degree);
+    body.quadrature.smallest_share = std::min(body.quadrature.smallest_share, placed.quadrature.smallest_share);
+    body.quadrature.cells_limited_by_sign += placed.quadrature.cells_limited_by_sign;
+    const int count = static_cast<int>(placed.points.size());
+    by_material[spec.material].emplace_back(std::move(placed.points), number);
+    number += count;
+  }
+  for (const auto& [name, parts] : by_material) {
+    points.material_begin.push_back(static_cast<int>(points.size()));
+    for (const auto& [part, first_number] : parts) {
+      for (int d = 0; d < dim; ++d) detail::append(points.x[d], part.x[d]);
+      detail::append(points.volume, part.volume);
+      detail::append(points.mass, part.mass);
+      for (std::size_t p = 0; p < part.size(); ++p) points.number.push_back(first_number + static_cast<int>(p));
+    }
+    const auto begin = static_cast<std::size_t>(points.material_begin.back());
+    body.materials.push_back(make_point_material<K>(scene.materials.at(name), scene.state, begin, points.size() - begin,
+                                                    updated_lagrangian));
+    body.material_names.push_back(name);
+  }
+  points.material_begin.push_back(static_cast<int>(points.size()));
+  if (updated_lagrangian) {
+    for (auto& v : points.v) v.assign(points.size(), 0);
+    if (scene.phase.transfer == Transfer::apic) {
+      for (auto& B : points.B_apic) B.assign(points.size(), 0);
+    }
+  }
+  PointOrder<dim>().sort(points, grid);
+  return body;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,222 @@
+#include "space/points/material_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "base/polygon.hpp"
+#include "scene/point_file.hpp"
+#include "space/points/cell_positions.hpp"
+#include "space/points/moment_fit.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr double kRounding = 1e-12;  // a share of a cell's length or area that is none
+constexpr double kSliver = 1e-6;     // a share of a cell's area that is not worth a point
+
+/// Takes the points of a body in the order of their cells.
+template <int Dim>
+class PointCollector {
+ public:
+  PointCollector(double thickness, double density, StressState state)
+      : thickness_(thickness), density_(density), axisymmetric_(state == StressState::axisymmetric) {}
+
+  void begin_cell(int number) {
+    points_.cell.push_back(number);
+    points_.cell_begin.push_back(static_cast<int>(points_.size()));
+  }
+  /// V = area · thickness, or area · 2π r; area: a length in one dimension [m].
+  void add(const Point<Dim>& x, double area) {
+    add_volume(x, area * (axisymmetric_ ? 2 * std::numbers::pi * x[0] : thickness_));
+  }
+  void add_volume(const Point<Dim>& x, double volume) {
+    for (int d = 0; d < Dim; ++d) points_.x[d].push_back(x[d]);
+    points_.volume.push_back(volume);
+    points_.mass.push_back(volume * density_);
+  }
+  MaterialPoints<Dim> finish() {
+    points_.cell_begin.push_back(static_cast<int>(points_.size()));
+    return std::move(points_);
+  }
+
+ private:
+  double thickness_, density_;
+  bool axisymmetric_;
+  MaterialPoints<Dim> points_;
+};
+
+/// An interval along each coordinate.
+template <int Dim>
+struct Box {
+  Point<Dim> low, high;
+
+  double size() const {
+    double product = 1;
+    for (int d = 0; d < Dim; ++d) product *= high[d] - low[d];
+    return product;
+  }
+  /// The place of ξ in [−1, 1]^Dim.
+  Point<Dim> position(const Eigen::MatrixXd& xi, Eigen::Index p) const {
+    Point<Dim> x;
+    for (int d = 0; d < Dim; ++d) x[d] = low[d] + 0.5 * (1 + xi(d, p)) * (high[d] - low[d]);
+    return x;
+  }
+};
+
+/// Fills a box or a polygon.
+template <int Dim>
+class Filling {
+ public:
+  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points)
+      : body_(body), grid_(grid), points_(points), places_(body) {
+    quadrature_.degree = std::numeric_limits<int>::max();
+  }
+
+  QuadratureReport run() {
+    for (int number = 0; number < grid_.cells(); ++number) {
+      const Box<Dim> cell = box_of(number);
+      Box<Dim> part = cell;
+      for (int d = 0; d < Dim; ++d) {
+        part.low[d] = std::max(cell.low[d], body_.min[d]);
+        part.high[d] = std::min(cell.high[d], body_.max[d]);
+      }
+      if (smallest_share(part, cell) <= kRounding) continue;
+      if (body_.polygon.empty()) {
+        fill(number, part, cell);
+      } else if constexpr (Dim == 2) {
+        fill_polygon(number, cell);
+      }
+    }
+    return quadrature_;
+  }
+
+ private:
+  Box<Dim> box_of(int number) const {
+    const auto cell = grid_.cell_at(number);
+    Box<Dim> box;
+    for (int d = 0; d < Dim; ++d) {
+      box.low[d] = grid_.axes[d].nodes[cell[d]];
+      box.high[d] = grid_.axes[d].nodes[cell[d] + 1];
+    }
+    return box;
+  }
+
+  /// Of the cell's lengths, how much the part has; not positive where it has none.
+  static double smallest_share(const Box<Dim>& part, const Box<Dim>& cell) {
+    double share = 1;
+    for (int d = 0; d < Dim; ++d) share = std::min(share, (part.high[d] - part.low[d]) / (cell.high[d] - cell.low[d]));
+    return share;
+  }
+
+  /// The whole pattern in a part of a cell that is a box.
+  void fill(int number, const Box<Dim>& part, const Box<Dim>& cell) {
+    const Eigen::MatrixXd& xi = places_.next();
+    if (fit_.weights.size() == 0 || places_.vary())
+      fit_ = body_.volumes == VolumeRule::consistent ? fit_moments(xi) : equal_weights(xi);
+    note_cell(fit_.degree, smallest_share(part, cell));
+    quadrature_.cells_limited_by_sign += fit_.limited_by_sign ? 1 : 0;
+    points_.begin_cell(number);
+    for (Eigen::Index p = 0; p < xi.cols(); ++p) points_.add(part.position(xi, p), fit_.weights(p) * part.size());
+  }
+
+  /// The part of a cell that lies in the polygon.
+  void fill_polygon(int number, const Box<Dim>& cell) {
+    Polygon local;  // the cell is the unit square
+    for (const auto& corner : body_.polygon)
+      local.push_back({(corner[0] - cell.low[0]) / (cell.high[0] - cell.low[0]),
+                       (corner[1] - cell.low[1]) / (cell.high[1] - cell.low[1])});
+    const Polygon part = clipped_to_unit_square(local);
+    const double share = std::abs(signed_area(part));
+    if (share > 1 - kRounding) return fill(number, cell, cell);
+    if (share < kSliver) return;
+
+    const Eigen::MatrixXd& xi = places_.next();
+    std::vector<Point<Dim>> inside;
+    for (Eigen::Index p = 0; p < xi.cols(); ++p)
+      if (contains(local, {0.5 * (1 + xi(0, p)), 0.5 * (1 + xi(1, p))})) inside.push_back(cell.position(xi, p));
+    if (inside.empty()) {
+      const Point<2> c = centroid(part);
+      const Eigen::Vector2d at(2 * std::clamp(c[0], 0.0, 1.0) - 1, 2 * std::clamp(c[1], 0.0, 1.0) - 1);
+      inside.push_back(cell.position(at, 0));
+    }
+    note_cell(0, extent_of(part));
+    points_.begin_cell(number);
+    for (const auto& x : inside) points_.add(x, share * cell.size() / static_cast<double>(inside.size()));
+  }
+
+  /// The smaller of a part's two extents.
+  static double extent_of(const Polygon& part) {
+    double smallest = 1;
+    for (std::size_t d = 0; d < 2; ++d) {
+      const auto [low, high] = std::ranges::minmax_element(part, {}, [d](const Point<2>& corner) { return corner[d]; });
+      smallest = std::min(smallest, (*high)[d] - (*low)[d]);
+    }
+    return smallest;
+  }
+
+  void note_cell(int degree, double share) {
+    quadrature_.degree = std::min(quadrature_.degree, degree);
+    quadrature_.smallest_share = std::min(quadrature_.smallest_share, share);
+  }
+
+  const BodySpec& body_;
+  const Grid<Dim>& grid_;
+  PointCollector<Dim>& points_;
+  CellPositions<Dim> places_;
+  MomentFit fit_;
+  QuadratureReport quadrature_;
+};
+
+/// The points of a file, sorted by cell; in one dimension by place.
+template <int Dim>
+void take_from_file(const std::filesystem::path& file, const Grid<Dim>& grid, PointCollector<Dim>& points) {
+  std::vector<double> min, max;
+  for (const Axis& axis : grid.axes) {
+    min.push_back(axis.min());
+    max.push_back(axis.max());
+  }
+  std::vector<Problem> problems;
+  const PointFile read = read_point_file(file, min, max, problems);
+  if (!problems.empty()) throw SceneError(std::move(problems));
+
+  const std::size_t count = read.volume.size();
+  std::vector<Point<Dim>> x(count);
+  std::vector<int> cell(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    for (int d = 0; d < Dim; ++d) x[p][d] = read.x[d][p];
+    cell[p] = grid.cell_number(grid.cell_of(x[p]));
+  }
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) {
+    return cell[p] != cell[q] ? cell[p] < cell[q] : Dim == 1 && x[p] < x[q];
+  });
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t p = order[k];
+    if (k == 0 || cell[p] != cell[order[k - 1]]) points.begin_cell(cell[p]);
+    points.add_volume(x[p], read.volume[p]);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state) {
+  PlacedBody<Dim> placed;
+  PointCollector<Dim> points(body.area, density, state);
+  if (body.file.empty()) {
+    placed.quadrature = Filling<Dim>(body, grid, points).run();
+  } else {
+    take_from_file(body.file, grid, points);
+  }
+  placed.points = points.finish();
+  return placed;
+}
+
+template PlacedBody<1> place_body<1>(const BodySpec&, const Grid<1>&, double, StressState);
+template PlacedBody<2> place_body<2>(const BodySpec&, const Grid<2>&, double, StressState);
+
+}  // namespace stillpoint

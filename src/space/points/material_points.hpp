@@ -1,0 +1,72 @@
+// Material points of a body: places, masses and volumes, sorted by the cell that they lie in.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <array>
+#include <vector>
+
+#include "space/grid/grid.hpp"
+
+namespace stillpoint {
+
+/// Structure of arrays; n points, sorted by material and then by cell. A cell that holds points of two materials is
+/// listed once for each.
+template <int Dim>
+struct MaterialPoints {
+  std::array<std::vector<double>, Dim> x;  // places [m], each (n)
+  std::vector<double> volume;              // V_p [m³] (cross-section included), (n)
+  std::vector<double> mass;                // m_p [kg], (n)
+  std::vector<int> cell_begin;             // first point of occupied cell k, and n at its end: (occupied cells + 1)
+  std::vector<int> cell;                   // grid number of occupied cell k
+  std::vector<int> material_begin;         // first point of each material, and n at the end
+  std::vector<int> number;                 // of each point when the body was placed, (n)
+  // Only in a body that moves on from phase to phase:
+  std::array<std::vector<double>, Dim> v;             // velocity [m/s], each (n)
+  std::array<std::vector<double>, Dim * Dim> B_apic;  // Σ_i N_ip v_i ⊗ (x_i − x_p) [m²/s], each (n); APIC alone
+
+  std::size_t size() const { return volume.size(); }
+  std::size_t cells() const { return cell.size(); }
+  /// Points of occupied cell k.
+  std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(cell_begin[k]); }
+  std::size_t end(std::size_t k) const { return static_cast<std::size_t>(cell_begin[k + 1]); }
+  std::size_t materials() const { return material_begin.size() - 1; }
+  /// Number of the material of occupied cell k, by name.
+  int material_of_cell(std::size_t k) const {
+    int m = 0;
+    while (material_begin[static_cast<std::size_t>(m) + 1] <= cell_begin[k]) ++m;
+    return m;
+  }
+  Point<Dim> position(std::size_t p) const {
+    Point<Dim> at;
+    for (int d = 0; d < Dim; ++d) at[d] = x[d][p];
+    return at;
+  }
+};
+
+/// What the volumes of a body can integrate, the worst over its cells.
+struct QuadratureReport {
+  int degree = 0;                 // polynomials up to this power in each coordinate are integrated exactly over areas
+  double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
+  int cells_limited_by_sign = 0;  // cells where a higher degree would need a negative volume
+};
+
+template <int Dim>
+struct PlacedBody {
+  MaterialPoints<Dim> points;
+  QuadratureReport quadrature;
+};
+
+/// The material points of a body, cell by cell.
+/// - A box: in each cell's part of it, points_per_cell of them along each coordinate (uniform, at Gauss-Legendre
+/// places,
+///   seeded random, jittered), with volumes equal or fitted to moments.
+/// - A polygon: cells that lie inside are filled in the same way. A cell that its border cuts keeps those of the cell's
+///   points that lie inside, or else has one at the centroid of the part inside; they share its area equally. Parts
+///   below 1e-6 of a cell are left out.
+/// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError where it is wrong.
+/// A volume is an area times the thickness, in an axisymmetric body times 2π r, all the way round. density [kg/m³].
+template <int Dim>
+PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state);
+
+}  // namespace stillpoint

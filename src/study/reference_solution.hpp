@@ -1,0 +1,43 @@
+// The exact discrete equilibrium of a scene, which relaxation is measured against.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+struct ReferenceSolution {
+  std::vector<double> u;                         // (n)
+  std::shared_ptr<const LagrangianPhase> phase;  // whose mass errors are measured with
+  /// ‖u*‖_M
+  double size() const;
+  /// ‖u − u*‖_M/‖u*‖_M
+  double error(ConstVec u) const;
+};
+
+/// Where it comes from.
+struct Equilibrium {
+  ReferenceSolution state;
+  std::string method;
+  double residual = 0;  // ‖F − R‖/‖F‖
+  bool unique = true;   // whether all ways lead there: no history, no contact
+  std::vector<std::string> notes;
+};
+
+/// By Newton's method in one load step, or where it has no answer by the scene's own relaxation. At stop.time where
+/// that is set. Throws SceneError for a scene of several phases, with loads that have no end, or where nothing is
+/// displaced.
+Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted);
+
+/// The limit of slow loading: equilibrium after equilibrium, in 64 load steps. Nothing, and a note, where there is
+/// none.
+std::optional<ReferenceSolution> slow_ramp(const Scene& scene, std::vector<std::string>& notes);
+
+}  // namespace stillpoint

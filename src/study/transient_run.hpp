@@ -1,0 +1,29 @@
+// Error in time: the points' displacements at stop.time against those of a motion that was followed far more closely.
+#pragma once
+
+#include <stillpoint/compare.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+struct TransientReference {
+  std::vector<double> displacement;  // of the points, (P × dim) [m]
+  std::string what;
+};
+
+/// Of the scene's own damping: by an integrator of order 7 at rtol 1e-11 where the motion is smooth, by leapfrog at a
+/// sixteenth of the critical step where laws remember, walls touch or phases follow each other. load: the scene under
+/// more overrides.
+TransientReference transient_reference(const Scene& scene,
+                                       const std::function<Scene(const std::vector<std::string>&)>& load);
+
+/// Fills the row: one point of its way, at stop.time.
+void run_transient(const Scene& scene, const TransientReference& reference, const std::function<bool()>& interrupted,
+                   ComparedRun& run);
+/// Wall time of the steps of the same run [s].
+double time_transient(const Scene& scene, int threads);
+
+}  // namespace stillpoint

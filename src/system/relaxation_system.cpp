@@ -1,0 +1,124 @@
+#include <stillpoint/relaxation_system.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/parallel_loop.hpp"
+
+namespace stillpoint {
+
+RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors)
+    : system_(system),
+      damping_(damping),
+      linear_(damping.linear()),
+      vectors_(vectors),
+      F_(vectors_.make(system.size())),
+      R_(vectors_.make(system.size())),
+      Q_(vectors_.make(system.size())) {
+  if (damping.uses_last_force()) Q_last_ = vectors_.make(system.size());
+}
+
+// y' = [ v ; M⁻¹ (F − R + D(v, F − R) − c_i v) − c_m v ]  for  C = c_m M + c_i I
+bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
+  const ConstVec u = first_half(y), v = second_half(y);
+  const Vec u_dot = first_half(ydot), v_dot = second_half(ydot);
+  const std::size_t n = u.size();
+
+  if (!out_of_balance(t, u, v_dot)) return false;
+  add_local_damping(v, v_dot);
+  if (linear_.identity != 0) {
+    for_each_index(n, [=, c = linear_.identity](std::size_t i) { v_dot[i] -= c * v[i]; });
+  }
+  system_.mass().solve(v_dot, v_dot);
+  for_each_index(n, [=, c = linear_.mass](std::size_t i) {
+    u_dot[i] = v[i];
+    v_dot[i] -= c * v[i];
+  });
+  return true;
+}
+
+bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
+  ++evaluations_;
+  return balance(t, u, Q);
+}
+
+// Q = F − R − M_fs (a_s + c_m v_s) + contact forces
+bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
+  const Vec F = F_.span(), R = R_.span();
+  system_.external_force(t, F);
+  system_.add_following_force(t, u, F);
+  last_t_ = t;
+  if (!system_.internal_force(t, u, R)) return false;
+  last_out_of_balance(t, Q);
+  return true;
+}
+
+void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
+  const ConstVec F = F_.span(), R = R_.span();
+  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
+  system_.add_support_inertia(t, linear_.mass, Q);
+  system_.add_contact_force(t, linear_, Q);
+}
+
+void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
+  if (!damping_.is_local()) return;
+  if (damping_.uses_last_force()) {
+    damping_.add_local_since(v, force_remembered_ ? Q_last_->span() : Q, Q);  // at first nothing is known of dQ/dt
+  } else {
+    damping_.add_local(v, Q);
+  }
+  system_.hold_contact(Q);
+}
+
+void RelaxationSystem::remember_force() {
+  if (!Q_last_) return;
+  last_out_of_balance(last_t_, Q_last_->span());
+  force_remembered_ = true;
+}
+
+bool RelaxationSystem::accept(double t, Vec y, bool force_is_current) {
+  if (!system_.history_dependent() && !system_.has_contact()) return false;
+  const ConstVec u = first_half(y);
+  if (!force_is_current && !balance(t, u, Q_.span())) throw std::logic_error("an accepted state cannot be evaluated");
+  system_.commit_last();
+  return system_.update_contact(t, u, second_half(y));
+}
+
+double RelaxationSystem::residual(double t, ConstVec u) {
+  if (!balance(t, u, Q_.span())) return std::numeric_limits<double>::quiet_NaN();
+  return last_residual();
+}
+
+double RelaxationSystem::last_residual() {
+  const ConstVec F = F_.span(), R = R_.span();
+  const Vec Q = Q_.span();
+  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
+  system_.add_contact_force(last_t_, linear_, Q);
+  const double unbalanced = norm(Q_), loads = norm(F_);
+  force_scale_ = std::max({force_scale_, loads, loads > 0 ? 0 : system_.reaction_norm()});
+  if (unbalanced == 0) return 0;
+  if (force_scale_ > 0) return unbalanced / (loads > 0 ? loads : force_scale_);
+  internal_scale_ = std::max(internal_scale_, norm(R_));
+  return unbalanced / internal_scale_;
+}
+
+// ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q
+double RelaxationSystem::distance(const Vector& u, double omega_1) {
+  if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
+  system_.mass().solve(Q_.span(), Q_inverse_->span());
+  const double off = std::sqrt(dot(Q_, *Q_inverse_));
+  system_.mass().apply(u.span(), Q_inverse_->span());
+  const double size = std::sqrt(dot(u, *Q_inverse_));
+  return off == 0 ? 0 : off / (omega_1 * omega_1 * size);
+}
+
+double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
+
+double RelaxationSystem::kinetic_energy(const Vector& v) {
+  system_.mass().apply(v.span(), Q_.span());
+  return 0.5 * dot(v, Q_);
+}
+
+}  // namespace stillpoint
