@@ -15,6 +15,7 @@
 //   cg, lbfgs                                                               static iterations: R(u) = F without time
 #pragma once
 
+#include <stillpoint/scene_options.hpp>
 #include <stillpoint/types.hpp>
 
 #include <memory>
@@ -48,18 +49,6 @@ class Damping {
   virtual void add_local_since(ConstVec /*v*/, ConstVec /*Q_last*/, Vec /*Q*/) const {}
   /// The largest |Q + D|/|Q|: by this the critical step sees the stiffness grow (1 + α for Cundall's).
   virtual double stiffness_factor() const { return 1; }
-};
-
-/// Where kinetic damping takes the peak of the kinetic energy to lie, which it sees at half steps only.
-enum class Peak {
-  half_step,  // at the last half step before the fall
-  parabolic   // at the top of the parabola through the last three half steps
-};
-
-/// The Rayleigh quotient of the motion that adaptive damping takes for ω₁².
-enum class Quotient {
-  diagonal,  // uᵀSu/uᵀMu,  S_ii = ΔR_i/(h v_i)          [Underwood 1983]
-  global     // vᵀΔR/(h vᵀMv)
 };
 
 /// What an iteration carries over from one phase to the next, where its unknowns are others.

@@ -22,6 +22,7 @@
 #include <stillpoint/drucker_prager_cone.hpp>
 #include <stillpoint/dual.hpp>
 #include <stillpoint/plane_tensor.hpp>
+#include <stillpoint/scene.hpp>
 
 #include <limits>
 

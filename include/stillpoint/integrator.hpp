@@ -17,15 +17,6 @@
 
 namespace stillpoint {
 
-/// How leapfrog and symplectic Euler treat C v in a step from v⁻ to v⁺.
-enum class DampingTreatment {
-  automatic,  // averaged for leapfrog, implicit for symplectic-euler
-  averaged,   // C (v⁻ + v⁺)/2      (leapfrog)
-  lagged,     // C v⁻
-  implicit,   // C v⁺               (symplectic-euler)
-  exact       // v' = M⁻¹Q − c v solved exactly for a frozen Q (symplectic-euler; C and M diagonal together)
-};
-
 struct IntegratorOptions {
   std::string method = "leapfrog";
   DampingTreatment treatment = DampingTreatment::automatic;

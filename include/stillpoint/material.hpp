@@ -5,7 +5,7 @@
 // allocation. A trial that cannot be evaluated (det f ≤ 0) gives NaN.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/scene_options.hpp>
 
 #include <array>
 #include <concepts>

@@ -5,7 +5,8 @@
 #pragma once
 
 #include <stillpoint/expression.hpp>
-#include <stillpoint/integrator.hpp>
+#include <stillpoint/scene_error.hpp>
+#include <stillpoint/scene_options.hpp>
 
 #include <filesystem>
 #include <map>
@@ -16,46 +17,6 @@
 #include <vector>
 
 namespace stillpoint {
-
-enum class BasisKind { linear, quadratic, cubic, hermite };
-/// What happens across the coordinates that are computed: the first two in one dimension, the others in two. The
-/// coordinates of an axisymmetric scene are the radius r and the axis z.
-enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric };
-/// As scenes write it: "plane-strain".
-std::string_view to_string(StressState state);
-enum class Placement { uniform, gauss, random };
-enum class VolumeRule { equal, consistent };
-enum class MassKind { consistent, lumped };
-enum class MassScaling { uniform, gershgorin };
-enum class Transfer { flip, pic, apic, xpic };
-/// A face of a box, named for a picture with x to the right and y upwards.
-enum class Face { left, right, bottom, top };
-constexpr int axis_of(Face face) { return face == Face::left || face == Face::right ? 0 : 1; }
-constexpr bool is_upper(Face face) { return face == Face::right || face == Face::top; }
-
-/// Where something stands: a file with line and column (1-based), or an override, "--set key=value", with line 0.
-struct Location {
-  std::string file;
-  int line = 0, column = 0;
-};
-/// "file:line:column", or the file alone where there is no line.
-std::string to_string(const Location& where);
-
-/// One thing that is wrong with a scene.
-struct Problem {
-  Location where;
-  std::string message;  // what, and what was expected
-};
-
-/// All that is wrong with a scene, found at once. what() has a line for each problem.
-class SceneError : public std::runtime_error {
- public:
-  explicit SceneError(std::vector<Problem> problems);
-  const std::vector<Problem>& problems() const { return problems_; }
-
- private:
-  std::vector<Problem> problems_;
-};
 
 struct GridSpec {                // [grid]
   std::vector<double> min, max;  // [m]
@@ -107,6 +68,11 @@ struct TractionSpec {  // [[traction]]: a load on a face of the body's box
   Face face = Face::right;
   std::vector<Expression> value;       // of t, per undeformed area [Pa]; it keeps its direction
   std::optional<Expression> pressure;  // of t, per deformed area [Pa], instead of value: it follows the face's normal
+};
+
+struct SolveSpec {                    // [solve]
+  std::string method = "relaxation";  // or a static solver: "newton", "newton-cg", "cg", "lbfgs"
+  bool is_static() const { return method != "relaxation"; }
 };
 
 struct DampingSpec {  // [damping]
@@ -205,6 +171,7 @@ struct Scene {
   std::optional<GeostaticSpec> geostatic;
   std::vector<Expression> exact_u;         // of x, y, z, t [m]; empty: not known
   std::optional<Expression> exact_stress;  // of x, y, z, t [Pa]
+  SolveSpec solve;
   DampingSpec damping;
   IntegratorSpec integrator;
   StopSpec stop;
@@ -217,11 +184,11 @@ struct Scene {
   Location location(const std::string& key) const;
 };
 
+/// Whether a load, a support or a wall of the scene depends on t.
+bool loads_vary(const Scene& scene);
+
 /// Reads, checks and completes a scene; overrides are "dotted.key=value" with a TOML value (a bare word is a string).
 /// Throws SceneError with every problem.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
-
-/// The candidate with the smallest edit distance to word, for "did you mean"; empty where none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace stillpoint

@@ -1,7 +1,6 @@
 // stillpoint list: what there is to choose from.
 #include <stillpoint/damping.hpp>
 #include <stillpoint/integrator.hpp>
-#include <stillpoint/material_laws.hpp>
 
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "command/commands.hpp"
+#include "space/materials/material_laws.hpp"
 
 namespace stillpoint::command {
 namespace {

@@ -1,5 +1,4 @@
 #include <stillpoint/expression.hpp>
-#include <stillpoint/scene.hpp>
 
 #include <algorithm>
 #include <array>

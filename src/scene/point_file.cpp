@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "scene/input/toml_reader.hpp"
 
 namespace stillpoint {
 namespace {

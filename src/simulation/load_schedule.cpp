@@ -5,17 +5,6 @@
 
 namespace stillpoint {
 
-bool loads_vary(const Scene& scene) {
-  const auto varies = [](const Expression& formula) { return formula.uses('t'); };
-  const auto any = [&](const std::vector<Expression>& formulas) { return std::ranges::any_of(formulas, varies); };
-  const auto pressure_varies = [&](const TractionSpec& f) { return f.pressure && varies(*f.pressure); };
-  return any(scene.body_force) || std::ranges::any_of(scene.tractions, pressure_varies) ||
-         std::ranges::any_of(scene.walls, [&](const WallSpec& w) { return varies(w.motion); }) ||
-         std::ranges::any_of(scene.forces, [&](const auto& f) { return any(f.value); }) ||
-         std::ranges::any_of(scene.tractions, [&](const auto& f) { return any(f.value); }) ||
-         std::ranges::any_of(scene.supports, [&](const auto& s) { return varies(s.motion); });
-}
-
 std::vector<double> loads_at(const SemiDiscrete& system, double t) {
   const std::vector<double> rest(system.size(), 0.0);
   std::vector<double> F(system.size());

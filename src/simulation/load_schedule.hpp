@@ -8,9 +8,6 @@
 
 namespace stillpoint {
 
-/// Whether a load or a support of the scene depends on t.
-bool loads_vary(const Scene& scene);
-
 /// F(t) on the undeformed body, (n) [N].
 std::vector<double> loads_at(const SemiDiscrete& system, double t);
 /// Q(t) = F(t) − R(u = 0, t): loads and the pull of displaced supports on the undeformed body, (n) [N].

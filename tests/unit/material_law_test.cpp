@@ -1,7 +1,6 @@
 #include <stillpoint/drucker_prager.hpp>
 #include <stillpoint/hencky.hpp>
 #include <stillpoint/linear_elastic.hpp>
-#include <stillpoint/material_laws.hpp>
 #include <stillpoint/neo_hookean.hpp>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "law_checks.hpp"
+#include "space/materials/material_laws.hpp"
 
 using namespace stillpoint;
 using enum StressState;

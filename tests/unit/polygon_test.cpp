@@ -56,7 +56,7 @@ TEST_CASE("squares that tile the plane share out a polygon to rounding") {
   for (const Polygon& polygon : {kHorseshoe, star, reversed(star)}) {
     for (const double h : {0.31, 0.5, 1.0, 1.7}) {
       double area = 0;
-      Point<2> moment{0, 0};
+      PlanePoint moment{0, 0};
       for (double x = 0; x < 6; x += h) {
         for (double y = 0; y < 6; y += h) {
           const Polygon part = clipped_to_unit_square(seen_from(polygon, x, y, h));

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/text.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

@@ -1,3 +1,4 @@
+#include <stillpoint/damping.hpp>
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>

@@ -1,6 +1,4 @@
 // The bodies of a scene and what they are made of.
-#include <stillpoint/material_laws.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "scene/input/schema_parts.hpp"
+#include "space/materials/material_laws.hpp"
 
 namespace stillpoint {
 namespace {

@@ -9,19 +9,6 @@
 
 namespace stillpoint {
 
-std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates) {
-  const std::string said = fmt::format("{} {}", what, in_quotes(word));
-  if (const std::string meant = nearest(word, candidates); !meant.empty())
-    return fmt::format("{}; did you mean '{}'?", said, meant);
-  constexpr std::size_t most = 20;
-  const auto shown = static_cast<std::ptrdiff_t>(std::min(most, candidates.size()));
-  return candidates.empty()
-             ? said
-             : fmt::format("{}; expected one of {}{}", said,
-                           fmt::join(candidates.begin(), candidates.begin() + shown, ", "),
-                           candidates.size() > most ? fmt::format(" … ({} in all)", candidates.size()) : "");
-}
-
 TableReader::TableReader(const toml::table* table, std::string path, Location where, Reading& reading)
     : table_(table), path_(std::move(path)), where_(std::move(where)), reading_(reading) {}
 

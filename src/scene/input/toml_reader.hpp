@@ -95,7 +95,4 @@ class TableReader {
   std::vector<std::string> asked_;
 };
 
-/// "unknown value 'x'; did you mean 'y'?", or with the values on offer where none is near.
-std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates);
-
 }  // namespace stillpoint

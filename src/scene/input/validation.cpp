@@ -1,5 +1,8 @@
 #include "scene/input/validation.hpp"
 
+#include <stillpoint/damping.hpp>
+#include <stillpoint/integrator.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,7 +11,6 @@
 
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
-#include "simulation/load_schedule.hpp"
 
 namespace stillpoint {
 namespace {

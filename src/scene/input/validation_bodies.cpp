@@ -1,6 +1,4 @@
 // Bodies: where they lie in the grid, how many points they have, what they are made of.
-#include <stillpoint/material_laws.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/point_file.hpp"
+#include "space/materials/material_laws.hpp"
 
 namespace stillpoint {
 namespace {

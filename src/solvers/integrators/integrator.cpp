@@ -1,11 +1,11 @@
 #include <stillpoint/integrator.hpp>
-#include <stillpoint/scene.hpp>
 
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "solvers/integrators/arkode_erk.hpp"
 #include "solvers/integrators/gsl_integrator.hpp"
 #include "solvers/integrators/staggered_integrators.hpp"

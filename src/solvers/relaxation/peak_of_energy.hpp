@@ -1,7 +1,7 @@
 // The peak of a kinetic energy that is known at half steps: see kinetic.cpp for the formulas.
 #pragma once
 
-#include <stillpoint/damping.hpp>
+#include <stillpoint/scene_options.hpp>
 
 #include <algorithm>
 

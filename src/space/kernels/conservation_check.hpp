@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/parallel_loop.hpp"
-#include "space/phase/lagrangian_phase.hpp"
+#include "space/points/material_points.hpp"
 
 namespace stillpoint {
 

@@ -8,11 +8,11 @@
 #include <concepts>
 #include <vector>
 
+#include "base/memory_report.hpp"
 #include "base/parallel_loop.hpp"
 #include "space/grid/basis.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/materials/deformation.hpp"
-#include "space/phase/lagrangian_phase.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
@@ -139,7 +139,7 @@ class PointWeights {
 
  private:
   void locate_in_cell(const Grid<dim>& grid, const std::array<int, dim>& at, const MaterialPoints<dim>& points,
-                     std::size_t k) {
+                      std::size_t k) {
     Cell& cell = cell_[k];
     for (std::size_t d = 0; d < dim; ++d) {
       const std::vector<double>& lines = grid.axes[d].nodes;

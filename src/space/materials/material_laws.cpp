@@ -1,5 +1,6 @@
+#include "space/materials/material_laws.hpp"
+
 #include <stillpoint/drucker_prager_cone.hpp>
-#include <stillpoint/material_laws.hpp>
 
 #include <limits>
 
@@ -45,7 +46,9 @@ const std::vector<LawInfo>& material_laws() {
        "Hooke's law",
        all,
        {youngs_modulus, poissons_ratio, density},
-       {}},
+       {},
+       /*history_dependent=*/false,
+       /*finite_strain=*/false},
       {"neo-hookean",
        "W = mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2, finite strain",
        "Bonet and Wood 2008, eq. 6.27",
@@ -69,7 +72,8 @@ const std::vector<LawInfo>& material_laws() {
         same_as("phi", optional("phi_residual", "degrees", "phi after softening", 90, 0)),
         same_as("c", optional("c_residual", "Pa", "cohesion after softening", infinity, 0)),
         optional("softening_strain", "1", "plastic strain of full softening; 0: none", infinity, 0)},
-       {{"cone", "match to Mohr-Coulomb", cone_names(), "plane-strain"}}},
+       {{"cone", "match to Mohr-Coulomb", cone_names(), "plane-strain"}},
+       /*history_dependent=*/true},
   };
   return laws;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <stillpoint/material.hpp>
+#include <stillpoint/scene.hpp>
+#include <stillpoint/types.hpp>
 
 #include <array>
 #include <memory>
@@ -9,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory_report.hpp"
 #include "base/unroll.hpp"
 #include "space/materials/deformation.hpp"
-#include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
 

@@ -14,15 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory_report.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
-
-/// An array that a phase keeps for its points.
-struct PointArray {
-  std::string name;
-  double bytes_per_point;
-};
 
 /// What a rigid wall feels from the body: along its outward normal, and along the face's coordinate [N].
 struct WallReaction {

@@ -1,0 +1,45 @@
+// The options of a scene that are words: an enumeration for each.
+#pragma once
+
+#include <string_view>
+
+namespace stillpoint {
+
+enum class BasisKind { linear, quadratic, cubic, hermite };
+/// What happens across the coordinates that are computed: the first two in one dimension, the others in two. The
+/// coordinates of an axisymmetric scene are the radius r and the axis z.
+enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric };
+/// As scenes write it: "plane-strain".
+std::string_view to_string(StressState state);
+enum class Placement { uniform, gauss, random };
+enum class VolumeRule { equal, consistent };
+enum class MassKind { consistent, lumped };
+enum class MassScaling { uniform, gershgorin };
+enum class Transfer { flip, pic, apic, xpic };
+/// A face of a box, named for a picture with x to the right and y upwards.
+enum class Face { left, right, bottom, top };
+constexpr int axis_of(Face face) { return face == Face::left || face == Face::right ? 0 : 1; }
+constexpr bool is_upper(Face face) { return face == Face::right || face == Face::top; }
+
+/// Where kinetic damping takes the peak of the kinetic energy to lie, which it sees at half steps only.
+enum class Peak {
+  half_step,  // at the last half step before the fall
+  parabolic   // at the top of the parabola through the last three half steps
+};
+
+/// The Rayleigh quotient of the motion that adaptive damping takes for ω₁².
+enum class Quotient {
+  diagonal,  // uᵀSu/uᵀMu,  S_ii = ΔR_i/(h v_i)          [Underwood 1983]
+  global     // vᵀΔR/(h vᵀMv)
+};
+
+/// How leapfrog and symplectic Euler treat C v in a step from v⁻ to v⁺.
+enum class DampingTreatment {
+  automatic,  // averaged for leapfrog, implicit for symplectic-euler
+  averaged,   // C (v⁻ + v⁺)/2      (leapfrog)
+  lagged,     // C v⁻
+  implicit,   // C v⁺               (symplectic-euler)
+  exact       // v' = M⁻¹Q − c v solved exactly for a frozen Q (symplectic-euler; C and M diagonal together)
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,90 @@
+#include "base/text.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace stillpoint {
+namespace {
+
+std::string lower_case(std::string word) {
+  for (char& letter : word)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return word;
+}
+
+/// The number of letters to insert, delete, change or swap with their neighbour that make a into b
+/// (restricted Damerau–Levenshtein distance).
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  std::iota(above.begin(), above.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, above);
+    std::swap(above, row);
+  }
+  return above[b.size()];
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view word) {
+  constexpr std::size_t longest = 80;
+  const bool cut = word.size() > longest;
+  if (cut) {
+    word = word.substr(0, longest);
+    // Never in the middle of a UTF-8 character.
+    while (!word.empty() && (static_cast<unsigned char>(word.back()) & 0xC0) == 0x80) word.remove_suffix(1);
+    if (!word.empty() && static_cast<unsigned char>(word.back()) >= 0xC0) word.remove_suffix(1);
+  }
+  std::string result = "'";
+  for (const char letter : word) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (code < 0x20 || code == 0x7f) {
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\x%02x", static_cast<unsigned>(code));
+      result += escape;
+    } else {
+      result += letter;
+    }
+  }
+  return result + (cut ? "…'" : "'");
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 100;  // longer words are no slips of the pen
+  if (word.size() > longest) return {};
+  // A third of the letters may differ, but never all of them.
+  std::size_t best = word.size() < 2 ? 1 : std::min(word.size(), std::max<std::size_t>(2, word.size() / 3 + 1));
+  std::string result;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > longest) continue;
+    const std::size_t distance = edit_distance(lower_case(word), lower_case(candidate));
+    if (distance < best) {
+      best = distance;
+      result = candidate;
+    }
+  }
+  return result;
+}
+
+std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string said = fmt::format("{} {}", what, in_quotes(word));
+  if (const std::string meant = nearest(word, candidates); !meant.empty())
+    return fmt::format("{}; did you mean '{}'?", said, meant);
+  constexpr std::size_t most = 20;
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(most, candidates.size()));
+  return candidates.empty()
+             ? said
+             : fmt::format("{}; expected one of {}{}", said,
+                           fmt::join(candidates.begin(), candidates.begin() + shown, ", "),
+                           candidates.size() > most ? fmt::format(" … ({} in all)", candidates.size()) : "");
+}
+
+}  // namespace stillpoint
