@@ -43,6 +43,8 @@ struct SimulationOptions {
   bool stops = true;
   std::function<bool()> interrupted{};              // asked after every step; true ends the run in good order
   std::function<void(const Progress&)> progress{};  // told a few times a second
+  /// Told before a phase ends (false) and when the next has begun (true); the Simulation shows that state.
+  std::function<void(bool begun)> at_phase_change{};
 };
 
 class Simulation {
@@ -83,6 +85,7 @@ class Simulation {
   /// What it is made of, for those who look inside.
   const Model& model() const;
   LagrangianPhase& phase();
+  const LagrangianPhase& phase() const;
   RelaxationSystem& system();
   const Integrator& integrator() const;
   /// The error bound ‖u − u*‖/‖u‖ at present, after residual(); empty if there is none.

@@ -199,6 +199,7 @@ class Simulation::Impl {
   void next_phase() {
     motion_->finish(t_);
     if (recorder_) recorder_->end_phase(t_, *motion_);
+    tell_phase_change(false);
     try {
       const std::vector<double> v0 = model_.phase->begin_next_phase(t_, motion_->u(), motion_->v());
       earlier_steps_ = steps();
@@ -209,10 +210,14 @@ class Simulation::Impl {
       begin_phase(std::vector<double>(v0.size(), 0.0), v0);
       if (recorder_) recorder_->begin_phase(*motion_);
       ++phases_;
+      tell_phase_change(true);
     } catch (const PointLost& lost) {
       status_ = RunStatus::failed;
       reason_ = lost.what();
     }
+  }
+  void tell_phase_change(bool begun) const {
+    if (options_.at_phase_change) options_.at_phase_change(begun);
   }
   // A cell that is about to turn inside out is good again in the next phase.
   bool try_next_phase() {
@@ -327,6 +332,7 @@ Summary Simulation::summary() {
 }
 const Model& Simulation::model() const { return impl_->model_; }
 LagrangianPhase& Simulation::phase() { return *impl_->model_.phase; }
+const LagrangianPhase& Simulation::phase() const { return *impl_->model_.phase; }
 RelaxationSystem& Simulation::system() { return impl_->motion_->system; }
 const Integrator& Simulation::integrator() const { return *impl_->motion_->integrator; }
 std::optional<double> Simulation::distance() { return impl_->distance(); }

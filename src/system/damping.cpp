@@ -112,7 +112,8 @@ const std::vector<Row>& rows() {
       {{.name = "identity",
         .equation = "M a = Q - c v",
         .source = "Więckowski 2011, section 3.1: C = c I",
-        .keys = {"c"}},
+        .keys = {"c"},
+        .is_identity = true},
        [](double c, double) -> std::unique_ptr<Damping> {
          require_c("identity", c);
          return std::make_unique<Identity>(c);
