@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "scene/input/toml_reader.hpp"
 #include "scene/throw_scene_error.hpp"
 
 namespace stillpoint {

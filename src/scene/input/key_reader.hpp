@@ -162,7 +162,7 @@ std::vector<KeyInfo> infos_of(const std::vector<Key<Spec>>& keys) {
 /// info: what is told of the table. access: the part of a Scene that it describes: a Spec, an optional of one, or an
 /// array, of which each [[table]] is an entry.
 template <class Spec, class Access>
-TableInfo table(TableInfo info, Access access, std::type_identity_t<std::vector<Key<Spec>>> keys) {
+TableInfo table(TableInfo info, Access access, std::vector<Key<Spec>> keys) {
   info.keys = infos_of(keys);
   info.read = [access, keys = std::move(keys)](const TableInfo& self, const toml::table& root, Scene& scene,
                                                Reading& reading) {

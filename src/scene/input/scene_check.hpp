@@ -26,7 +26,10 @@ class SceneCheck {
   void add(const std::string& key, const std::string& message) { reading_.problem(scene_.location(key), key, message); }
   bool written(const std::string& key) const { return scene_.where.contains(key); }
   /// Not written, or written and in order.
-  bool sound(const std::string& key) const { return !reading_.wrong.contains(key); }
+  bool sound(const std::string& key) const {
+    const auto entry = reading_.wrong.lower_bound(key + "[");
+    return !reading_.wrong.contains(key) && (entry == reading_.wrong.end() || !entry->starts_with(key + "["));
+  }
   /// Reports each of these keys of a table that is written.
   void refuse(const std::string& table, std::initializer_list<const char*> keys, const std::string& why) {
     for (const std::string key : keys)
