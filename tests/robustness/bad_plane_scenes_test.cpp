@@ -62,8 +62,6 @@ const std::vector<BadScene> kBadGridsAndBodies = {
     {"flat", "max = [8, 3]", "polygon = [[0, 0], [8, 2], [4, 1]]", "11:11", "body.polygon: has no area"},
     {"box and polygon", "max = [8, 3]", "max = [8, 3]\npolygon = [[0, 0], [8, 0], [0, 3]]", "11:7",
      "body.max: does not go with polygon"},
-    {"a static solver and a wall", "[mass]", "[solve]\nmethod = \"newton\"\n[mass]", "23:10",
-     "solve.method: 'newton' is a static solver, in which no wall can open or close; take \"relaxation\""},
     {"no file", "max = [8, 3]\nmaterial = \"sand\"\npoints_per_cell = 4", "material = \"sand\"\nfile = \"none.csv\"",
      "12:8", "none.csv' there is no such file"},
     {"no law like it", "\"drucker-prager\"", "\"drucker-praguer\"", "15:7", "did you mean 'drucker-prager'?"},

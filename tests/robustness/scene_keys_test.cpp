@@ -48,7 +48,7 @@ std::string scene_with(const TableInfo& table, const std::string& entry, int dim
   std::string path(table.path);
   if (table.repeat == Repeat::named) path = path.substr(0, path.find('<')) + "a";
   std::string text = top && entry.starts_with("dim") ? "" : fmt::format("dim = {}\n", dim);
-  if (!top) text += fmt::format(table.repeat == Repeat::array ? "[[{}]]\n" : "[{}]\n", path);
+  if (!top) text += (table.repeat == Repeat::array ? "[[" + path + "]]" : "[" + path + "]") + "\n";
   if (!table.law.empty()) text += fmt::format("law = \"{}\"\n", table.law);
   return text + entry + "\n";
 }
@@ -104,7 +104,8 @@ TEST_CASE("the reader takes every key of the table, with an example and with its
         if (std::ranges::find(words, key.fallback) != words.end()) values.push_back('"' + key.fallback + '"');
         double number = 0;
         const bool one = key.shape == Shape::one && (key.kind == Kind::number || key.kind == Kind::whole);
-        if (one && std::istringstream(key.fallback) >> number) values.push_back(key.fallback);
+        std::istringstream fallback(key.fallback);
+        if (one && fallback >> number && fallback.eof()) values.push_back(key.fallback);
         for (const std::string& value : values) {
           const std::string text = scene_with(table, fmt::format("{} = {}", key.name, value), dim);
           const Reading reading = read(text);
