@@ -1,6 +1,7 @@
 // The rows of the table of keys. A row's default is that of the member of Scene, if none is told here.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scene/input/constants.hpp"
 #include "scene/input/key_reader.hpp"
@@ -24,14 +25,6 @@ std::vector<Word> names_of(const auto& rows) {
   return words;
 }
 
-TableInfo top() {
-  const std::vector rows = {
-      key("title", &Scene::title, "of the scene", {.may_be_empty = true}),
-      key("dim", &Scene::dim, "1 or 2 dimensions", {.range = from(1, 3)}),
-  };
-  return table({"", "at the top of the file"}, std::identity(), rows);
-}
-
 TableInfo constants() {
   TableInfo info{"constants", "numbers, or formulas of each other, for use in every formula"};
   info.keys = {{.name = "<name>", .help = "a constant", .kind = Kind::number}};
@@ -40,19 +33,6 @@ TableInfo constants() {
     scene.constants = reading.constants;
   };
   return info;
-}
-
-TableInfo grid() {
-  constexpr double most = 1e7;  // a larger count is a slip, not a grid
-  const std::vector rows = {
-      key("min", &GridSpec::min, "lower corner", {.unit = "m", .required = true}),
-      key("max", &GridSpec::max, "upper corner", {.unit = "m", .required = true}),
-      key("cells", &GridSpec::cells, "along each coordinate", {.range = from(1, most), .required = true}),
-      key("basis", &GridSpec::basis, "of the nodes", {.words = {"linear", "quadratic", "cubic", "hermite"}}),
-      key("follow", &GridSpec::follow, "the wall with which its face of the grid moves from phase to phase"),
-  };
-  const auto why = "a scene has a background grid with min, max and cells";
-  return table({"grid", "the background grid", Repeat::once, why}, &Scene::grid, rows);
 }
 
 /// Points along each coordinate of a cell: an array, or a plain number, which in two dimensions counts the cell's
@@ -74,31 +54,6 @@ void read_points_per_cell(BodySpec& body, const Value& value, const KeyInfo& key
     value.problem(
         fmt::format("must be a square (4 is 2 × 2 points in a cell), or an array [along x, along y]; not {}", *count));
   }
-}
-
-TableInfo bodies() {
-  using B = BodySpec;
-  std::vector rows = {
-      key("min", &B::min, "lower corner of a box", {.unit = "m", .fallback = "that of the grid"}),
-      key("max", &B::max, "upper corner of a box", {.unit = "m", .fallback = "that of the grid"}),
-      key("polygon", &B::polygon, "corners in order, not a box", {.unit = "m", .list = true, .dims = kPlane}),
-      key("file", &B::file, "CSV of points, not a box: columns x, y, volume"),
-      key("material", &B::material, "the name of a [material.<name>]", {.required = true}),
-      key("state", &B::state, "of stress and strain, the same in all bodies",
-          {.words = states(), .fallback = "uniaxial-stress or plane-strain"}),
-      key("area", &B::area, "cross-section", {.range = kPositive, .unit = "m2", .dims = kLine}),
-      key("thickness", &B::area, "not of axisymmetric bodies", {.range = kPositive, .unit = "m", .dims = kPlane}),
-      key("points_per_cell", &B::points_per_cell, "along each coordinate; a plain number counts all in a cell",
-          {.range = from(1, 10'000), .fallback = "2"}),
-      key("placement", &B::placement, "of the points in a cell", {.words = {"uniform", "gauss", "random"}}),
-      key("jitter", &B::jitter, "each point is moved by up to this share of half its spacing", {.range = kShare}),
-      key("volumes", &B::volumes, "equal, or fitted to the moments of each cell", {.words = {"equal", "consistent"}}),
-      key("seed", &B::seed, "of random points and of jitter", {.range = kNotNegative}),
-  };
-  std::ranges::find(rows, "points_per_cell", [](const Key<B>& row) { return row.info.name; })->read =
-      read_points_per_cell;
-  const auto help = "material points in a box, in a polygon or from a file; [body], or several [[body]]";
-  return table({"body", help, Repeat::once_or_array, "a scene has a body with a material"}, &Scene::bodies, rows);
 }
 
 /// The keys of a material: its law's.
@@ -138,7 +93,8 @@ void set_defaults(MaterialSpec& material, const LawInfo& law, const FoundTable& 
 
 /// A table of all materials, which reads them, and one for each law, which tells its keys.
 std::vector<TableInfo> materials(const Catalogue& catalogue) {
-  const auto law_key = key("law", &MaterialSpec::law, "`stillpoint list materials` has their equations",
+  const auto law_key =
+      key_of<MaterialSpec>("law", &MaterialSpec::law, "`stillpoint list materials` has their equations",
                            {.words = names_of(catalogue.laws), .required = true});
   std::vector<TableInfo> tables = {
       {.path = "material.<name>", .help = "what bodies are made of", .repeat = Repeat::named, .keys = {law_key.info}}};
@@ -172,224 +128,212 @@ std::vector<TableInfo> materials(const Catalogue& catalogue) {
   return tables;
 }
 
-TableInfo mass() {
-  const std::vector rows = {
-      key("kind", &MassSpec::kind, "of the mass matrix; lumped by default if dim = 2",
-          {.words = {"consistent", "lumped"}}),
-      key("scaling", &MassSpec::factor, "of the inertia, not of the weight; or each node by the bound of its stiffness",
-          {.range = kPositive, .words = {"gershgorin"}},
-          [](MassSpec& mass) { mass.scaling = MassScaling::gershgorin; }),
-  };
-  return table({"mass", "the mass matrix"}, &Scene::mass, rows);
-}
-
-TableInfo phase() {
-  using P = PhaseSpec;
-  const std::vector rows = {
-      key("max_motion", &P::max_motion, "share of a cell that some point has moved; 0: after every step",
-          {.range = kShare, .words = {"none"}, .fallback = "0.1 if a law has a history, otherwise none"}),
-      key("max_strain", &P::max_strain, "or a displacement gradient since the phase began", {.range = kPositive}),
-      key("transfer", &P::transfer, "of velocities from grid to points", {.words = {"flip", "pic", "apic", "xpic"}}),
-      key("flip_share", &P::flip_share, "of flip: 1 takes increments of the nodal velocity, 0 the velocity itself",
-          {.range = from(0, 1)}),
-      key("xpic_order", &P::xpic_order, "of xpic", {.range = from(1, 20)}),
-  };
-  return table({"phase", "when a phase ends: the points move on and the grid starts again"}, &Scene::phase, rows);
-}
-
-TableInfo supports() {
-  using S = SupportSpec;
-  const std::vector rows = {
-      key("at", &S::at, "position; or face", {.unit = "m"}),
-      key("face", &S::face, "of the grid; or at", {.words = kFaces}),
-      key("component", &S::component, "what is held at a position", {.words = {"x", {"y", kPlane}}}),
-      key("kind", &S::roller, "on a face: a roller holds the normal component only", {.words = {"fixed", "roller"}}),
-      key("u", &S::motion, "displacement; on a face along its normal", {.unit = "m", .variables = "t"}),
-  };
-  return table({"support", "a prescribed displacement", Repeat::array}, &Scene::supports, rows);
-}
-
-TableInfo walls() {
-  using W = WallSpec;
-  const std::vector rows = {
-      key("name", &W::name, "for grid.follow and history.csv", {.required = true}),
-      key("face", &W::face, "of the grid", {.words = kFaces, .required = true}),
-      key("motion", &W::motion, "displacement along the face's coordinate", {.unit = "m", .variables = "t"}),
-      key("friction", &W::friction, "Coulomb's coefficient; rough: no slip",
-          {.range = kNotNegative, .words = {"rough"}}, [](W& wall) { wall.friction = kInfinity; }),
-  };
-  return table({"wall", "a rigid wall that pushes and never holds back", Repeat::array}, &Scene::walls, rows);
-}
-
-TableInfo forces() {
-  const std::vector rows = {
-      key("at", &PointForceSpec::at, "position", {.unit = "m", .required = true}),
-      key("value", &PointForceSpec::value, "components", {.unit = "N", .variables = "t", .required = true}),
-  };
-  return table({"force", "a force at a position", Repeat::array}, &Scene::forces, rows);
-}
-
-TableInfo tractions() {
-  using T = TractionSpec;
-  const std::vector rows = {
-      key("face", &T::face, "of the body's box", {.words = kFaces, .required = true}),
-      key("value", &T::value, "per undeformed area; keeps its direction", {.unit = "Pa", .variables = "t"}),
-      key("pressure", &T::pressure, "or: per deformed area, along the normal", {.unit = "Pa", .variables = "t"}),
-  };
-  return table({"traction", "a load on a face of a body that is one box", Repeat::array}, &Scene::tractions, rows);
-}
-
-TableInfo body_force() {
-  const std::vector rows = {
-      key("value", &Scene::body_force, "per mass", {.unit = "m/s2", .variables = "xt", .required = true}),
-  };
-  return table({"body_force", "a load on all bodies"}, std::identity(), rows);
-}
-
-TableInfo initial() {
-  const std::vector rows = {
-      key("u", &Scene::initial_u, "displacement", {.unit = "m", .variables = "x", .fallback = "0"}),
-      key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"}),
-  };
-  return table({"initial", "the state at t = 0"}, std::identity(), rows);
-}
-
-TableInfo geostatic() {
-  using G = GeostaticSpec;
-  const std::vector rows = {
-      key("K0", &G::K0, "coefficient of earth pressure at rest", {.range = kPositive, .required = true}),
-      key("surface", &G::surface, "height of the surface", {.unit = "m", .required = true}),
-  };
-  const auto help =
-      "stress under a level surface: sigma_yy = -rho b_y (surface - y), sigma_xx = sigma_zz = K0 sigma_yy";
-  return table({"initial.geostatic", help}, &Scene::geostatic, rows);
-}
-
-TableInfo exact() {
-  const std::vector rows = {
-      key("u", &Scene::exact_u, "displacement", {.unit = "m", .variables = "xt"}),
-      key("stress", &Scene::exact_stress, "beside u, with dim = 1", {.unit = "Pa", .variables = "xt"}),
-  };
-  return table({"exact", "the exact solution, if it is known: the run reports its error"}, std::identity(), rows);
-}
-
 /// What else is to be said of a word that stands in the wrong table.
 std::string hint(const auto* row, const char* is, const char* key) {
   return row ? fmt::format("'{}' is {}; write {} = \"{}\"", row->name, is, key, row->name) : "";
 }
 
-TableInfo solve(const Catalogue& catalogue) {
+void add_boundary(Tables& tables) {
+  tables.add({"support", "a prescribed displacement", Repeat::array}, &Scene::supports)
+      .key("at", &SupportSpec::at, "position; or face", {.unit = "m"})
+      .key("face", &SupportSpec::face, "of the grid; or at", {.words = kFaces})
+      .key("component", &SupportSpec::component, "what is held at a position", {.words = {"x", {"y", kPlane}}})
+      .key("kind", &SupportSpec::roller, "on a face: a roller holds the normal component only",
+           {.words = {"fixed", "roller"}})
+      .key("u", &SupportSpec::motion, "displacement; on a face along its normal", {.unit = "m", .variables = "t"});
+
+  tables.add({"wall", "a rigid wall that pushes and never holds back", Repeat::array}, &Scene::walls)
+      .key("name", &WallSpec::name, "for grid.follow and history.csv", {.required = true})
+      .key("face", &WallSpec::face, "of the grid", {.words = kFaces, .required = true})
+      .key("motion", &WallSpec::motion, "displacement along the face's coordinate", {.unit = "m", .variables = "t"})
+      .key("friction", &WallSpec::friction, "Coulomb's coefficient; rough: no slip",
+           {.range = kNotNegative, .words = {"rough"}}, [](WallSpec& wall) { wall.friction = kInfinity; });
+
+  tables.add({"force", "a force at a position", Repeat::array}, &Scene::forces)
+      .key("at", &PointForceSpec::at, "position", {.unit = "m", .required = true})
+      .key("value", &PointForceSpec::value, "components", {.unit = "N", .variables = "t", .required = true});
+
+  tables.add({"traction", "a load on a face of a body that is one box", Repeat::array}, &Scene::tractions)
+      .key("face", &TractionSpec::face, "of the body's box", {.words = kFaces, .required = true})
+      .key("value", &TractionSpec::value, "per undeformed area; keeps its direction", {.unit = "Pa", .variables = "t"})
+      .key("pressure", &TractionSpec::pressure, "or: per deformed area, along the normal",
+           {.unit = "Pa", .variables = "t"});
+
+  tables.add({"body_force", "a load on all bodies"}, std::identity())
+      .key("value", &Scene::body_force, "per mass", {.unit = "m/s2", .variables = "xt", .required = true});
+}
+
+/// The state at the beginning, and the exact one.
+void add_states(Tables& tables) {
+  tables.add({"initial", "the state at t = 0"}, std::identity())
+      .key("u", &Scene::initial_u, "displacement", {.unit = "m", .variables = "x", .fallback = "0"})
+      .key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"});
+
+  tables
+      .add({"initial.geostatic", "level ground: sigma_yy = -rho b_y (surface - y), sigma_xx = sigma_zz = K0 sigma_yy"},
+           &Scene::geostatic)
+      .key("K0", &GeostaticSpec::K0, "coefficient of earth pressure at rest", {.range = kPositive, .required = true})
+      .key("surface", &GeostaticSpec::surface, "height of the surface", {.unit = "m", .required = true});
+
+  tables.add({"exact", "the exact solution, if it is known: the run reports its error"}, std::identity())
+      .key("u", &Scene::exact_u, "displacement", {.unit = "m", .variables = "xt"})
+      .key("stress", &Scene::exact_stress, "beside u, with dim = 1", {.unit = "Pa", .variables = "xt"});
+}
+
+void add_method(Tables& tables, const Catalogue& catalogue) {
   std::vector<Word> methods = names_of(catalogue.static_methods);
   methods.insert(methods.begin(), std::string_view("relaxation"));
   const auto strategy = [&catalogue](const std::string& word) {
     return hint(catalogue.strategy(word), "a way to rest in time, not a static solver", "damping.strategy");
   };
-  const std::vector rows = {
-      key("method", &SolveSpec::method, "relaxation in time, or a static solver", {.words = methods, .hint = strategy}),
-  };
-  return table({"solve", "how equilibrium is found"}, &Scene::solve, rows);
-}
 
-TableInfo damping(const Catalogue& catalogue) {
-  using D = DampingSpec;
+  tables.add({"solve", "how equilibrium is found"}, &Scene::solve)
+      .key("method", &SolveSpec::method, "relaxation in time, or a static solver",
+           {.words = methods, .hint = strategy});
+
   const auto solver = [&catalogue](const std::string& word) {
     return hint(catalogue.static_method(word), "a static solver, not a damping or a relaxation", "solve.method");
   };
-  const std::vector rows = {
-      key("strategy", &D::strategy, "`stillpoint list dampings` has their equations",
-          {.words = names_of(catalogue.strategies), .hint = solver}),
-      key("c", &D::c, "of a damping linear in v; critical: 2 omega_1",
-          {.range = kNotNegative, .unit = "1/s or kg/s", .words = {"critical"}, .fallback = "critical"}),
-      key("alpha", &D::alpha, "of a local damping: share of the out-of-balance force", {.range = kShare}),
-      key("peak", &D::peak, "of the kinetic energy, in kinetic damping", {.words = {"half-step", "parabolic"}}),
-      key("quotient", &D::quotient, "Rayleigh's, for omega_1^2 of adaptive damping", {.words = {"diagonal", "global"}}),
-  };
-  return table({"damping", "the way to rest: a damping force, or a relaxation"}, &Scene::damping, rows);
-}
 
-TableInfo integrator(const Catalogue& catalogue) {
-  using I = IntegratorSpec;
+  tables.add({"damping", "the way to rest: a damping force, or a relaxation"}, &Scene::damping)
+      .key("strategy", &DampingSpec::strategy, "`stillpoint list dampings` has their equations",
+           {.words = names_of(catalogue.strategies), .hint = solver})
+      .key("c", &DampingSpec::c, "of a damping linear in v; critical: 2 omega_1",
+           {.range = kNotNegative, .unit = "1/s or kg/s", .words = {"critical"}, .fallback = "critical"})
+      .key("alpha", &DampingSpec::alpha, "of a local damping: share of the out-of-balance force", {.range = kShare})
+      .key("peak", &DampingSpec::peak, "of the kinetic energy, in kinetic damping",
+           {.words = {"half-step", "parabolic"}})
+      .key("quotient", &DampingSpec::quotient, "Rayleigh's, for omega_1^2 of adaptive damping",
+           {.words = {"diagonal", "global"}});
+
   const std::string own_scale = "rtol times the scene's own scale";
-  const std::vector rows = {
-      key("method", &I::method, "of time integration",
-          {.words = names_of(catalogue.methods), .listed_by = "stillpoint list integrators"}),
-      key("damping", &I::treatment, "how C v is treated in a step",
-          {.words = {kTreatments.begin(), kTreatments.end()}}),
-      key("step", &I::step, "fixed; or step_fraction", {.range = kPositive, .unit = "s"}),
-      key("step_fraction", &I::step_fraction, "of the critical step; caps an adaptive one", {.range = kPositive}),
-      key("rtol", &I::rtol, "relative tolerance of an adaptive step; not given: a fixed one", {.range = {0, 1}}),
-      key("atol_u", &I::atol_u, "absolute tolerance", {.range = kPositive, .unit = "m", .fallback = own_scale}),
-      key("atol_v", &I::atol_v, "absolute tolerance", {.range = kPositive, .unit = "m/s", .fallback = own_scale}),
-      key("unstable_reason", &I::unstable_reason, "for a step past the critical one", {.may_be_empty = true}),
-  };
-  return table({"integrator", "the steps in time"}, &Scene::integrator, rows);
+
+  tables.add({"integrator", "the steps in time"}, &Scene::integrator)
+      .key("method", &IntegratorSpec::method, "of time integration",
+           {.words = names_of(catalogue.methods), .listed_by = "stillpoint list integrators"})
+      .key("damping", &IntegratorSpec::treatment, "how C v is treated in a step",
+           {.words = {kTreatments.begin(), kTreatments.end()}})
+      .key("step", &IntegratorSpec::step, "fixed; or step_fraction", {.range = kPositive, .unit = "s"})
+      .key("step_fraction", &IntegratorSpec::step_fraction, "of the critical step; caps an adaptive one",
+           {.range = kPositive})
+      .key("rtol", &IntegratorSpec::rtol, "relative tolerance of an adaptive step; not given: a fixed one",
+           {.range = {0, 1}})
+      .key("atol_u", &IntegratorSpec::atol_u, "absolute tolerance",
+           {.range = kPositive, .unit = "m", .fallback = own_scale})
+      .key("atol_v", &IntegratorSpec::atol_v, "absolute tolerance",
+           {.range = kPositive, .unit = "m/s", .fallback = own_scale})
+      .key("unstable_reason", &IntegratorSpec::unstable_reason, "for a step past the critical one",
+           {.may_be_empty = true});
+
+  tables.add({"stop", "when a run ends; a test set to 0 is off"}, &Scene::stop)
+      .key("residual", &StopSpec::residual, "|F - R|/|F| of equilibrium", {.range = kNotNegative})
+      .key("distance", &StopSpec::distance, "or the certified |u - u*|/|u| in the M-norm", {.range = kNotNegative})
+      .key("kinetic_energy", &StopSpec::kinetic_energy, "besides: its share of the largest so far",
+           {.range = kNotNegative})
+      .key("hold", &StopSpec::dwell, "periods 2 pi/omega_1 for which both have to hold", {.range = kNotNegative})
+      .key("time", &StopSpec::time, "end time", {.range = kNotNegative, .unit = "s"})
+      .key("steps", &StopSpec::steps, "number of steps", {.range = kNotNegative})
+      .key("wall_time", &StopSpec::wall_time, "time on the clock", {.range = kNotNegative, .unit = "s"});
 }
 
-TableInfo stop() {
-  using S = StopSpec;
-  const std::vector rows = {
-      key("residual", &S::residual, "|F - R|/|F| of equilibrium", {.range = kNotNegative}),
-      key("distance", &S::distance, "or the certified |u - u*|/|u| in the M-norm", {.range = kNotNegative}),
-      key("kinetic_energy", &S::kinetic_energy, "besides: its share of the largest so far", {.range = kNotNegative}),
-      key("hold", &S::dwell, "periods 2 pi/omega_1 for which both have to hold", {.range = kNotNegative}),
-      key("time", &S::time, "end time", {.range = kNotNegative, .unit = "s"}),
-      key("steps", &S::steps, "number of steps", {.range = kNotNegative}),
-      key("wall_time", &S::wall_time, "time on the clock", {.range = kNotNegative, .unit = "s"}),
-  };
-  return table({"stop", "when a run ends; a test set to 0 is off"}, &Scene::stop, rows);
-}
+void add_output(Tables& tables) {
+  tables.add({"output", "what is written, and when"}, &Scene::output)
+      .key("every", &OutputSpec::every, "time between rows of the history; 0: chosen",
+           {.range = kNotNegative, .unit = "s"})
+      .key("stages", &OutputSpec::snapshots, "times of the fields of all points", {.unit = "s", .list = true})
+      .key("fields_every", &OutputSpec::fields_every, "or the time between them", {.range = kNotNegative, .unit = "s"});
 
-TableInfo output() {
-  using O = OutputSpec;
-  const std::vector rows = {
-      key("every", &O::every, "time between rows of the history; 0: chosen", {.range = kNotNegative, .unit = "s"}),
-      key("stages", &O::snapshots, "times of the fields of all points", {.unit = "s", .list = true}),
-      key("fields_every", &O::fields_every, "or the time between them", {.range = kNotNegative, .unit = "s"}),
-  };
-  return table({"output", "what is written, and when"}, &Scene::output, rows);
-}
+  tables.add({"probe", "figures in each row of the history", Repeat::array}, &Scene::probes)
+      .key("name", &ProbeSpec::name, "of its columns in history.csv", {.required = true})
+      .key("kind", &ProbeSpec::kind, "a material point, or the angle of the free surface",
+           {.words = {"point", "slope_angle"}})
+      .key("point", &ProbeSpec::point, "its number, in order of position",
+           {.range = from(1, std::numeric_limits<int>::max())})
+      .key("at", &ProbeSpec::at, "or the point nearest to this position", {.unit = "m"})
+      .key("fields", &ProbeSpec::fields,
+           "of a point: u, v, strain, stress; with dim = 2 their components, as u.x and stress.yy, and plastic_strain",
+           {.list = true});
 
-TableInfo probes() {
-  using P = ProbeSpec;
-  const std::vector rows = {
-      key("name", &P::name, "of its columns in history.csv", {.required = true}),
-      key("kind", &P::kind, "a material point, or the angle of the free surface", {.words = {"point", "slope_angle"}}),
-      key("point", &P::point, "its number, in order of position", {.range = from(1, std::numeric_limits<int>::max())}),
-      key("at", &P::at, "or the point nearest to this position", {.unit = "m"}),
-      key("fields", &P::fields,
-          "of a point: u, v, strain, stress; with dim = 2 their components, as u.x and stress.yy, and plastic_strain",
-          {.list = true}),
-  };
-  return table({"probe", "figures in each row of the history", Repeat::array}, &Scene::probes, rows);
-}
-
-TableInfo variants() {
-  const std::vector rows = {
-      key("name", &VariantSpec::name, "in the picture", {.required = true}),
-      key("set", &VariantSpec::set, "\"key=value\" each, as for --set", {.required = true, .list = true}),
-  };
-  return table({"variant", "the same scene with other values, drawn beside it", Repeat::array}, &Scene::variants, rows);
+  tables.add({"variant", "the same scene with other values, drawn beside it", Repeat::array}, &Scene::variants)
+      .key("name", &VariantSpec::name, "in the picture", {.required = true})
+      .key("set", &VariantSpec::set, "\"key=value\" each, as for --set", {.required = true, .list = true});
 }
 
 }  // namespace
 
 std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
-  std::vector<TableInfo> tables = {top(), constants(), grid(), bodies()};
-  for (TableInfo& material : materials(catalogue)) tables.push_back(std::move(material));
-  for (TableInfo& info : std::array{mass(), phase(), supports(), walls(), forces(), tractions(), body_force(),
-                                    initial(), geostatic(), exact(), solve(catalogue), damping(catalogue),
-                                    integrator(catalogue), stop(), output(), probes(), variants()})
-    tables.push_back(std::move(info));
-  for (TableInfo& above : tables) {
+  Tables tables;
+  tables.add({"", "at the top of the file"}, std::identity())
+      .key("title", &Scene::title, "of the scene", {.may_be_empty = true})
+      .key("dim", &Scene::dim, "1 or 2 dimensions", {.range = from(1, 3)});
+  tables.all.push_back(constants());
+  constexpr double most = 1e7;  // a larger count is a slip, not a grid
+
+  tables
+      .add({"grid", "the background grid", Repeat::once, "a scene has a background grid with min, max and cells"},
+           &Scene::grid)
+      .key("min", &GridSpec::min, "lower corner", {.unit = "m", .required = true})
+      .key("max", &GridSpec::max, "upper corner", {.unit = "m", .required = true})
+      .key("cells", &GridSpec::cells, "along each coordinate", {.range = from(1, most), .required = true})
+      .key("basis", &GridSpec::basis, "of the nodes", {.words = {"linear", "quadratic", "cubic", "hermite"}})
+      .key("follow", &GridSpec::follow, "the wall with which its face of the grid moves from phase to phase");
+
+  tables
+      .add({"body", "material points in a box, in a polygon or from a file; [body], or several [[body]]",
+            Repeat::once_or_array, "a scene has a body with a material"},
+           &Scene::bodies)
+      .key("min", &BodySpec::min, "lower corner of a box", {.unit = "m", .fallback = "that of the grid"})
+      .key("max", &BodySpec::max, "upper corner of a box", {.unit = "m", .fallback = "that of the grid"})
+      .key("polygon", &BodySpec::polygon, "corners in order, not a box", {.unit = "m", .list = true, .dims = kPlane})
+      .key("file", &BodySpec::file, "CSV of points, not a box: columns x, y, volume")
+      .key("material", &BodySpec::material, "the name of a [material.<name>]", {.required = true})
+      .key("state", &BodySpec::state, "of stress and strain, the same in all bodies",
+           {.words = states(), .fallback = "uniaxial-stress or plane-strain"})
+      .key("area", &BodySpec::area, "cross-section", {.range = kPositive, .unit = "m2", .dims = kLine})
+      .key("thickness", &BodySpec::area, "not of axisymmetric bodies",
+           {.range = kPositive, .unit = "m", .dims = kPlane})
+      .key("points_per_cell", &BodySpec::points_per_cell, "along each coordinate; a plain number counts all in a cell",
+           {.range = from(1, 10'000), .fallback = "2"})
+      .read_by(read_points_per_cell)
+      .key("placement", &BodySpec::placement, "of the points in a cell", {.words = {"uniform", "gauss", "random"}})
+      .key("jitter", &BodySpec::jitter, "each point is moved by up to this share of half its spacing",
+           {.range = kShare})
+      .key("volumes", &BodySpec::volumes, "equal, or fitted to the moments of each cell",
+           {.words = {"equal", "consistent"}})
+      .key("seed", &BodySpec::seed, "of random points and of jitter", {.range = kNotNegative});
+  for (TableInfo& material : materials(catalogue)) tables.all.push_back(std::move(material));
+  tables.add({"mass", "the mass matrix"}, &Scene::mass)
+      .key("kind", &MassSpec::kind, "of the mass matrix; lumped by default if dim = 2",
+           {.words = {"consistent", "lumped"}})
+      .key("scaling", &MassSpec::factor,
+           "of the inertia, not of the weight; or each node by the bound of its stiffness",
+           {.range = kPositive, .words = {"gershgorin"}},
+           [](MassSpec& mass) { mass.scaling = MassScaling::gershgorin; });
+
+  tables.add({"phase", "when a phase ends: the points move on and the grid starts again"}, &Scene::phase)
+      .key("max_motion", &PhaseSpec::max_motion, "share of a cell that some point has moved; 0: after every step",
+           {.range = kShare, .words = {"none"}, .fallback = "0.1 if a law has a history, otherwise none"})
+      .key("max_strain", &PhaseSpec::max_strain, "or a displacement gradient since the phase began",
+           {.range = kPositive})
+      .key("transfer", &PhaseSpec::transfer, "of velocities from grid to points",
+           {.words = {"flip", "pic", "apic", "xpic"}})
+      .key("flip_share", &PhaseSpec::flip_share,
+           "of flip: 1 takes increments of the nodal velocity, 0 the velocity itself", {.range = from(0, 1)})
+      .key("xpic_order", &PhaseSpec::xpic_order, "of xpic", {.range = from(1, 20)});
+  add_boundary(tables);
+  add_states(tables);
+  add_method(tables, catalogue);
+  add_output(tables);
+  for (TableInfo& above : tables.all) {
     const std::string prefix = above.path.empty() ? "" : std::string(above.path) + ".";
-    for (const TableInfo& below : tables) {
+    for (const TableInfo& below : tables.all) {
       if (below.path.empty() || !below.path.starts_with(prefix)) continue;
       const std::string_view rest = below.path.substr(prefix.size());
       const std::string name(rest.substr(0, rest.find('.')));
       if (std::ranges::find(above.tables, name) == above.tables.end()) above.tables.push_back(name);
     }
   }
-  return tables;
+  return std::move(tables.all);
 }
 
 std::string TableInfo::heading() const {
