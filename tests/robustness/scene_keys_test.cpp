@@ -35,6 +35,7 @@ std::string example_of(const KeyInfo& key, int dim) {
       fmt::format("{}", range.lower_allowed                                        ? range.lower
                         : std::isfinite(range.lower) && std::isfinite(range.upper) ? (range.lower + range.upper) / 2
                                                                                    : 1.0);
+  if (key.kind == Kind::whole && !key.words.empty()) one = "0";
   if (key.kind == Kind::text) one = key.words.empty() ? "\"a\"" : '"' + key.words_in(dim).front() + '"';
   if (key.shape == Shape::axes) return dim == 1 ? one : fmt::format("[{}, {}]", one, one);
   if (key.shape == Shape::list) return fmt::format("[{}]", one);
