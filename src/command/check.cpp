@@ -32,8 +32,8 @@ int check(const SceneArguments& arguments) {
              phase.info().total_mass, phase.discretisation().quadrature.degree);
   fmt::print("  phases           {}\n",
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
-  fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.discretisation().supported_degrees_of_freedom,
-             phase.mass().is_lumped() ? "lumped" : "consistent");
+  fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
+             phase.discretisation().supported_degrees_of_freedom, phase.mass().is_lumped() ? "lumped" : "consistent");
   if (const StaticMethodInfo* method = model.static_method) {
     fmt::print("  static solver    {}: {}\n", method->name, method->equation);
   } else {
