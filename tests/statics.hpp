@@ -3,8 +3,7 @@
 
 #include <stillpoint/stillpoint.hpp>
 
-#include <algorithm>
-#include <cmath>
+#include <limits>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -23,12 +22,6 @@ inline std::vector<double> out_of_balance(const LagrangianPhase& phase, ConstVec
   REQUIRE(phase.internal_force(t, u, R));
   for (std::size_t k = 0; k < Q.size(); ++k) Q[k] -= R[k];
   return Q;
-}
-
-inline double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
 }
 
 inline std::vector<double> internal_force(const LagrangianPhase& phase, ConstVec u, double t = 0) {
