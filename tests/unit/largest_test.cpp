@@ -1,12 +1,13 @@
 #include "largest.hpp"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -24,7 +25,7 @@ TEST_CASE(
   const std::vector<double> zeros(3, 0.0);
   for (std::size_t place = 0; place < zeros.size(); ++place) {
     std::vector<double> values = zeros;
-    values[place] = nan;
+    values[place] = not_a_number;
     for (const double value : {largest_value(values), smallest_value(values), largest_magnitude(values),
                                largest_difference(values, zeros), largest_difference(zeros, values)}) {
       CHECK(std::isnan(value));

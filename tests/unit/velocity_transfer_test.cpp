@@ -146,7 +146,7 @@ std::vector<double> times(double factor, std::vector<double> values) {
   return values;
 }
 double largest_difference(const std::array<std::vector<double>, 2>& a, const std::array<std::vector<double>, 2>& b) {
-  return largest_value(std::array{largest_difference(a[0], b[0]), largest_difference(a[1], b[1])});
+  return largest_value(std::array{::largest_difference(a[0], b[0]), ::largest_difference(a[1], b[1])});
 }
 
 }  // namespace
