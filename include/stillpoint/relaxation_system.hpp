@@ -59,6 +59,8 @@ class RelaxationSystem {
 
   /// Force evaluations made by integrators (not by residual()).
   long evaluations() const { return evaluations_; }
+  /// Those of a static solver, which evaluates system() itself.
+  void count_evaluations(long count) { evaluations_ += count; }
 
  private:
   bool balance(double t, ConstVec u, Vec Q);

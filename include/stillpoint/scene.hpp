@@ -30,6 +30,7 @@ struct BodySpec {                // [body], or several [[body]]: material points
   std::vector<std::vector<double>> polygon;  // corners in order, (corners × 2) [m]; empty: the whole box
   std::filesystem::path file;                // CSV of points: x, y, volume (with thickness); empty: filled with points
   std::string material;                      // a [material.<name>]
+  std::optional<StressState> state;          // as written; Scene::state holds for all bodies
   double area = 1;                           // cross-section in one dimension [m²], thickness in two [m]
   Placement placement = Placement::uniform;
   std::vector<int> points_per_cell = {2};  // along each coordinate
@@ -44,11 +45,11 @@ struct MaterialSpec {  // [material.<name>]
   std::map<std::string, std::string> choices;  // likewise, those that are words (cone = "mean")
 };
 
-struct SupportSpec {         // [[support]]: u = motion(t) at a place, or on a face of the grid
+struct SupportSpec {         // [[support]]: u = motion(t) at a position, or on a face of the grid
   std::vector<double> at;    // [m]; empty: on the face
   std::optional<Face> face;  // of the grid
   bool roller = false;       // on a face: only the normal component is held, otherwise the tangential one too (at 0)
-  int component = 0;         // at a place; on a face its normal
+  int component = 0;         // at a position; on a face its normal
   Expression motion;         // of t [m]; 0: fixed
 };
 
@@ -87,8 +88,8 @@ struct IntegratorSpec {  // [integrator]
   std::string method = "leapfrog";
   DampingTreatment treatment = DampingTreatment::automatic;
   std::optional<double> step;            // [s]
-  double step_fraction = 0.9;            // of the critical step, where step is not given; the cap of an adaptive step
-  std::optional<double> rtol;            // adaptive where given
+  double step_fraction = 0.9;            // of the critical step, if step is not given; the cap of an adaptive step
+  std::optional<double> rtol;            // if given, the step is adaptive
   std::optional<double> atol_u, atol_v;  // [m], [m/s]; default: rtol times the scene's own scale
   std::string unstable_reason;           // why a step past the critical one is wanted
 };
@@ -111,11 +112,10 @@ struct OutputSpec {               // [output]
   double fields_every = 0;        // or the time between them [s]; 0: at the stages only
 };
 
-struct PhaseSpec {  // [phase]: when the points move on and the grid starts afresh
-  /// A phase ends where some point has moved by this share of a cell; 0: after every step (classical MPM); empty:
-  /// never.
+struct PhaseSpec {  // [phase]: when the points move on and the grid starts again
+  /// A phase ends once some point has moved by this share of a cell; 0: after every step (classical MPM); empty: never.
   std::optional<double> max_motion;
-  std::optional<double> max_strain;  // or where some component of ∂u/∂x exceeds this; empty: not asked
+  std::optional<double> max_strain;  // or once some component of ∂u/∂x exceeds this; empty: not asked
   Transfer transfer = Transfer::flip;
   double flip_share = 1;  // of "flip": 1 takes increments of the nodal velocity, 0 the velocity itself
   int xpic_order = 5;     // of "xpic": m
@@ -138,8 +138,8 @@ struct ProbeSpec {  // [[probe]]
   std::string name;
   ProbeKind kind = ProbeKind::point;
   // of a point:
-  std::optional<int> point;         // 1-based number of a material point, in order of place
-  std::vector<double> at;           // or the material point nearest to this place [m]
+  std::optional<int> point;         // 1-based number of a material point, in order of position
+  std::vector<double> at;           // or the material point nearest to this position [m]
   std::vector<std::string> fields;  // of probe_fields(dim)
 };
 /// The fields that a probe of a point may name: "u", "v", "strain", "stress" in one dimension, their components in two.
@@ -178,9 +178,9 @@ struct Scene {
   OutputSpec output;
   std::vector<ProbeSpec> probes;
   std::vector<VariantSpec> variants;
-  std::map<std::string, Location> where;  // dotted key ("support[0].at") → place, for what is found wrong later
+  std::map<std::string, Location> where;  // of each key written ("support[0].at"), for what is found wrong later
 
-  /// Place of a key, or of the nearest table around it that was written.
+  /// Location of a key, or of the nearest table around it that was written.
   Location location(const std::string& key) const;
 };
 

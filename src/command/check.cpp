@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "command/commands.hpp"
+#include "simulation/catalogue.hpp"
 #include "simulation/model.hpp"
 
 namespace stillpoint::command {
@@ -33,8 +34,13 @@ int check(const SceneArguments& arguments) {
              phase.updated_lagrangian() ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.supported_degrees_of_freedom(),
              phase.mass().is_lumped() ? "lumped" : "consistent");
-  fmt::print("  damping          {}{}: {}\n", model.damping->name(),
-             model.c ? fmt::format(", c = {:.8g}", *model.c) : "", find_damping(model.damping->name()).equation);
+  if (const StaticMethodInfo* method = model.static_method) {
+    fmt::print("  static solver    {}: {}\n", method->name, method->equation);
+  } else {
+    const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
+    fmt::print("  damping          {}{}: {}\n", strategy.name, model.c ? fmt::format(", c = {:.8g}", *model.c) : "",
+               strategy.equation);
+  }
   fmt::print("  omega_max        {:.8g} rad/s{}\n", model.omega_max,
              model.tangent_applications > 0
                  ? fmt::format(", a bound by {} applications of the tangent", model.tangent_applications)

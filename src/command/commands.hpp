@@ -32,7 +32,7 @@ int run(const RunArguments& arguments);
 int compare(const CompareArguments& arguments);
 int check(const SceneArguments& arguments);
 int spectrum(const SceneArguments& arguments);
-/// topic: integrators, dampings, materials, bases, or empty for all.
+/// topic: integrators, dampings, relaxations, solvers, materials, bases, or empty for all.
 int list(const std::string& topic);
 
 }  // namespace stillpoint::command

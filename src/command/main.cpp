@@ -83,8 +83,8 @@ int dispatch(int argc, char** argv) {
 
   std::string topic;
   CLI::App& list_app = *app.add_subcommand("list", "what there is to choose from");
-  list_app.add_option("TOPIC", topic, "integrators, dampings, materials or bases (default: all)")
-      ->check(CLI::IsMember({"integrators", "dampings", "materials", "bases"}));
+  list_app.add_option("TOPIC", topic, "integrators, dampings, relaxations, solvers, materials or bases (default: all)")
+      ->check(CLI::IsMember({"integrators", "dampings", "relaxations", "solvers", "materials", "bases"}));
 
   try {
     app.parse(argc, argv);

@@ -1,6 +1,6 @@
 #include "study/reference_solution.hpp"
 
-#include <stillpoint/run.hpp>
+#include <stillpoint/simulation.hpp>
 #include <stillpoint/static_solution.hpp>
 
 #include <cmath>
@@ -46,11 +46,10 @@ void relax(Scene scene, int threads, const std::function<bool()>& interrupted, E
   scene.stop.residual = tight_in_motion;
   scene.stop.distance = 0;
   scene.output.snapshots.clear();
-  const Summary summary = run(scene, {.threads = threads,
-                                      .interrupted = interrupted,
-                                      .at_end = [&](const LagrangianPhase&, double, ConstVec u, ConstVec) {
-                                        found.state.u.assign(u.begin(), u.end());
-                                      }});
+  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted});
+  simulation.run();
+  const Summary summary = simulation.summary();
+  found.state.u.assign(simulation.u().begin(), simulation.u().end());
   found.method = fmt::format("relaxation by {} damping", summary.damping);
   found.residual = summary.residual;
   if (summary.status != RunStatus::equilibrium) {

@@ -25,7 +25,7 @@ Scene block(int basis, int law, int cells) {
   const int rows = cells / 2;
   Scene scene = scenes::load(
       "slope", {std::string("grid.basis=") + bases[basis], "grid.max=[6.0, " + std::to_string(3.0 + 3.0 / rows) + "]",
-                "grid.cells=[" + std::to_string(cells) + ", " + std::to_string(rows + 1) + "]", "output.snapshots=[]",
+                "grid.cells=[" + std::to_string(cells) + ", " + std::to_string(rows + 1) + "]", "output.stages=[]",
                 "wall[1].motion=0"});
   scene.materials.at("soil").law = laws[law];
   const bool plastic = law == 3;
@@ -172,7 +172,7 @@ BENCHMARK(change_of_phase)
 // Half a second of the slope, with phases and classically: ns per point and step of the whole run.
 void whole_run(benchmark::State& state) {
   const std::string max_motion = state.range(0) == 0 ? "0" : "0.1";
-  Scene scene = scenes::load("slope", {"phase.max_motion=" + max_motion, "stop.time=0.5", "output.snapshots=[]"});
+  Scene scene = scenes::load("slope", {"phase.max_motion=" + max_motion, "stop.time=0.5", "output.stages=[]"});
   double ns = 0;
   for (auto _ : state) {
     const Summary summary = run(scene, {.threads = static_cast<int>(state.range(1))});

@@ -241,7 +241,7 @@ TEST_CASE("an override reaches every key of a plane scene") {
   CHECK(std::isinf(load_slope({"wall[0].friction=rough"}).walls.at(0).friction));
   CHECK(load_slope({"grid.cells=[24, 16]"}).grid.cells == std::vector{24, 16});
   CHECK(load_slope({"grid.basis=quadratic"}).grid.basis == BasisKind::quadratic);
-  CHECK(load_slope({"output.snapshots=[3]"}).output.snapshots == std::vector{3.0});
+  CHECK(load_slope({"output.stages=[3]"}).output.snapshots == std::vector{3.0});
   CHECK(load_slope({"initial.geostatic.K0=0.5"}).geostatic->K0 == 0.5);
   CHECK(load_slope({"support[1].kind=fixed"}).supports.at(1).roller == false);
 }

@@ -131,8 +131,8 @@ TEST_CASE("plastic forces and what they commit are the same bits for 1 and 2 thr
 
 TEST_CASE("a slope writes the same history to the bit for 1 and 2 threads, over several phases") {
   const TemporaryFolder folder;
-  const Scene scene = slope("70,33", {"constants.h=0.1", "phase.max_motion=0.02", "stop.time=0.4", "output.every=0.04",
-                                      "output.snapshots=[]"});
+  const Scene scene = slope(
+      "70,33", {"constants.h=0.1", "phase.max_motion=0.02", "stop.time=0.4", "output.every=0.04", "output.stages=[]"});
   std::vector<std::string> histories;
   for (int threads = 1; threads <= 2; ++threads) {
     const auto out = folder.path() / std::to_string(threads);

@@ -17,8 +17,10 @@
 #include "allocation_count.hpp"
 #include "chain.hpp"
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
+#include "way_to_rest.hpp"
 
 namespace {
 
@@ -60,20 +62,19 @@ struct Way {
   std::string strategy;
   double step_fraction = 0.9;
   double c = 0, alpha = 0.2;
-  StrategyOptions options{};
+  RelaxationOptions options{};
   std::string method = "leapfrog";
 };
 
 /// Force evaluations until ‖u − u*‖ ≤ accuracy ‖u*‖, most + 1 where that does not come.
 long evaluations_to(double accuracy, SemiDiscrete& system, const Values& solution, double omega_max, const Way& way,
                     long most = 100'000) {
-  const auto damping = make_damping(way.strategy, way.c, way.alpha);
+  const auto damping = test::damping_of(way.strategy, way.c, way.alpha);
   RelaxationSystem relaxation(system, *damping);
   IntegratorOptions options;
   options.method = way.method;
   options.max_step = way.step_fraction * 2 / omega_max;
-  options.strategy = way.options;
-  const auto integrator = make_integrator(options, relaxation);
+  const auto integrator = test::stepper_of(way.strategy, options, relaxation, way.options);
   Values y(2 * system.size());
   Vector state = relaxation.vectors().view(y);
   integrator->start(0, state);
@@ -325,12 +326,12 @@ TEST_CASE("kinetic damping by ARKODE's root finding relaxes to the static soluti
 TEST_CASE("ARKODE halts the motion where its kinetic energy is largest: an oscillator stops at its rest position",
           "[strategies]") {
   test::Chain chain({.n = 1, .load = 1});
-  const auto damping = make_damping("kinetic", 0, 0);
+  const auto damping = test::damping_of("kinetic", 0, 0);
   RelaxationSystem system(chain, *damping);
   IntegratorOptions options;
   options.method = "erk:rk4";
   options.max_step = 0.05;
-  const auto integrator = make_integrator(options, system);
+  const auto integrator = test::stepper_of("kinetic", options, system);
   Values y = {0, 0};
   Vector state = system.vectors().view(y);
   integrator->start(0, state);
@@ -348,12 +349,11 @@ TEST_CASE("strategies give the same bits for any number of threads", "[strategie
   const auto steps_with = [](const std::string& strategy, int threads) {
     omp_set_num_threads(threads);
     test::Chain chain({.n = 20'000, .cubic = 0.5, .right_held = true, .load = 0.01});
-    const auto damping = make_damping(strategy, 0, 0.5);
+    const auto damping = test::damping_of(strategy, 0, 0.5);
     RelaxationSystem system(chain, *damping);
     IntegratorOptions options;
     options.max_step = 0.9;
-    options.strategy.omega_1 = 0.1;
-    const auto integrator = make_integrator(options, system);
+    const auto integrator = test::stepper_of(strategy, options, system, {.omega_1 = 0.1});
     Values y(2 * chain.size());
     for (std::size_t i = 0; i < chain.size(); ++i) y[i] = 0.01 * std::sin(0.3 * static_cast<double>(i));
     Vector state = system.vectors().view(y);
@@ -373,12 +373,11 @@ TEST_CASE("a step of a strategy allocates nothing", "[strategies]") {
   for (const bool consistent : {false, true}) {
     for (const std::string& strategy : iterations) {
       test::Chain chain({.n = 40, .consistent = consistent, .load = 0.01});
-      const auto damping = make_damping(strategy, 0, 0);
+      const auto damping = test::damping_of(strategy, 0, 0);
       RelaxationSystem system(chain, *damping);
       IntegratorOptions options;
       options.max_step = 0.5;
-      options.strategy.omega_1 = 0.03;
-      const auto integrator = make_integrator(options, system);
+      const auto integrator = test::stepper_of(strategy, options, system, {.omega_1 = 0.03});
       Values y(2 * chain.size());
       Vector state = system.vectors().view(y);
       integrator->start(0, state);
@@ -401,11 +400,11 @@ TEST_CASE("one mass under FIRE moves as Bitzek's and Guénolé's algorithms writ
   };
   for (const Variant& variant : {Variant{"fire", 0.1, 5, false}, {"fire2", 0.25, 20, true}}) {
     test::Chain chain({.n = 1, .load = 1});
-    const auto damping = make_damping(variant.name, 0, 0);
+    const auto damping = test::damping_of(variant.name, 0, 0);
     RelaxationSystem system(chain, *damping);
     IntegratorOptions options;
     options.max_step = 0.9;
-    const auto integrator = make_integrator(options, system);
+    const auto integrator = test::stepper_of(variant.name, options, system);
     Values y = {0, 0};
     Vector state = system.vectors().view(y);
     integrator->start(0, state);
@@ -441,7 +440,7 @@ TEST_CASE(
     "combined damping acts in full where the force falls and not at all where it grows with the motion "
     "[FLAC, combined damping]",
     "[strategies]") {
-  const auto damping = make_damping("combined", 0, 0.8);
+  const auto damping = test::damping_of("combined", 0, 0.8);
   const Values v = {1, 1, -1, -1, 0}, last = {20, 5, 20, 5, 10};
   Values Q = {10, 10, 10, 10, 10};
   damping->add_local_since(v, last, Q);
@@ -562,7 +561,7 @@ TEST_CASE("every dynamic strategy relaxes a block that yields", "[strategies]") 
   const testing::TemporaryFolder folder;
   const auto file = folder.write("block.toml", yielding_block);
   for (const std::string& strategy : iterations) {
-    if (find_damping(strategy).is_static) continue;
+    if (catalogue().static_method(strategy)) continue;
     const Summary summary = run(load_scene(file, {"damping.strategy=" + strategy}));
     CAPTURE(strategy, summary.reason, summary.rhs_evaluations);
     CHECK(summary.status == RunStatus::equilibrium);
@@ -610,11 +609,11 @@ class NoisyChain final : public test::Chain {
 TEST_CASE("auto that makes no way any more gives up its c, and takes it up again where that does not help",
           "[strategies]") {
   NoisyChain chain({.n = 40, .left_held = true, .right_held = true, .load = 1});
-  const auto damping = make_damping("auto", 0, 0);
+  const auto damping = test::damping_of("auto", 0, 0);
   RelaxationSystem system(chain, *damping);
   IntegratorOptions options;
   options.max_step = 0.95 * 2 / chain.exact_omega(40);
-  const auto integrator = make_integrator(options, system);
+  const auto integrator = test::stepper_of("auto", options, system);
   Values y(2 * chain.size());
   Vector state = system.vectors().view(y);
   integrator->start(0, state);
@@ -641,12 +640,11 @@ TEST_CASE("auto that makes no way any more gives up its c, and takes it up again
 TEST_CASE("auto without a steady pull halts nothing: its motion is that of adaptive damping", "[strategies]") {
   const auto motion = [](const std::string& strategy, bool steady) {
     test::Chain chain({.n = 10, .cubic = 5});
-    const auto damping = make_damping(strategy, 0, 0);
+    const auto damping = test::damping_of(strategy, 0, 0);
     RelaxationSystem system(chain, *damping);
     IntegratorOptions options;
     options.max_step = 0.1;
-    options.strategy.steady = steady;
-    const auto integrator = make_integrator(options, system);
+    const auto integrator = test::stepper_of(strategy, options, system, {.steady = steady});
     Values y(2 * chain.size());
     for (std::size_t i = 0; i < chain.size(); ++i) y[chain.size() + i] = 1;  // uphill
     Vector state = system.vectors().view(y);
@@ -660,7 +658,7 @@ TEST_CASE("auto without a steady pull halts nothing: its motion is that of adapt
 
 TEST_CASE("strategies relax a block that leans on a wall, whose nodes open and close", "[strategies]") {
   for (const std::string& strategy : iterations) {
-    if (find_damping(strategy).is_static || find_damping(strategy).needs_omega_1) continue;
+    if (catalogue().static_method(strategy) || find_relaxation(strategy)->needs_omega_1) continue;
     const Summary summary = run(scenes::load(
         "block_on_wall", {"damping.strategy=" + strategy, "stop.residual=1e-6", "stop.time=0", "stop.steps=100000"}));
     CAPTURE(strategy, summary.reason, summary.rhs_evaluations);
@@ -668,23 +666,15 @@ TEST_CASE("strategies relax a block that leans on a wall, whose nodes open and c
   }
 }
 
-TEST_CASE("options that a strategy does not go with are refused with a reason", "[strategies]") {
+TEST_CASE("options that a relaxation or a damping does not go with are refused with a reason", "[strategies]") {
   test::Chain chain({.n = 3});
-  const auto make = [&](const std::string& strategy, const std::string& method,
-                        DampingTreatment treatment = DampingTreatment::automatic) {
-    const auto damping = make_damping(strategy, 0, 0.5);
-    RelaxationSystem system(chain, *damping);
-    IntegratorOptions options;
-    options.method = method;
-    options.treatment = treatment;
-    options.max_step = 0.1;
-    make_integrator(options, system);
-  };
-  CHECK_THROWS_WITH(make("fire", "erk:rk4"), Catch::Contains("'fire' does not go with method 'erk:rk4'"));
-  CHECK_THROWS_WITH(make("kinetic", "gsl:rk4"), Catch::Contains("leapfrog, erk:"));
-  CHECK_THROWS_WITH(make("combined", "erk:rk4"), Catch::Contains("symplectic-euler"));
-  CHECK_THROWS_WITH(make("chebyshev", "leapfrog"), Catch::Contains("omega_1"));
-  CHECK_THROWS_WITH(make("auto", "leapfrog", DampingTreatment::lagged), Catch::Contains("treatment"));
+  const auto combined = make_damping("combined", 0, 0.5), none = no_damping();
+  RelaxationSystem damped(chain, *combined), undamped(chain, *none);
+  CHECK_THROWS_WITH(make_integrator({.method = "erk:rk4", .max_step = 0.1}, damped),
+                    Catch::Contains("symplectic-euler"));
+  CHECK_THROWS_WITH(make_relaxation({.name = "chebyshev", .max_step = 0.1}, undamped), Catch::Contains("omega_1"));
+  CHECK_THROWS_WITH(make_relaxation({.name = "fire", .max_step = 0}, undamped), Catch::Contains("max_step"));
+  CHECK_THROWS_WITH(make_relaxation({.name = "newton", .max_step = 0.1}, undamped), Catch::Contains("no relaxation"));
 }
 
 }  // namespace

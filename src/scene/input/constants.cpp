@@ -14,7 +14,7 @@ namespace {
 
 using Pending = std::map<std::string, const toml::node*>;
 
-/// Why a constant cannot have this name; empty where it can.
+/// Why a constant cannot have this name; empty if it can.
 std::string fault_of_name(const std::string& name) {
   if (names_in(name) != std::vector<std::string>{name})
     return "it is not made of letters, digits and '_' only, or begins with a digit";
@@ -24,7 +24,7 @@ std::string fault_of_name(const std::string& name) {
   return {};
 }
 
-/// A constant, not yet computed, that this one needs; empty where there is none.
+/// A constant, not yet computed, that this one needs; empty if there is none.
 std::string unmet_need(const toml::node& node, const Pending& pending) {
   if (const auto* text = node.as_string())
     for (const std::string& name : names_in(text->get()))
@@ -65,7 +65,7 @@ void resolve_constants(const toml::table& table, Reading& reading) {
         ++entry;
         continue;
       }
-      if (const auto value = read_number(*node, "constants." + name, kAnyNumber, reading)) {
+      if (const auto value = read_number({*node, "constants." + name, reading})) {
         reading.constants[name] = *value;
       } else {
         reading.broken.insert(name);

@@ -1,41 +1,56 @@
-// What the checks of a scene share: where problems go, and the boxes that places lie in.
+// What the checks of a scene share: where problems go, and the boxes that positions lie in.
 #pragma once
 
+#include <stillpoint/catalogue.hpp>
 #include <stillpoint/scene.hpp>
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "scene/input/toml_value.hpp"
 
 namespace stillpoint {
 
 class SceneCheck {
  public:
-  SceneCheck(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
+  SceneCheck(Scene& scene, Reading& reading, const Catalogue& catalogue)
+      : scene_(scene), reading_(reading), catalogue_(catalogue) {}
 
+  const Catalogue& catalogue() const { return catalogue_; }
   Scene& scene() { return scene_; }
-  std::vector<Problem>& problems() { return problems_; }
+  std::vector<Problem>& problems() { return reading_.problems; }
 
-  void add(const std::string& key, const std::string& message);
+  /// Reports a key, or a table, as wrong.
+  void add(const std::string& key, const std::string& message) { reading_.problem(scene_.location(key), key, message); }
   bool written(const std::string& key) const { return scene_.where.contains(key); }
+  /// Not written, or written and in order.
+  bool sound(const std::string& key) const { return !reading_.wrong.contains(key); }
+  /// Reports each of these keys of a table that is written.
+  void refuse(const std::string& table, std::initializer_list<const char*> keys, const std::string& why) {
+    for (const std::string key : keys)
+      if (written(table + "." + key)) add(table + "." + key, why);
+  }
 
-  /// The key of body k: "body.min", or "body[1].min" where there is an array of them.
+  /// The key of body k: "body.min", or "body[1].min" if there is an array of them.
   std::string body_key(std::size_t k, const std::string& key) const;
-  /// The key of one coordinate of a place: "grid.max", in more dimensions "grid.max[1]".
+  /// The key of one coordinate of a position: "grid.max", in more dimensions "grid.max[1]".
   std::string axis_key(const std::string& key, std::size_t axis) const;
 
-  /// A cell's length along an axis; 0 where the cells are not known.
+  /// A cell's length along an axis; 0 if the cells are not known.
   double cell_length(std::size_t axis) const;
   /// Moves a face that misses a grid line by a sliver of a cell onto it: points in the sliver would have next to no
   /// mass.
-  void snap_to_grid(std::vector<double>& place) const;
-  /// True where place lies in a box, after moving a place that misses it by a sliver onto its border.
-  bool inside(std::vector<double>& place, const std::vector<double>& min, const std::vector<double>& max,
+  void snap_to_grid(std::vector<double>& position) const;
+  /// True if a position lies in a box, after moving one that misses it by a sliver onto its border.
+  bool inside(std::vector<double>& position, const std::vector<double>& min, const std::vector<double>& max,
               const std::string& box, const std::string& key);
 
  private:
   Scene& scene_;
-  std::vector<Problem>& problems_;
+  Reading& reading_;
+  const Catalogue& catalogue_;
 };
 
 /// A share of a cell that is taken for none.
@@ -47,11 +62,11 @@ struct BodyBox {
   std::string name;  // "body", or "bodies"
 };
 
-/// True where the grid is a box that can be divided into its cells.
+/// True if the grid is a box that can be divided into its cells.
 bool check_grid(SceneCheck& check);
-/// Bodies and their materials; the box around them where all of them are in order.
+/// Bodies and their materials; the box around them if all of them are in order.
 std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid);
-/// The number of material points where the bodies fill whole cells; 0 where that depends on the placement.
+/// The number of material points if the bodies fill whole cells; 0 if that depends on the placement.
 long known_points(SceneCheck& check);
 /// Supports, walls, loads and initial stress.
 void check_loads(SceneCheck& check, bool grid, const std::optional<BodyBox>& body);
@@ -60,9 +75,9 @@ void check_phases(SceneCheck& check);
 /// What is written out.
 void check_output(SceneCheck& check, const std::optional<BodyBox>& body);
 
-/// A law whose stress depends on more than the deformation.
-bool has_history(const MaterialSpec& material);
-/// A law that is written for this state; true also where the law itself is not known.
-bool has_state(const MaterialSpec& material, StressState state);
+/// What the catalogue says of a material's law; null if the law is not known.
+const LawInfo* law_of(const SceneCheck& check, const MaterialSpec& material);
+/// "linear, quadratic or cubic"
+std::string either(const std::vector<std::string>& words);
 
 }  // namespace stillpoint

@@ -11,8 +11,8 @@
 namespace stillpoint {
 namespace {
 
-/// Where in the file character `position` of a string stands; empty where that cannot be told from the string alone.
-std::optional<Location> place_in_string(const toml::value<std::string>& text, int position) {
+/// Where in the file character `position` of a string stands; empty if that cannot be told from the string alone.
+std::optional<Location> location_in_string(const toml::value<std::string>& text, int position) {
   const toml::source_region& region = text.source();
   Location where = location_of(region);
   if (position < 0 || where.line == 0 || region.begin.line != region.end.line) return std::nullopt;
@@ -25,42 +25,32 @@ std::optional<Location> place_in_string(const toml::value<std::string>& text, in
 }
 
 /// Compiles the formula in a string.
-std::optional<Expression> compile(const toml::value<std::string>& text, const std::string& path,
-                                  const std::string& variables, Reading& reading) {
+std::optional<Expression> compile(const toml::value<std::string>& text, const Value& value,
+                                  const std::string& variables) {
   for (const std::string& name : names_in(*text))
-    if (reading.broken.contains(name)) return std::nullopt;
+    if (value.reading.broken.contains(name)) return std::nullopt;
   try {
-    return Expression(*text, reading.constants, variables);
+    return Expression(*text, value.reading.constants, variables);
   } catch (const ExpressionError& error) {
-    if (const auto where = place_in_string(text, error.position())) {
-      reading.problem(*where, path, error.what());
+    if (const auto where = location_in_string(text, error.position())) {
+      value.reading.problem(*where, value.path, error.what());
     } else if (error.position() >= 0 && !text->empty()) {
-      reading.problem(location_of(text.source()), path,
-                      fmt::format("{} (at character {} of {})", error.what(), error.position() + 1, in_quotes(*text)));
+      value.problem(fmt::format("{} (at character {} of {})", error.what(), error.position() + 1, in_quotes(*text)));
     } else {
-      reading.problem(location_of(text.source()), path, error.what());
+      value.problem(error.what());
     }
     return std::nullopt;
   }
-}
-
-std::optional<double> checked(double value, const toml::node& node, const std::string& path, const Range& range,
-                              Reading& reading) {
-  if (!std::isfinite(value)) {
-    reading.problem(location_of(node.source()), path, fmt::format("expected a finite number, found {}", value));
-  } else if (!range.contains(value)) {
-    reading.problem(location_of(node.source()), path, fmt::format("must be {}, not {}", range.text(), value));
-  } else {
-    return value;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
 
 void Reading::problem(const Location& where, const std::string& path, const std::string& message) {
   problems.push_back({where, path.empty() ? message : path + ": " + message});
+  wrong.insert(path);
 }
+
+void Value::problem(const std::string& message) const { reading.problem(location_of(node.source()), path, message); }
 
 bool Range::contains(double value) const {
   return (lower_allowed ? value >= lower : value > lower) && (upper_allowed ? value <= upper : value < upper);
@@ -112,52 +102,51 @@ std::vector<std::string> names_in(std::string_view formula) {
   return names;
 }
 
-std::optional<double> read_number(const toml::node& node, const std::string& path, const Range& range,
-                                  Reading& reading) {
-  if (const auto* integer = node.as_integer())
-    return checked(static_cast<double>(integer->get()), node, path, range, reading);
-  if (const auto* real = node.as_floating_point()) return checked(real->get(), node, path, range, reading);
-  if (const auto* text = node.as_string()) {
-    const auto formula = compile(*text, path, "", reading);
-    return formula ? checked((*formula)({}, 0), node, path, range, reading) : std::nullopt;
+std::optional<double> read_number(const Value& value, const Range& range) {
+  std::optional<double> number;
+  if (const auto* text = value.node.as_string()) {
+    if (const auto formula = compile(*text, value, "")) number = (*formula)({}, 0);
+  } else if (value.node.is_number()) {
+    number = value.node.value<double>();
+  } else {
+    value.problem(fmt::format("expected a number or a formula, found {}", kind_of(value.node)));
   }
-  reading.problem(location_of(node.source()), path,
-                  fmt::format("expected a number or a formula, found {}", kind_of(node)));
+  if (!number) return std::nullopt;
+  if (std::isfinite(*number) && range.contains(*number)) return number;
+  value.problem(std::isfinite(*number) ? fmt::format("must be {}, not {}", range.text(), *number)
+                                       : fmt::format("expected a finite number, found {}", *number));
   return std::nullopt;
 }
 
-std::optional<std::int64_t> read_integer(const toml::node& node, const std::string& path, std::int64_t lower,
-                                         std::int64_t upper, Reading& reading) {
-  std::optional<std::int64_t> value;
+std::optional<std::int64_t> read_whole(const Value& value, const Range& range) {
+  std::optional<std::int64_t> whole;
   std::string found;
-  if (const auto* integer = node.as_integer()) {
-    value = integer->get();
-    found = fmt::format("{}", *value);
+  if (const auto* integer = value.node.as_integer()) {
+    whole = integer->get();
+    found = fmt::format("{}", *whole);
   } else {
-    const auto real = read_number(node, path, kAnyNumber, reading);
+    const auto real = read_number(value);
     if (!real) return std::nullopt;
     found = fmt::format("{}", *real);
     constexpr double exact = 9007199254740992.0;  // 2^53: up to here doubles and whole numbers are the same
-    if (std::abs(*real) <= exact && std::trunc(*real) == *real) value = static_cast<std::int64_t>(*real);
+    if (std::abs(*real) <= exact && std::trunc(*real) == *real) whole = static_cast<std::int64_t>(*real);
   }
-  if (value && *value >= lower && *value <= upper) return value;
-  const std::string limits = upper == std::numeric_limits<std::int64_t>::max()
-                                 ? fmt::format("of at least {}", lower)
-                                 : fmt::format("from {} to {}", lower, upper);
-  reading.problem(location_of(node.source()), path, fmt::format("must be a whole number {}, not {}", limits, found));
+  if (whole && range.contains(static_cast<double>(*whole))) return whole;
+  const std::string limits = std::isinf(range.upper) ? fmt::format("of at least {}", range.lower)
+                                                     : fmt::format("from {} to {}", range.lower, range.upper);
+  value.problem(fmt::format("must be a whole number {}, not {}", limits, found));
   return std::nullopt;
 }
 
-std::optional<Expression> read_formula(const toml::node& node, const std::string& path, const std::string& variables,
-                                       Reading& reading) {
-  if (const auto* text = node.as_string()) return compile(*text, path, variables, reading);
-  if (const auto value = read_number(node, path, kAnyNumber, reading)) return Expression(*value);
+std::optional<Expression> read_formula(const Value& value, const std::string& variables) {
+  if (const auto* text = value.node.as_string()) return compile(*text, value, variables);
+  if (const auto number = read_number(value)) return Expression(*number);
   return std::nullopt;
 }
 
-std::optional<std::string> read_text(const toml::node& node, const std::string& path, Reading& reading) {
-  if (const auto* text = node.as_string()) return text->get();
-  reading.problem(location_of(node.source()), path, fmt::format("expected a string, found {}", kind_of(node)));
+std::optional<std::string> read_text(const Value& value) {
+  if (const auto* text = value.node.as_string()) return text->get();
+  value.problem(fmt::format("expected a string, found {}", kind_of(value.node)));
   return std::nullopt;
 }
 

@@ -1,8 +1,8 @@
-// One TOML value read as what the schema wants; what is wrong with it becomes a problem, not an exception.
+// One TOML value read as what its key takes; what is wrong with it becomes a problem, not an exception.
 #pragma once
 
 #include <stillpoint/expression.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/scene_error.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -18,12 +18,23 @@ namespace stillpoint {
 
 /// What reading a scene shares: the constants that formulas may use, and the problems found so far.
 struct Reading {
-  Constants constants;
-  std::set<std::string> broken;  // constants that could not be computed; what uses them is not reported again
-  std::vector<Problem> problems;
+  int dim = 1;
+  Constants constants{};
+  std::set<std::string> broken{};  // constants that could not be computed; what uses them is not reported again
+  std::set<std::string> wrong{};   // dotted keys whose values are wrong
+  std::vector<Problem> problems{};
 
   /// Records that the value of the dotted key path is wrong.
   void problem(const Location& where, const std::string& path, const std::string& message);
+};
+
+/// A TOML node, and the dotted key under which it stands ("support[0].at").
+struct Value {
+  const toml::node& node;
+  std::string path;
+  Reading& reading;
+
+  void problem(const std::string& message) const;
 };
 
 /// Where a number may lie.
@@ -40,6 +51,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{0, kInfinity, false, false};
 inline constexpr Range kNotNegative{0, kInfinity, true, false};
+inline constexpr Range from(double lower, double upper) { return {lower, upper, true, true}; }
 
 /// "a number", "a string", "an array" …
 std::string kind_of(const toml::node& node);
@@ -48,18 +60,15 @@ std::string kind_of(const toml::node& node);
 std::vector<std::string> names_in(std::string_view formula);
 
 /// A finite number in range: an integer, a float, or a string with a formula of the constants.
-std::optional<double> read_number(const toml::node& node, const std::string& path, const Range& range,
-                                  Reading& reading);
+std::optional<double> read_number(const Value& value, const Range& range = kAnyNumber);
 
-/// A whole number of lower … upper, written like any number.
-std::optional<std::int64_t> read_integer(const toml::node& node, const std::string& path, std::int64_t lower,
-                                         std::int64_t upper, Reading& reading);
+/// A whole number in range, written like any number.
+std::optional<std::int64_t> read_whole(const Value& value, const Range& range);
 
 /// A number or a formula of the constants and of variables ("t", "xt", …).
-std::optional<Expression> read_formula(const toml::node& node, const std::string& path, const std::string& variables,
-                                       Reading& reading);
+std::optional<Expression> read_formula(const Value& value, const std::string& variables);
 
 /// A string.
-std::optional<std::string> read_text(const toml::node& node, const std::string& path, Reading& reading);
+std::optional<std::string> read_text(const Value& value);
 
 }  // namespace stillpoint

@@ -1,8 +1,5 @@
 #include "scene/input/validation.hpp"
 
-#include <stillpoint/damping.hpp>
-#include <stillpoint/integrator.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,71 +7,142 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/input/keys.hpp"
 #include "scene/input/scene_check.hpp"
 
 namespace stillpoint {
 namespace {
 
+/// Sets the defaults that depend on other keys.
+void complete(SceneCheck& check) {
+  Scene& scene = check.scene();
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    BodySpec& body = scene.bodies[k];
+    if (!check.written(check.body_key(k, "min"))) body.min = scene.grid.min;
+    if (!check.written(check.body_key(k, "max"))) body.max = scene.grid.max;
+    body.points_per_cell.resize(static_cast<std::size_t>(scene.dim), body.points_per_cell[0]);
+    if (!body.file.empty()) body.file = scene.file.parent_path() / body.file;
+  }
+  const auto state = std::ranges::find_if(scene.bodies, [](const BodySpec& body) { return body.state.has_value(); });
+  scene.state = state != scene.bodies.end() ? *state->state
+                : scene.dim == 1            ? StressState::uniaxial_stress
+                                            : StressState::plane_strain;
+  for (SupportSpec& support : scene.supports)
+    if (support.face) support.component = axis_of(*support.face);
+}
+
+void check_mass(SceneCheck& check) {
+  const MassSpec& mass = check.scene().mass;
+  const bool scaled = mass.scaling == MassScaling::gershgorin || mass.factor != 1;
+  if (scaled && mass.kind != MassKind::lumped && check.sound("mass.kind"))
+    check.add("mass.scaling", "needs mass.kind = \"lumped\"");
+}
+
 void check_integrator(SceneCheck& check) {
   const Scene& scene = check.scene();
   const IntegratorSpec& spec = scene.integrator;
-  if (spec.method.empty()) return;
-  const bool leapfrog = spec.method == "leapfrog";
-  const bool euler = spec.method == "symplectic-euler";
-  const bool fits =
-      spec.treatment == DampingTreatment::automatic || (leapfrog && spec.treatment == DampingTreatment::averaged) ||
-      ((leapfrog || euler) && spec.treatment == DampingTreatment::lagged) ||
-      (euler && (spec.treatment == DampingTreatment::implicit || spec.treatment == DampingTreatment::exact));
-  if (!fits)
-    check.add("integrator.damping",
-              fmt::format("this treatment does not go with method '{}', which takes {}", spec.method,
-                          leapfrog ? "automatic, averaged or lagged"
-                          : euler  ? "automatic, lagged, implicit or exact"
-                                   : "automatic only"));
-  if (fits && spec.treatment == DampingTreatment::exact && scene.damping.strategy == "identity" &&
+  if (spec.step_fraction > 1 && spec.unstable_reason.empty())
+    check.add("integrator.step_fraction",
+              fmt::format("{} of the critical step is unstable; say in unstable_reason why you want it, or stay at or "
+                          "below 1",
+                          spec.step_fraction));
+  if (check.written("integrator.step"))
+    check.refuse("integrator", {"step_fraction"}, "give either step or step_fraction, not both");
+  const MethodInfo* const method = check.catalogue().method(spec.method);
+  if (!method || !check.sound("integrator.method")) return;
+  const auto& treatments = method->treatments;
+  const bool fits = std::ranges::find(treatments, spec.treatment) != treatments.end();
+  if (!fits) {
+    std::vector<std::string> names;
+    for (const DampingTreatment one : treatments) names.emplace_back(kTreatments[static_cast<std::size_t>(one)]);
+    check.add("integrator.damping", fmt::format("this treatment does not go with method '{}', which takes {}",
+                                                spec.method, names.size() > 1 ? either(names) : names[0] + " only"));
+  }
+  const StrategyInfo* const strategy = check.catalogue().strategy(scene.damping.strategy);
+  if (fits && spec.treatment == DampingTreatment::exact && strategy && strategy->is_identity &&
       scene.mass.kind == MassKind::consistent)
     check.add("integrator.damping",
               "'exact' needs C and M diagonal together: take mass.kind = \"lumped\" or damping.strategy = \"viscous\"");
-  const Method method = find_method(spec.method);
-  if (spec.rtol && !method.adaptive)
+  if (spec.rtol && !method->adaptive)
     check.add("integrator.rtol", fmt::format("method '{}' has no error estimate; leave rtol out", spec.method));
-  if (!spec.rtol && !method.fixed_step)
+  if (!spec.rtol && !method->fixed_step)
     check.add("integrator.method", fmt::format("method '{}' has no fixed step: give integrator.rtol", spec.method));
 }
 
-/// What a strategy that owns its iteration cannot do.
+/// What goes with a way to rest in time.
 void check_strategy(SceneCheck& check) {
   const Scene& scene = check.scene();
-  const DampingSpec& spec = scene.damping;
-  const DampingInfo& info = find_damping(spec.strategy);
-  const std::string key = "damping.strategy";
-  if (!scene.integrator.method.empty() && !info.goes_with(scene.integrator.method)) {
-    check.add(check.written("integrator.method") ? "integrator.method" : key,
-              fmt::format("damping '{}' does not go with method '{}'; it goes with {}", info.name,
-                          scene.integrator.method, fmt::join(info.integrators, ", ")));
+  const StrategyInfo* const found = check.catalogue().strategy(scene.damping.strategy);
+  if (!found || !check.sound("damping.strategy")) return;
+  const StrategyInfo& info = *found;
+  for (const char* key : {"c", "alpha", "peak", "quotient"}) {
+    if (info.takes(key)) continue;
+    std::vector<std::string> owners;
+    for (const StrategyInfo& other : check.catalogue().strategies)
+      if (std::ranges::find(other.keys, key) != other.keys.end()) owners.push_back(fmt::format("\"{}\"", other.name));
+    check.refuse("damping", {key}, fmt::format("goes with strategy = {}, not with '{}'", either(owners), info.name));
+  }
+  const std::string& method = scene.integrator.method;
+  if (check.sound("integrator.method") && !info.goes_with(method)) {
+    check.add(check.written("integrator.method") ? "integrator.method" : "damping.strategy",
+              fmt::format("damping '{}' does not go with method '{}'; it goes with {}", info.name, method,
+                          fmt::join(info.integrators, ", ")));
     return;
   }
-  if (!info.owns_iteration) return;
+  if (!info.is_relaxation) return;
   if (scene.integrator.treatment != DampingTreatment::automatic)
     check.add("integrator.damping", fmt::format("damping '{}' is no C v to be treated; leave this out", info.name));
-  if (info.has_own_step) {
-    for (const char* step : {"integrator.step", "integrator.step_fraction"})
-      if (check.written(step)) check.add(step, fmt::format("damping '{}' has its own step; leave this out", info.name));
-  }
+  if (info.has_own_step)
+    check.refuse("integrator", {"step", "step_fraction"},
+                 fmt::format("damping '{}' has its own step; leave this out", info.name));
   const auto moves = [](const WallSpec& wall) { return wall.motion.uses('t'); };
   if (info.resets_velocity && std::ranges::any_of(scene.walls, moves))
-    check.add(key, fmt::format("'{}' sets velocities to zero, also those that a moving wall gives; take viscous, "
-                               "adaptive, auto or a local damping",
-                               info.name));
-  if (!info.is_static) return;
+    check.add("damping.strategy",
+              fmt::format("'{}' sets velocities to zero, also those that a moving wall gives; take viscous, adaptive, "
+                          "auto or a local damping",
+                          info.name));
+}
+
+/// What a solver without time cannot do.
+void check_static_solver(SceneCheck& check, const StaticMethodInfo& info) {
+  const Scene& scene = check.scene();
+  const std::string key = "solve.method";
+  for (const std::string_view table : kTablesOfMotion)
+    for (const auto& [path, where] : scene.where)
+      if (path.starts_with(std::string(table) + "."))
+        check.add(path, fmt::format("has no part in a static solution; leave it out, or take solve.method = \"{}\"",
+                                    SolveSpec().method));
   if (!scene.walls.empty())
-    check.add(key, fmt::format("'{}' is a static iteration, in which no wall can open or close; take another strategy",
-                               info.name));
+    check.add(key, fmt::format("'{}' is a static solver, in which no wall can open or close; take \"{}\"", info.name,
+                               SolveSpec().method));
   if (!scene.initial_v.empty())
-    check.add("initial.v", fmt::format("damping '{}' is a static iteration, which has no velocity", info.name));
-  if (loads_vary(scene))
-    check.add(key, fmt::format("'{}' is a static iteration, which has no time: loads and supports must not depend on t",
+    check.add("initial.v", fmt::format("'{}' is a static solver, which has no velocity", info.name));
+  if (!loads_vary(scene)) return;
+  if (!info.takes_end_of_loads) {
+    check.add(key, fmt::format("'{}' is a static solver, which has no time: loads and supports must not depend on t",
                                info.name));
+  } else if (scene.stop.time == 0) {
+    check.add(key, fmt::format("'{}' is a static solver, which has no time: loads and supports depend on t, so give "
+                               "stop.time, at which it takes them",
+                               info.name));
+  }
+}
+
+void check_stop(SceneCheck& check) {
+  const StopSpec& stop = check.scene().stop;
+  // The default number of steps guards against endless runs; it is no aim that a scene may rely on.
+  const bool limited = (check.written("stop.steps") && stop.steps > 0) || stop.wall_time > 0;
+  if (!stop.wants_equilibrium() && stop.time == 0 && !limited)
+    check.add("stop.residual", "nothing would ever stop this run: set residual, distance, time, steps or wall_time");
+}
+
+void check_exact(SceneCheck& check) {
+  if (!check.written("exact.stress")) return;
+  if (check.scene().dim > 1) {
+    check.add("exact.stress", "in one dimension only");
+  } else if (!check.written("exact.u")) {
+    check.add("exact.stress", "needs exact.u beside it");
+  }
 }
 
 void check_variant_names(SceneCheck& check) {
@@ -127,15 +195,23 @@ bool check_grid(SceneCheck& check) {
   return true;
 }
 
-void validate(Scene& scene, std::vector<Problem>& problems) {
-  SceneCheck check(scene, problems);
+void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
+  SceneCheck check(scene, reading, catalogue);
+  complete(check);
   const bool grid = check_grid(check);
   const std::optional<BodyBox> body = check_bodies(check, grid);
+  check_mass(check);
   check_loads(check, grid, body);
+  check_exact(check);
   check_phases(check);
   check_output(check, body);
-  check_integrator(check);
-  check_strategy(check);
+  if (const StaticMethodInfo* const solver = catalogue.static_method(scene.solve.method)) {
+    check_static_solver(check, *solver);
+  } else {
+    check_integrator(check);
+    check_strategy(check);
+  }
+  check_stop(check);
   check_variant_names(check);
 }
 

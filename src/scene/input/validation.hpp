@@ -1,14 +1,16 @@
 // What has to hold between the parts of a scene.
 #pragma once
 
+#include <stillpoint/catalogue.hpp>
 #include <stillpoint/scene.hpp>
 
-#include <vector>
+#include "scene/input/toml_value.hpp"
 
 namespace stillpoint {
 
-/// Checks a scene of which every single value is in order, or left empty because it was not; reports all that does not
-/// fit together. Places that miss the grid or the body by rounding are moved onto its border.
-void validate(Scene& scene, std::vector<Problem>& problems);
+/// Completes a scene with the defaults that depend on other keys, and checks that its parts fit together; each single
+/// value is right, or was left at its default because it was wrong. Positions that miss the grid or the body by
+/// rounding are moved onto its border.
+void validate(Scene& scene, Reading& reading, const Catalogue& catalogue);
 
 }  // namespace stillpoint

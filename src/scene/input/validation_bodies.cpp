@@ -9,12 +9,11 @@
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/point_file.hpp"
-#include "space/materials/material_laws.hpp"
 
 namespace stillpoint {
 namespace {
 
-/// True where the body has a size, after moving its faces onto grid lines that they miss by a sliver.
+/// True if the body has a size, after moving its faces onto grid lines that they miss by a sliver.
 bool check_box(SceneCheck& check, std::size_t k) {
   const GridSpec& grid = check.scene().grid;
   BodySpec& body = check.scene().bodies[k];
@@ -34,12 +33,12 @@ bool check_box(SceneCheck& check, std::size_t k) {
   return true;
 }
 
-void set_bounding_box(BodySpec& body, const std::vector<std::vector<double>>& places) {
-  body.min = body.max = places.front();
-  for (const auto& place : places) {
-    for (std::size_t axis = 0; axis < place.size(); ++axis) {
-      body.min[axis] = std::min(body.min[axis], place[axis]);
-      body.max[axis] = std::max(body.max[axis], place[axis]);
+void set_bounding_box(BodySpec& body, const std::vector<std::vector<double>>& positions) {
+  body.min = body.max = positions.front();
+  for (const auto& position : positions) {
+    for (std::size_t axis = 0; axis < position.size(); ++axis) {
+      body.min[axis] = std::min(body.min[axis], position[axis]);
+      body.max[axis] = std::max(body.max[axis], position[axis]);
     }
   }
 }
@@ -57,7 +56,9 @@ bool check_polygon(SceneCheck& check, std::size_t k) {
   const std::string key = check.body_key(k, "polygon");
   const auto wrong = [&](const std::string& message) { return check.add(key, message), false; };
   const std::size_t n = body.polygon.size();
-  if (n == 0) return false;  // has been said
+  if (n == 0 && !check.sound(key)) return false;
+  constexpr std::size_t most = 1000;  // that can be compared two by two
+  if (n < 3 || n > most) return wrong(fmt::format("needs from 3 to {} corners, not {}", most, n));
   bool inside = true;
   for (std::size_t c = 0; c < n; ++c)
     inside = check.inside(body.polygon[c], grid.min, grid.max, "grid", fmt::format("{}[{}]", key, c)) && inside;
@@ -145,11 +146,11 @@ void check_material(SceneCheck& check, std::size_t k) {
                                           : fmt::format("; there is {}", fmt::join(names, ", "))));
     return;
   }
-  if (has_state(found->second, scene.state)) return;
-  const LawInfo& law = *std::ranges::find(material_laws(), found->second.law, &LawInfo::name);
+  const LawInfo* const law = law_of(check, found->second);
+  if (!law || std::ranges::find(law->states, scene.state) != law->states.end()) return;
   std::vector<std::string_view> states;
-  for (const StressState state : law.states) states.push_back(to_string(state));
-  check.add(check.body_key(k, "material"), fmt::format("law '{}' has no state '{}'; it has {}", law.name,
+  for (const StressState state : law->states) states.push_back(to_string(state));
+  check.add(check.body_key(k, "material"), fmt::format("law '{}' has no state '{}'; it has {}", law->name,
                                                        to_string(scene.state), fmt::join(states, ", ")));
 }
 
@@ -162,14 +163,27 @@ void check_dilation(SceneCheck& check, const MaterialSpec& material) {
             fmt::format("must be at most phi = {}, not {}", phi->second, psi->second));
 }
 
-}  // namespace
-
-bool has_history(const MaterialSpec& material) { return material.law == "drucker-prager"; }
-
-bool has_state(const MaterialSpec& material, StressState state) {
-  const auto law = std::ranges::find(material_laws(), material.law, &LawInfo::name);
-  return law == material_laws().end() || std::ranges::find(law->states, state) != law->states.end();
+/// Keys of a body that exclude each other.
+void check_keys(SceneCheck& check, std::size_t k) {
+  const BodySpec& body = check.scene().bodies[k];
+  std::string table = check.body_key(k, "");
+  table.pop_back();
+  if (check.written(table + ".file")) {
+    check.refuse(
+        table,
+        {"min", "max", "polygon", "area", "thickness", "points_per_cell", "placement", "jitter", "volumes", "seed"},
+        "does not go with file, which holds the points and their volumes");
+  } else if (check.written(table + ".polygon")) {
+    check.refuse(table, {"min", "max"}, "does not go with polygon; give one of them");
+  }
+  if (body.jitter > 0 && body.placement == Placement::random)
+    check.add(table + ".jitter", "does not go with placement = \"random\": random points have no spacing");
+  if (body.state && *body.state != check.scene().state) check.add(table + ".state", "must be the same in all bodies");
+  if (check.scene().state == StressState::axisymmetric)
+    check.refuse(table, {"thickness"}, "an axisymmetric body goes all the way round and has none");
 }
+
+}  // namespace
 
 std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
   Scene& scene = check.scene();
@@ -183,15 +197,13 @@ std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
     } else {
       in_order[k] = grid && check_box(check, k);
     }
+    check_keys(check, k);
     check_material(check, k);
-    if (const std::string key = check.body_key(k, "thickness");
-        scene.state == StressState::axisymmetric && check.written(key))
-      check.add(key, "an axisymmetric body goes all the way round and has none");
   }
   for (const auto& [name, material] : scene.materials) check_dilation(check, material);
   if (grid) check_number_of_points(check, in_order);
 
-  if (std::ranges::find(in_order, false) != in_order.end()) return std::nullopt;
+  if (count == 0 || std::ranges::find(in_order, false) != in_order.end()) return std::nullopt;
   BodyBox box{scene.bodies[0].min, scene.bodies[0].max, count == 1 ? "body" : "bodies"};
   for (const BodySpec& body : scene.bodies) {
     for (std::size_t axis = 0; axis < box.min.size(); ++axis) {

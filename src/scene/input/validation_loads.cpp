@@ -1,25 +1,47 @@
 // What holds, pushes and loads the bodies, and the stress that they begin with.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
-#include "scene/input/toml_reader.hpp"
 
 namespace stillpoint {
 namespace {
 
-void check_supports(SceneCheck& check) {
+/// At most one support or wall stands on a face of the grid.
+void check_faces(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  std::map<Face, std::string> owners;
+  const auto take = [&](Face face, const std::string& owner) {
+    const auto [before, free] = owners.emplace(face, owner);
+    if (!free) check.add(owner + ".face", fmt::format("{} stands on this face already", before->second));
+  };
+  for (std::size_t k = 0; k < scene.supports.size(); ++k)
+    if (scene.supports[k].face) take(*scene.supports[k].face, fmt::format("support[{}]", k));
+  for (std::size_t k = 0; k < scene.walls.size(); ++k)
+    if (const std::string wall = fmt::format("wall[{}]", k);
+        check.written(wall + ".face") && check.sound(wall + ".face"))
+      take(scene.walls[k].face, wall);
+}
+
+void check_supports(SceneCheck& check, bool grid) {
   Scene& scene = check.scene();
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     SupportSpec& support = scene.supports[k];
-    const std::string key = fmt::format("support[{}].at", k);
-    check.inside(support.at, scene.grid.min, scene.grid.max, "grid", key);
-    for (std::size_t before = 0; before < k && !support.at.empty(); ++before)
+    const std::string name = fmt::format("support[{}]", k);
+    const bool at = check.written(name + ".at"), face = check.written(name + ".face");
+    if (at && face) check.add(name + ".face", "give either at or face, not both");
+    if (!at && !face) check.add(name, "give at, a position, or face, a side of the grid");
+    if (!face) check.refuse(name, {"kind"}, "goes with a face; at a position, component says what is held");
+    if (!at) check.refuse(name, {"component"}, "goes with a position; on a face, u is the motion along its normal");
+    if (!grid || support.at.empty()) continue;
+    check.inside(support.at, scene.grid.min, scene.grid.max, "grid", name + ".at");
+    for (std::size_t before = 0; before < k; ++before)
       if (scene.supports[before].at == support.at && scene.supports[before].component == support.component)
-        check.add(key, fmt::format("support[{}] holds this place already", before));
+        check.add(name + ".at", fmt::format("support[{}] holds this position already", before));
   }
 }
 
@@ -30,6 +52,8 @@ void check_walls(SceneCheck& check) {
   std::set<std::string> names;
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     const std::string& name = scene.walls[k].name;
+    if (scene.dim == 1 && scene.walls[k].friction > 0)
+      check.add(fmt::format("wall[{}].friction", k), "there is none in one dimension");
     if (name.empty()) return;  // has been said, and may be the one that the grid follows
     if (!names.insert(name).second)
       check.add(fmt::format("wall[{}].name", k), fmt::format("there is a wall {} already", in_quotes(name)));
@@ -43,6 +67,16 @@ void check_walls(SceneCheck& check) {
 
 void check_tractions(SceneCheck& check) {
   const Scene& scene = check.scene();
+  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
+    const std::string name = fmt::format("traction[{}]", k);
+    const bool value = check.written(name + ".value"), pressure = check.written(name + ".pressure");
+    if (value && pressure)
+      check.add(name + ".pressure",
+                "give either value, which keeps its direction, or pressure, which follows the face");
+    if (!value && !pressure)
+      check.add(name, "give value, which keeps its direction, or pressure, which follows the face");
+  }
+  if (scene.bodies.empty()) return;
   const bool box = scene.bodies.size() == 1 && scene.bodies[0].polygon.empty() && scene.bodies[0].file.empty();
   for (std::size_t k = 0; k < scene.tractions.size() && !box; ++k)
     check.add(fmt::format("traction[{}]", k),
@@ -50,6 +84,14 @@ void check_tractions(SceneCheck& check) {
                           scene.bodies.size() > 1        ? fmt::format("are {} bodies", scene.bodies.size())
                           : scene.bodies[0].file.empty() ? "is a polygon"
                                                          : "are points from a file"));
+}
+
+/// ", such as drucker-prager"
+std::string laws_that_keep_a_stress(const SceneCheck& check) {
+  std::vector<std::string> names;
+  for (const LawInfo& law : check.catalogue().laws)
+    if (law.history_dependent) names.emplace_back(law.name);
+  return names.empty() ? "" : ", such as " + either(names);
 }
 
 void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
@@ -63,15 +105,17 @@ void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
   if (b.size() != 2) {
     if (!check.written("body_force")) check.add(key, "needs a [body_force]: the weight that the stress bears");
   } else if (!b[0].constant() || !b[1].constant() || b[0]({}, 0) != 0) {
-    check.add("body_force.value", "must be constant and vertical, [0, b], where initial.geostatic is asked for");
+    check.add("body_force.value", "must be constant and vertical, [0, b], if initial.geostatic is asked for");
   }
   for (const BodySpec& spec : scene.bodies) {
     const auto material = scene.materials.find(spec.material);
-    if (material == scene.materials.end() || material->second.law.empty() || has_history(material->second)) continue;
+    if (material == scene.materials.end()) continue;
+    const LawInfo* const law = law_of(check, material->second);
+    if (!law || law->history_dependent) continue;
     check.add(fmt::format("material.{}.law", material->first),
-              fmt::format("initial.geostatic needs a law that keeps a stress, such as drucker-prager; the stress of "
-                          "'{}' is 0 where nothing is deformed",
-                          material->second.law));
+              fmt::format("initial.geostatic needs a law that keeps a stress{}; the stress of '{}' is 0 if nothing is "
+                          "deformed",
+                          laws_that_keep_a_stress(check), law->name));
     break;
   }
   if (body && check.written(key + ".surface") && scene.geostatic->surface < body->max[1])
@@ -83,7 +127,8 @@ void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
 
 void check_loads(SceneCheck& check, bool grid, const std::optional<BodyBox>& body) {
   Scene& scene = check.scene();
-  if (grid) check_supports(check);
+  check_faces(check);
+  check_supports(check, grid);
   check_walls(check);
   for (std::size_t k = 0; k < scene.forces.size() && body; ++k)
     check.inside(scene.forces[k].at, body->min, body->max, body->name, fmt::format("force[{}].at", k));

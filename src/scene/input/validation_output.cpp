@@ -6,7 +6,6 @@
 
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
-#include "scene/input/toml_reader.hpp"
 
 namespace stillpoint {
 namespace {
@@ -34,6 +33,26 @@ void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& 
   }
 }
 
+/// The keys that go with the kind of a probe.
+void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
+  const int dim = check.scene().dim;
+  if (!check.sound(key + ".kind")) return;
+  if (probe.kind == ProbeKind::slope_angle) {
+    if (dim == 1) check.add(key + ".kind", "a slope has an angle in two dimensions only");
+    return check.refuse(key, {"point", "at", "fields"},
+                        "goes with a point only; the angle of a slope has nothing but a name");
+  }
+  const bool point = check.written(key + ".point"), at = check.written(key + ".at");
+  if (point && at) check.add(key + ".at", "give either point or at, not both");
+  if (!point && !at) check.add(key, "give point, the number of a material point, or at, a position");
+  if (!check.written(key + ".fields")) {
+    check.add(key, "the key 'fields' is missing");
+  } else if (probe.fields.empty() && check.sound(key + ".fields")) {
+    check.add(key + ".fields", fmt::format("name at least one of {}", fmt::join(probe_fields(dim), ", ")));
+  }
+  check_fields(check, probe, key);
+}
+
 void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
   Scene& scene = check.scene();
   std::set<std::string> names;
@@ -50,7 +69,7 @@ void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
     check_name(check, probe.name, key + ".name");
     if (!probe.name.empty() && !names.insert(probe.name).second)
       check.add(key + ".name", fmt::format("there is a probe {} already", in_quotes(probe.name)));
-    if (probe.kind == ProbeKind::point) check_fields(check, probe, key);
+    check_kind(check, probe, key);
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     const std::string& name = scene.walls[k].name;

@@ -9,18 +9,20 @@
 namespace stillpoint {
 namespace {
 
-/// The materials of the bodies, each once; none whose law is not for this scene, which has been said.
-std::vector<const MaterialSpec*> materials_in_use(const Scene& scene) {
+/// The materials of the bodies, each once; without those whose law is not for this scene, which has been said.
+std::vector<const MaterialSpec*> materials_in_use(SceneCheck& check) {
+  const Scene& scene = check.scene();
   std::vector<const MaterialSpec*> materials;
   for (const BodySpec& body : scene.bodies) {
     const auto found = scene.materials.find(body.material);
-    if (found == scene.materials.end() || !has_state(found->second, scene.state)) continue;
+    const LawInfo* const law = found == scene.materials.end() ? nullptr : law_of(check, found->second);
+    if (!law || std::ranges::find(law->states, scene.state) == law->states.end()) continue;
     if (std::ranges::find(materials, &found->second) == materials.end()) materials.push_back(&found->second);
   }
   return materials;
 }
 
-/// A wall that moves stays on a grid line only where the grid follows it.
+/// A wall that moves stays on a grid line only if the grid follows it.
 void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
   const Scene& scene = check.scene();
   const std::string& follow = scene.grid.follow;
@@ -43,14 +45,25 @@ void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
 void check_phases(SceneCheck& check) {
   Scene& scene = check.scene();
   PhaseSpec& phase = scene.phase;
-  const auto materials = materials_in_use(scene);
-  // Where phases are asked for; with history they are there unasked.
+  const bool known = check.sound("phase.transfer");
+  if (known && phase.transfer != Transfer::flip)
+    check.refuse("phase", {"flip_share"}, "goes with transfer = \"flip\" only");
+  if (known && phase.transfer != Transfer::xpic)
+    check.refuse("phase", {"xpic_order"}, "goes with transfer = \"xpic\" only");
+  if (scene.solve.is_static()) {
+    const std::string why = fmt::format("'{}' is a static solver, which needs a single phase: ", scene.solve.method);
+    if (phase.max_motion) check.add("phase.max_motion", why + "take \"none\"");
+    if (phase.max_strain) check.add("phase.max_strain", why + "leave this out");
+    return;
+  }
+  const auto materials = materials_in_use(check);
+  // The key that asks for phases; a history brings them unasked.
   std::string asked = "phase.max_motion";
   if (!check.written(asked) && phase.max_strain) asked = "phase.max_strain";
   const bool unasked = !check.written(asked);
   constexpr double usual_motion = 0.1;
   if (!check.written("phase.max_motion") &&
-      std::ranges::any_of(materials, [](const MaterialSpec* m) { return has_history(*m); }))
+      std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; }))
     phase.max_motion = usual_motion;
   if (!phase.max_motion && !phase.max_strain) return;
 
@@ -58,12 +71,12 @@ void check_phases(SceneCheck& check) {
       fmt::format("or {}{}{} for a single phase", phase.max_motion ? "phase.max_motion = \"none\"" : "",
                   phase.max_motion && phase.max_strain ? " and " : "", phase.max_strain ? "no phase.max_strain" : "");
   for (const MaterialSpec* material : materials) {
-    if (material->law != "linear-elastic") continue;
+    if (law_of(check, *material)->finite_strain) continue;
     const std::string law = fmt::format("material.{}.law", material->name);
     check.add(unasked ? law : asked,
-              fmt::format("'linear-elastic' is a law of small strain, whose places never change, so that no phase "
-                          "ends; take hencky or neo-hookean, {}",
-                          one_phase));
+              fmt::format("'{}' is a law of small strain, whose positions never change, so that no phase ends; take "
+                          "hencky or neo-hookean, {}",
+                          material->law, one_phase));
     return;  // the rest is not worth putting right
   }
   if (scene.grid.basis == BasisKind::hermite) {
@@ -78,12 +91,12 @@ void check_phases(SceneCheck& check) {
   }
   for (std::size_t k = 0; k < scene.forces.size(); ++k)
     check.add(fmt::format("force[{}].at", k),
-              fmt::format("the material leaves this place from phase to phase; take a traction or a body force, {}",
+              fmt::format("the material leaves this position from phase to phase; take a traction or a body force, {}",
                           one_phase));
   if (!scene.exact_u.empty())
-    check.add(
-        "exact.u",
-        fmt::format("is a function of undeformed places, which later phases do not know; leave it out, {}", one_phase));
+    check.add("exact.u",
+              fmt::format("is a function of undeformed positions, which later phases do not know; leave it out, {}",
+                          one_phase));
   if (scene.stop.distance > 0)
     check.add("stop.distance", fmt::format("is certified for one set of unknowns, not from phase to phase; take "
                                            "stop.residual, {}",

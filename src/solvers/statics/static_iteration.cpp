@@ -4,14 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/parallel_loop.hpp"
 
 namespace stillpoint {
 
-StaticIteration::StaticIteration(const IntegratorOptions& options, RelaxationSystem& system, LineSearch::Accuracy sigma)
-    : SteppingIntegrator(options, system),
+StaticIteration::StaticIteration(double max_step, RelaxationSystem& system, LineSearch::Accuracy sigma)
+    : SteppingIntegrator({.max_step = max_step}, system),
       sigma_(sigma),
       Q_(system.vectors().make(system.size())),
       z_(system.vectors().make(system.size())),
@@ -19,8 +17,7 @@ StaticIteration::StaticIteration(const IntegratorOptions& options, RelaxationSys
       p_(system.vectors().make(system.size())) {
   if (system.system().has_contact()) {
     throw std::invalid_argument(
-        fmt::format("damping '{}' is a static iteration, in which nothing that touches the body can open or close",
-                    system.damping().name()));
+        "in a static solution nothing that touches the body can open or close: take relaxation");
   }
 }
 

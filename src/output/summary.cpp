@@ -1,8 +1,31 @@
-#include <stillpoint/run.hpp>
+#include <stillpoint/summary.hpp>
 
 #include "base/json.hpp"
 
 namespace stillpoint {
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::running:
+      return "running";
+    case RunStatus::equilibrium:
+      return "equilibrium";
+    case RunStatus::end_time:
+      return "end-time";
+    case RunStatus::step_limit:
+      return "step-limit";
+    case RunStatus::time_limit:
+      return "time-limit";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
 std::string to_json(const Summary& s) {
   Json error = nullptr;
   if (s.error) {
@@ -38,11 +61,12 @@ std::string to_json(const Summary& s) {
                      {"distance", number(s.distance)},
                      {"kinetic_energy", number(s.kinetic_energy)},
                      {"external_work", number(s.external_work)},
-                     {"mass_error", s.transfer ? number(s.transfer->mass) : Json(nullptr)},
-                     {"momentum_error", s.transfer ? number(s.transfer->momentum) : Json(nullptr)},
-                     {"added_inertia", s.transfer ? number(s.transfer->added_mass) : Json(nullptr)},
+                     {"mass_error", number(s.mass_error)},
+                     {"momentum_error", number(s.momentum_error)},
+                     {"added_inertia", number(s.added_mass)},
                      {"slope_angle", number(s.slope_angle)},
                      {"stages", stages},
+                     {"method", s.method},
                      {"integrator", s.integrator},
                      {"damping", s.damping},
                      {"omega_1", number(s.omega_1)},

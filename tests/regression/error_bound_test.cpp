@@ -3,6 +3,8 @@
 //   u − u* = −K⁻¹Q,   so   ‖u − u*‖_M ≤ ‖M⁻¹Q‖_M/ω₁² = distance · ‖u‖_M
 //
 // for constant K, whatever u is. distance is relative to ‖u‖_M since u* is not known; the error below to ‖u*‖_M.
+#include "simulation/error_bound.hpp"
+
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
@@ -17,7 +19,6 @@
 
 #include "largest.hpp"
 #include "scenes.hpp"
-#include "simulation/error_bound.hpp"
 #include "simulation/motion.hpp"
 
 using namespace stillpoint;
@@ -57,24 +58,15 @@ struct Sample {
 
 /// The whole way to an error of 1e-6, in the mass that the strategy moves.
 std::vector<Sample> relaxed(const Scene& scene, const Values& rest, long most_steps = 20'000) {
-  Model model = make_model(scene);
-  Motion motion(model, {}, 0, model.u, model.v);
-  const ErrorBound error_bound(*model.phase, model.omega_1);
-  const Mass& mass = model.phase->mass();
+  Simulation simulation(scene, {.records = false, .stops = false});
+  const Mass& mass = simulation.phase().mass();
   const double scale = mass_norm(mass, rest);
   std::vector<Sample> samples;
-  motion.accept(0);
-  double t = 0;
   do {
-    const StepReport step = motion.integrator->step(1e9);
-    if (step.status != StepReport::Status::ok) break;  // an iteration that rounding keeps from getting any nearer
-    t = step.t;
-    motion.accept(t);
-    motion.residual(t);
-    const auto distance = error_bound.distance(motion.relaxation, motion.u_vector);
-    samples.push_back(
-        {relative_difference(mass, motion.u(), rest), mass_norm(mass, motion.u()) / scale, distance.value()});
-  } while (samples.back().error > 1e-6 && motion.integrator->steps() < most_steps);
+    if (simulation.step() != RunStatus::running) break;  // an iteration that rounding keeps from getting any nearer
+    samples.push_back({relative_difference(mass, simulation.u(), rest), mass_norm(mass, simulation.u()) / scale,
+                       simulation.distance().value()});
+  } while (samples.back().error > 1e-6 && simulation.steps() < most_steps);
   CHECK(samples.back().error <= 1e-6);
   return samples;
 }
@@ -127,7 +119,7 @@ constexpr double rounding = 1e-5;  // of ratios, where the error itself is 1e-6 
 }  // namespace
 
 TEST_CASE("on every linear scene, with every strategy and after every step, no error is larger than certified",
-          "[error_bound]") {
+          "[error bound]") {
   for (const Case& problem : linear) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "one-sided", "cundall", "kinetic", "adaptive", "fire", "chebyshev",
@@ -140,7 +132,7 @@ TEST_CASE("on every linear scene, with every strategy and after every step, no e
 }
 
 TEST_CASE("leapfrog with critical damping, and auto, are certified to 2.5 times their error, at the end to 1.25 times",
-          "[error_bound]") {
+          "[error bound]") {
   for (const Case& problem : linear) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "auto"}) {
@@ -155,7 +147,7 @@ TEST_CASE("leapfrog with critical damping, and auto, are certified to 2.5 times 
 }
 
 TEST_CASE("an error that is left in high modes is certified too large: by conjugate gradients up to kappa times",
-          "[error_bound]") {
+          "[error bound]") {
   const Case& chain = linear.front();
   const Values rest = equilibrium_of(with(chain, "viscous"));
   const double kappa = 9988;
@@ -178,9 +170,10 @@ struct Ended {
 Ended ended(const Scene& scene) {
   Ended result;
   result.phase = make_phase(scene);
-  result.summary = run(scene, {.at_end = [&](const LagrangianPhase&, double, ConstVec u, ConstVec) {
-                         result.u.assign(u.begin(), u.end());
-                       }});
+  Simulation simulation(scene);
+  simulation.run();
+  result.summary = simulation.summary();
+  result.u.assign(simulation.u().begin(), simulation.u().end());
   return result;
 }
 
@@ -193,7 +186,7 @@ const Case small_footing{"footing", {"grid.cells=[12, 9]"}};
 
 }  // namespace
 
-TEST_CASE("relaxation and Newton's method agree to the error_bound at large strain", "[error_bound]") {
+TEST_CASE("relaxation and Newton's method agree to the error bound at large strain", "[error bound]") {
   for (const Case& problem : {soft_column, short_cantilever}) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "auto", "kinetic"}) {
@@ -208,8 +201,8 @@ TEST_CASE("relaxation and Newton's method agree to the error_bound at large stra
   }
 }
 
-TEST_CASE("relaxation and Newton's method agree to the error_bound where soil yields without any overshoot",
-          "[error_bound]") {
+TEST_CASE("relaxation and Newton's method agree to the error bound where soil yields without any overshoot",
+          "[error bound]") {
   // Strains of 1e-4, so that places hardly move; more than critical damping, so that stresses only ever grow.
   const Scene scene =
       scenes::load("column", {"phase.max_motion=none", "damping.c=500", "stop.residual=1e-6",
@@ -226,7 +219,7 @@ TEST_CASE("relaxation and Newton's method agree to the error_bound where soil yi
 // An elastic tangent says nothing of what still yields on the way: here the distance is an estimate, down to 0.6 times
 // the error with critical damping.
 TEST_CASE("where ground yields the distance is that to the equilibrium that the same run comes to later",
-          "[error_bound]") {
+          "[error bound]") {
   for (const std::string strategy : {"viscous", "kinetic", "one-sided"}) {
     const Ended end = ended(with(small_footing, strategy, {"stop.residual=1e-4"}));
     const Ended later = ended(with(small_footing, strategy, {"stop.residual=1e-10"}));
@@ -242,12 +235,12 @@ TEST_CASE("where ground yields the distance is that to the equilibrium that the 
 // --- stop.distance --------------------------------------------------------------------------------
 
 TEST_CASE("a run that stops by the distance alone is in equilibrium and no further off than was asked",
-          "[error_bound]") {
+          "[error bound]") {
   for (const Case& problem : {linear[0], linear[2], linear[4]}) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "kinetic", "one-sided", "auto"}) {
       const double wanted = 1e-4;
-      const Ended end = ended(with(problem, strategy, {"stop.residual=0", "stop.distance=1e-4", "stop.dwell=0"}));
+      const Ended end = ended(with(problem, strategy, {"stop.residual=0", "stop.distance=1e-4", "stop.hold=0"}));
       CAPTURE(problem.name, strategy, end.summary.reason);
       CHECK(end.summary.status == RunStatus::equilibrium);
       CHECK(end.summary.exit_status == 0);
@@ -260,8 +253,8 @@ TEST_CASE("a run that stops by the distance alone is in equilibrium and no furth
   }
 }
 
-TEST_CASE("of a body that stiffens the run stops by the distance with the tangent that it then has", "[error_bound]") {
-  const Scene scene = with(soft_column, "viscous", {"stop.residual=0", "stop.distance=1e-4", "stop.dwell=0"});
+TEST_CASE("of a body that stiffens the run stops by the distance with the tangent that it then has", "[error bound]") {
+  const Scene scene = with(soft_column, "viscous", {"stop.residual=0", "stop.distance=1e-4", "stop.hold=0"});
   const Ended end = ended(scene);
   CHECK(end.summary.status == RunStatus::equilibrium);
   CHECK(end.summary.distance.value() <= 1e-4);

@@ -1,0 +1,184 @@
+// From the C++ type of a member of Scene to the reading of its key.
+#pragma once
+
+#include <concepts>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/input/keys.hpp"
+#include "scene/input/toml_source.hpp"
+
+namespace stillpoint {
+
+template <class T>
+struct Unwrapped {  // T itself, or of what it is an optional or an array
+  using type = T;
+  static constexpr bool is_optional = false;
+  static constexpr int depth = 0;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> : Unwrapped<T> {
+  static constexpr bool is_optional = true;
+};
+template <class T>
+struct Unwrapped<std::vector<T>> {
+  using type = typename Unwrapped<T>::type;
+  static constexpr bool is_optional = false;
+  static constexpr int depth = 1 + Unwrapped<T>::depth;
+};
+
+/// An option: its word, by number. A whole number may be written as a word too.
+std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key);
+/// Whether the value of a key that takes a number or a word is the word; a misspelt word is reported, and counts.
+bool is_word(const Value& value, const KeyInfo& key);
+std::optional<std::string> read_string(const Value& value, const KeyInfo& key);
+/// The entries of an array: as many as there are coordinates, or any number of them (list).
+std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested);
+std::string variables_of(const KeyInfo& key, int dim);
+
+template <class T>
+std::optional<T> read_value(const Value& value, const KeyInfo& key, bool nested = false) {
+  const auto converted = [](auto&& read) { return read ? std::optional(static_cast<T>(*read)) : std::nullopt; };
+  if constexpr (Unwrapped<T>::depth > 0) {
+    const auto entries = entries_of(value, key, key.list && !nested, nested);
+    if (!entries) return std::nullopt;
+    T result;
+    for (const Value& entry : *entries)
+      if (auto one = read_value<typename T::value_type>(entry, key, /*nested=*/true)) result.push_back(std::move(*one));
+    return result.size() == entries->size() ? std::optional(std::move(result)) : std::nullopt;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return read_number(value, key.range);
+  } else if constexpr (std::is_same_v<T, Expression>) {
+    return read_formula(value, variables_of(key, value.reading.dim));
+  } else if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>) {
+    return converted(read_word(value, key));
+  } else if constexpr (std::integral<T>) {
+    return converted(key.words.empty() ? read_whole(value, key.range) : read_word(value, key));
+  } else {
+    return converted(read_string(value, key));
+  }
+}
+
+template <class T>
+constexpr Kind kind_of_type() {
+  if (std::is_same_v<T, double>) return Kind::number;
+  if (std::is_same_v<T, Expression>) return Kind::formula;
+  return std::integral<T> && !std::is_same_v<T, bool> ? Kind::whole : Kind::text;
+}
+
+/// The default of a key as a scene would write it; empty: none.
+template <class T>
+std::string told_default(const T& value, const KeyInfo& key) {
+  if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>) {
+    return std::string(key.words.at(static_cast<std::size_t>(value)).name);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return fmt::format("{}", value);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return value;
+  } else {
+    return std::is_same_v<T, Expression> ? "0" : "";
+  }
+}
+
+/// A key of the tables whose values go into a Spec.
+template <class Spec>
+struct Key {
+  KeyInfo info;
+  std::function<void(Spec& spec, const Value& value, const KeyInfo& info)> read;
+};
+
+/// access: a pointer to the member that takes the value, or a function from a Spec to it. on_word: what a number's word
+/// does; without it the member becomes empty.
+template <class Spec, class Access>
+Key<Spec> key_of(std::string_view name, Access access, std::string_view help, KeyInfo info,
+                 std::function<void(Spec&)> on_word = {}) {
+  using Member = std::remove_cvref_t<std::invoke_result_t<Access, Spec&>>;
+  using T = std::conditional_t<Unwrapped<Member>::depth == 0, typename Unwrapped<Member>::type, Member>;
+  info.name = name;
+  info.help = help;
+  info.kind = kind_of_type<typename Unwrapped<Member>::type>();
+  info.shape = Unwrapped<Member>::depth > 1    ? Shape::positions
+               : Unwrapped<Member>::depth == 0 ? Shape::one
+               : info.list                     ? Shape::list
+                                               : Shape::axes;
+  if (Spec spec; info.fallback.empty() && !info.required) info.fallback = told_default(std::invoke(access, spec), info);
+  return {std::move(info), [access, on_word](Spec& spec, const Value& value, const KeyInfo& key) {
+            if constexpr (std::is_same_v<T, double>) {
+              if (!key.words.empty() && is_word(value, key)) {
+                if (on_word) on_word(spec);
+                return;
+              }
+            }
+            if (auto read = read_value<T>(value, key)) std::invoke(access, spec) = std::move(*read);
+          }};
+}
+template <class Spec, class Member>
+Key<Spec> key(std::string_view name, Member Spec::*member, std::string_view help, KeyInfo info = {},
+              std::type_identity_t<std::function<void(Spec&)>> on_word = {}) {
+  return key_of<Spec>(name, member, help, std::move(info), std::move(on_word));
+}
+
+/// One table that was found in a file.
+struct FoundTable {
+  const toml::table& table;
+  std::string path;  // "support[0]", "material.sand"
+  std::string name;  // of a named one
+};
+/// Every table that the file has of a kind; what stands there but is none is reported.
+std::vector<FoundTable> find_tables(const TableInfo& info, const toml::table& root, Reading& reading);
+/// Reports the entries of a table that are neither keys nor tables of it.
+void report_unknown_keys(const FoundTable& found, const TableInfo& info, Reading& reading);
+
+template <class Spec>
+void read_keys(const FoundTable& found, const TableInfo& info, const std::vector<Key<Spec>>& keys, Spec& spec,
+               Reading& reading) {
+  for (const Key<Spec>& key : keys) {
+    if (!key.info.is_in(reading.dim)) continue;
+    const std::string name(key.info.name);
+    if (const toml::node* const node = found.table.get(name)) {
+      key.read(spec, {*node, found.path.empty() ? name : found.path + "." + name, reading}, key.info);
+    } else if (key.info.required) {
+      reading.problem(location_of(found.table.source()), found.path, fmt::format("the key '{}' is missing", name));
+    }
+  }
+  report_unknown_keys(found, info, reading);
+}
+
+template <class Spec>
+std::vector<KeyInfo> infos_of(const std::vector<Key<Spec>>& keys) {
+  std::vector<KeyInfo> infos;
+  for (const Key<Spec>& key : keys) infos.push_back(key.info);
+  return infos;
+}
+
+/// info: what is told of the table. access: the part of a Scene that it describes: a Spec, an optional of one, or an
+/// array, of which each [[table]] is an entry.
+template <class Spec, class Access>
+TableInfo table(TableInfo info, Access access, std::type_identity_t<std::vector<Key<Spec>>> keys) {
+  info.keys = infos_of(keys);
+  info.read = [access, keys = std::move(keys)](const TableInfo& self, const toml::table& root, Scene& scene,
+                                               Reading& reading) {
+    for (const FoundTable& found : find_tables(self, root, reading)) {
+      auto& part = std::invoke(access, scene);
+      using Part = std::remove_cvref_t<decltype(part)>;
+      if constexpr (std::is_same_v<Part, Spec>) {
+        read_keys(found, self, keys, part, reading);
+      } else if constexpr (Unwrapped<Part>::is_optional) {
+        read_keys(found, self, keys, part.emplace(), reading);
+      } else {
+        read_keys(found, self, keys, part.emplace_back(), reading);
+      }
+    }
+  };
+  return info;
+}
+
+}  // namespace stillpoint

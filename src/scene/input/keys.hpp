@@ -1,0 +1,81 @@
+// The table of keys: every key of a scene once, with its type, range, unit, default and meaning. Reading a scene,
+// `stillpoint list keys`, the reference in problems/README.md and the JSON schema all walk it.
+#pragma once
+
+#include <stillpoint/catalogue.hpp>
+#include <stillpoint/scene.hpp>
+
+#include <array>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/input/toml_value.hpp"
+
+namespace stillpoint {
+
+/// The dimensions of the scenes in which there is a key or a word.
+enum Dims : unsigned { kLine = 1, kPlane = 2, kAnyDim = 3 };
+
+/// A word that a key takes; an option is its word's number in the list.
+struct Word {
+  std::string_view name;
+  Dims dims = kAnyDim;
+};
+
+enum class Kind { number, whole, formula, text };
+enum class Shape { one, axes, list, positions };  // axes: one value for each coordinate, if there is one a plain value
+
+struct KeyInfo {
+  Range range{};                 // of a number
+  std::string_view unit{};       // empty: none
+  std::vector<Word> words{};     // of a text all that it may be; of a number what may be written in its place
+  std::string_view variables{};  // of a formula; x stands for all coordinates
+  std::string fallback{};        // the default in words; empty: that of the member of Scene
+  bool required = false;
+  bool list = false;  // any number of values, not one for each coordinate
+  bool may_be_empty = false;
+  Dims dims = kAnyDim;
+  std::string_view listed_by{};  // the command that lists the words, if they are many
+  /// What else is to be said of an unknown word; empty: nothing.
+  std::function<std::string(const std::string& word)> hint{};
+  // Set by key():
+  std::string_view name{}, help{};
+  Kind kind = Kind::text;
+  Shape shape = Shape::one;
+
+  bool is_in(int dim) const { return (dims & (dim == 1 ? kLine : kPlane)) != 0; }
+  std::vector<std::string> words_in(int dim) const;
+};
+
+enum class Repeat { once, array, once_or_array, named };
+
+/// A table of a scene, [stop], or a kind of them, [[support]].
+struct TableInfo {
+  std::string_view path, help;  // path: empty for the top of the file
+  Repeat repeat = Repeat::once;
+  std::string_view needed_for{};  // why a scene has to have it; empty: it may be left out
+  std::string_view law{};         // of a material: its keys are those of this law
+  std::vector<KeyInfo> keys{};
+  std::vector<std::string> tables{};  // the names of the tables below it
+  /// Reads all that the file says in such tables.
+  std::function<void(const TableInfo& self, const toml::table& root, Scene& scene, Reading& reading)> read{};
+
+  /// As a scene writes it: "[stop]", "[[support]]".
+  std::string heading() const;
+};
+
+/// All tables in the order in which they are read; the catalogue must outlive them.
+std::vector<TableInfo> scene_tables(const Catalogue& catalogue);
+
+/// Reads every table of a scene. Constants are resolved on the way. False if the scene's dimension is not supported, so
+/// that reading on would only produce nonsense.
+bool read_tables(const std::vector<TableInfo>& tables, const toml::table& root, Scene& scene, Reading& reading);
+
+/// In the order of DampingTreatment.
+inline constexpr std::array<std::string_view, 5> kTreatments{"automatic", "averaged", "lagged", "implicit", "exact"};
+/// [damping] and [integrator], which have no part in a static solution.
+inline constexpr std::array<std::string_view, 2> kTablesOfMotion{"damping", "integrator"};
+
+}  // namespace stillpoint

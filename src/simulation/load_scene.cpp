@@ -1,0 +1,13 @@
+// Reads a scene with all that this library offers to choose from.
+#include <stillpoint/scene.hpp>
+
+#include "scene/input/read_scene.hpp"
+#include "simulation/catalogue.hpp"
+
+namespace stillpoint {
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return read_scene(file, overrides, catalogue());
+}
+
+}  // namespace stillpoint
