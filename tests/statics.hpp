@@ -3,8 +3,7 @@
 
 #include <stillpoint/stillpoint.hpp>
 
-#include <algorithm>
-#include <cmath>
+#include <limits>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -37,12 +36,6 @@ inline std::vector<double> out_of_balance(const LagrangianPhase& phase, ConstVec
   const std::vector<double> R = internal_force(phase, u, t);
   for (std::size_t k = 0; k < Q.size(); ++k) Q[k] -= R[k];
   return Q;
-}
-
-inline double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
 }
 
 /// Newton's method on F − R(u) = 0 with Eigen's own factor, so that nothing of the relaxation takes part. A step that

@@ -46,7 +46,7 @@ std::vector<OrderCondition> order_conditions(const ButcherTable& table, const st
 int order_of(const ButcherTable& table, const std::vector<double>& b) {
   int order = 4;
   for (const OrderCondition& condition : order_conditions(table, b)) {
-    if (std::abs(condition.residual) > 1e-14) order = std::min(order, condition.order - 1);
+    if (!(std::abs(condition.residual) <= 1e-14)) order = std::min(order, condition.order - 1);
   }
   return order;
 }

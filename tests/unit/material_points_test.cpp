@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "largest.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
@@ -126,7 +127,7 @@ TEST_CASE("the volumes of a polygon sum to its area to rounding, convex or not, 
       const auto points = place(body);
       check_cells(points);
       CHECK(volume_of(points) == Approx(0.5 * std::abs(area)).epsilon(1e-12));
-      CHECK(*std::min_element(points.volume.begin(), points.volume.end()) >= 0);
+      CHECK(smallest_value(points.volume) >= 0);
     }
     std::reverse(corners.begin(), corners.end());
     CHECK(volume_of(place(polygon(corners))) == Approx(std::abs(area)).epsilon(1e-12));
@@ -171,13 +172,13 @@ TEST_CASE("jitter moves every point by at most its share of half the spacing, so
     const auto jittered = place(body);
     check_cells(jittered);
     CHECK(volume_of(jittered) == Approx(8).epsilon(1e-12));
-    double farthest = 0;
+    Largest farthest;
     for (std::size_t p = 0; p < regular.size(); ++p)
-      farthest = std::max(farthest, std::abs(jittered.position(p)[0] - regular.position(p)[0]));
+      farthest.take_magnitude(jittered.position(p)[0] - regular.position(p)[0]);
     // Half the spacing; of three Gauss points the middle one has more room, 0.387 of half a cell.
     const double room = placement == Placement::uniform ? 0.5 / 3 / 2 : 0.25 * std::sqrt(0.6) / 2;
-    CHECK(farthest < room);
-    CHECK(farthest > 0.95 * room);
+    CHECK(farthest.value() < room);
+    CHECK(farthest.value() > 0.95 * room);
     // Neighbours keep their order.
     for (std::size_t p = 0; p + 1 < jittered.size(); ++p)
       if (p % 3 != 2) CHECK(jittered.position(p)[0] < jittered.position(p + 1)[0]);

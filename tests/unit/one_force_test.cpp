@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "chain.hpp"
+#include "largest.hpp"
 
 namespace {
 
@@ -45,7 +46,7 @@ double defect(const test::Chain& chain, const std::string& strategy, const std::
   const auto damping = make_damping(strategy, 0.6, 0.6);
   const LinearDamping C = damping->linear();
   const std::size_t n = chain.size();
-  double largest = 0;
+  Largest largest;
   for (std::size_t step = 1; step + 1 < u.size(); ++step) {
     Values v_before(n), change(n), w(n), inertia(n), Mw(n), Q(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -60,10 +61,10 @@ double defect(const test::Chain& chain, const std::string& strategy, const std::
     for (double& q : Q) q = chain.options().load - q;
     damping->add_local(v_before, Q);
     for (std::size_t i = 0; i < n; ++i) {
-      largest = std::max(largest, std::abs(inertia[i] + C.mass * Mw[i] + C.identity * w[i] - Q[i]));
+      largest.take_magnitude(inertia[i] + C.mass * Mw[i] + C.identity * w[i] - Q[i]);
     }
   }
-  return largest;
+  return largest.value();
 }
 
 struct Scheme {

@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include "chain.hpp"
+#include "largest.hpp"
 #include "solvers/integrators/butcher.hpp"
 
 using namespace stillpoint;
@@ -145,17 +146,17 @@ TEST_CASE("the critical step is stable for every frequency and rate in the range
       const AmplificationRadius amplification = amplification_of(table);
       const double h = critical_step(amplification, spectrum);
       const auto worst = [&](double step) {
-        double largest = 0;
+        Largest largest;
         const double low = spectrum.omega_1 > 0 ? spectrum.omega_1 : 1e-3 * spectrum.omega_max;
         const double high = spectrum.omega_max * std::sqrt(spectrum.stiffness_factor);
         for (int i = 0; i <= 500; ++i) {
           for (int j = 0; j <= 50; ++j) {
             const double omega = low * std::pow(high / low, i / 500.),
                          rate = spectrum.rate_min + (spectrum.rate_max - spectrum.rate_min) * j / 50;
-            largest = std::max(largest, amplification(step, omega, rate));
+            largest.take(amplification(step, omega, rate));
           }
         }
-        return largest;
+        return largest.value();
       };
       INFO(table.name << ", rates " << spectrum.rate_min << " to " << spectrum.rate_max << ": h = " << h);
       CHECK(h > 0);

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "largest.hpp"
 #include "scenes.hpp"
 #include "statics.hpp"
 
@@ -38,9 +39,7 @@ std::vector<double> product(const SparseMatrix& A, const std::vector<double>& x)
 }
 
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  double off = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
-  return off / statics::largest(b);
+  return largest_difference(a, b) / largest_magnitude(b);
 }
 
 double asymmetry(const SparseMatrix& A) { return (A - SparseMatrix(A.transpose())).norm() / A.norm(); }

@@ -14,6 +14,7 @@
 #include <nvector/nvector_serial.h>
 #include <omp.h>
 
+#include "largest.hpp"
 #include "linalg/sundials.hpp"
 
 namespace {
@@ -137,13 +138,13 @@ TEST_CASE("linear combinations of any number of vectors agree with plain loops, 
       Vector z = space.make(n);
       CHECK(N_VLinearCombination(count, c.data(), X.data(), z.handle()) == 0);
       CHECK(N_VLinearCombination(count, c.data(), X.data(), X[0]) == 0);  // in place
-      double difference = 0;
+      Largest difference;
       for (std::size_t i = 0; i < n; ++i) {
-        difference = std::max(difference, std::abs(z.span()[i] - expected[i]));
-        difference = std::max(difference, std::abs(vectors[0].span()[i] - expected[i]));
+        difference.take_magnitude(z.span()[i] - expected[i]);
+        difference.take_magnitude(vectors[0].span()[i] - expected[i]);
       }
       CAPTURE(n, count);
-      CHECK(difference < 1e-14);
+      CHECK(difference.value() < 1e-14);
     }
     Values zeros = {0, 0};
     Vector x = space.make(n), z = space.make(n);

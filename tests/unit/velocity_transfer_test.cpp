@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "largest.hpp"
 #include "space/kernels/nodal_sum.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_order.hpp"
@@ -145,11 +146,7 @@ std::vector<double> times(double factor, std::vector<double> values) {
   return values;
 }
 double largest_difference(const std::array<std::vector<double>, 2>& a, const std::array<std::vector<double>, 2>& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t p = 0; p < a[i].size(); ++p) largest = std::max(largest, std::abs(a[i][p] - b[i][p]));
-  }
-  return largest;
+  return largest_value(std::array{::largest_difference(a[0], b[0]), ::largest_difference(a[1], b[1])});
 }
 
 }  // namespace
@@ -220,11 +217,11 @@ TEMPLATE_TEST_CASE("an affine velocity, as a rigid rotation, makes the round tri
         block.to_points(by, at_rest, v, v);
         v = block.to_grid(by);
       }
-      double largest = 0;
+      Largest largest;
       for (std::size_t unknown = 0; unknown < v.size(); ++unknown) {
-        if (block.mass[unknown / 2] > 0) largest = std::max(largest, std::abs(v[unknown] - exact[unknown]));
+        if (block.mass[unknown / 2] > 0) largest.take_magnitude(v[unknown] - exact[unknown]);
       }
-      return largest;
+      return largest.value();
     };
     CHECK(after_round_trips(Transfer::apic) < 1e-13);  // of velocities up to 8: rounding
     CHECK(after_round_trips(Transfer::pic) > 0.5);
