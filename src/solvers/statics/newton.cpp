@@ -19,7 +19,13 @@ bool symmetric(const SparseMatrix& K, double tolerance) {
 class Newton {
  public:
   Newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options)
-      : system_(system), t_(t), u_(u), options_(options), balance_(system, t, VectorSpace()), trial_(u.size()), du_(u.size()) {}
+      : system_(system),
+        t_(t),
+        u_(u),
+        options_(options),
+        balance_(system, t, VectorSpace()),
+        trial_(u.size()),
+        du_(u.size()) {}
 
   StaticReport solve() {
     if (!balance_.start(u_)) {
@@ -164,7 +170,8 @@ class Newton {
     const std::size_t n = du_.size();
     const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
     const double forcing = std::min(0.1, balance_.residual());
-    const auto result = stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q.span(), du_, forcing, most);
+    const auto result =
+        stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q.span(), du_, forcing, most);
     report_.tangent_products += result.iterations;
     return result.converged;
   }

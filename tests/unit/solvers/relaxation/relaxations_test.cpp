@@ -34,7 +34,9 @@ const std::vector<std::string> iterations = {"kinetic",   "adaptive", "papadraka
 class LoadedChain final : public test::Chain {
  public:
   LoadedChain(test::ChainOptions options, Values loads) : Chain(std::move(options)), loads_(std::move(loads)) {}
-  void external_force(double /*t*/, ConstVec /*u*/, Vec F) const override { std::copy(loads_.begin(), loads_.end(), F.begin()); }
+  void external_force(double /*t*/, ConstVec /*u*/, Vec F) const override {
+    std::copy(loads_.begin(), loads_.end(), F.begin());
+  }
 
  private:
   Values loads_;
