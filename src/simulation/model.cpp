@@ -245,6 +245,14 @@ double dwell_of(const Scene& scene, const Model& model) {
   return scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
 }
 
+// Whether ‖u − u*‖ ≤ ‖M⁻¹Q‖/ω₁² holds at every moment, as in a linear body under steady loads: with the kinetic energy
+// small as well, no later moment can be further off. Only auto makes use of it so far.
+bool residual_bounds_error(const Scene& scene, const Model& model) {
+  const PhaseInfo& info = model.phase->info();
+  return model.relaxation && model.relaxation->chooses_mass && model.omega_1 && !info.nonlinear &&
+         !info.updated_lagrangian && !loads_vary(scene) && !model.phase->contact();
+}
+
 // How the way to rest is gone: the damping and what steps it.
 void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
   if (takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
@@ -289,6 +297,7 @@ Model make_model(const Scene& scene) {
   }
   if (model.static_method && model.static_method->takes_end_of_loads) model.t = scene.stop.time;
   model.dwell = dwell_of(scene, model);
+  model.equilibrium_must_last = !residual_bounds_error(scene, model);
   choose_strategy(scene, takes_c, model);
   if (!model.static_method) set_tolerances(scene, model);
   choose_step(scene, model);

@@ -20,6 +20,7 @@
 #include "largest.hpp"
 #include "scenes.hpp"
 #include "simulation/motion.hpp"
+#include "way_to_rest.hpp"
 
 using namespace stillpoint;
 using Values = std::vector<double>;
@@ -109,7 +110,7 @@ const std::vector<Case> linear = {
 
 Scene with(const Case& problem, const std::string& strategy, std::vector<std::string> overrides = {}) {
   overrides.insert(overrides.begin(), problem.overrides.begin(), problem.overrides.end());
-  overrides.push_back("damping.strategy=" + strategy);
+  overrides.push_back(stillpoint::test::override_of(strategy));
   if (strategy == "viscous") overrides.emplace_back("damping.c=critical");
   return scenes::load(problem.name, overrides);
 }

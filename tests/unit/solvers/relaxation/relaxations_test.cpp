@@ -278,7 +278,7 @@ TEST_CASE(
   all.push_back("combined");
   for (const std::string& strategy : all) {
     for (const bool scaled : {false, true}) {
-      std::vector<std::string> set = {"damping.strategy=" + strategy, "stop.residual=1e-9", "stop.steps=50000"};
+      std::vector<std::string> set = {test::override_of(strategy), "stop.residual=1e-9", "stop.steps=50000"};
       if (scaled) set.insert(set.end(), {"mass.kind=lumped", "mass.scaling=gershgorin"});
       const Summary summary = run(scenes::load("neo_hookean_bar", set));
       CAPTURE(strategy, scaled, summary.reason, summary.rhs_evaluations);
@@ -292,7 +292,7 @@ TEST_CASE(
 
 TEST_CASE("adapted damping is reported as the c in force, and that of strategies without one as none", "[strategies]") {
   const auto c_of = [](const std::string& strategy) {
-    return run(scenes::load("neo_hookean_bar", {"damping.strategy=" + strategy})).c;
+    return run(scenes::load("neo_hookean_bar", {test::override_of(strategy)})).c;
   };
   const Summary summary = run(scenes::load("neo_hookean_bar"));
   for (const std::string strategy : {"adaptive", "papadrakakis"}) {
@@ -506,7 +506,7 @@ TEST_CASE("a static iteration is one implicit increment of the law, committed at
   const auto file = folder.write("block.toml", yielding_block);
   Values u_y;
   for (const std::string strategy : {"cg", "lbfgs"}) {
-    const Summary summary = run(load_scene(file, {"damping.strategy=" + strategy}));
+    const Summary summary = run(load_scene(file, {test::override_of(strategy)}));
     CAPTURE(strategy, summary.reason, summary.rhs_evaluations);
     CHECK(summary.status == RunStatus::equilibrium);
     CHECK(scenes::probe(summary, "middle", "stress.yy") == Approx(-28).epsilon(0.2));  // 0 had it not been committed
@@ -552,7 +552,7 @@ residual = 1e-6
 steps = 3000
 )");
   for (const std::string strategy : {"adaptive", "papadrakakis", "auto", "fire2"}) {
-    const Summary summary = run(load_scene(file, {"damping.strategy=" + strategy}));
+    const Summary summary = run(load_scene(file, {test::override_of(strategy)}));
     CAPTURE(strategy, summary.reason, summary.phases);
     CHECK(summary.status == RunStatus::equilibrium);
     CHECK(summary.phases > 100);
@@ -564,7 +564,7 @@ TEST_CASE("every dynamic strategy relaxes a block that yields", "[strategies]") 
   const auto file = folder.write("block.toml", yielding_block);
   for (const std::string& strategy : iterations) {
     if (catalogue().static_method(strategy)) continue;
-    const Summary summary = run(load_scene(file, {"damping.strategy=" + strategy}));
+    const Summary summary = run(load_scene(file, {test::override_of(strategy)}));
     CAPTURE(strategy, summary.reason, summary.rhs_evaluations);
     CHECK(summary.status == RunStatus::equilibrium);
     CHECK(scenes::probe(summary, "middle", "stress.yy") == Approx(-28).epsilon(0.2));
@@ -662,7 +662,7 @@ TEST_CASE("strategies relax a block that leans on a wall, whose nodes open and c
   for (const std::string& strategy : iterations) {
     if (catalogue().static_method(strategy) || find_relaxation(strategy)->needs_omega_1) continue;
     const Summary summary = run(scenes::load(
-        "block_on_wall", {"damping.strategy=" + strategy, "stop.residual=1e-6", "stop.time=0", "stop.steps=100000"}));
+        "block_on_wall", {test::override_of(strategy), "stop.residual=1e-6", "stop.time=0", "stop.steps=100000"}));
     CAPTURE(strategy, summary.reason, summary.rhs_evaluations);
     CHECK(summary.status == RunStatus::equilibrium);
   }
