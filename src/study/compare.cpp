@@ -46,7 +46,7 @@ std::string to_string(ComparedStatus status) {
 
 std::string ComparedRun::label() const {
   std::string text = strategy;
-  if (!integrator.empty() && integrator != "leapfrog") text += ", " + integrator;
+  if (!integrator.empty() && integrator != IntegratorSpec{}.method) text += ", " + integrator;
   if (step_fraction) text += fmt::format(" {:g}", *step_fraction);
   if (rtol) text += fmt::format(" rtol {:g}", *rtol);
   return text;
