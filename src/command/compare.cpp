@@ -45,7 +45,7 @@ std::string seconds(double s) {
 }
 
 /// The folder to write into, made before anything runs, since one that cannot be made is bad input. It does not stay
-/// where nothing came of it.
+/// if nothing came of it.
 class OutputFolder {
  public:
   explicit OutputFolder(const std::filesystem::path& path) : path_(path) {

@@ -112,7 +112,7 @@ int dispatch(int argc, char** argv) {
 }
 
 // OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and
-// ten times slower than one thread where another program wants a core. So they wait for microseconds here, unless the
+// ten times slower than one thread if another program wants a core. So they wait for microseconds here, unless the
 // user has said otherwise. The library reads its environment before main(): the program starts itself once more.
 void wait_briefly(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;

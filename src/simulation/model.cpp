@@ -25,7 +25,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-// ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
+// ω_max for the step. Power iteration underestimates: if it has not converged, a margin or the guaranteed bound.
 double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
   constexpr int applications = 30;
@@ -58,7 +58,7 @@ bool wants_equilibrium_only(const Scene& scene) { return scene.stop.wants_equili
 
 // auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
 // body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
-// of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes where the scene leaves the kind open.
+// of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes if the scene leaves the kind open.
 void choose_mass(const Scene& scene, Model& model) {
   const std::vector<double> u = model.phase->initial_displacement(0);
   model.omega_max = quick_highest_frequency(scene, model, *model.phase, u);

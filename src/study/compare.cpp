@@ -190,7 +190,7 @@ class Comparing {
     } catch (const SceneError& error) {
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.problems().front().message;
-    } catch (const std::invalid_argument& error) {  // as Newton's method, where walls touch
+    } catch (const std::invalid_argument& error) {  // as Newton's method, if walls touch
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.what();
     } catch (const std::exception& error) {

@@ -115,7 +115,7 @@ Scene with(const Case& problem, const std::string& strategy, std::vector<std::st
   return scenes::load(problem.name, overrides);
 }
 
-constexpr double rounding = 1e-5;  // of ratios, where the error itself is 1e-6 and that of u* 1e-11
+constexpr double rounding = 1e-5;  // of ratios, if the error itself is 1e-6 and that of u* 1e-11
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// How runs of several phases end where something goes wrong.
+// How runs of several phases end if something goes wrong.
 #include <stillpoint/stillpoint.hpp>
 
 #include <cmath>

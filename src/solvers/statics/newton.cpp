@@ -110,7 +110,7 @@ class Newton {
     return true;
   }
 
-  // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays where none does.
+  // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays if none does.
   bool descend(double s, Vec u, double before) {
     constexpr int most_halvings = 10;
     constexpr double decrease = 1e-4;
@@ -126,7 +126,7 @@ class Newton {
     return false;
   }
 
-  // K du = Q, Q as last evaluated, at u. False where K cannot be solved with.
+  // K du = Q, Q as last evaluated, at u. False if K cannot be solved with.
   bool consistent_direction(double s, ConstVec u) {
     indefinite_ = false;
     const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
@@ -195,7 +195,7 @@ class Newton {
   static constexpr double short_step = 0.3;
   bool full_steps_ = false;  // whatever ‖Q‖ does
   int short_steps_ = 0;      // one after the other
-  bool indefinite_ = false;  // K of the last iteration, where symmetric
+  bool indefinite_ = false;  // K of the last iteration, if symmetric
   StaticReport report_;
 };
 

@@ -68,7 +68,7 @@ struct Way {
   std::string method = "leapfrog";
 };
 
-/// Force evaluations until ‖u − u*‖ ≤ accuracy ‖u*‖, most + 1 where that does not come.
+/// Force evaluations until ‖u − u*‖ ≤ accuracy ‖u*‖, most + 1 if that does not come.
 long evaluations_to(double accuracy, SemiDiscrete& system, const Values& solution, double omega_max, const Way& way,
                     long most = 100'000) {
   const auto damping = test::damping_of(way.strategy, way.c, way.alpha);

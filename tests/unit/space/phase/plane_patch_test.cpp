@@ -113,7 +113,7 @@ TEST_CASE("jittered points pass the patch test where their volumes are fitted to
 }
 
 TEST_CASE("forces of bilinear cells are those of the assembled stiffness, for any number of points in a cell") {
-  // R(u) = K u where the law is linear: R takes its points a few at a time and its cells a block at a time, K point by
+  // R(u) = K u if the law is linear: R takes its points a few at a time and its cells a block at a time, K point by
   // point. A block holds 128 points, so that 169 do not fit.
   for (const std::string state : {"plane-strain", "axisymmetric"}) {
     for (const std::string points : {"1", "4", "9", "25", "169"}) {
