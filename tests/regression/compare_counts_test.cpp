@@ -1,6 +1,7 @@
 // What strategies and integrators cost on linear scenes, counted by stillpoint::compare: force evaluations until
 // ‖u − u*‖_M ≤ 10⁻⁶ ‖u*‖_M for good, against the lower bound ½ √κ ln(2/ε).
 #include <stillpoint/compare.hpp>
+#include <stillpoint/integrator.hpp>
 #include <stillpoint/stability.hpp>
 
 #include <algorithm>

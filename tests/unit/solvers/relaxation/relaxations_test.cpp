@@ -16,6 +16,7 @@
 
 #include "allocation_count.hpp"
 #include "chain.hpp"
+#include "linalg/sparse_cholesky.hpp"
 #include "scenes.hpp"
 #include "simulation/model.hpp"
 #include "statics.hpp"

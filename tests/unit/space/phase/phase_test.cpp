@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 #include <omp.h>
 
