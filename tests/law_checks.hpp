@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "largest.hpp"
+
 namespace stillpoint::checks {
 
 /// Displacement gradients of a state: none, small, equal stretches (equal eigenvalues of F Fᵀ), shear and large ones.
@@ -42,12 +44,7 @@ Moduli<S> differences(const FirstPiola& P, const Gradient<S>& H) {
 /// max |A − B| over max |B|.
 template <class Array>
 double relative_distance(const Array& A, const Array& B) {
-  double distance = 0, size = 0;
-  for (std::size_t i = 0; i < A.size(); ++i) {
-    if (!std::isfinite(A[i])) return A[i];
-    distance = std::max(distance, std::abs(A[i] - B[i]));
-    size = std::max(size, std::abs(B[i]));
-  }
+  const double distance = largest_difference(A, B), size = largest_magnitude(B);
   return size > 0 ? distance / size : distance;
 }
 

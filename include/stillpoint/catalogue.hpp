@@ -47,8 +47,10 @@ struct StrategyInfo {
   bool is_relaxation = false;    // with leapfrog it takes the place of the integrator's step
   bool has_own_step = false;     // integrator.step and step_fraction have no part in it
   bool resets_velocity = false;  // of all unknowns, also of those that a wall drives
+  bool is_local = false;         // a damping whose force is discontinuous in v
 
   bool goes_with(std::string_view integrator) const;
+  bool uses(std::string_view key) const;
   /// Whether a key of [damping] may stand beside the strategy: one that it uses, and between dampings c and alpha, so
   /// that one can be tried in place of the other.
   bool takes(std::string_view key) const;
@@ -58,6 +60,7 @@ struct StrategyInfo {
 struct StaticMethodInfo {
   std::string_view name, equation, source;
   bool takes_end_of_loads = false;  // loads and supports may depend on t: the equilibrium is that at stop.time
+  bool is_newton = false;           // one step is the whole solution
 };
 
 /// A name of integrator.method.

@@ -5,7 +5,9 @@
 //   gsl:<stepper>                GSL's explicit steppers, an independent second opinion
 #pragma once
 
+#include <stillpoint/catalogue.hpp>
 #include <stillpoint/relaxation_system.hpp>
+#include <stillpoint/stability.hpp>
 
 #include <functional>
 #include <memory>
@@ -23,10 +25,18 @@ struct IntegratorOptions {
   /// The largest step [s]: a fixed step's length, an adaptive step's cap (the stability limit times a fraction). > 0.
   double max_step = 0;
   /// Adaptive step where set (erk with an embedding, gsl): local error ≤ rtol |y| + atol.
-  std::optional<double> rtol;
+  std::optional<double> rtol{};
   double atol_u = 1e-12;  // [m]
   double atol_v = 1e-12;  // [m/s]
-  StrategyOptions strategy{};
+  /// erk alone: a step ends at each peak of the kinetic energy, and v = 0 there (kinetic damping).
+  bool halts_at_energy_peaks = false;
+};
+
+/// What an iteration carries over from one phase to the next, whose unknowns are others.
+struct CarriedOver {
+  double last_step = 0;        // v was known half of this ago [s]
+  std::optional<double> rate;  // the c found so far [1/s]
+  double step_share = 0;       // of the step given, that the relaxation came to; 0: its own first one
 };
 
 /// What one call of step() did.
@@ -58,28 +68,23 @@ class Integrator {
   virtual void velocity_changed() = 0;
   /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
   virtual bool force_is_current() const { return false; }
-  /// The damping c at present [1/s], where the strategy finds it on the way.
+  /// The damping c at present [1/s], if a relaxation finds it on the way.
   virtual std::optional<double> damping_rate() const { return std::nullopt; }
   /// What an integrator of the same kind has to be given to carry on in the next phase.
   virtual CarriedOver carried_over() const { return {}; }
-  /// Whether steps are iterates towards one static state: laws of the material remember the last one only.
+  /// Whether steps are iterates of a static solver: laws of the material remember the last one only.
   virtual bool static_iteration() const { return false; }
   virtual long steps() const = 0;           // accepted
   virtual long rejected_steps() const = 0;  // tried and refused by the error control or as inadmissible
 };
 
-/// |largest eigenvalue| of one step's map for u'' + rate·u' + omega² u = 0 with step h: stable where ≤ 1.
-using AmplificationRadius = std::function<double(double h, double omega, double rate)>;
-
 /// What is known of a method before it runs.
-struct Method {
-  std::string name;              // as in integrator.method
-  std::string description;       // one line, with its source
-  int order = 0;                 // of the fixed-step solution
-  int evaluations_per_step = 0;  // right-hand sides a fixed step costs when implemented right; 0: not fixed
-  bool fixed_step = true;
-  bool adaptive = false;              // has an error estimate
-  AmplificationRadius amplification;  // empty where it has none (multistep)
+struct Method : MethodInfo {
+  int order = 0;                      // of the fixed-step solution
+  int evaluations_per_step = 0;       // right-hand sides a fixed step costs when implemented right; 0: not fixed
+  bool remembers_force = false;       // knows Q of the last accepted step, as Damping::uses_last_force() needs
+  bool hosts_relaxations = false;     // relaxations are iterations in the place of its step
+  AmplificationRadius amplification;  // empty if it has none (multistep)
 };
 
 /// Every method on offer, in the order of `stillpoint list integrators`.
@@ -88,9 +93,8 @@ std::vector<Method> methods();
 /// Throws std::invalid_argument naming the nearest method where there is none of that name.
 Method find_method(std::string_view name, DampingTreatment treatment = DampingTreatment::automatic);
 
-/// Where the system's damping strategy owns its iteration this is made in the place of leapfrog.
-/// Throws std::invalid_argument where options and method do not fit (a strategy that does not go with it, rtol for a
-/// method without error estimate, a treatment that the method or the damping does not allow, max_step ≤ 0). The system
+/// Throws std::invalid_argument if options and method do not fit (a damping that does not go with it, rtol for a method
+/// without error estimate, a treatment that the method or the damping does not allow, max_step ≤ 0). The system
 /// outlives the integrator.
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system);
 

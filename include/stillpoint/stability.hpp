@@ -1,9 +1,15 @@
 // The largest stable step of a one-step method, from its amplification and the spectrum.
 #pragma once
 
-#include <stillpoint/integrator.hpp>
+#include <stillpoint/damping.hpp>
+#include <stillpoint/mass.hpp>
+
+#include <functional>
 
 namespace stillpoint {
+
+/// |largest eigenvalue| of one step's map for u'' + rate·u' + omega² u = 0 with step h: stable where ≤ 1.
+using AmplificationRadius = std::function<double(double h, double omega, double rate)>;
 
 /// What the stability of u'' + rate·u' + omega² u = 0 depends on, over all modes of M a + C v + K u = 0.
 /// By Rayleigh quotients every eigenvalue of the damped system solves λ² + rate λ + omega² = 0 with some omega and rate

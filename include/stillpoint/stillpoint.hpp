@@ -1,7 +1,7 @@
 // Stillpoint: quasi-static equilibrium by dynamic relaxation in the material point method.
 //
 //   const auto scene = stillpoint::load_scene("bar.toml");
-//   const auto summary = stillpoint::run(scene);
+//   const auto summary = stillpoint::run(scene);       // or step by step: stillpoint::Simulation
 #pragma once
 
 #include <stillpoint/compare.hpp>
@@ -9,5 +9,3 @@
 #include <stillpoint/scene.hpp>
 #include <stillpoint/spectrum.hpp>
 #include <stillpoint/static_solution.hpp>
-
-#include "simulation/model.hpp"

@@ -10,6 +10,9 @@ get_target_property(links stillpoint INTERFACE_LINK_LIBRARIES)
 list(REMOVE_ITEM links $<LINK_ONLY:stillpoint_flags>)
 set_target_properties(stillpoint PROPERTIES INTERFACE_LINK_LIBRARIES "${links}")
 
+# With BUILD_SHARED_LIBS, the installed program finds its library beside it, wherever the two are put.
+set_target_properties(stillpoint_command PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
+
 install(TARGETS stillpoint EXPORT stillpointTargets)
 install(TARGETS stillpoint_command RUNTIME)
 install(DIRECTORY include/stillpoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

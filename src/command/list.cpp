@@ -1,5 +1,4 @@
 // stillpoint list: what there is to choose from.
-#include <stillpoint/damping.hpp>
 #include <stillpoint/integrator.hpp>
 
 #include <string>
@@ -11,7 +10,6 @@
 #include "command/commands.hpp"
 #include "scene/input/key_reference.hpp"
 #include "simulation/catalogue.hpp"
-#include "space/materials/material_laws.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -26,18 +24,26 @@ void list_integrators() {
   }
 }
 
-void list_dampings() {
-  fmt::print("dampings (damping.strategy)\n");
-  for (const DampingInfo& info : damping_strategies()) {
+void list_strategies(const std::string& title, bool relaxations) {
+  fmt::print("{} (damping.strategy)\n", title);
+  for (const StrategyInfo& info : catalogue().strategies) {
+    if (info.is_relaxation != relaxations) continue;
     fmt::print("  {:<14}{}{}{}\n", info.name, info.equation,
                info.source.empty() ? "" : fmt::format("   [{}]", info.source),
                info.integrators.empty() ? "" : fmt::format("   with {}", fmt::join(info.integrators, ", ")));
   }
 }
 
+void list_static_methods() {
+  fmt::print("static solvers (solve.method)\n");
+  for (const StaticMethodInfo& info : catalogue().static_methods) {
+    fmt::print("  {:<14}{}   [{}]\n", info.name, info.equation, info.source);
+  }
+}
+
 void list_materials() {
   fmt::print("materials (material.<name>.law)\n");
-  for (const LawInfo& law : material_laws()) {
+  for (const LawInfo& law : catalogue().laws) {
     fmt::print("  {:<16}{}   [{}]\n", law.name, law.equation, law.source);
     std::vector<std::string_view> states;
     for (const StressState state : law.states) states.push_back(to_string(state));
@@ -73,7 +79,9 @@ int list(const std::string& topic, const std::string& format) {
   }
   const bool all = topic.empty();
   if (all || topic == "integrators") list_integrators();
-  if (all || topic == "dampings") list_dampings();
+  if (all || topic == "dampings") list_strategies("dampings", false);
+  if (all || topic == "relaxations") list_strategies("relaxations", true);
+  if (all || topic == "solvers") list_static_methods();
   if (all || topic == "materials") list_materials();
   if (all || topic == "bases") list_bases();
   if (all || topic == "keys") fmt::print("{}", key_list(catalogue()));

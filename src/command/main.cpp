@@ -83,8 +83,10 @@ int dispatch(int argc, char** argv) {
 
   std::string topic;
   CLI::App& list_app = *app.add_subcommand("list", "what there is to choose from");
-  list_app.add_option("TOPIC", topic, "integrators, dampings, materials, bases or keys (default: all)")
-      ->check(CLI::IsMember({"integrators", "dampings", "materials", "bases", "keys"}));
+  list_app
+      .add_option("TOPIC", topic,
+                  "integrators, dampings, relaxations, solvers, materials, bases or keys (default: all)")
+      ->check(CLI::IsMember({"integrators", "dampings", "relaxations", "solvers", "materials", "bases", "keys"}));
   std::string format = "text";
   list_app.add_option("--format", format, "of keys: text, markdown or schema (a JSON schema for editors)")
       ->check(CLI::IsMember({"text", "markdown", "schema"}));

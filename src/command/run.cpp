@@ -1,5 +1,5 @@
 // stillpoint run: relaxes a scene and ends in a short table.
-#include <stillpoint/damping.hpp>
+#include <stillpoint/integrator.hpp>
 #include <stillpoint/run.hpp>
 
 #include <cmath>
@@ -9,9 +9,18 @@
 
 #include "command/commands.hpp"
 #include "command/terminal.hpp"
+#include "simulation/catalogue.hpp"
 
 namespace stillpoint::command {
 namespace {
+
+std::string way_to_rest(const Summary& s) {
+  if (const StaticMethodInfo* method = catalogue().static_method(s.method))
+    return fmt::format("{}, static", method->name);
+  const StrategyInfo& strategy = *catalogue().strategy(s.damping);
+  const bool hosted = strategy.is_relaxation && find_method(s.integrator).hosts_relaxations;
+  return hosted ? s.damping + ", an iteration of its own" : fmt::format("{}, {} damping", s.integrator, s.damping);
+}
 
 void print_table(const Summary& s, const std::filesystem::path& out) {
   const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<18}{}\n", what, value); };
@@ -19,11 +28,8 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   row("status", fmt::format("{}: {}", to_string(s.status), s.reason));
   row("model", fmt::format("{} points, {} degrees of freedom, {} phase{}", s.points, s.dofs, s.phases,
                            s.phases == 1 ? "" : "s"));
-  const bool own = find_damping(s.damping).owns_iteration && s.integrator == "leapfrog";
-  row("method", fmt::format("{}{}, step {:.4g} s",
-                            own ? s.damping + ", an iteration of its own"
-                                : fmt::format("{}, {} damping", s.integrator, s.damping),
-                            s.c ? fmt::format("{} c = {:.6g}", own ? "," : "", *s.c) : std::string(), s.dt));
+  row("method", fmt::format("{}{}, step {:.4g} s", way_to_rest(s),
+                            s.c ? fmt::format(", c = {:.6g}", *s.c) : std::string(), s.dt));
   row("frequencies", fmt::format("omega_1 {}, omega_max {:.6g}",
                                  s.omega_1 ? fmt::format("{:.6g}", *s.omega_1) : "not needed", s.omega_max));
   row("reached", fmt::format("t = {:.6g} s in {} steps, {} force evaluations", s.t, s.steps, s.rhs_evaluations));
@@ -36,9 +42,9 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   }
   row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {} thread{}", s.wall_s, s.ns_per_point_step,
                                s.threads, s.threads == 1 ? "" : "s"));
-  if (s.transfer) {
-    row("conserved", fmt::format("mass to {:.1e}, momentum to {:.1e}; {:.1f} % inertia added at nodes of little mass",
-                                 s.transfer->mass, s.transfer->momentum, 100 * s.transfer->added_mass));
+  if (s.mass_error && s.momentum_error && s.added_mass) {
+    row("conserved", fmt::format("mass to {:.1e}, momentum to {:.1e}; {:.1f} % mass added at light nodes",
+                                 *s.mass_error, *s.momentum_error, 100 * *s.added_mass));
   }
   if (s.external_work) {
     row("external work", fmt::format("{:.6g} J; kinetic energy is {:.1e} of it", *s.external_work,
@@ -62,7 +68,7 @@ int run(const RunArguments& arguments) {
   const std::filesystem::path out = arguments.out.empty() ? std::filesystem::path("out") / scene.name : arguments.out;
   watch_for_interrupt();
   ProgressLine line;
-  RunOptions options{.out = out, .threads = arguments.threads, .interrupted = interrupted};
+  SimulationOptions options{.out = out, .threads = arguments.threads, .interrupted = interrupted};
   if (!arguments.quiet) options.progress = [&line](const Progress& progress) { line.show(progress); };
   const Summary summary = stillpoint::run(scene, options);
   line.finish();

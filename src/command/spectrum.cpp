@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "command/commands.hpp"
+#include "simulation/catalogue.hpp"
 #include "simulation/model.hpp"
 
 namespace stillpoint::command {
@@ -40,15 +41,16 @@ int spectrum(const SceneArguments& arguments) {
     fmt::print("  kappa = (omega_max/omega_1)^2 = {:.8g}\n  critical damping c = 2 omega_1 = {:.9g}\n", ratio * ratio,
                2 * omega_1.omega);
   }
-  const bool takes_c = scene.damping.strategy == "viscous" || scene.damping.strategy == "identity";
-  if (takes_c && !scene.damping.c && !omega_1.converged) {
+  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
+  if (strategy.uses("c") && !scene.damping.c && !omega_1.converged) {
     fmt::print("  critical steps   not known: c = \"critical\" needs omega_1\n");
     return 0;
   }
-  const auto damping =
-      make_damping(scene.damping.strategy, scene.damping.c.value_or(2 * omega_1.omega), scene.damping.alpha);
+  const auto damping = strategy.is_relaxation ? no_damping()
+                                              : make_damping(strategy.name, scene.damping.c.value_or(2 * omega_1.omega),
+                                                             scene.damping.alpha);
   const DampedSpectrum damped = damped_spectrum(omega_1.omega, omega_max.omega, *damping, phase->mass());
-  fmt::print("  critical step with {} damping [s], and what a force evaluation buys of it\n", damping->name());
+  fmt::print("  critical step with {} damping [s], and what a force evaluation buys of it\n", strategy.name);
   for (const Method& method : methods()) {
     if (!method.amplification) continue;
     const double step = critical_step(method.amplification, damped);

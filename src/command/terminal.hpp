@@ -1,7 +1,7 @@
 // Progress with time left: one line that rewrites itself on a terminal, plain lines now and then elsewhere.
 #pragma once
 
-#include <stillpoint/run.hpp>
+#include <stillpoint/simulation.hpp>
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // The error of a state against the scene's exact solution.
 #pragma once
 
-#include <stillpoint/run.hpp>
+#include <stillpoint/summary.hpp>
 
 #include <optional>
 

@@ -7,25 +7,13 @@
 #include "output/point_fields.hpp"
 
 namespace stillpoint {
-namespace {
-
-// Where the points are at (t, u), given their displacement since the run began.
-std::vector<double> deformed_positions(const LagrangianPhase& phase, double t, ConstVec u) {
-  std::vector<double> place = phase.initial_positions();
-  std::vector<double> displacement(place.size());
-  phase.point_displacement(t, u, displacement);
-  for (std::size_t i = 0; i < place.size(); ++i) place[i] += displacement[i];
-  return place;
-}
-
-}  // namespace
 
 double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
   if (phase.dim() != 2) return std::numeric_limits<double>::quiet_NaN();
   const double column = (scene.grid.max[0] - scene.grid.min[0]) / scene.grid.cells[0];
   double base = std::numeric_limits<double>::infinity();
   for (const BodySpec& body : scene.bodies) base = std::min(base, body.min.empty() ? scene.grid.min[1] : body.min[1]);
-  return slope_angle(free_surface(deformed_positions(phase, t, u), column), base);
+  return slope_angle(free_surface(current_positions(phase, t, u), column), base);
 }
 
 Snapshots::Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder)
@@ -45,7 +33,8 @@ double Snapshots::next_time() const {
 
 void Snapshots::sample(double t, ConstVec u, ConstVec v) {
   if (t < next_time()) return;
-  while (next_snapshot_ < scene_.output.snapshots.size() && scene_.output.snapshots[next_snapshot_] <= t) ++next_snapshot_;
+  while (next_snapshot_ < scene_.output.snapshots.size() && scene_.output.snapshots[next_snapshot_] <= t)
+    ++next_snapshot_;
   while (scene_.output.fields_every > 0 && static_cast<double>(next_regular_) * scene_.output.fields_every <= t) {
     ++next_regular_;
   }
@@ -64,11 +53,11 @@ void Snapshots::take(double t, ConstVec u, ConstVec v) {
   FieldFrame frame{.t = t,
                    .dim = phase_.dim(),
                    .points = phase_.points(),
-                   .place = deformed_positions(phase_, t, u),
+                   .place = current_positions(phase_, t, u),
                    .fields = {},
-                   .material = phase_.materials()};
+                   .material = phase_.point_data().materials};
   std::vector<std::string> names = {"u", "v", "stress"};
-  std::ranges::copy(phase_.history_names(), std::back_inserter(names));
+  std::ranges::copy(phase_.info().history_names, std::back_inserter(names));
   for (const std::string& name : names) {
     std::vector<double> values = point_field(phase_, name, t, u, v);
     const int components = static_cast<int>(values.size() / phase_.points());

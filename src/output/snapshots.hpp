@@ -1,8 +1,8 @@
 // Stages of a run: the moments at which all fields are written.
 #pragma once
 
-#include <stillpoint/run.hpp>
 #include <stillpoint/scene.hpp>
+#include <stillpoint/summary.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -18,9 +18,11 @@ bool StrategyInfo::goes_with(std::string_view integrator) const {
          std::ranges::any_of(integrators, [&](std::string_view begin) { return integrator.starts_with(begin); });
 }
 
+bool StrategyInfo::uses(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
+
 bool StrategyInfo::takes(std::string_view key) const {
   const bool of_some_damping = key == "c" || key == "alpha";
-  return std::ranges::find(keys, key) != keys.end() || (of_some_damping && !is_relaxation);
+  return uses(key) || (of_some_damping && !is_relaxation);
 }
 
 const LawInfo* Catalogue::law(std::string_view name) const { return find_row(laws, name, &LawInfo::name); }

@@ -9,10 +9,14 @@
 #include <numbers>
 #include <utility>
 
+#include <Eigen/SparseCore>
 #include <fmt/format.h>
 
+#include "linalg/sparse_cholesky.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "simulation/catalogue.hpp"
 #include "simulation/load_schedule.hpp"
+#include "simulation/notes.hpp"
 #include "simulation/stiffening_step.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
@@ -39,7 +43,7 @@ double highest_frequency(const Scene& scene, const LagrangianPhase& phase, Const
 }
 
 // The same for auto, which counts what it spends.
-double highest_frequency_for_auto(const Scene& scene, Model& model, const LagrangianPhase& phase, ConstVec u) {
+double quick_highest_frequency(const Scene& scene, Model& model, const LagrangianPhase& phase, ConstVec u) {
   const FrequencyEstimate estimate = omega_max_by_lanczos(phase, 0, u);
   model.tangent_applications += estimate.iterations;
   if (estimate.converged) return estimate.omega;
@@ -55,9 +59,9 @@ bool wants_equilibrium_only(const Scene& scene) { return scene.stop.wants_equili
 // auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
 // body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
 // of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes where the scene leaves the kind open.
-void choose_mass_for_auto(const Scene& scene, Model& model) {
+void choose_mass(const Scene& scene, Model& model) {
   const std::vector<double> u = model.phase->initial_displacement(0);
-  model.omega_max = highest_frequency_for_auto(scene, model, *model.phase, u);
+  model.omega_max = quick_highest_frequency(scene, model, *model.phase, u);
   if (!wants_equilibrium_only(scene)) {
     model.notes.push_back(
         "auto keeps the physical mass and halts no motion, as loads or supports depend on t or the transient is asked "
@@ -70,7 +74,7 @@ void choose_mass_for_auto(const Scene& scene, Model& model) {
   scaled.mass.kind = MassKind::lumped;
   scaled.mass.scaling = MassScaling::gershgorin;
   std::unique_ptr<LagrangianPhase> phase = make_phase(scaled);
-  const double omega_max = highest_frequency_for_auto(scene, model, *phase, phase->initial_displacement(0));
+  const double omega_max = quick_highest_frequency(scene, model, *phase, phase->initial_displacement(0));
   const double gain = model.omega_max * model.omega_max / (omega_max * omega_max);
   constexpr double worthwhile = 1.05;
   if (gain < worthwhile) return;
@@ -83,7 +87,7 @@ void choose_mass_for_auto(const Scene& scene, Model& model) {
 // Whether R can be evaluated where the motion begins.
 void check_initial_state(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   std::vector<double> R(phase.size());
-  if (phase.internal_force(0, u, R)) return;
+  if (phase.internal_force(0, u, R, *phase.make_trial())) return;
   throw_scene_error(scene, "initial",
                     "the initial state cannot be evaluated: det f <= 0 or a stress that is not finite");
 }
@@ -95,69 +99,6 @@ void check_probes(const Scene& scene, const LagrangianPhase& phase) {
     throw_scene_error(scene, fmt::format("probe[{}].point", k),
                       fmt::format("there is no material point {}; expected 1 to {}", *point, phase.points()));
   }
-}
-
-int degree_of(BasisKind basis) {
-  switch (basis) {
-    case BasisKind::linear:
-      return 1;
-    case BasisKind::quadratic:
-      return 2;
-    case BasisKind::cubic:
-    case BasisKind::hermite:
-      return 3;
-  }
-  throw std::logic_error("a basis without a degree");
-}
-
-// A basis of degree p keeps its order of convergence where the points integrate degree 2p − 2 [Strang and Fix
-// 1973, 4.3].
-std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureReport& quadrature) {
-  std::vector<std::string> notes;
-  if (quadrature.cells_limited_by_sign > 0) {
-    notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
-                                quadrature.cells_limited_by_sign));
-  }
-  if (quadrature.smallest_share < 0.05) {
-    notes.push_back(
-        fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
-                    "faces on grid lines",
-                    quadrature.smallest_share));
-  }
-  const int needed = 2 * degree_of(scene.grid.basis) - 2;
-  if (quadrature.degree < needed) {
-    const bool equal =
-        std::ranges::any_of(scene.bodies, [](const BodySpec& body) { return body.volumes == VolumeRule::equal; });
-    notes.push_back(fmt::format("the points integrate degree {}, this basis needs {} for its full order: {}",
-                                quadrature.degree, needed,
-                                equal ? "take consistent volumes" : "take more points per cell or Gauss points"));
-  }
-  return notes;
-}
-
-// Where a point crosses a line of the grid its share of a linear function's gradient changes sign: what an elastic body
-// settles over many phases comes out too large [Steffen, Kirby and Berzins 2008].
-std::vector<std::string> phase_notes(const Scene& scene, const LagrangianPhase& phase) {
-  if (!phase.updated_lagrangian() || phase.history_dependent() || scene.grid.basis != BasisKind::linear) return {};
-  return {
-      "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % too "
-      "far; a quadratic basis is within 0.3 %"};
-}
-
-std::vector<std::string> support_notes(const Scene& scene) {
-  std::vector<std::string> notes;
-  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
-    for (std::size_t d = 0; d < scene.supports[k].at.size(); ++d) {
-      const double at = scene.supports[k].at[d];
-      const bool inside = std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
-        return body.file.empty() ? at >= body.min[d] && at <= body.max[d] : true;
-      });
-      if (inside) continue;
-      notes.push_back(fmt::format(
-          "support[{}] at {:.6g} lies outside the body: it holds the cell that the body shares with it", k, at));
-    }
-  }
-  return notes;
 }
 
 // The size of the motion to expect, so that tolerances need no number from the user: the largest displacement of a
@@ -174,7 +115,7 @@ double displacement_scale(const Scene& scene, const Model& model) {
   phase.point_velocity(0, model.v, at_points);
   widen(1 / *model.omega_1);
 
-  const SparseCholesky K(phase.elastic_tangent_matrix(0, model.u));
+  const SparseCholesky K(phase.tangents().matrix(Tangent::elastic, 0, model.u));
   const double span = scene.stop.time > 0 ? scene.stop.time : two_pi / *model.omega_1;
   const int samples = loads_vary(scene) ? 32 : 0;
   for (int k = 0; k <= samples; ++k) {
@@ -206,13 +147,13 @@ void set_tolerances(const Scene& scene, Model& model) {
   if (spec.atol_v) model.integrator.atol_v = *spec.atol_v;
 }
 
-// Chebyshev's polynomial takes the spectrum to its end; where that moves, StiffeningStep follows in notches of 1.1.
-// auto has a bound of it, and watches.
-double step_fraction(const Scene& scene, const LagrangianPhase& phase) {
-  constexpr double of_auto = 0.95;
-  if (scene.damping.strategy == "chebyshev") return phase.stiffens() ? 1 / StiffeningStep::notch : 1;
-  if (scene.damping.strategy == "auto") return of_auto;
-  return scene.integrator.step_fraction;
+// A relaxation that takes the spectrum to its end must stay below the critical step all the time: if that moves,
+// StiffeningStep follows in notches of 1.1.
+double step_fraction(const Scene& scene, const Model& model) {
+  const RelaxationInfo* relaxation = model.relaxation;
+  if (!relaxation || !(relaxation->step_fraction > 0)) return scene.integrator.step_fraction;
+  const bool follows = relaxation->needs_upper_end && model.phase->info().stiffens;
+  return follows ? relaxation->step_fraction / StiffeningStep::notch : relaxation->step_fraction;
 }
 
 void choose_step(const Scene& scene, Model& model) {
@@ -238,7 +179,7 @@ void choose_step(const Scene& scene, Model& model) {
                       *spec.step, model.method.name, *model.critical_step));
     }
   } else if (model.critical_step && *model.critical_step > 0) {
-    model.integrator.max_step = step_fraction(scene, *model.phase) * *model.critical_step;
+    model.integrator.max_step = step_fraction(scene, model) * *model.critical_step;
   } else if (adaptive) {
     model.integrator.max_step = 1 / model.omega_max;  // no limit of its own: the error control is what bounds the step
   } else {
@@ -250,76 +191,109 @@ void choose_step(const Scene& scene, Model& model) {
   }
 }
 
+// Why ω₁ is asked for.
+struct Omega1Needs {
+  bool critical_damping, tolerances, relaxation, distance;
+  bool useful;  // it makes an answer better, and costs little
+  bool any() const { return critical_damping || tolerances || relaxation || useful; }
+};
+
+Omega1Needs omega_1_needs(const Scene& scene, const Model& model, bool takes_c) {
+  const bool finds_its_own = model.relaxation && model.relaxation->chooses_mass;
+  // auto works without, and of a large body the factor alone would cost more than the way to rest.
+  const bool cheap = !finds_its_own || model.phase->size() <= direct_solver_limit;
+  return {.critical_damping = takes_c && !scene.damping.c,
+          .tolerances =
+              !model.static_method && scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v),
+          .relaxation = model.relaxation && model.relaxation->needs_omega_1,
+          .distance = scene.stop.distance > 0,
+          .useful = scene.stop.wants_equilibrium() && (cheap || scene.stop.distance > 0)};
+}
+
+// ω₁ by inverse iteration. Throws if something cannot do without; a note if equilibrium can.
+void find_omega_1(const Scene& scene, const Omega1Needs& needs, Model& model) {
+  const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
+  if (lowest.converged) {
+    model.omega_1 = lowest.omega;
+    return;
+  }
+  if (needs.distance) {
+    throw_scene_error(
+        scene, "stop.distance",
+        fmt::format("a distance is bounded by omega_1, but {}; expected a support, or stop.residual", lowest.status));
+  }
+  if (needs.relaxation) {
+    throw_scene_error(
+        scene, "damping.strategy",
+        fmt::format("'{}' needs omega_1, but {}; expected a support, more points per cell, or another strategy",
+                    model.relaxation->about.name, lowest.status));
+  }
+  if (needs.critical_damping) {
+    throw_scene_error(
+        scene, "damping.c",
+        fmt::format("critical damping needs omega_1, but {}; expected a support, more points per cell, or a number",
+                    lowest.status));
+  }
+  model.notes.push_back(
+      fmt::format("omega_1 is not known ({}): equilibrium is held for 100 of the shortest periods", lowest.status));
+}
+
+// How long equilibrium has to last: a body that is not held has no lowest frequency, and a hundred of its shortest
+// periods stand in for the longest. A static solver has no motion that may only be turning round.
+double dwell_of(const Scene& scene, const Model& model) {
+  if (model.static_method) return 0;
+  return scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
+}
+
+// How the way to rest is gone: the damping and what steps it.
+void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
+  if (takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
+  model.damping = model.relaxation || model.static_method
+                      ? no_damping()
+                      : make_damping(scene.damping.strategy, model.c.value_or(0), scene.damping.alpha);
+  const bool hosted = model.relaxation && model.method.hosts_relaxations;
+  model.integrator.method = scene.integrator.method;
+  model.integrator.treatment = scene.integrator.treatment;
+  model.integrator.halts_at_energy_peaks = model.relaxation && !hosted && model.relaxation->is_event_of_erk;
+  model.relaxing = {.name = scene.damping.strategy,
+                    .peak = scene.damping.peak,
+                    .quotient = scene.damping.quotient,
+                    .omega_1 = model.omega_1.value_or(0),
+                    .steady = wants_equilibrium_only(scene)};
+}
+
 }  // namespace
 
 Model make_model(const Scene& scene) {
   Model model;
-  const bool is_auto = scene.damping.strategy == "auto";
+  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
+  model.static_method = catalogue().static_method(scene.solve.method);
+  if (!model.static_method) model.relaxation = find_relaxation(strategy.name);
+  const bool takes_c = !model.static_method && strategy.uses("c");
+  model.method = find_method(scene.integrator.method, scene.integrator.treatment);
   model.phase = make_phase(scene);
-  if (is_auto) choose_mass_for_auto(scene, model);
-  std::ranges::copy(quadrature_notes(scene, model.phase->quadrature()), std::back_inserter(model.notes));
-  std::ranges::copy(support_notes(scene), std::back_inserter(model.notes));
-  std::ranges::copy(phase_notes(scene, *model.phase), std::back_inserter(model.notes));
+  const bool chooses_mass = model.relaxation && model.relaxation->chooses_mass;
+  if (chooses_mass) choose_mass(scene, model);
+  std::ranges::move(accuracy_notes(scene, *model.phase), std::back_inserter(model.notes));
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);
   check_initial_state(scene, *model.phase, model.u);
-  if (!is_auto) model.omega_max = highest_frequency(scene, *model.phase, model.u);
-
-  const DampingInfo& strategy = find_damping(scene.damping.strategy);
-  const bool critical = strategy.takes_c && !scene.damping.c;
-  const bool own_scale = scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v);
-  // auto works without, and of a large body the factor alone would cost more than the way to rest.
-  const bool useful = scene.stop.wants_equilibrium() &&
-                      (!is_auto || scene.stop.distance > 0 || model.phase->size() <= direct_solver_limit);
-  if (critical || own_scale || strategy.needs_omega_1 || useful) {
-    const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
-    if (lowest.converged) {
-      model.omega_1 = lowest.omega;
-    } else {
-      if (scene.stop.distance > 0) {
-        throw_scene_error(
-            scene, "stop.distance",
-            fmt::format("a distance is certified by omega_1, but {}; expected a support, or stop.residual",
-                        lowest.status));
-      }
-      model.notes.push_back(
-          fmt::format("omega_1 is not known ({}): equilibrium is held for 100 of the shortest periods", lowest.status));
-    }
-    if (strategy.needs_omega_1 && !model.omega_1) {
-      throw_scene_error(
-          scene, "damping.strategy",
-          fmt::format("'{}' needs omega_1, but {}; expected a support, more points per cell, or another strategy",
-                      strategy.name, lowest.status));
-    }
-    if (critical && !model.omega_1) {
-      throw_scene_error(
-          scene, "damping.c",
-          fmt::format("critical damping needs omega_1, but {}; expected a support, more points per cell, or a number",
-                      lowest.status));
-    }
-  }
+  if (!chooses_mass) model.omega_max = highest_frequency(scene, *model.phase, model.u);
+  const Omega1Needs needs = omega_1_needs(scene, model, takes_c);
+  if (needs.any()) find_omega_1(scene, needs, model);
   if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
     model.notes.push_back(
-        "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.dwell counts as "
+        "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
         "equilibrium");
   }
-  // A body that is not held has no lowest frequency: a hundred of its shortest periods stand in for the longest.
-  model.dwell = scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
-  if (strategy.is_static) model.dwell = 0;  // no motion that may only be turning round
-
-  if (strategy.takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
-  model.damping = make_damping(scene.damping.strategy, model.c.value_or(0), scene.damping.alpha);
-  model.method = find_method(scene.integrator.method, scene.integrator.treatment);
-  model.integrator.method = scene.integrator.method;
-  model.integrator.treatment = scene.integrator.treatment;
-  model.integrator.strategy = {.peak = scene.damping.peak,
-                               .quotient = scene.damping.quotient,
-                               .omega_1 = model.omega_1.value_or(0),
-                               .steady = wants_equilibrium_only(scene)};
-  set_tolerances(scene, model);
+  if (model.static_method && model.static_method->takes_end_of_loads) model.t = scene.stop.time;
+  model.dwell = dwell_of(scene, model);
+  choose_strategy(scene, takes_c, model);
+  if (!model.static_method) set_tolerances(scene, model);
   choose_step(scene, model);
-  if (model.phase->stiffens() && !scene.integrator.step) {
+  model.relaxing.max_step = model.integrator.max_step;
+  if (model.phase->info().stiffens && !scene.integrator.step) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);
   }
   return model;

@@ -3,6 +3,7 @@
 
 #include <stillpoint/damping.hpp>
 #include <stillpoint/integrator.hpp>
+#include <stillpoint/relaxation.hpp>
 #include <stillpoint/scene.hpp>
 
 #include <memory>
@@ -17,22 +18,27 @@ namespace stillpoint {
 struct Model {
   std::unique_ptr<LagrangianPhase> phase;
   std::vector<double> u, v;       // initial values, (n) each
-  std::optional<double> omega_1;  // [rad/s]; only where something needs it and the body is held
+  double t = 0;                   // when it begins; the end of the loads for a static solver [s]
+  std::optional<double> omega_1;  // [rad/s]; only if something needs it and the body is held
   double omega_max = 0;           // [rad/s], by power iteration; for auto a bound by few Lanczos steps
   int tangent_applications = 0;   // that auto spent on ω_max
   std::optional<double> c;        // of viscous and identity damping
   std::unique_ptr<Damping> damping;
   Method method;
-  std::optional<double> critical_step;  // [s]; none for a multistep method
-  IntegratorOptions integrator;         // ready for make_integrator()
-  double dwell = 0;                     // how long equilibrium has to hold [s]
-  // stiffening() at the beginning, where the step is to follow it: it was not asked for as such.
+  const RelaxationInfo* relaxation = nullptr;       // in the place of the integrator's step; null: a damping
+  const StaticMethodInfo* static_method = nullptr;  // in the place of any motion; null: there is one
+  std::optional<double> critical_step;              // [s]; none for a multistep method
+  // Ready to be made, whichever it is:
+  IntegratorOptions integrator;
+  RelaxationOptions relaxing;
+  double dwell = 0;  // how long equilibrium has to last [s]
+  // stiffening() at the beginning, if the step is to follow it: it was not asked for as such.
   std::optional<double> initial_stiffening;
   std::vector<std::string> notes;  // what a user should know of this scene's accuracy, a sentence each
 };
 
-/// Throws SceneError for what only shows once the scene is discretised: a body that is not held where c = "critical",
-/// a step past the critical one without a reason, a method that does not fit the damping.
+/// Throws SceneError for what only shows once the scene is discretised: a body that is not held if c = "critical", a
+/// step past the critical one without a reason, a method that does not fit the damping.
 Model make_model(const Scene& scene);
 
 }  // namespace stillpoint

@@ -8,28 +8,6 @@
 
 namespace stillpoint {
 
-std::string to_string(RunStatus status) {
-  switch (status) {
-    case RunStatus::running:
-      return "running";
-    case RunStatus::equilibrium:
-      return "equilibrium";
-    case RunStatus::end_time:
-      return "end-time";
-    case RunStatus::step_limit:
-      return "step-limit";
-    case RunStatus::time_limit:
-      return "time-limit";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::diverged:
-      return "diverged";
-    case RunStatus::failed:
-      return "failed";
-  }
-  return "unknown";
-}
-
 RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale, bool settled,
                            std::optional<double> distance) {
   next_check_ = t + options_.dwell / checks_a_dwell;

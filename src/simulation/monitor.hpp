@@ -1,24 +1,12 @@
 // Decides when a relaxation is over: at rest and in balance for a whole period, at an end, or gone wrong.
 #pragma once
 
+#include <stillpoint/summary.hpp>
+
 #include <optional>
 #include <string>
 
 namespace stillpoint {
-
-enum class RunStatus {
-  running,
-  equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, all held
-  end_time,     // t = stop.time
-  step_limit,   // stop.steps taken
-  time_limit,   // stop.wall_time spent
-  interrupted,  // by the user
-  diverged,     // a state that is not finite, or a trial that cannot be evaluated
-  failed        // the integrator gave up
-};
-
-/// "equilibrium", "end-time", ...
-std::string to_string(RunStatus status);
 
 struct MonitorOptions {
   double residual = 0;        // ‖F − R‖/‖F‖; 0: no test of it

@@ -1,5 +1,7 @@
 #include "study/benchmark_run.hpp"
 
+#include <stillpoint/simulation.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,10 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
-#include "simulation/error_bound.hpp"
-#include "simulation/load_schedule.hpp"
 #include "simulation/model.hpp"
-#include "simulation/motion.hpp"
 
 namespace stillpoint {
 namespace {
@@ -56,34 +55,31 @@ std::size_t memory_of(const LagrangianPhase& phase) {
                                   phase.bytes_per_point() * static_cast<double>(phase.points()));
 }
 
-// So far away that steps are what the method takes by itself.
-double far_away(const Model& model) { return 1e9 * model.integrator.max_step; }
+// Steps as the method takes them by itself, with no end but a failure.
+Simulation free_running(const Scene& scene, int threads) {
+  return Simulation(scene, {.threads = threads, .records = false, .stops = false});
+}
 
 }  // namespace
 
 void run_benchmark(const Scene& scene, const ReferenceSolution& exact, const BenchmarkLimits& limits,
                    ComparedRun& run) {
   const Stopwatch setup;
-  Model model = make_model(scene);
-  const VectorSpace vectors;
-  Motion motion(model, vectors, 0, model.u, model.v);
+  Simulation simulation = free_running(scene, 1);
   run.setup_s = setup.seconds();
-  run.estimating = model.tangent_applications;
-  run.memory_bytes = memory_of(*model.phase);
-  const LoadSchedule schedule(scene, *model.phase, scene.stop.time);
-  const ErrorBound error_bound(*model.phase, model.omega_1);
+  run.estimating = simulation.model().tangent_applications;
+  run.memory_bytes = memory_of(simulation.phase());
 
   const Stopwatch wall;
   ConvergenceTracker tracker(limits.goal);
-  double t = 0;
   long next_sample = 0;
-  const auto evaluations = [&] { return motion.relaxation.evaluations() + run.estimating; };
-  const auto look = [&] {
-    run.residual = motion.residual(t);
-    run.error = exact.error(motion.u());
-    run.distance = error_bound.distance(motion.relaxation, motion.u_vector);
+  const auto evaluations = [&] { return simulation.evaluations() + run.estimating; };
+  const auto sample = [&] {
+    run.residual = simulation.residual();
+    run.error = exact.error(simulation.u());
+    run.distance = simulation.distance();
     const double measure = limits.by_residual ? run.residual : run.error;
-    tracker.sample(motion.integrator->steps(), evaluations(), schedule.settled(t) ? measure : 1);
+    tracker.sample(simulation.steps(), evaluations(), simulation.loads_settled() ? measure : 1);
     if (evaluations() < next_sample) return;
     run.samples.push_back({evaluations(), run.error, run.residual, run.distance});
     next_sample = evaluations() + 1 + evaluations() / 50;
@@ -91,31 +87,26 @@ void run_benchmark(const Scene& scene, const ReferenceSolution& exact, const Ben
   const auto end = [&](ComparedStatus status, std::string reason) {
     run.status = status;
     run.reason = std::move(reason);
-    run.steps = motion.integrator->steps();
+    run.steps = simulation.steps();
     run.evaluations = evaluations();
     run.first_evaluations = tracker.first();
-    if (limits.ramp) run.overshoot = limits.ramp->error(motion.u());
+    if (limits.ramp) run.overshoot = limits.ramp->error(simulation.u());
     if (status != ComparedStatus::converged) return;
     run.steps = tracker.steps();
     run.evaluations = tracker.evaluations();
   };
 
-  motion.accept(t);
-  look();
-  const double horizon = far_away(model);
+  sample();
   const char* what = limits.by_residual ? "residual" : "error";
   while (true) {
-    const StepReport step = motion.integrator->step(horizon);
-    if (step.status != StepReport::Status::ok) {
+    if (simulation.step() != RunStatus::running) {
       // An iteration that cannot get any nearer for rounding has arrived where it could.
-      if (tracker.evaluations() > 0) return end(ComparedStatus::converged, step.message);
-      return end(ComparedStatus::diverged, step.message);
+      const bool arrived = tracker.evaluations() > 0;
+      return end(arrived ? ComparedStatus::converged : ComparedStatus::diverged, simulation.reason());
     }
-    t = step.t;
-    motion.accept(t);
-    look();
+    sample();
     if (!std::isfinite(run.residual) || !std::isfinite(run.error) || run.error > 1e6) {
-      return end(ComparedStatus::diverged, fmt::format("error {:.3g} at t = {:.6g}", run.error, t));
+      return end(ComparedStatus::diverged, fmt::format("error {:.3g} at t = {:.6g}", run.error, simulation.t()));
     }
     if (tracker.arrived(evaluations())) {
       return end(ComparedStatus::converged, fmt::format("{} <= {:.3g}", what, limits.goal));
@@ -131,18 +122,10 @@ void run_benchmark(const Scene& scene, const ReferenceSolution& exact, const Ben
   }
 }
 
-double time_benchmark(const Scene& scene, long steps) {
-  Model model = make_model(scene);
-  const VectorSpace vectors;
+double time_benchmark(const Scene& scene, long steps, int threads) {
+  Simulation simulation = free_running(scene, threads);
   const Stopwatch wall;
-  Motion motion(model, vectors, 0, model.u, model.v);
-  motion.accept(0);
-  const double horizon = far_away(model);
-  for (long k = 0; k < steps; ++k) {
-    const StepReport step = motion.integrator->step(horizon);
-    if (step.status != StepReport::Status::ok) break;
-    motion.accept(step.t);
-  }
+  while (simulation.steps() < steps && !simulation.done()) simulation.step();
   return wall.seconds();
 }
 

@@ -22,6 +22,6 @@ struct BenchmarkLimits {
 void run_benchmark(const Scene& scene, const ReferenceSolution& exact, const BenchmarkLimits& limits, ComparedRun& run);
 
 /// Takes the same number of steps again and looks at nothing. Returns the wall time of the steps [s].
-double time_benchmark(const Scene& scene, long steps);
+double time_benchmark(const Scene& scene, long steps, int threads);
 
 }  // namespace stillpoint

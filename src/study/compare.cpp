@@ -13,10 +13,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "base/stopwatch.hpp"
+#include "simulation/thread_scope.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
+#include "solvers/statics/static_methods.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "study/benchmark_run.hpp"
 #include "study/compare_candidates.hpp"
@@ -81,6 +82,7 @@ class Comparing {
   }
 
   Comparison compare() {
+    const ThreadScope threads(result_.threads);
     total_ = static_cast<int>(candidates_.size());
     if (result_.transient) {
       find_transient_reference();
@@ -159,7 +161,7 @@ class Comparing {
     const int workers = std::max(1, std::min(result_.threads, static_cast<int>(candidates_.size())));
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
-      omp_set_num_threads(1);
+      const ThreadScope alone(1);
       for (std::size_t k = next++; k < candidates_.size(); k = next++) {
         try_candidate(candidates_[k]);
         tell(candidates_[k].run.label());
@@ -169,7 +171,6 @@ class Comparing {
     for (int k = 1; k < workers; ++k) others.emplace_back(work);
     work();
     others.clear();
-    omp_set_num_threads(result_.threads);
   }
 
   void try_candidate(Candidate& candidate) const {
@@ -181,7 +182,7 @@ class Comparing {
       const Scene scene = load_for(candidate);
       if (result_.transient) {
         run_transient(scene, *transient_, options_.interrupted, candidate.run);
-      } else if (candidate.is_static()) {
+      } else if (candidate.is_newton) {
         solve(scene, candidate.run);
       } else {
         run_benchmark(scene, *exact_, limits(), candidate.run);
@@ -215,7 +216,7 @@ class Comparing {
     run.setup_s = setup.seconds();
     std::vector<double> u = phase->initial_displacement(end_time());
     NewtonOptions newton_options;
-    if (run.strategy == "newton-cg") newton_options.solver = LinearSolver::conjugate_gradients;
+    newton_options.solver = linear_solver_of(run.strategy);
     // An error below the goal needs a residual that is smaller by up to κ: as far as rounding goes.
     newton_options.tolerance = result_.by_residual ? options_.goal : std::max(1e-3 * options_.goal, tight);
     const StaticReport report = newton(*phase, end_time(), u, newton_options);
@@ -251,14 +252,14 @@ class Comparing {
         continue;
       }
       const Scene scene = load_for(candidate);
-      if (candidate.is_static()) {
+      if (candidate.is_newton) {
         ComparedRun again = candidate.run;
         solve(scene, again);
         seconds[k].push_back(again.wall_s->median);
       } else if (result_.transient) {
         seconds[k].push_back(time_transient(scene, result_.threads));
       } else {
-        seconds[k].push_back(time_benchmark(scene, candidate.run.steps));
+        seconds[k].push_back(time_benchmark(scene, candidate.run.steps, result_.threads));
       }
       tell("timing " + candidate.run.label());
     }

@@ -1,21 +1,17 @@
 #include "study/compare_candidates.hpp"
 
-#include <stillpoint/damping.hpp>
-#include <stillpoint/integrator.hpp>
-
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "simulation/catalogue.hpp"
 
 namespace stillpoint {
 namespace {
 
-constexpr std::string_view adaptive_suffix = ":adaptive";
-constexpr std::array<std::string_view, 2> static_methods{"newton", "newton-cg"};
+constexpr std::string_view adaptive_suffix = ":adaptive", best_with_runge_kutta = "viscous";
 
 const std::vector<std::string> default_integrators{"leapfrog", "erk:sofroniou-spaletta-5-3-4", "erk:rk4",
                                                    "erk:bogacki-shampine-4-2-3:adaptive"};
@@ -26,9 +22,6 @@ const std::vector<std::string> default_transient{"leapfrog",
                                                  "erk:dormand-prince-7-4-5:adaptive",
                                                  "erk:fehlberg-13-7-8:adaptive"};
 
-bool is_static(const std::string& strategy) {
-  return std::ranges::find(static_methods, strategy) != static_methods.end();
-}
 bool is_adaptive(std::string_view integrator) { return integrator.ends_with(adaptive_suffix); }
 std::string method_of(std::string_view integrator) {
   if (is_adaptive(integrator)) integrator.remove_suffix(adaptive_suffix.size());
@@ -36,32 +29,28 @@ std::string method_of(std::string_view integrator) {
 }
 
 void check_strategy(const std::string& strategy, bool transient) {
-  if (is_static(strategy)) {
-    if (transient)
-      throw_option_error("--strategies", strategy, "a static solution has no transient; expected a damping");
-    return;
+  if (catalogue().static_method(strategy)) {
+    if (!transient) return;
+    throw_option_error("--strategies", strategy, "a static solution has no transient; expected a damping");
   }
-  std::vector<std::string> names(static_methods.begin(), static_methods.end());
-  for (const DampingInfo& info : damping_strategies()) names.emplace_back(info.name);
-  if (std::ranges::find(names, strategy) == names.end()) {
-    throw_option_error("--strategies", strategy, unknown_word("there is no strategy", strategy, names));
-  }
+  if (catalogue().strategy(strategy)) return;
+  std::vector<std::string> names;
+  for (const StrategyInfo& info : catalogue().strategies) names.emplace_back(info.name);
+  for (const StaticMethodInfo& info : catalogue().static_methods) names.emplace_back(info.name);
+  throw_option_error("--strategies", strategy, unknown_word("there is no strategy", strategy, names));
 }
 
 void check_integrator(const std::string& integrator) {
-  std::vector<std::string> names;
-  for (const Method& method : methods()) {
-    names.push_back(method.name);
-    if (method.name != method_of(integrator)) continue;
-    if (is_adaptive(integrator) && !method.adaptive) {
-      throw_option_error("--integrators", integrator, in_quotes(method.name) + " has no error estimate");
-    }
-    return;
+  if (const MethodInfo* method = catalogue().method(method_of(integrator))) {
+    if (!is_adaptive(integrator) || method->adaptive) return;
+    throw_option_error("--integrators", integrator, in_quotes(method->name) + " has no error estimate");
   }
+  std::vector<std::string> names;
+  for (const MethodInfo& method : catalogue().methods) names.push_back(method.name);
   throw_option_error("--integrators", integrator, unknown_word("there is no integrator", method_of(integrator), names));
 }
 
-Candidate stepping(const Scene& scene, const DampingInfo& info, const std::string& integrator,
+Candidate stepping(const Scene& scene, const StrategyInfo& info, const std::string& integrator,
                    std::optional<double> fraction, std::optional<double> rtol) {
   const std::string strategy(info.name);
   Candidate candidate;
@@ -71,7 +60,7 @@ Candidate stepping(const Scene& scene, const DampingInfo& info, const std::strin
   candidate.run.rtol = rtol;
   candidate.overrides = {"damping.strategy=" + strategy, "integrator.method=" + candidate.run.integrator};
   // A number in the scene is meant for the strategy beside it.
-  if (info.takes_c && strategy != scene.damping.strategy) candidate.overrides.emplace_back("damping.c=critical");
+  if (info.uses("c") && strategy != scene.damping.strategy) candidate.overrides.emplace_back("damping.c=critical");
   if (fraction) candidate.overrides.push_back(fmt::format("integrator.step_fraction={:.17g}", *fraction));
   if (rtol) candidate.overrides.push_back(fmt::format("integrator.rtol={:.17g}", *rtol));
   return candidate;
@@ -84,10 +73,11 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
   if (transient && strategies.empty()) {
     strategies = {scene.damping.strategy};
   } else if (strategies.empty()) {
-    for (const DampingInfo& info : damping_strategies()) {
-      if (info.name != "none") strategies.emplace_back(info.name);
+    for (const StrategyInfo& info : catalogue().strategies) {
+      const bool does_something = info.is_relaxation || !info.keys.empty();
+      if (does_something) strategies.emplace_back(info.name);
     }
-    strategies.insert(strategies.end(), static_methods.begin(), static_methods.end());
+    for (const StaticMethodInfo& info : catalogue().static_methods) strategies.emplace_back(info.name);
   }
   const auto& integrators = !options.integrators.empty() ? options.integrators
                             : transient                  ? default_transient
@@ -98,19 +88,20 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
 
   std::vector<Candidate> all;
   for (const std::string& strategy : strategies) {
-    if (is_static(strategy)) {
+    if (const StaticMethodInfo* method = catalogue().static_method(strategy)) {
       Candidate candidate;
       candidate.run.strategy = strategy;
+      candidate.is_newton = method->is_newton;
+      candidate.overrides = {"solve.method=" + strategy};
       all.push_back(std::move(candidate));
       continue;
     }
-    const DampingInfo& info = find_damping(strategy);
+    const StrategyInfo& info = *catalogue().strategy(strategy);
     for (const std::string& integrator : integrators) {
-      const Method method = find_method(method_of(integrator));
-      if (!info.goes_with(method.name)) continue;
+      if (!info.goes_with(method_of(integrator))) continue;
       // Without being asked for, Runge-Kutta methods are tried with the damping that is best for them.
-      const bool of_interest = transient || !options.integrators.empty() || method.name == "leapfrog" ||
-                               strategy == "viscous" || !options.strategies.empty();
+      const bool is_default = integrator == default_integrators.front() || strategy == best_with_runge_kutta;
+      const bool of_interest = transient || is_default || !options.integrators.empty() || !options.strategies.empty();
       if (!of_interest) continue;
       if (is_adaptive(integrator)) {
         for (const double rtol : options.tolerances) {
@@ -133,11 +124,11 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
 }
 
 bool takes(const std::string& strategy, const std::string& key) {
-  if (is_static(strategy)) return true;
-  const DampingInfo& info = find_damping(strategy);
-  if (key == "integrator.step" || key == "integrator.step_fraction") return !info.has_own_step;
+  const StrategyInfo* info = catalogue().strategy(strategy);
+  if (!info) return true;  // a static solver
+  if (key == "integrator.step" || key == "integrator.step_fraction") return !info->has_own_step;
   const std::string table = "damping.";
-  return !key.starts_with(table) || key == "damping.strategy" || info.takes(key.substr(table.size()));
+  return !key.starts_with(table) || key == "damping.strategy" || info->takes(key.substr(table.size()));
 }
 
 }  // namespace stillpoint

@@ -11,7 +11,7 @@ namespace stillpoint {
 struct Candidate {
   ComparedRun run;                     // named, and empty otherwise
   std::vector<std::string> overrides;  // "key=value"
-  bool is_static() const { return run.strategy == "newton" || run.strategy == "newton-cg"; }
+  bool is_newton = false;              // solved as a whole, not step by step
 };
 
 /// integrators × strategies × step fractions (or tolerances where a method is named "…:adaptive"); a strategy that owns

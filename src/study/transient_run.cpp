@@ -1,10 +1,13 @@
 #include "study/transient_run.hpp"
 
-#include <stillpoint/run.hpp>
+#include <stillpoint/simulation.hpp>
 
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "simulation/catalogue.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
 namespace {
@@ -18,14 +21,10 @@ Ended follow(Scene scene, int threads, const std::function<bool()>& interrupted 
   scene.output.snapshots.clear();
   scene.output.fields_every = 0;
   scene.output.every = scene.stop.time;  // a row costs time, and bends the steps
-  Ended ended;
-  ended.summary = run(scene, {.threads = threads,
-                              .interrupted = interrupted,
-                              .at_end = [&](const LagrangianPhase& phase, double t, ConstVec u, ConstVec) {
-                                ended.displacement.resize(phase.points() * static_cast<std::size_t>(phase.dim()));
-                                phase.point_displacement(t, u, ended.displacement);
-                              }});
-  return ended;
+  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted});
+  simulation.run();
+  const ConstVec u = simulation.field("u");
+  return {simulation.summary(), {u.begin(), u.end()}};
 }
 
 double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -42,9 +41,9 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
 TransientReference transient_reference(const Scene& scene,
                                        const std::function<Scene(const std::vector<std::string>&)>& load) {
   const auto phase = make_phase(scene);
-  const bool smooth =
-      !phase->history_dependent() && !phase->has_contact() && !phase->updated_lagrangian() &&
-      (scene.damping.strategy == "viscous" || scene.damping.strategy == "identity" || scene.damping.strategy == "none");
+  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
+  const bool smooth = !phase->history_dependent() && !phase->contact() && !phase->info().updated_lagrangian &&
+                      !strategy.is_local && !strategy.is_relaxation;
   const std::vector<std::string> overrides =
       smooth ? std::vector<std::string>{"integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-11"}
              : std::vector<std::string>{"integrator.method=leapfrog", "integrator.step_fraction=0.0625"};

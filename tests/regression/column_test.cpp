@@ -1,6 +1,7 @@
 // A column under its own weight, in the plane and as a cylinder, at small and at large strain: problems/column.toml.
 #include <stillpoint/material.hpp>
 
+#include "largest.hpp"
 #include "output/exact_error.hpp"
 #include "scenes.hpp"
 #include "statics.hpp"
@@ -58,12 +59,12 @@ double error_at_large_strain(const ExactColumn& exact, std::vector<std::string> 
   const auto phase = make_phase(column(overrides));
   const auto u = statics::point_displacement(*phase, statics::solution(*phase));
   const auto x = phase->positions();
-  double off = 0;
+  Largest off;
   for (std::size_t p = 0; p < phase->points(); ++p) {
     CHECK_THAT(u[2 * p], WithinAbs(0, 1e-9));
-    off = std::max(off, std::abs(u[2 * p + 1] - exact.u(x[2 * p + 1])));
+    off.take_magnitude(u[2 * p + 1] - exact.u(x[2 * p + 1]));
   }
-  return off / std::abs(exact.u(H));
+  return off.value() / std::abs(exact.u(H));
 }
 
 struct InPhases {
@@ -171,9 +172,9 @@ TEST_CASE("relaxed at large strain in a single phase, the column is the static s
     CHECK(s.phases == 1);
     const auto phase = make_phase(scene);
     const auto u = statics::point_displacement(*phase, statics::solution(*phase));
-    double top = 0;
-    for (std::size_t p = 0; p < phase->points(); ++p) top = std::min(top, u[2 * p + 1]);
-    CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(top, 1e-6));
+    Smallest top;
+    for (std::size_t p = 0; p < phase->points(); ++p) top.take(u[2 * p + 1]);
+    CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(top.value(), 1e-6));
     CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(ExactColumn{law}.u(s.probe_positions.at("top")[1]), 2e-3));
   }
 }

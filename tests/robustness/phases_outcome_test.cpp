@@ -60,7 +60,7 @@ TEST_CASE("a cell that a phase turns inside out is whole in the next phase, and 
   CHECK(next.rejected_steps > 10);  // all halvings of the step that could not be
   CHECK(next.phases >= 2);
   CHECK(std::isfinite(next.kinetic_energy));
-  CHECK(next.transfer->mass < 1e-14);
+  CHECK(*next.mass_error < 1e-14);
 }
 
 TEST_CASE("a free body without loads vibrates to the end of its run: its residual is a number") {
@@ -99,9 +99,9 @@ TEST_CASE("a point alone in a cell, next to its edge or on it, neither shortens 
       const Summary s = run(scene, {.threads = 1});
       REQUIRE(s.status == RunStatus::end_time);
       CHECK(s.phases > 20);
-      REQUIRE(s.transfer);
-      CHECK(s.transfer->added_mass < 0.15);
-      if (from_edge >= 0) CHECK(s.transfer->added_mass > 0.001);
+      REQUIRE(s.mass_error);
+      CHECK(*s.added_mass < 0.15);
+      if (from_edge >= 0) CHECK(*s.added_mass > 0.001);
       // What is added to light nodes carries energy too: at most as much more as there is more of it.
       const double initial = 0.5 * 65 * mass * (0.5 * 0.5 + 0.3 * 0.3 + 0.2 * 0.2 * 0.5 * 0.5);
       CHECK(s.kinetic_energy < 1.2 * initial);

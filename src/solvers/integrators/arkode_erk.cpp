@@ -111,7 +111,7 @@ class Erk final : public SteppingIntegrator {
   Erk(const IntegratorOptions& options, RelaxationSystem& system)
       : SteppingIntegrator(options, system),
         table_(table_of(options.method)),
-        kinetic_(system.damping().name() == "kinetic"),
+        kinetic_(options.halts_at_energy_peaks),
         Q_(kinetic_ ? system.size() : 0) {}
   Erk(const Erk&) = delete;
   Erk& operator=(const Erk&) = delete;

@@ -1,6 +1,8 @@
 #include <stillpoint/integrator.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,7 +11,6 @@
 #include "solvers/integrators/arkode_erk.hpp"
 #include "solvers/integrators/gsl_integrator.hpp"
 #include "solvers/integrators/staggered_integrators.hpp"
-#include "solvers/relaxation/relaxations.hpp"
 
 namespace stillpoint {
 namespace {
@@ -30,18 +31,37 @@ void validate(const IntegratorOptions& options, const Method& method) {
   }
 }
 
+// Leapfrog and symplectic Euler depend on how they treat damping; the others do not.
+using MethodOf = Method (*)(DampingTreatment);
+constexpr MethodOf staggered[] = {leapfrog_method, symplectic_euler_method};
+
+std::vector<Method> only_leapfrog() { return {leapfrog_method(DampingTreatment::automatic)}; }
+std::vector<Method> only_symplectic_euler() { return {symplectic_euler_method(DampingTreatment::automatic)}; }
+
+/// Methods whose names begin alike, and what makes one of them.
+struct Family {
+  std::string_view begin;
+  std::vector<Method> (*methods)();
+  std::unique_ptr<Integrator> (*make)(const IntegratorOptions&, RelaxationSystem&);
+};
+
+constexpr Family families[] = {{"leapfrog", only_leapfrog, make_leapfrog},
+                               {"symplectic-euler", only_symplectic_euler, make_symplectic_euler},
+                               {"erk:", erk_methods, make_erk},
+                               {"gsl:", gsl_methods, make_gsl}};
+
 }  // namespace
 
 std::vector<Method> methods() {
-  std::vector<Method> all = {leapfrog_method(DampingTreatment::automatic),
-                             symplectic_euler_method(DampingTreatment::automatic)};
-  for (auto&& family : {erk_methods(), gsl_methods()}) all.insert(all.end(), family.begin(), family.end());
+  std::vector<Method> all;
+  for (const Family& family : families) std::ranges::move(family.methods(), std::back_inserter(all));
   return all;
 }
 
 Method find_method(std::string_view name, DampingTreatment treatment) {
-  if (name == "leapfrog") return leapfrog_method(treatment);
-  if (name == "symplectic-euler") return symplectic_euler_method(treatment);
+  for (const MethodOf method_of : staggered) {
+    if (method_of(DampingTreatment::automatic).name == name) return method_of(treatment);
+  }
   std::vector<std::string> names;
   for (Method& method : methods()) {
     if (method.name == name) {
@@ -51,28 +71,19 @@ Method find_method(std::string_view name, DampingTreatment treatment) {
     }
     names.push_back(method.name);
   }
-  const std::string near = nearest(std::string(name), names);
-  throw std::invalid_argument(fmt::format("there is no integrator '{}'{}", name,
-                                          near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  throw std::invalid_argument(unknown_word("there is no integrator", std::string(name), names));
 }
 
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system) {
   const Method method = find_method(options.method, options.treatment);
   validate(options, method);
-  const DampingInfo* strategy = known_damping(system.damping().name());
-  if (strategy) {
-    require(strategy->goes_with(method.name),
-            fmt::format("damping '{}' does not go with method '{}', but with {}", strategy->name, method.name,
-                        fmt::join(strategy->integrators, ", ")));
-    if (strategy->owns_iteration && method.name == "leapfrog") {
-      require(options.treatment == DampingTreatment::automatic,
-              fmt::format("damping '{}' owns its iteration, which has no choice of damping treatment", strategy->name));
-      return make_strategy(options, system);
-    }
-  }
-  if (method.name == "leapfrog") return make_leapfrog(options, system);
-  if (method.name == "symplectic-euler") return make_symplectic_euler(options, system);
-  return method.name.starts_with("erk:") ? make_erk(options, system) : make_gsl(options, system);
+  require(method.remembers_force || !system.damping().uses_last_force(),
+          fmt::format("a damping by the change of the force does not go with method '{}', but with leapfrog and "
+                      "symplectic-euler",
+                      method.name));
+  const auto family = std::ranges::find_if(
+      families, [&](std::string_view begin) { return method.name.starts_with(begin); }, &Family::begin);
+  return family->make(options, system);
 }
 
 }  // namespace stillpoint

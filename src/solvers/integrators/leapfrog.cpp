@@ -100,6 +100,8 @@ Method leapfrog_method(DampingTreatment treatment) {
   method.name = "leapfrog";
   method.description =
       "central differences, synchronised; damping averaged (default) or lagged (first order where damped)";
+  method.treatments = {DampingTreatment::automatic, DampingTreatment::averaged, DampingTreatment::lagged};
+  method.remembers_force = method.hosts_relaxations = true;
   method.order = 2;
   method.evaluations_per_step = 1;
   method.amplification = kick_drift_amplification(used);

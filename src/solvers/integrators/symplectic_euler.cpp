@@ -80,6 +80,9 @@ Method symplectic_euler_method(DampingTreatment treatment) {
   Method method;
   method.name = "symplectic-euler";
   method.description = "semi-implicit Euler; damping implicit (default), lagged or exact";
+  method.treatments = {DampingTreatment::automatic, DampingTreatment::lagged, DampingTreatment::implicit,
+                       DampingTreatment::exact};
+  method.remembers_force = true;
   method.order = 1;
   method.evaluations_per_step = 1;
   method.amplification = kick_drift_amplification(used);

@@ -17,10 +17,8 @@ namespace {
 
 class Adaptive final : public StaggeredIteration {
  public:
-  Adaptive(const IntegratorOptions& options, RelaxationSystem& system)
-      : StaggeredIteration(options, system),
-        quotient_(options.strategy.quotient),
-        c_(options.strategy.from.rate.value_or(0)) {}
+  Adaptive(const RelaxationOptions& options, RelaxationSystem& system)
+      : StaggeredIteration(options, system), quotient_(options.quotient), c_(options.from.rate.value_or(0)) {}
 
   std::optional<double> damping_rate() const override { return c_; }
 
@@ -45,7 +43,7 @@ class Adaptive final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_adaptive(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_adaptive(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Adaptive>(options, system);
 }
 

@@ -26,11 +26,11 @@ namespace {
 
 class Auto final : public StaggeredIteration {
  public:
-  Auto(const IntegratorOptions& options, RelaxationSystem& system)
+  Auto(const RelaxationOptions& options, RelaxationSystem& system)
       : StaggeredIteration(options, system),
-        steady_(options.strategy.steady),
-        c_(options.strategy.from.rate.value_or(0)),
-        share_(options.strategy.from.step_share > 0 ? options.strategy.from.step_share : 1) {}
+        steady_(options.steady),
+        c_(options.from.rate.value_or(0)),
+        share_(options.from.step_share > 0 ? options.from.step_share : 1) {}
 
   std::optional<double> damping_rate() const override { return c_; }
 
@@ -103,7 +103,7 @@ class Auto final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_auto(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_auto(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Auto>(options, system);
 }
 

@@ -22,9 +22,9 @@ namespace {
 
 class Chebyshev final : public StaggeredIteration {
  public:
-  Chebyshev(const IntegratorOptions& options, RelaxationSystem& system)
-      : StaggeredIteration(options, system), omega_1_(options.strategy.omega_1) {
-    if (!(omega_1_ > 0)) throw std::invalid_argument("damping 'chebyshev' needs omega_1 > 0");
+  Chebyshev(const RelaxationOptions& options, RelaxationSystem& system)
+      : StaggeredIteration(options, system), omega_1_(options.omega_1) {
+    if (!(omega_1_ > 0)) throw std::invalid_argument("the relaxation 'chebyshev' needs omega_1 > 0");
   }
 
  private:
@@ -56,7 +56,7 @@ class Chebyshev final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_chebyshev(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_chebyshev(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Chebyshev>(options, system);
 }
 

@@ -35,14 +35,14 @@ constexpr double faster = 1.1, slower = 0.5, less_turned = 0.99;
 
 class Fire final : public StaggeredIteration {
  public:
-  Fire(const IntegratorOptions& options, RelaxationSystem& system, FireConstants constants)
+  Fire(const RelaxationOptions& options, RelaxationSystem& system, FireConstants constants)
       : StaggeredIteration(options, system), constants_(constants) {}
 
  private:
   double step_share() const override { return share_; }
 
   void on_restart() override {
-    share_ = options().strategy.from.step_share > 0 ? options().strategy.from.step_share : first;
+    share_ = relaxation().from.step_share > 0 ? relaxation().from.step_share : first;
     theta_ = constants_.theta;
     downhill_ = steps_ = 0;
     uphill_ = false;
@@ -82,11 +82,11 @@ class Fire final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_fire(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_fire(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Fire>(options, system, FireConstants{.theta = 0.1, .steps_downhill = 5, .goes_back = false});
 }
 
-std::unique_ptr<Integrator> make_fire2(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_fire2(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Fire>(options, system, FireConstants{.theta = 0.25, .steps_downhill = 20, .goes_back = true});
 }
 

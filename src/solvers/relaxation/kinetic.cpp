@@ -26,8 +26,8 @@ namespace {
 
 class Kinetic final : public StaggeredIteration {
  public:
-  Kinetic(const IntegratorOptions& options, RelaxationSystem& system)
-      : StaggeredIteration(options, system), peak_(options.strategy.peak) {}
+  Kinetic(const RelaxationOptions& options, RelaxationSystem& system)
+      : StaggeredIteration(options, system), peak_(options.peak) {}
 
  private:
   void on_restart() override { peak_.restart(mass_dot(v(), v())); }
@@ -60,7 +60,7 @@ class Kinetic final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_kinetic(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_kinetic(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Kinetic>(options, system);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 class Nesterov final : public StaggeredIteration {
  public:
-  Nesterov(const IntegratorOptions& options, RelaxationSystem& system)
+  Nesterov(const RelaxationOptions& options, RelaxationSystem& system)
       : StaggeredIteration(options, system),
         x_(system.vectors().make(system.size())),
         next_x_(system.vectors().make(system.size())) {}
@@ -55,7 +55,7 @@ class Nesterov final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_nesterov(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_nesterov(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Nesterov>(options, system);
 }
 

@@ -23,8 +23,8 @@ namespace {
 
 class Papadrakakis final : public StaggeredIteration {
  public:
-  Papadrakakis(const IntegratorOptions& options, RelaxationSystem& system)
-      : StaggeredIteration(options, system), rate_(options.strategy.from.rate) {}
+  Papadrakakis(const RelaxationOptions& options, RelaxationSystem& system)
+      : StaggeredIteration(options, system), rate_(options.from.rate) {}
 
   std::optional<double> damping_rate() const override { return rate_; }
 
@@ -64,7 +64,7 @@ class Papadrakakis final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_papadrakakis(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_papadrakakis(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Papadrakakis>(options, system);
 }
 

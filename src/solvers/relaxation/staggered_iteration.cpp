@@ -7,8 +7,9 @@
 
 namespace stillpoint {
 
-StaggeredIteration::StaggeredIteration(const IntegratorOptions& options, RelaxationSystem& system)
-    : SteppingIntegrator(options, system),
+StaggeredIteration::StaggeredIteration(const RelaxationOptions& options, RelaxationSystem& system)
+    : SteppingIntegrator({.max_step = options.max_step}, system),
+      relaxation_(options),
       Q_(system.vectors().make(system.size())),
       a_(system.vectors().make(system.size())),
       next_Q_(system.vectors().make(system.size())),
@@ -20,8 +21,8 @@ void StaggeredIteration::begin(double t, const Vector& /*y*/) {
   u_.emplace(system().vectors().view(first_half(state().span())));
   v_.emplace(system().vectors().view(second_half(state().span())));
   t_ = t;
-  last_step_ = options().strategy.from.last_step;
-  system().set_damping_rate(options().strategy.from.rate.value_or(0));
+  last_step_ = relaxation().from.last_step;
+  system().set_damping_rate(relaxation().from.rate.value_or(0));
   admissible_ = system().out_of_balance(t, u_->span(), Q_.span());
   if (admissible_) system().system().mass().solve(Q_.span(), a_.span());
   force_is_current_ = true;
@@ -74,7 +75,7 @@ void StaggeredIteration::stop() {
 void StaggeredIteration::set_rate(double c) {
   system().set_damping_rate(c);
   // What holds a contact, and what a moving support does through a consistent mass, depend on c.
-  if (!system().system().has_contact() && system().system().mass().is_lumped()) return;
+  if (!system().system().contact() && system().system().mass().is_lumped()) return;
   system().last_out_of_balance(t_, Q_.span());
   system().system().mass().solve(Q_.span(), a_.span());
 }

@@ -11,6 +11,8 @@
 // with the force at its end.
 #pragma once
 
+#include <stillpoint/relaxation.hpp>
+
 #include "solvers/integrators/stepping_integrator.hpp"
 
 namespace stillpoint {
@@ -23,7 +25,7 @@ class StaggeredIteration : public SteppingIntegrator {
   }
 
  protected:
-  StaggeredIteration(const IntegratorOptions& options, RelaxationSystem& system);
+  StaggeredIteration(const RelaxationOptions& options, RelaxationSystem& system);
 
   struct Coefficients {
     double beta, gamma;
@@ -62,6 +64,7 @@ class StaggeredIteration : public SteppingIntegrator {
   /// uᵀMu of what is not a Vector; x: (n).
   double mass_norm_squared(ConstVec x);
   double t() const { return t_; }
+  const RelaxationOptions& relaxation() const { return relaxation_; }
 
  private:
   void begin(double t, const Vector& y) final;
@@ -69,6 +72,7 @@ class StaggeredIteration : public SteppingIntegrator {
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
 
+  RelaxationOptions relaxation_;
   std::optional<Vector> u_, v_;  // the halves of y, in place
   Vector Q_, a_, next_Q_, next_a_, Mx_, x_;
   double t_ = 0, trial_t_ = 0;

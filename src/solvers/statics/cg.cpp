@@ -9,16 +9,16 @@
 #include <algorithm>
 
 #include "base/parallel_loop.hpp"
-#include "solvers/relaxation/relaxations.hpp"
 #include "solvers/statics/static_iteration.hpp"
+#include "solvers/statics/static_methods.hpp"
 
 namespace stillpoint {
 namespace {
 
 class ConjugateGradients final : public StaticIteration {
  public:
-  ConjugateGradients(const IntegratorOptions& options, RelaxationSystem& system)
-      : StaticIteration(options, system, {.first = 1e-3, .later = 0.1}) {}
+  ConjugateGradients(double max_step, RelaxationSystem& system)
+      : StaticIteration(max_step, system, {.first = 1e-3, .later = 0.1}) {}
 
  private:
   void forget() override { slope_ = 0; }
@@ -51,8 +51,8 @@ class ConjugateGradients final : public StaticIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_cg(const IntegratorOptions& options, RelaxationSystem& system) {
-  return std::make_unique<ConjugateGradients>(options, system);
+std::unique_ptr<Integrator> make_cg(const StaticMethodOptions& options, RelaxationSystem& system) {
+  return std::make_unique<ConjugateGradients>(options.max_step, system);
 }
 
 }  // namespace stillpoint

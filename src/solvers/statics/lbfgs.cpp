@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/parallel_loop.hpp"
-#include "solvers/relaxation/relaxations.hpp"
 #include "solvers/statics/static_iteration.hpp"
+#include "solvers/statics/static_methods.hpp"
 
 namespace stillpoint {
 namespace {
@@ -20,8 +20,8 @@ class LimitedMemoryBfgs final : public StaticIteration {
   static constexpr std::size_t memory = 10;
 
  public:
-  LimitedMemoryBfgs(const IntegratorOptions& options, RelaxationSystem& system)
-      : StaticIteration(options, system, {.first = 0.9, .later = 0.9}),
+  LimitedMemoryBfgs(double max_step, RelaxationSystem& system)
+      : StaticIteration(max_step, system, {.first = 0.9, .later = 0.9}),
         q_(system.vectors().make(system.size())),
         mass_(system.system().mass()) {
     for (std::size_t k = 0; k < memory; ++k) {
@@ -89,8 +89,8 @@ class LimitedMemoryBfgs final : public StaticIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_lbfgs(const IntegratorOptions& options, RelaxationSystem& system) {
-  return std::make_unique<LimitedMemoryBfgs>(options, system);
+std::unique_ptr<Integrator> make_lbfgs(const StaticMethodOptions& options, RelaxationSystem& system) {
+  return std::make_unique<LimitedMemoryBfgs>(options.max_step, system);
 }
 
 }  // namespace stillpoint

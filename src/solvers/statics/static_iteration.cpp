@@ -4,23 +4,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/parallel_loop.hpp"
 
 namespace stillpoint {
 
-StaticIteration::StaticIteration(const IntegratorOptions& options, RelaxationSystem& system, LineSearch::Accuracy sigma)
-    : SteppingIntegrator(options, system),
+StaticIteration::StaticIteration(double max_step, RelaxationSystem& system, LineSearch::Accuracy sigma)
+    : SteppingIntegrator({.max_step = max_step}, system),
       sigma_(sigma),
       Q_(system.vectors().make(system.size())),
       z_(system.vectors().make(system.size())),
       next_Q_(system.vectors().make(system.size())),
       p_(system.vectors().make(system.size())) {
-  if (system.system().has_contact()) {
+  if (system.system().contact()) {
     throw std::invalid_argument(
-        fmt::format("damping '{}' is a static iteration, in which nothing that touches the body can open or close",
-                    system.damping().name()));
+        "in a static solution nothing that touches the body can open or close: take relaxation");
   }
 }
 

@@ -16,8 +16,9 @@ class StaticIteration : public SteppingIntegrator {
   bool static_iteration() const final { return true; }
 
  protected:
-  /// sigma: of the line search. Throws std::invalid_argument where something touches the body.
-  StaticIteration(const IntegratorOptions& options, RelaxationSystem& system, LineSearch::Accuracy sigma);
+  /// max_step: below leapfrog's critical step [s]; sigma: of the line search. Throws std::invalid_argument where
+  /// something touches the body.
+  StaticIteration(double max_step, RelaxationSystem& system, LineSearch::Accuracy sigma);
 
   /// Forgets earlier steps.
   virtual void forget() = 0;

@@ -1,0 +1,101 @@
+// One simulation of a scene, step by step: what `stillpoint run` does, for programs.
+//
+//   Simulation simulation(load_scene("bar.toml"));
+//   while (!simulation.done()) {
+//     simulation.step();
+//     … simulation.t(), simulation.field("stress") …
+//   }
+//   const Summary summary = simulation.summary();
+#pragma once
+
+#include <stillpoint/relaxation_system.hpp>
+#include <stillpoint/scene.hpp>
+#include <stillpoint/summary.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stillpoint {
+
+class LagrangianPhase;
+class Integrator;
+struct Model;
+
+/// What a simulation tells while it works.
+struct Progress {
+  double t = 0, end_time = 0;  // [s]; end_time 0: open
+  long steps = 0;
+  double residual = 0, residual_goal = 0;  // residual_goal 0: not asked for
+  double wall_s = 0;
+};
+
+struct SimulationOptions {
+  std::filesystem::path out{};  // folder for history.csv and the fields; empty: no files
+  int threads = 0;              // 0: as many as OpenMP would take
+  /// Whether steps land on the times of rows and snapshots, and these are taken.
+  bool records = true;
+  /// Whether the scene's stop tests end it; otherwise only a failure does.
+  bool stops = true;
+  std::function<bool()> interrupted{};              // asked after every step; true ends the run in good order
+  std::function<void(const Progress&)> progress{};  // told a few times a second
+  /// Told before a phase ends (false) and when the next has begun (true); the Simulation shows that state.
+  std::function<void(bool begun)> at_phase_change{};
+};
+
+class Simulation {
+ public:
+  /// Sets the scene up at its start. Throws SceneError if it cannot be, or if out cannot be written; nothing is written
+  /// then.
+  explicit Simulation(Scene scene, SimulationOptions options = {});
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  /// One accepted step, not past t_stop [s], with the change of phase that it calls for. With a static solver a step is
+  /// an iterate. Nothing once done(). OpenMP's own number of threads is left as it was.
+  RunStatus step(double t_stop = std::numeric_limits<double>::infinity());
+  /// Steps until t, or until it is done.
+  RunStatus run_until(double t);
+  /// Steps until it is done.
+  RunStatus run() { return run_until(std::numeric_limits<double>::infinity()); }
+  bool done() const;
+  RunStatus status() const;
+  const std::string& reason() const;  // the inequality that ended it, or what went wrong
+
+  double t() const;    // [s]
+  ConstVec u() const;  // nodal displacement since the phase began, (n) [m]; valid until the next step
+  ConstVec v() const;  // nodal velocity, (n) [m/s]; likewise
+  long steps() const;
+  long evaluations() const;  // of the internal force, by the integrator
+  int phases() const;
+  std::size_t points() const;  // P
+  double residual();           // ‖F − R‖/‖F‖ at present
+  /// A field at the material points, row by row: "position", "u", "v" (P × dim), "strain", "stress" (P × components),
+  /// "plastic_strain" … (P); valid until the next call. Throws std::invalid_argument for another name.
+  ConstVec field(std::string_view name);
+
+  /// Figures of now; complete once done().
+  Summary summary();
+
+  /// What it is made of, for those who look inside.
+  const Model& model() const;
+  LagrangianPhase& phase();
+  const LagrangianPhase& phase() const;
+  RelaxationSystem& system();
+  const Integrator& integrator() const;
+  /// The error bound ‖u − u*‖/‖u‖ at present, after residual(); empty if there is none.
+  std::optional<double> distance();
+  /// Whether the loads are what they will be at the end.
+  bool loads_settled() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,76 @@
+// What a run came to: summary.json, as data.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stillpoint {
+
+enum class RunStatus {
+  running,
+  equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, for the dwell
+  end_time,     // t = stop.time
+  step_limit,   // stop.steps taken
+  time_limit,   // stop.wall_time spent
+  interrupted,  // by the user
+  diverged,     // a state that is not finite, or a trial that cannot be evaluated
+  failed        // the integrator or the static solver gave up
+};
+
+/// "equilibrium", "end-time", ...
+std::string to_string(RunStatus status);
+
+/// A moment at which all fields were written.
+struct Snapshot {
+  double t = 0;            // [s]
+  double slope_angle = 0;  // of the free surface [degrees]; NaN if there is no slope
+};
+
+/// Error against the scene's exact solution, over the material points with weights V_p.
+struct ExactError {
+  double u_rel_l2 = 0, u_rel_max = 0;
+  std::optional<double> stress_rel_l2;
+};
+
+/// Empty: not computed.
+struct Summary {
+  std::string scene, title;
+  RunStatus status = RunStatus::running;
+  std::string reason;   // the inequality that ended the run
+  int exit_status = 4;  // 0 as asked, 3 not in equilibrium within the limits, 4 diverged or failed
+  double t = 0;         // [s]
+  long steps = 0, rejected_steps = 0, rhs_evaluations = 0;
+  int phases = 1;
+  std::size_t points = 0, dofs = 0;
+  int threads = 1;
+  double wall_s = 0, ns_per_point_step = 0;
+  double bytes_per_point = 0;
+  double residual = 0, kinetic_energy = 0;
+  std::optional<double> distance;  // from equilibrium, the error bound, relative; of one phase with a known omega_1
+  std::optional<double> omega_1;
+  double omega_max = 0;
+  std::optional<double> c;
+  double dt = 0;  // the last step [s]
+  std::optional<double> critical_step;
+  std::string method;               // solve.method
+  std::string integrator, damping;  // damping: the strategy, a damping or a relaxation
+  std::vector<std::string> notes;   // what a user should know of this scene's accuracy, a sentence each
+  // Of an updated Lagrangian body, the worst so far: |Σ_i m_i − Σ_p m_p|/Σ_p m_p, the same of momenta between points
+  // and grid, and mass that nodes were given so that none shortens the step, as a share of Σ_p m_p.
+  std::optional<double> mass_error, momentum_error, added_mass;
+  std::optional<double> external_work;  // [J]
+  std::optional<double> slope_angle;    // at the end, if a probe asks for it [degrees]
+  std::vector<Snapshot> snapshots;
+  std::optional<ExactError> error;
+  std::map<std::string, std::vector<double>> probe_positions;  // of each probe's material point at the start [m]
+  std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)
+};
+
+/// The summary as JSON text; figures that are not finite or not computed are null.
+std::string to_json(const Summary& summary);
+
+}  // namespace stillpoint

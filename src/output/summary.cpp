@@ -1,0 +1,85 @@
+#include <stillpoint/summary.hpp>
+
+#include "base/json.hpp"
+
+namespace stillpoint {
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::running:
+      return "running";
+    case RunStatus::equilibrium:
+      return "equilibrium";
+    case RunStatus::end_time:
+      return "end-time";
+    case RunStatus::step_limit:
+      return "step-limit";
+    case RunStatus::time_limit:
+      return "time-limit";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+std::string to_json(const Summary& s) {
+  Json error = nullptr;
+  if (s.error) {
+    error = {{"u_rel_l2", number(s.error->u_rel_l2)},
+             {"u_rel_max", number(s.error->u_rel_max)},
+             {"stress_rel_l2", number(s.error->stress_rel_l2)}};
+  }
+  Json probes = Json::object();
+  for (const auto& [name, fields] : s.probes) {
+    for (const auto& [field, value] : fields) probes[name][field] = number(value);
+  }
+  Json stages = Json::array();
+  for (const Snapshot& stage : s.snapshots)
+    stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
+
+  const Json json = {{"scene", s.scene},
+                     {"title", s.title},
+                     {"status", to_string(s.status)},
+                     {"reason", s.reason},
+                     {"exit_status", s.exit_status},
+                     {"t", number(s.t)},
+                     {"steps", s.steps},
+                     {"rejected_steps", s.rejected_steps},
+                     {"rhs_evaluations", s.rhs_evaluations},
+                     {"phases", s.phases},
+                     {"points", s.points},
+                     {"dofs", s.dofs},
+                     {"threads", s.threads},
+                     {"wall_s", number(s.wall_s)},
+                     {"ns_per_point_step", number(s.ns_per_point_step)},
+                     {"bytes_per_point", number(s.bytes_per_point)},
+                     {"residual", number(s.residual)},
+                     {"distance", number(s.distance)},
+                     {"kinetic_energy", number(s.kinetic_energy)},
+                     {"external_work", number(s.external_work)},
+                     {"mass_error", number(s.mass_error)},
+                     {"momentum_error", number(s.momentum_error)},
+                     {"added_inertia", number(s.added_mass)},
+                     {"slope_angle", number(s.slope_angle)},
+                     {"stages", stages},
+                     {"method", s.method},
+                     {"integrator", s.integrator},
+                     {"damping", s.damping},
+                     {"omega_1", number(s.omega_1)},
+                     {"omega_max", number(s.omega_max)},
+                     {"c", number(s.c)},
+                     {"dt", number(s.dt)},
+                     {"critical_step", number(s.critical_step)},
+                     {"notes", s.notes},
+                     {"error", error},
+                     {"probes", probes},
+                     {"probe_places", s.probe_positions},
+                     {"versions", versions_of_libraries()}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,53 @@
+#include "simulation/phase_motion.hpp"
+
+#include <algorithm>
+
+#include "solvers/statics/static_methods.hpp"
+
+namespace stillpoint {
+namespace {
+
+// A damping leaves the steps to the integrator; a relaxation takes the place of leapfrog's, a static solver of any.
+std::unique_ptr<Integrator> make_stepper(const Model& model, const Scene& scene, RelaxationSystem& system) {
+  if (model.static_method) {
+    constexpr double tight = 1e-10;  // if only the distance is asked for
+    const double residual = scene.stop.residual > 0 ? scene.stop.residual : tight;
+    return make_static_method(
+        {.name = model.static_method->name, .max_step = model.integrator.max_step, .tolerance = residual}, system);
+  }
+  if (model.relaxation && model.method.hosts_relaxations) return make_relaxation(model.relaxing, system);
+  return make_integrator(model.integrator, system);
+}
+
+}  // namespace
+
+PhaseMotion::PhaseMotion(Model& model, const Scene& scene, const VectorSpace& vectors, double t, ConstVec u0,
+                         ConstVec v0)
+    : system(*model.phase, *model.damping, vectors),
+      y(vectors.make(2 * model.phase->size())),
+      u_vector(vectors.view(first_half(y.span()))),
+      v_vector(vectors.view(second_half(y.span()))),
+      integrator(make_stepper(model, scene, system)) {
+  std::ranges::copy(u0, first_half(y.span()).begin());
+  std::ranges::copy(v0, second_half(y.span()).begin());
+  integrator->start(t, y);
+  if (!model.initial_stiffening) return;
+  stiffening_.emplace(*model.phase, model.phase->size(), model.integrator.max_step, *model.initial_stiffening);
+  follow_stiffness(t);
+}
+
+void PhaseMotion::accept(double t) {
+  if (integrator->static_iteration()) return;
+  if (system.accept(t, y.span(), integrator->force_is_current())) integrator->velocity_changed();
+  follow_stiffness(t);
+}
+
+void PhaseMotion::finish(double t) {
+  if (integrator->static_iteration()) system.accept(t, y.span(), true);
+}
+
+void PhaseMotion::follow_stiffness(double t) {
+  if (stiffening_) integrator->set_max_step(stiffening_->longest(t, u(), v()));
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,45 @@
+// The motion through one phase: its unknowns, and what steps them.
+#pragma once
+
+#include <stillpoint/relaxation_system.hpp>
+
+#include <memory>
+#include <optional>
+
+#include "simulation/model.hpp"
+#include "simulation/stiffening_step.hpp"
+
+namespace stillpoint {
+
+class PhaseMotion {
+ public:
+  /// Begins at t with u0 and v0, (n) each. The model outlives it.
+  PhaseMotion(Model& model, const Scene& scene, const VectorSpace& vectors, double t, ConstVec u0, ConstVec v0);
+  PhaseMotion(const PhaseMotion&) = delete;
+  PhaseMotion& operator=(const PhaseMotion&) = delete;
+
+  ConstVec u() const { return first_half(y.span()); }
+  ConstVec v() const { return second_half(y.span()); }
+
+  /// After an accepted step to t: laws remember, contacts open and close, the step follows the stiffness. With a static
+  /// solver laws remember the end only.
+  void accept(double t);
+  /// When the phase is over.
+  void finish(double t);
+  /// ‖F − R‖/‖F‖ at t.
+  double residual(double t) {
+    return integrator->force_is_current() ? system.last_residual() : system.residual(t, u());
+  }
+
+  RelaxationSystem system;
+  Vector y;                   // [u; v]
+  Vector u_vector, v_vector;  // its halves, in place
+  std::unique_ptr<Integrator> integrator;
+
+ private:
+  void follow_stiffness(double t);
+
+  std::optional<StiffeningStep> stiffening_;
+};
+
+}  // namespace stillpoint

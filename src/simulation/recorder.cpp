@@ -1,0 +1,95 @@
+#include "simulation/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+#include "scene/throw_scene_error.hpp"
+
+namespace stillpoint {
+namespace {
+
+// Time between rows: as asked; otherwise 200 rows to the end time or 20 to a period, and a whole number of steps so
+// that landing on a row costs none.
+double output_interval(const Scene& scene, const Model& model) {
+  if (scene.output.every > 0) return scene.output.every;
+  const double period = model.omega_1 ? 2 * std::numbers::pi / *model.omega_1 : model.dwell;
+  const double wanted = scene.stop.time > 0 ? scene.stop.time / 200 : period / 20;
+  const double step = model.integrator.max_step;
+  return std::max(1.0, std::round(wanted / step)) * step;
+}
+
+// A folder that cannot be written is bad input: nothing has run yet.
+template <class Open>
+auto open_output(const std::filesystem::path& out, const Open& open) {
+  try {
+    return open();
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw_folder_error(out, error);
+  }
+}
+
+}  // namespace
+
+Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance)
+    : scene_(scene),
+      has_distance_(has_distance),
+      probes_(scene, *model.phase),
+      energy_balance_(*model.phase),
+      history_(open_output(folder, [&] { return History(folder, columns()); })),
+      snapshots_(open_output(folder, [&] { return Snapshots(scene, *model.phase, folder); })),
+      interval_(output_interval(scene, model)) {}
+
+std::vector<std::string> Recorder::columns() const {
+  std::vector<std::string> all = probes_.columns();
+  std::ranges::copy(energy_balance_.columns(), std::back_inserter(all));
+  if (has_distance_) all.emplace_back("distance");
+  return all;
+}
+
+// A row that rounding puts next to the end is the row at the end.
+double Recorder::next_row_time() const {
+  const double t_row = static_cast<double>(rows_) * interval_, end = scene_.stop.time;
+  return end > 0 && t_row > end - 1e-9 * interval_ ? end : t_row;
+}
+
+double Recorder::next_time() const { return std::min(next_row_time(), snapshots_.next_time()); }
+
+void Recorder::add_row(const Row& row, PhaseMotion& motion) {
+  const double t = row.figures.t;
+  energy_balance_.advance(t, motion.system.last_external_force(), motion.u());
+  std::vector<double> values = probes_.read(t, motion.u(), motion.v());
+  std::ranges::copy(energy_balance_.values(row.figures.kinetic_energy), std::back_inserter(values));
+  if (has_distance_) values.push_back(row.distance.value_or(std::numeric_limits<double>::quiet_NaN()));
+  history_.add(row.figures, values);
+  while (static_cast<double>(rows_) * interval_ <= t) ++rows_;
+}
+
+void Recorder::end_phase(double t, PhaseMotion& motion) {
+  energy_balance_.advance(t, motion.system.last_external_force(), motion.u());
+}
+void Recorder::begin_phase(PhaseMotion& motion) { energy_balance_.begin_phase(motion.system.last_external_force()); }
+
+void Recorder::finish(double t, PhaseMotion& motion) {
+  snapshots_.finish(t, motion.u(), motion.v());
+  history_.finish();
+}
+
+void Recorder::fill(Summary& s, double t, PhaseMotion& motion) {
+  if (energy_balance_.watches()) s.external_work = energy_balance_.external_work();
+  s.snapshots = snapshots_.taken();
+  const std::vector<double> values = probes_.read(t, motion.u(), motion.v());
+  for (std::size_t k = 0; k < probes_.specs().size(); ++k) {
+    if (!probes_.position(k).empty()) s.probe_positions[probes_.specs()[k].name] = probes_.position(k);
+  }
+  std::size_t column = 0;
+  for (const std::string& name : probes_.columns()) {
+    const std::size_t dot = name.find('.');
+    if (name.substr(dot + 1) == "slope_angle") s.slope_angle = values[column];
+    s.probes[name.substr(0, dot)].emplace_back(name.substr(dot + 1), values[column++]);
+  }
+}
+
+}  // namespace stillpoint

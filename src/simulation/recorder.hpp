@@ -1,0 +1,62 @@
+// What a simulation leaves behind on its way: rows of history.csv, snapshots of all fields, and the energy balance that
+// goes with them.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+#include <stillpoint/summary.hpp>
+
+#include <filesystem>
+#include <optional>
+
+#include "output/history.hpp"
+#include "output/snapshots.hpp"
+#include "simulation/energy_balance.hpp"
+#include "simulation/model.hpp"
+#include "simulation/phase_motion.hpp"
+
+namespace stillpoint {
+
+class Recorder {
+ public:
+  /// has_distance: whether rows have a column for the error bound. Throws SceneError if the folder cannot be written;
+  /// an empty one: no files. The scene and the model outlive this.
+  Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance);
+
+  /// The next time that a step must not pass [s].
+  double next_time() const;
+  /// After an accepted step: takes a row and a snapshot if they are due; last: a row in any case. evaluate fills the
+  /// row but for its probes.
+  template <class Evaluate>
+  void sample(double t, PhaseMotion& motion, bool last, const Evaluate& evaluate) {
+    if (last || t >= next_row_time()) add_row(evaluate(), motion);
+    snapshots_.sample(t, motion.u(), motion.v());
+  }
+  /// A row of now.
+  struct Row {
+    HistoryRow figures;
+    std::optional<double> distance;
+  };
+  void add_row(const Row& row, PhaseMotion& motion);
+
+  /// Before a phase ends, and when the next has begun.
+  void end_phase(double t, PhaseMotion& motion);
+  void begin_phase(PhaseMotion& motion);
+  /// Closes the files; a run that ends writes its last state as well.
+  void finish(double t, PhaseMotion& motion);
+  void fill(Summary& summary, double t, PhaseMotion& motion);
+
+ private:
+  double next_row_time() const;
+  std::vector<std::string> columns() const;
+
+  const Scene& scene_;
+  bool has_distance_;
+  Probes probes_;
+  EnergyBalance energy_balance_;
+  History history_;
+  Snapshots snapshots_;
+  double interval_;  // between rows [s]
+  long rows_ = 0;    // number of the next row: it is due at rows_ · interval_
+};
+
+}  // namespace stillpoint

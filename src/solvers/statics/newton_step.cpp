@@ -1,0 +1,60 @@
+// Newton's method as one step of a simulation: from the state that it begins in to the equilibrium under the full load.
+#include <stillpoint/static_solution.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "solvers/statics/static_methods.hpp"
+
+namespace stillpoint {
+namespace {
+
+class NewtonStep final : public Integrator {
+ public:
+  NewtonStep(const NewtonOptions& options, RelaxationSystem& system) : options_(options), system_(system) {
+    if (system.system().contact()) {
+      throw std::invalid_argument(
+          "in a static solution nothing that touches the body can open or close: take relaxation");
+    }
+  }
+
+  void start(double t, Vector& y) override {
+    t_ = t;
+    y_ = &y;
+  }
+  // At the t of the start: there is no time on the way. A second step is the same once more, from the answer.
+  StepReport step(double /*t_stop*/) override {
+    const StaticReport report = newton(system_.system(), t_, first_half(y_->span()), options_);
+    iterations_ += report.iterations;
+    system_.count_evaluations(report.force_evaluations + report.tangent_products);
+    std::ranges::fill(second_half(y_->span()), 0.0);
+    const bool moved = report.iterations > 0 || iterations_ == 0;
+    if (report.converged && moved) return {.t = t_, .message = report.reason};
+    return {.status = StepReport::Status::failed,
+            .t = t_,
+            .message = report.converged ? "Newton's method comes no nearer: " + report.reason : report.reason};
+  }
+  void set_max_step(double /*h*/) override {}
+  void velocity_changed() override {}
+  bool static_iteration() const override { return true; }
+  long steps() const override { return iterations_; }
+  long rejected_steps() const override { return 0; }
+
+ private:
+  NewtonOptions options_;
+  RelaxationSystem& system_;
+  double t_ = 0;
+  Vector* y_ = nullptr;
+  long iterations_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, RelaxationSystem& system) {
+  NewtonOptions newton_options;
+  newton_options.tolerance = options.tolerance;
+  newton_options.solver = linear_solver_of(options.name);
+  return std::make_unique<NewtonStep>(newton_options, system);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,260 @@
+#include <stillpoint/spectrum.hpp>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+
+#include "chain.hpp"
+
+using namespace stillpoint;
+using Catch::Matchers::Contains;
+using stillpoint::test::Chain;
+using stillpoint::test::ChainOptions;
+
+namespace {
+
+using FrequencyMethod = FrequencyEstimate (*)(const SemiDiscrete&, double, ConstVec, const SpectrumOptions&);
+
+std::vector<double> at_rest(const Chain& chain) { return std::vector<double>(chain.size(), 0.0); }
+
+// ω of K x = ω² M x in ascending order by Eigen's dense solver.
+Eigen::VectorXd dense_frequencies(const Chain& chain, ConstVec u) {
+  const Eigen::MatrixXd K = chain.tangents().matrix(Tangent::consistent, 0, u), M = chain.mass().matrix();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().cwiseMax(0).cwiseSqrt();
+}
+
+std::vector<ChainOptions> held_chains() {
+  std::vector<double> masses;
+  for (int i = 0; i < 25; ++i) masses.push_back(1 + 0.9 * std::sin(7.0 * i));
+  std::vector<ChainOptions> chains;
+  for (const bool consistent : {false, true}) {
+    for (const std::size_t n : {1u, 2u, 3u, 5u, 12u, 30u}) {
+      chains.push_back({.n = n, .mass = 2, .stiffness = 3e6, .consistent = consistent});
+    }
+    chains.push_back({.n = 10, .right_held = true, .consistent = consistent});
+    chains.push_back({.stiffness = 1e-3, .masses = masses, .consistent = consistent});
+  }
+  return chains;
+}
+
+Approx near(double value) { return Approx(value).epsilon(1e-8); }
+
+}  // namespace
+
+TEST_CASE("every method agrees with the dense solution to 1e-8 at its default options") {
+  for (const ChainOptions& options : held_chains()) {
+    const Chain chain(options);
+    const std::vector<double> u = at_rest(chain);
+    const Eigen::VectorXd omega = dense_frequencies(chain, u);
+    const double lowest = omega[0], highest = omega[omega.size() - 1];
+    INFO("n = " << chain.size() << (options.consistent ? ", consistent" : ", lumped"));
+    const std::vector<std::pair<FrequencyMethod, double>> cases = {{omega_max_by_power_iteration, highest},
+                                                                   {omega_1_by_inverse_iteration, lowest},
+                                                                   {omega_1_by_arpack, lowest},
+                                                                   {omega_max_by_arpack, highest}};
+    for (const auto& [method, expected] : cases) {
+      const FrequencyEstimate estimate = method(chain, 0, u, SpectrumOptions{});
+      INFO(estimate.status);
+      CHECK(estimate.converged);
+      CHECK(estimate.omega == near(expected));
+      CHECK(estimate.iterations > 0);
+      CHECK(estimate.wall_s >= 0);
+      CHECK_FALSE(estimate.status.empty());
+    }
+  }
+}
+
+TEST_CASE("the frequencies of an equal chain are the exact ones") {
+  const Chain chain({.n = 200, .mass = 0.5, .stiffness = 8});
+  const std::vector<double> u = at_rest(chain);
+  CHECK(omega_1_by_inverse_iteration(chain, 0, u).omega == near(chain.exact_omega(1)));
+  CHECK(omega_1_by_arpack(chain, 0, u).omega == near(chain.exact_omega(1)));
+  CHECK(omega_max_by_arpack(chain, 0, u).omega == near(chain.exact_omega(200)));
+}
+
+TEST_CASE("frequencies belong to the tangent at u, not to the state at rest") {
+  const Chain chain({.n = 6, .cubic = 5});
+  const std::vector<double> u = {0.1, 0.4, 0.5, 1, 1.1, 2};
+  const Eigen::VectorXd omega = dense_frequencies(chain, u);
+  REQUIRE(omega[0] > 1.01 * dense_frequencies(chain, at_rest(chain))[0]);
+  CHECK(omega_1_by_inverse_iteration(chain, 0, u).omega == near(omega[0]));
+  CHECK(omega_1_by_arpack(chain, 0, u).omega == near(omega[0]));
+  CHECK(omega_max_by_power_iteration(chain, 0, u).omega == near(omega[5]));
+  CHECK(omega_max_by_arpack(chain, 0, u).omega == near(omega[5]));
+}
+
+TEST_CASE("power iteration claims convergence only where its error is within the tolerance, however slow it is") {
+  // The top of a long chain is crowded: the change of ω² in one iteration is far below the error that is left.
+  for (const std::size_t n : {20u, 60u, 120u}) {
+    for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+      const Chain chain({.n = n});
+      const FrequencyEstimate estimate =
+          omega_max_by_power_iteration(chain, 0, at_rest(chain), {.tolerance = tolerance, .max_iterations = 100000});
+      INFO("n = " << n << ", tolerance " << tolerance << ": " << estimate.status);
+      REQUIRE(estimate.converged);
+      CHECK(estimate.omega <= chain.exact_omega(n) * (1 + 1e-14));  // from below
+      CHECK(1 - std::pow(estimate.omega / chain.exact_omega(n), 2) < tolerance);
+    }
+  }
+}
+
+TEST_CASE("a method that runs out of iterations says so") {
+  const Chain chain({.n = 1000, .consistent = true});
+  const SpectrumOptions few = {.tolerance = 1e-14, .max_iterations = 5};
+  for (const auto method : {omega_max_by_power_iteration, omega_1_by_inverse_iteration, omega_max_by_arpack}) {
+    const FrequencyEstimate estimate = method(chain, 0, at_rest(chain), few);
+    CHECK_FALSE(estimate.converged);
+    CHECK_THAT(estimate.status, Contains("> tolerance"));
+  }
+}
+
+TEST_CASE("Gershgorin bounds omega_max from above, close by for an equal chain") {
+  for (const ChainOptions& options : held_chains()) {
+    const Chain chain(options);
+    const Eigen::VectorXd omega = dense_frequencies(chain, at_rest(chain));
+    const FrequencyEstimate bound = omega_max_bound_by_gershgorin(chain, 0, at_rest(chain));
+    INFO("n = " << chain.size() << (options.consistent ? ", consistent: " : ", lumped: ") << bound.status);
+    REQUIRE(bound.converged);
+    CHECK(bound.omega >= omega[omega.size() - 1] * (1 - 1e-14));
+    CHECK(bound.omega <= 1.8 * omega[omega.size() - 1]);
+  }
+  const Chain chain({.n = 30});
+  CHECK(omega_max_bound_by_gershgorin(chain, 0, at_rest(chain)).omega == Approx(2));  // √4, exactly 2 sin(…) below
+}
+
+namespace {
+
+// K = diag(1, k), M full: hats with few points, for which Gershgorin's lower circle of M is negative.
+class PlainSystem : public Chain {
+ public:
+  PlainSystem(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M)
+      : Chain({.n = static_cast<std::size_t>(K.rows())}), K_(K), M_(Mass::consistent(M.sparseView())) {}
+  const Mass& mass() const override { return M_; }
+  SparseMatrix matrix(Tangent, double, ConstVec) const override { return K_.sparseView(); }
+  void apply(Tangent, double, ConstVec, ConstVec du, Vec dR) const override {
+    const auto n = static_cast<Eigen::Index>(size());
+    Eigen::Map<Eigen::VectorXd>(dR.data(), n) = K_ * Eigen::Map<const Eigen::VectorXd>(du.data(), n);
+  }
+
+ private:
+  Eigen::MatrixXd K_;
+  Mass M_;
+};
+
+}  // namespace
+
+TEST_CASE("Gershgorin's bound holds where the circles of M reach below zero and a factor has to certify it") {
+  Eigen::Matrix3d M, K;
+  M << 2, 1.4, 0.9, 1.4, 2, 1.4, 0.9, 1.4, 2;
+  K << 2, -1, 0, -1, 3, -1, 0, -1, 4;
+  const PlainSystem system(K, M);
+  const std::vector<double> u(3, 0.0);
+  const double highest =
+      std::sqrt(Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().maxCoeff());
+  const FrequencyEstimate bound = omega_max_bound_by_gershgorin(system, 0, u);
+  REQUIRE(bound.converged);
+  CHECK_THAT(bound.status, Contains("a factor of M"));
+  CHECK(bound.omega >= highest);
+  CHECK(bound.omega <= 1.5 * highest);
+  CHECK(omega_max_by_arpack(system, 0, u).omega == near(highest));
+}
+
+TEST_CASE("Gershgorin's bound does not change with the units of a degree of freedom") {
+  const auto bound_with = [](double s) {  // the second degree of freedom measured in units of 1/s
+    Eigen::Matrix2d M, K;
+    M << 2, 0.5 * s, 0.5 * s, s * s;
+    K << 3, -s, -s, 5 * s * s;
+    return omega_max_bound_by_gershgorin(PlainSystem(K, M), 0, std::vector<double>(2, 0.0)).omega;
+  };
+  CHECK(bound_with(1000) == Approx(bound_with(1)).epsilon(1e-6));
+}
+
+TEST_CASE("a body that is not held has a singular K and no omega_1") {
+  for (const bool consistent : {false, true}) {
+    for (const double stiffness : {1.0, 0.1, 3.7e9}) {
+      for (const std::size_t n : {1u, 2u, 7u, 400u}) {
+        const Chain chain({.n = n, .stiffness = stiffness, .left_held = false, .consistent = consistent});
+        for (const auto method : {omega_1_by_inverse_iteration, omega_1_by_arpack}) {
+          const FrequencyEstimate estimate = method(chain, 0, at_rest(chain), SpectrumOptions{});
+          INFO("n = " << n << ", k = " << stiffness << ": " << estimate.status);
+          CHECK_FALSE(estimate.converged);
+          CHECK(estimate.omega == 0);
+          CHECK(estimate.status == "K is singular: the body is not held, or has too few material points for its basis");
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a free body is found out although rounding lets the factorisation of its K go through") {
+  // Unequal springs, so that the zero pivot comes out as a small number of either sign.
+  for (std::size_t n = 2; n <= 60; ++n) {
+    const Chain chain({.n = n, .cubic = 1, .left_held = false});
+    std::vector<double> u;
+    for (std::size_t i = 0; i < n; ++i) u.push_back(std::sin(17.0 * static_cast<double>(i * i)));
+    for (const auto method : {omega_1_by_inverse_iteration, omega_1_by_arpack}) {
+      INFO("n = " << n);
+      CHECK(method(chain, 0, u, SpectrumOptions{}).status ==
+            "K is singular: the body is not held, or has too few material points for its basis");
+    }
+  }
+}
+
+TEST_CASE("a free chain still has its omega_max") {
+  const Chain chain({.n = 10, .left_held = false});
+  const Eigen::VectorXd omega = dense_frequencies(chain, at_rest(chain));
+  CHECK(omega_max_by_power_iteration(chain, 0, at_rest(chain)).omega == near(omega[9]));
+  CHECK(omega_max_by_arpack(chain, 0, at_rest(chain)).omega == near(omega[9]));
+}
+
+TEST_CASE("a body that softens is told from one that is not held") {
+  const Chain chain({.n = 5, .cubic = -10});  // k + 3 k₃ e² < 0 for e > 0.18
+  const std::vector<double> u = {0.3, 0.3, 0.3, 0.3, 0.3};
+  for (const auto method : {omega_1_by_inverse_iteration, omega_1_by_arpack}) {
+    CHECK_THAT(method(chain, 0, u, SpectrumOptions{}).status, Contains("indefinite"));
+  }
+}
+
+TEST_CASE("a very long held chain is not taken for a free one") {
+  const Chain chain({.n = 20000});
+  const FrequencyEstimate estimate = omega_1_by_inverse_iteration(chain, 0, at_rest(chain));
+  CHECK(estimate.converged);
+  CHECK(estimate.omega == Approx(chain.exact_omega(1)).epsilon(1e-6));
+}
+
+TEST_CASE("a tangent that is not finite gives no frequency") {
+  const Chain chain({.n = 5, .cubic = 1});
+  const std::vector<double> u(5, std::numeric_limits<double>::quiet_NaN());
+  for (const auto method :
+       {omega_max_by_power_iteration, omega_1_by_inverse_iteration, omega_1_by_arpack, omega_max_by_arpack}) {
+    const FrequencyEstimate estimate = method(chain, 0, u, SpectrumOptions{});
+    CHECK_FALSE(estimate.converged);
+    CHECK(estimate.omega == 0);
+    CHECK_THAT(estimate.status, Contains("not finite"));
+  }
+  CHECK_FALSE(omega_max_bound_by_gershgorin(chain, 0, u).converged);
+}
+
+TEST_CASE("frequencies are the same bits in every run") {
+  const Chain chain({.n = 40, .consistent = true});
+  for (const auto method :
+       {omega_max_by_power_iteration, omega_1_by_inverse_iteration, omega_1_by_arpack, omega_max_by_arpack}) {
+    const SpectrumOptions options;
+    CHECK(method(chain, 0, at_rest(chain), options).omega == method(chain, 0, at_rest(chain), options).omega);
+  }
+}
+
+TEST_CASE("spectrum options out of range are refused by name") {
+  CHECK(SpectrumOptions{}.validate().empty());
+  CHECK_THAT((SpectrumOptions{.tolerance = 0}.validate()), Contains("tolerance"));
+  CHECK_THAT((SpectrumOptions{.max_iterations = 0}.validate()), Contains("max_iterations"));
+  const Chain chain;
+  for (const auto method : {omega_max_by_power_iteration, omega_1_by_inverse_iteration, omega_1_by_arpack}) {
+    CHECK_THROWS_AS(method(chain, 0, at_rest(chain), {.tolerance = -1}), std::invalid_argument);
+  }
+}
