@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/SparseCore>
+
 namespace stillpoint::test {
 
 struct ChainOptions {
@@ -29,19 +31,22 @@ struct ChainOptions {
   double load = 0;  // on each mass [N]
 };
 
-class Chain : public SemiDiscrete {
+class Chain : public SemiDiscrete, public Tangents {
  public:
   explicit Chain(ChainOptions options = {})
-      : options_(with_masses(std::move(options))), mass_(make_mass(options_)), last_(options_.n, 0.0) {}
+      : options_(with_masses(std::move(options))), mass_(make_mass(options_)) {}
 
   std::size_t size() const override { return options_.n; }
   const Mass& mass() const override { return mass_; }
   const ChainOptions& options() const { return options_; }
 
-  void external_force(double /*t*/, Vec F) const override {
+  const Tangents& tangents() const override { return *this; }
+
+  void external_force(double /*t*/, ConstVec /*u*/, Vec F) const override {
     for (double& f : F) f = options_.load;
   }
-  bool internal_force(double /*t*/, ConstVec u, Vec R) const override {
+  bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const override {
+    trial.t = t;
     bool finite = true;
     double left = tension(extension(u, 0), 0);
     for (std::size_t i = 0; i < size(); ++i) {
@@ -52,7 +57,7 @@ class Chain : public SemiDiscrete {
     }
     return finite;
   }
-  void tangent(double /*t*/, ConstVec u, ConstVec du, Vec dR) const override {
+  void apply(Tangent, double /*t*/, ConstVec u, ConstVec du, Vec dR) const override {
     double left = stiffness(u, 0) * extension(du, 0);
     for (std::size_t i = 0; i < size(); ++i) {
       const double right = stiffness(u, i + 1) * extension(du, i + 1);
@@ -60,7 +65,7 @@ class Chain : public SemiDiscrete {
       left = right;
     }
   }
-  SparseMatrix tangent_matrix(double /*t*/, ConstVec u) const override {
+  SparseMatrix matrix(Tangent, double /*t*/, ConstVec u) const override {
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t s = 0; s <= size(); ++s) {
       const double k = stiffness(u, s);
@@ -71,14 +76,6 @@ class Chain : public SemiDiscrete {
     }
     return assemble(size(), entries);
   }
-  void commit(double /*t*/, ConstVec u) override {
-    ++commits_;
-    last_.assign(u.begin(), u.end());
-  }
-
-  long commits() const { return commits_; }
-  ConstVec last_committed() const { return last_; }
-
   /// ω_j, j = 1 … n, of the equal linear chain with M = diag m.
   double exact_omega(std::size_t j) const {
     const auto n = static_cast<double>(size()), k = static_cast<double>(j);
@@ -124,8 +121,6 @@ class Chain : public SemiDiscrete {
 
   ChainOptions options_;
   Mass mass_;
-  std::vector<double> last_;
-  long commits_ = 0;
 };
 
 }  // namespace stillpoint::test

@@ -13,21 +13,29 @@ namespace statics {
 
 using stillpoint::ConstVec;
 using stillpoint::LagrangianPhase;
-
-/// F(t) − R(u), with loads that follow u.
-inline std::vector<double> out_of_balance(const LagrangianPhase& phase, ConstVec u, double t = 0) {
-  std::vector<double> Q(phase.size()), R(phase.size());
-  phase.external_force(t, Q);
-  phase.add_following_force(t, u, Q);
-  REQUIRE(phase.internal_force(t, u, R));
-  for (std::size_t k = 0; k < Q.size(); ++k) Q[k] -= R[k];
-  return Q;
-}
+using stillpoint::Tangent;
 
 inline std::vector<double> internal_force(const LagrangianPhase& phase, ConstVec u, double t = 0) {
   std::vector<double> R(phase.size());
-  REQUIRE(phase.internal_force(t, u, R));
+  REQUIRE(phase.internal_force(t, u, R, *phase.make_trial()));
   return R;
+}
+
+/// What points remember from now on: the state at (t, u).
+inline void commit(LagrangianPhase& phase, ConstVec u, double t = 0) {
+  std::vector<double> R(phase.size());
+  const auto trial = phase.make_trial();
+  REQUIRE(phase.internal_force(t, u, R, *trial));
+  phase.commit(*trial);
+}
+
+/// F(t) − R(u), with loads that follow u.
+inline std::vector<double> out_of_balance(const LagrangianPhase& phase, ConstVec u, double t = 0) {
+  std::vector<double> Q(phase.size());
+  phase.external_force(t, u, Q);
+  const std::vector<double> R = internal_force(phase, u, t);
+  for (std::size_t k = 0; k < Q.size(); ++k) Q[k] -= R[k];
+  return Q;
 }
 
 /// Newton's method on F − R(u) = 0 with Eigen's own factor, so that nothing of the relaxation takes part. A step that
@@ -38,7 +46,7 @@ inline std::vector<double> solution(const LagrangianPhase& phase) {
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 40; ++iteration) {
     std::vector<double> Q = out_of_balance(phase, u);
-    const Eigen::SimplicialLDLT<stillpoint::SparseMatrix> factor(phase.tangent_matrix(0, u));
+    const Eigen::SimplicialLDLT<stillpoint::SparseMatrix> factor(phase.tangents().matrix(Tangent::consistent, 0, u));
     const Eigen::VectorXd step = factor.solve(Eigen::Map<Eigen::VectorXd>(Q.data(), n));
     const Eigen::VectorXd old = Eigen::Map<Eigen::VectorXd>(u.data(), n);
     double share = 1;
@@ -46,7 +54,7 @@ inline std::vector<double> solution(const LagrangianPhase& phase) {
     do {
       Eigen::Map<Eigen::VectorXd>(u.data(), n) = old + share * step;
       share /= 2;
-    } while (!phase.internal_force(0, u, R) && share > 1e-3);
+    } while (!phase.internal_force(0, u, R, *phase.make_trial()) && share > 1e-3);
     const double size = step.norm() / Eigen::Map<Eigen::VectorXd>(u.data(), n).norm();
     if (size < 1e-14 || (size < 1e-11 && size >= before)) break;
     before = size;
@@ -61,7 +69,7 @@ inline std::vector<double> point_displacement(const LagrangianPhase& phase, Cons
   return out;
 }
 inline std::vector<double> point_stress(const LagrangianPhase& phase, ConstVec u, double t = 0) {
-  std::vector<double> out(static_cast<std::size_t>(phase.stress_components()) * phase.points());
+  std::vector<double> out(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
   phase.point_stress(t, u, out);
   return out;
 }

@@ -1,25 +1,25 @@
 // The mass matrix M of a Lagrangian phase: a diagonal, or a sparse matrix with its factor.
 #pragma once
 
+#include <stillpoint/sparse_matrix.hpp>
 #include <stillpoint/types.hpp>
 
-#include <optional>
+#include <cstddef>
+#include <memory>
 #include <vector>
-
-#include "linalg/sparse_cholesky.hpp"
 
 namespace stillpoint {
 
 /// M (n × n), symmetric positive definite, constant for a phase. Units: kg.
 class Mass {
  public:
-  /// A diagonal M. Throws std::invalid_argument where an entry is not positive.
+  /// A diagonal M. Throws std::invalid_argument if an entry is not positive.
   static Mass lumped(std::vector<double> diagonal);
-  /// M_ij = Σ_p m_p N_ip N_jp, factorised once. Throws std::invalid_argument where M is not positive definite.
-  static Mass consistent(SparseMatrix matrix);
+  /// M_ij = Σ_p m_p N_ip N_jp, factorised once. Throws std::invalid_argument if M is not positive definite.
+  static Mass consistent(const SparseMatrix& matrix);
 
   std::size_t size() const { return diagonal_.size(); }
-  bool is_lumped() const { return !factor_; }
+  bool is_lumped() const { return !consistent_; }
   /// The diagonal of M, (n).
   ConstVec diagonal() const { return diagonal_; }
   /// M as a sparse matrix, for assembly and shift-invert.
@@ -30,9 +30,10 @@ class Mass {
   void solve(ConstVec b, Vec x) const;
 
  private:
+  struct Consistent;
+
   std::vector<double> diagonal_;
-  SparseMatrix matrix_;                   // empty where lumped
-  std::optional<SparseCholesky> factor_;  // of matrix_, where consistent
+  std::shared_ptr<const Consistent> consistent_;  // the matrix and its factor; null if lumped
 };
 
 }  // namespace stillpoint

@@ -6,15 +6,19 @@
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/vector.hpp>
 
+#include <memory>
 #include <optional>
 
 namespace stillpoint {
+
+class ForceScale;
 
 /// The right-hand side that integrators see. Repeatable, allocates nothing, counts its evaluations.
 class RelaxationSystem {
  public:
   /// Both outlive this object.
   RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors = {});
+  ~RelaxationSystem();
 
   std::size_t size() const { return system_.size(); }  // n: free degrees of freedom
   SemiDiscrete& system() { return system_; }
@@ -22,11 +26,11 @@ class RelaxationSystem {
   const Damping& damping() const { return damping_; }
   const VectorSpace& vectors() const { return vectors_; }
 
-  /// ydot = f(t, y); y, ydot: (2n). False where the trial y cannot be evaluated: retry with a smaller step.
+  /// ydot = f(t, y); y, ydot: (2n). False if the trial y cannot be evaluated: retry with a smaller step.
   bool operator()(double t, ConstVec y, Vec ydot);
   /// Q = F(t) − R(u) + contact forces (− inertia of moving supports), damping left out; u, Q: (n). False as above.
   bool out_of_balance(double t, ConstVec u, Vec Q);
-  /// The same from the last evaluation, at no cost, where contacts have opened or closed since.
+  /// The same from the last evaluation, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
   /// Q += D(v, Q) of local damping, except where a contact holds; v, Q: (n), Q as the two above leave it.
   void add_local_damping(ConstVec v, Vec Q) const;
@@ -34,21 +38,20 @@ class RelaxationSystem {
   /// Q of the last evaluation is that of an accepted step: for local damping by the sign of dQ/dt.
   void remember_force();
   void forget_force() { force_remembered_ = false; }
-  /// The c of C = c M from now on, where a strategy finds it on the way: what moving supports and walls see [1/s].
+  /// The c of C = c M from now on, if a strategy finds it on the way: what moving supports and walls see [1/s].
   void set_damping_rate(double c) { linear_.mass = c; }
 
   /// After an accepted step to (t, y), y: (2n): laws remember, contacts open and close. force_is_current: whether the
-  /// last evaluation was there. True where velocities were changed by it.
+  /// last evaluation was there. True if velocities were changed by it.
   bool accept(double t, Vec y, bool force_is_current);
 
-  /// ‖F − R‖/‖F‖ over the free degrees of freedom. Where F = 0, over the largest ‖reactions‖ or ‖F‖ seen here so far:
-  /// those of the moment fall with the residual itself when a body is unloaded. Where there are none either, as in a
-  /// free body that vibrates, over the largest ‖R‖. 0 where nothing pulls.
+  /// ‖F − R‖/‖F‖ over the free degrees of freedom; if F = 0 over the largest reactions or, without any, the largest
+  /// internal force so far (ForceScale). 0 if there is no load.
   double residual(double t, ConstVec u);
   /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
   double last_residual();
   /// ‖M⁻¹Q‖_M/(ω₁² ‖u‖_M) with Q of the last residual(): in a linear system no less than ‖u − u*‖_M/‖u‖_M, since
-  /// u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁². Infinite where u = 0 is no equilibrium. u: (n).
+  /// u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁². Infinite if u = 0 is no equilibrium. u: (n).
   double distance(const Vector& u, double omega_1);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);
@@ -69,13 +72,13 @@ class RelaxationSystem {
   const Damping& damping_;
   LinearDamping linear_;
   VectorSpace vectors_;
+  std::unique_ptr<TrialState> trial_;  // of the last evaluation
   Vector F_, R_, Q_;
   std::optional<Vector> Q_last_;  // of remember_force()
   bool force_remembered_ = false;
   std::optional<Vector> Q_inverse_;  // M⁻¹Q, work of distance()
   double last_t_ = 0;
-  double force_scale_ = 0;     // largest ‖F‖ or ‖reactions‖ of residual() and last_residual()
-  double internal_scale_ = 0;  // largest ‖R‖ of the same, where there were none of these
+  std::unique_ptr<ForceScale> force_scale_;  // of residual() and last_residual()
   long evaluations_ = 0;
 };
 

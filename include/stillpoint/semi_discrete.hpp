@@ -6,7 +6,53 @@
 #include <stillpoint/mass.hpp>
 #include <stillpoint/types.hpp>
 
+#include <memory>
+#include <vector>
+
 namespace stillpoint {
+
+/// What an evaluation of R(u) finds and the system does not keep: made by make_trial(), filled by internal_force(),
+/// accepted by commit(). A system adds what its points would remember.
+class TrialState {
+ public:
+  virtual ~TrialState() = default;
+
+  double t = 0;                   // of the evaluation [s]
+  std::vector<double> reactions;  // of the supports, R at the prescribed degrees of freedom [N]
+};
+
+/// consistent: the derivative of R(u). elastic: as if no point yielded, symmetric; frequencies and critical steps are
+/// those of K_e, since what yields only softens.
+enum class Tangent { consistent, elastic };
+
+/// K(u) = ∂R/∂u, of internal_force() since the last commit, at t.
+class Tangents {
+ public:
+  virtual ~Tangents() = default;
+  /// dR = K(u) du; u, du, dR: (n).
+  virtual void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const = 0;
+  /// K(u) assembled, (n × n). The consistent one is unsymmetric if R has no potential.
+  virtual SparseMatrix matrix(Tangent kind, double t, ConstVec u) const = 0;
+  /// ∂F/∂u of the loads that follow u, (n × n); without entries if none does.
+  virtual SparseMatrix of_loads(double t, ConstVec u) const;
+};
+
+/// What touches the body and may open or close. What is closed only changes in update(), between accepted steps, so
+/// that within a step the motion stays a smooth ODE.
+class Contact {
+ public:
+  virtual ~Contact() = default;
+  /// Q += contact forces for the damping C; Q: (n).
+  virtual void add_force(double t, const LinearDamping& C, Vec Q) const = 0;
+  /// Local damping, which acts on the sum of all other forces, must leave a closed contact to its wall: sets Q there as
+  /// the last add_force() did; Q: (n).
+  virtual void hold(Vec Q) const = 0;
+  /// After an accepted step whose forces were the last ones evaluated: opens and closes contacts. True if v, (n), was
+  /// changed by it.
+  virtual bool update(double t, ConstVec u, Vec v) = 0;
+  /// Sum + Σ (contact forces)² of the last add_force() [N²].
+  virtual double squared_forces(double sum) const = 0;
+};
 
 /// n free degrees of freedom. u: displacement since the phase began [m], forces in [N], t [s].
 /// One virtual call does a whole evaluation, so none is inside a hot loop.
@@ -17,50 +63,26 @@ class SemiDiscrete {
   virtual std::size_t size() const = 0;
   virtual const Mass& mass() const = 0;
 
-  /// F_i = Σ_p N_ip m_p b(x_p, t) + tractions and point forces; F: (n).
-  virtual void external_force(double t, Vec F) const = 0;
+  /// F_i = Σ_p N_ip m_p b(x_p, t) + tractions and point forces, those that follow the deformation too; u, F: (n).
+  virtual void external_force(double t, ConstVec u, Vec F) const = 0;
+  virtual std::unique_ptr<TrialState> make_trial() const { return std::make_unique<TrialState>(); }
   /// R_i = Σ_p V_p P_p ∇N_ip from trial stresses; u, R: (n). Repeatable: the committed state is not touched.
-  /// t places the moving supports. False where the trial cannot be evaluated (det f ≤ 0 or a non-finite stress).
-  virtual bool internal_force(double t, ConstVec u, Vec R) const = 0;
-  /// dR = K(u) du, the derivative of R at u along du; u, du, dR: (n). Where points remember it is consistent with what
-  /// internal_force() does since the last commit.
-  virtual void tangent(double t, ConstVec u, ConstVec du, Vec dR) const = 0;
-  /// K(u) = ∂R/∂u assembled, (n × n). Unsymmetric where R has no potential.
-  virtual SparseMatrix tangent_matrix(double t, ConstVec u) const = 0;
-  /// The same of a body that does not yield, symmetric: frequencies and critical steps are those of K_e, since what
-  /// yields only softens.
-  virtual void elastic_tangent(double t, ConstVec u, ConstVec du, Vec dR) const { tangent(t, u, du, dR); }
-  virtual SparseMatrix elastic_tangent_matrix(double t, ConstVec u) const { return tangent_matrix(t, u); }
-
-  /// Accepts u: writes stress and history of every point. Once an accepted step where history_dependent().
-  virtual void commit(double t, ConstVec u) = 0;
-  /// The same for the state of the last internal_force(), at no cost.
-  virtual void commit_last() {}
+  /// t places the moving supports. trial: made by this system for this phase; its last contents do not matter.
+  /// False if the trial cannot be evaluated (det f ≤ 0 or a non-finite stress).
+  virtual bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const = 0;
+  /// Accepts the state that internal_force() has put into the trial: what points remember is swapped in. Once an
+  /// accepted step if history_dependent(); throws std::logic_error if the trial is not of this phase, or not evaluated
+  /// since the last commit.
+  virtual void commit(TrialState& /*trial*/) {}
   /// Whether R(u) depends on what was committed, so that every accepted step has to commit.
   virtual bool history_dependent() const { return false; }
+  virtual const Tangents& tangents() const = 0;
 
-  /// Q −= M_fs (a_s(t) + c v_s(t)): what moving supports s do to the free degrees of freedom f. Nothing where none
-  /// moves.
+  /// Q −= M_fs (a_s(t) + c v_s(t)): what moving supports s do to the free degrees of freedom f. Nothing if none moves.
   virtual void add_support_inertia(double /*t*/, double /*c*/, Vec /*Q*/) const {}
-  /// F += loads that follow the deformation; u, F: (n).
-  virtual void add_following_force(double /*t*/, ConstVec /*u*/, Vec /*F*/) const {}
-  /// ∂F/∂u of these at u, (n × n).
-  virtual SparseMatrix following_tangent_matrix(double /*t*/, ConstVec /*u*/) const {
-    const auto n = static_cast<Eigen::Index>(size());
-    return SparseMatrix(n, n);
-  }
-  /// Whether something touches the body that may open or close.
-  virtual bool has_contact() const { return false; }
-  /// Q += contact forces for the damping C, Q: (n). What is closed only changes in update_contact().
-  virtual void add_contact_force(double /*t*/, const LinearDamping& /*C*/, Vec /*Q*/) const {}
-  /// Local damping, which acts on the sum of all other forces, must leave a closed contact to its wall: sets Q there as
-  /// the last add_contact_force() did; Q: (n).
-  virtual void hold_contact(Vec /*Q*/) const {}
-  /// After an accepted step whose forces were the last ones evaluated: opens and closes contacts. True where v, (n),
-  /// was changed by it.
-  virtual bool update_contact(double /*t*/, ConstVec /*u*/, Vec /*v*/) { return false; }
-  /// ‖reactions of the supports‖ at the last internal_force, the force scale where F = 0.
-  virtual double reaction_norm() const { return 0; }
+  /// Null if nothing touches the body.
+  virtual const Contact* contact() const { return nullptr; }
+  virtual Contact* contact() { return nullptr; }
 };
 
 }  // namespace stillpoint

@@ -30,7 +30,7 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
 FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, double t, ConstVec u);
 /// ω_max to about a per cent, mostly from above, for a few applications of K: Lanczos with the residual added.
 FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications = 12);
-/// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K. Not converged, ω = 0, where K is singular: the body is not held.
+/// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K. Not converged, ω = 0, if K is singular: the body is not held.
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
                                                const SpectrumOptions& = {});
 /// The same for the tangent that is consistent with what the body does at u, yielding included: of its symmetric part.

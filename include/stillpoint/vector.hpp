@@ -62,7 +62,7 @@ class VectorSpace {
 double dot(const Vector& x, const Vector& y);
 /// √(Σ x_i²), likewise.
 double norm(const Vector& x);
-/// max |x_i|, NaN where any x_i is NaN.
+/// max |x_i|, NaN if any x_i is NaN.
 double max_norm(const Vector& x);
 
 }  // namespace stillpoint

@@ -23,17 +23,17 @@ int check(const SceneArguments& arguments) {
   fmt::print("{}\n", scene.title.empty() ? scene.name : scene.title);
   fmt::print("  space            {} dimension{}, {}, {} basis, {} cells of which {} hold material\n", scene.dim,
              scene.dim == 1 ? "" : "s", to_string(scene.state), basis_names[static_cast<std::size_t>(scene.grid.basis)],
-             fmt::join(phase.grid_cells(), " x "), phase.occupied_cells());
+             fmt::join(phase.discretisation().grid_cells, " x "), phase.discretisation().occupied_cells);
   for (const BodySpec& body : scene.bodies) {
     fmt::print("  body             of {}: {}, {} volumes\n", body.material, scene.materials.at(body.material).law,
                body.volumes == VolumeRule::equal ? "equal" : "consistent");
   }
   fmt::print("  points           {}, mass {:.6g} kg; they integrate polynomials up to degree {}\n", phase.points(),
-             phase.total_mass(), phase.quadrature().degree);
+             phase.info().total_mass, phase.discretisation().quadrature.degree);
   fmt::print("  phases           {}\n",
-             phase.updated_lagrangian() ? "several: the points move on" : "one: weights are frozen");
-  fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(), phase.supported_degrees_of_freedom(),
-             phase.mass().is_lumped() ? "lumped" : "consistent");
+             phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
+  fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
+             phase.discretisation().supported_degrees_of_freedom, phase.mass().is_lumped() ? "lumped" : "consistent");
   if (const StaticMethodInfo* method = model.static_method) {
     fmt::print("  static solver    {}: {}\n", method->name, method->equation);
   } else {
@@ -53,7 +53,7 @@ int check(const SceneArguments& arguments) {
   }
   for (const std::string& note : model.notes) fmt::print("  note             {}\n", note);
   fmt::print("  bytes a point\n");
-  for (const PointArray& array : phase.point_arrays()) {
+  for (const PointArray& array : phase.discretisation().arrays) {
     fmt::print("    {:<17}{:4.0f}\n", array.name, array.bytes_per_point);
   }
   const double total = phase.bytes_per_point();

@@ -32,7 +32,8 @@ int run(const RunArguments& arguments);
 int compare(const CompareArguments& arguments);
 int check(const SceneArguments& arguments);
 int spectrum(const SceneArguments& arguments);
-/// topic: integrators, dampings, relaxations, solvers, materials, bases, or empty for all.
-int list(const std::string& topic);
+/// topic: integrators, dampings, relaxations, solvers, materials, bases, keys, or empty for all. format: text, or of
+/// keys alone markdown or schema.
+int list(const std::string& topic, const std::string& format = "text");
 
 }  // namespace stillpoint::command

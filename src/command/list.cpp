@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "command/commands.hpp"
+#include "scene/input/key_reference.hpp"
 #include "simulation/catalogue.hpp"
 
 namespace stillpoint::command {
@@ -71,7 +72,11 @@ void list_bases() {
 
 }  // namespace
 
-int list(const std::string& topic) {
+int list(const std::string& topic, const std::string& format) {
+  if (format != "text") {
+    fmt::print("{}", format == "schema" ? key_schema(catalogue()) : key_reference(catalogue()));
+    return 0;
+  }
   const bool all = topic.empty();
   if (all || topic == "integrators") list_integrators();
   if (all || topic == "dampings") list_strategies("dampings", false);
@@ -79,6 +84,7 @@ int list(const std::string& topic) {
   if (all || topic == "solvers") list_static_methods();
   if (all || topic == "materials") list_materials();
   if (all || topic == "bases") list_bases();
+  if (all || topic == "keys") fmt::print("{}", key_list(catalogue()));
   return 0;
 }
 

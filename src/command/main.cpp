@@ -83,8 +83,13 @@ int dispatch(int argc, char** argv) {
 
   std::string topic;
   CLI::App& list_app = *app.add_subcommand("list", "what there is to choose from");
-  list_app.add_option("TOPIC", topic, "integrators, dampings, relaxations, solvers, materials or bases (default: all)")
-      ->check(CLI::IsMember({"integrators", "dampings", "relaxations", "solvers", "materials", "bases"}));
+  list_app
+      .add_option("TOPIC", topic,
+                  "integrators, dampings, relaxations, solvers, materials, bases or keys (default: all)")
+      ->check(CLI::IsMember({"integrators", "dampings", "relaxations", "solvers", "materials", "bases", "keys"}));
+  std::string format = "text";
+  list_app.add_option("--format", format, "of keys: text, markdown or schema (a JSON schema for editors)")
+      ->check(CLI::IsMember({"text", "markdown", "schema"}));
 
   try {
     app.parse(argc, argv);
@@ -99,7 +104,11 @@ int dispatch(int argc, char** argv) {
   if (compare_app.parsed()) return compare(compare_arguments);
   if (check_app.parsed()) return check(scene_arguments);
   if (spectrum_app.parsed()) return spectrum(scene_arguments);
-  return list(topic);
+  if (format != "text" && topic != "keys") {
+    fmt::print(stderr, "--format {}: goes with the topic keys only\n", format);
+    return bad_input;
+  }
+  return list(topic, format);
 }
 
 // OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and

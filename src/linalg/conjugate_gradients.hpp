@@ -1,7 +1,9 @@
 // Preconditioned conjugate gradients on A x = b, A symmetric positive definite.
 #pragma once
 
-#include "linalg/power_iteration.hpp"  // LinearMap
+#include <functional>
+
+#include "linalg/linear_map.hpp"
 
 namespace stillpoint {
 

@@ -13,7 +13,7 @@ double dot(ConstVec x, ConstVec y) { return std::inner_product(x.begin(), x.end(
 
 // What ρ_k still misses, from its changes δ_k = ρ_k − ρ_{k−1}. The change alone would stop a slow iteration far from λ.
 //   one mode left beside the dominant one:  λ − ρ_k = δ_k (q + q² + …) = δ_k q/(1 − q),   q = δ_k/δ_{k−1};
-//   many, where the spectrum is crowded near λ, and q still grows:  λ − ρ_k ∝ 1/k, so λ − ρ_k ≈ k δ_k.
+//   many, if the spectrum is crowded near λ, and q still grows:  λ − ρ_k ∝ 1/k, so λ − ρ_k ≈ k δ_k.
 // The larger one has to be within the tolerance three times running. Changes of rounding size end the iteration as
 // well.
 class MissingPart {

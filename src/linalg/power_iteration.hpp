@@ -2,25 +2,21 @@
 //   ω_max²: A = K, B = M      1/ω₁²: A = M, B = K      1/λ_min(D⁻¹M): A = D, B = M      λ_max(M): A = M, B = I
 #pragma once
 
-#include <stillpoint/types.hpp>
-
-#include <functional>
 #include <vector>
+
+#include "linalg/linear_map.hpp"
 
 namespace stillpoint {
 
-/// y = A x or y = B⁻¹ x; x, y: (n), distinct.
-using LinearMap = std::function<void(ConstVec x, Vec y)>;
-
 struct PowerIterationResult {
-  double eigenvalue = 0;      // ρ = xᵀAx/xᵀBx: from below where A is positive semidefinite
+  double eigenvalue = 0;      // ρ = xᵀAx/xᵀBx: from below if A is positive semidefinite
   double relative_error = 0;  // estimate of (λ − ρ)/ρ
   int iterations = 0;         // applications of B⁻¹A
   bool converged = false;     // relative_error ≤ tolerance
 };
 
 /// x ← B⁻¹A x from start_vector(n), until the error estimate is at most tolerance three times running.
-/// A, B symmetric, B positive definite. Stops with a NaN eigenvalue where a value is not finite.
+/// A, B symmetric, B positive definite. Stops with a NaN eigenvalue if a value is not finite.
 PowerIterationResult power_iteration(std::size_t n, const LinearMap& apply_A, const LinearMap& solve_B,
                                      double tolerance, int max_iterations);
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/SparseCore>
 #include <suitesparse/cholmod.h>
 
 namespace stillpoint {
@@ -48,7 +49,7 @@ struct SparseCholesky::Impl {
     cholmod_start(&common);
     common.print = 0;  // a matrix that is not positive definite is an answer, not a message
     common.quick_return_if_not_posdef = 1;
-    common.supernodal = CHOLMOD_AUTO;  // simplicial where there is little work per entry of L: bands, small systems
+    common.supernodal = CHOLMOD_AUTO;  // simplicial if there is little work per entry of L: bands, small systems
     common.final_asis = 0;
     common.final_ll = 1;  // L Lᵀ, not L D Lᵀ, which would go through with a negative D
     common.final_super = 1;

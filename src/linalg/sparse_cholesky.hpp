@@ -1,22 +1,18 @@
 // A sparse Cholesky factor (SuiteSparse's CHOLMOD) that solves again and again without allocating.
 #pragma once
 
+#include <stillpoint/sparse_matrix.hpp>
 #include <stillpoint/types.hpp>
 
+#include <cstddef>
 #include <memory>
 
-#include <Eigen/SparseCore>
-
 namespace stillpoint {
-
-/// Symmetric matrices are stored whole (both triangles), compressed by columns, so that a product needs no special
-/// case.
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// A = L Lᵀ for a symmetric positive definite A (n × n).
 class SparseCholesky {
  public:
-  /// Factorises A. Throws std::runtime_error where CHOLMOD itself fails (memory);
+  /// Factorises A. Throws std::runtime_error if CHOLMOD itself fails (memory);
   /// a matrix that is not positive definite is no error: see positive_definite().
   explicit SparseCholesky(const SparseMatrix& A);
   SparseCholesky(SparseCholesky&&) noexcept;

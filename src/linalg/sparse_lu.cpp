@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/SparseCore>
 #include <suitesparse/umfpack.h>
 
 namespace stillpoint {

@@ -1,18 +1,18 @@
 // A sparse LU factor (SuiteSparse's UMFPACK) that solves again and again without allocating.
 #pragma once
 
+#include <stillpoint/sparse_matrix.hpp>
 #include <stillpoint/types.hpp>
 
+#include <cstddef>
 #include <memory>
-
-#include "linalg/sparse_cholesky.hpp"
 
 namespace stillpoint {
 
 /// P R A Q = L U for a square A (n × n): P, Q permutations, R a scaling of the rows.
 class SparseLu {
  public:
-  /// Factorises A, of which it keeps a copy. Throws std::runtime_error where UMFPACK itself fails (memory); a matrix
+  /// Factorises A, of which it keeps a copy. Throws std::runtime_error if UMFPACK itself fails (memory); a matrix
   /// that is singular or not finite is no error: see regular().
   explicit SparseLu(const SparseMatrix& A);
   SparseLu(SparseLu&&) noexcept;

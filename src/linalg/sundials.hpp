@@ -100,7 +100,7 @@ inline int capture_messages(void* arkode, SUNContext /*context*/, std::string& l
 inline void release_messages(SUNContext /*context*/) {}
 #endif
 
-/// The name of one of ARKODE's explicit tables, as in its enumeration; empty where it is not known.
+/// The name of one of ARKODE's explicit tables, as in its enumeration; empty if it is not known.
 inline std::string table_name(int id) {
 #if STILLPOINT_SUNDIALS_AT_LEAST(7, 1)
   const char* name = ARKodeButcherTable_ERKIDToName(static_cast<ARKODE_ERKTableID>(id));

@@ -26,16 +26,16 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
   const auto dim = static_cast<std::size_t>(phase.dim());
   std::vector<double> displacement(dim * phase.points());
   phase.point_displacement(t, u, displacement);
-  std::vector<double> stress(static_cast<std::size_t>(phase.stress_components()) * phase.points());
+  std::vector<double> stress(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
   phase.point_stress(t, u, stress);
-  const std::vector<double> places = phase.positions(), volumes = phase.volumes();
+  const std::vector<double> places = phase.positions(), volumes = phase.point_data().volumes;
   Norms in_u, in_stress;
   for (std::size_t p = 0; p < phase.points(); ++p) {
     const std::span<const double> x(places.data() + dim * p, dim);
     const double V = volumes[p];
     for (std::size_t i = 0; i < dim; ++i) in_u.add(V, displacement[dim * p + i], scene.exact_u[i](x, t));
     if (scene.exact_stress)
-      in_stress.add(V, stress[static_cast<std::size_t>(phase.stress_components()) * p], (*scene.exact_stress)(x, t));
+      in_stress.add(V, stress[static_cast<std::size_t>(phase.info().stress_components) * p], (*scene.exact_stress)(x, t));
   }
   if (in_u.exact == 0) return std::nullopt;
   ExactError error{.u_rel_l2 = in_u.rel_l2(), .u_rel_max = in_u.max_difference / in_u.max_exact, .stress_rel_l2 = {}};

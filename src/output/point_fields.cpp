@@ -12,7 +12,7 @@ std::vector<std::string> suffixes(const LagrangianPhase& phase, const std::strin
   if (name == "stress") return {"xx", "yy", "zz", "xy"};
   if (name == "strain") {
     std::vector<std::string> components = {"xx", "xy", "yx", "yy"};
-    if (phase.gradient_components() == 5) components.emplace_back("zz");
+    if (phase.info().gradient_components == 5) components.emplace_back("zz");
     return components;
   }
   return {""};
@@ -32,7 +32,7 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
   } else if (name == "stress") {
     phase.point_stress(t, u, values);
   } else {
-    const std::vector<std::string> known = phase.history_names();
+    const std::vector<std::string> known = phase.info().history_names;
     if (std::ranges::find(known, name) == known.end()) throw std::invalid_argument("there is no field " + name);
     phase.point_history(name, values);
   }
@@ -40,7 +40,7 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
 }
 
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u) {
-  std::vector<double> position = phase.initial_positions();
+  std::vector<double> position = phase.point_data().initial_positions;
   std::vector<double> displacement(position.size());
   phase.point_displacement(t, u, displacement);
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += displacement[i];

@@ -55,9 +55,9 @@ void Snapshots::take(double t, ConstVec u, ConstVec v) {
                    .points = phase_.points(),
                    .place = current_positions(phase_, t, u),
                    .fields = {},
-                   .material = phase_.materials()};
+                   .material = phase_.point_data().materials};
   std::vector<std::string> names = {"u", "v", "stress"};
-  std::ranges::copy(phase_.history_names(), std::back_inserter(names));
+  std::ranges::copy(phase_.info().history_names, std::back_inserter(names));
   for (const std::string& name : names) {
     std::vector<double> values = point_field(phase_, name, t, u, v);
     const int components = static_cast<int>(values.size() / phase_.points());

@@ -53,7 +53,7 @@ void check_characters(const std::string& text) {
   }
 }
 
-/// muParser's error in this program's words, with the place of the offending token.
+/// muParser's error in this program's words, with the position of the offending token.
 ExpressionError in_our_words(const mu::ParserError& error, const std::string& text,
                              const std::vector<std::string>& names, const std::string& variables) {
   std::string token = error.GetToken();
@@ -90,7 +90,7 @@ ExpressionError in_our_words(const mu::ParserError& error, const std::string& te
       return {fmt::format("unexpected {}", in_quotes(token.empty() ? "," : token)), position};
     case mu::ecTOO_MANY_PARAMS:
     case mu::ecTOO_FEW_PARAMS: {
-      // muParser points behind the arguments; the function's name is the better place.
+      // muParser points behind the arguments; the function's name is the better position.
       const auto name = text.rfind(token, static_cast<std::size_t>(std::max(position, 0)));
       if (name != std::string::npos) position = static_cast<int>(name);
       const bool few = error.GetCode() == mu::ecTOO_FEW_PARAMS;

@@ -83,7 +83,7 @@ class Reader {
     return {};
   }
 
-  /// False where the file's share of problems is full.
+  /// False if the file's share of problems is full.
   bool report(int column, const std::string& message) {
     ++found_;
     if (found_ <= kMostProblems + 1)
@@ -92,7 +92,7 @@ class Reader {
     return found_ <= kMostProblems;
   }
 
-  /// False where no point can be read under it.
+  /// False if no point can be read under it.
   bool read_header(std::string_view text) {
     const std::size_t before = found_;
     for (const Cell& cell : cells_of(text)) {
@@ -111,7 +111,7 @@ class Reader {
     return found_ == before;
   }
 
-  /// False where reading on is no use.
+  /// False if reading on is no use.
   bool read_point(std::string_view text) {
     if (points_.volume.size() == kMostPoints) return report(1, fmt::format("more than {} points", kMostPoints)), false;
     const std::vector<Cell> cells = cells_of(text);

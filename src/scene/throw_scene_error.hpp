@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-/// Throws a SceneError with one problem, at the place of a key (or of the nearest table around it).
+/// Throws a SceneError with one problem, at the location of a key (or of the nearest table around it).
 [[noreturn]] inline void throw_scene_error(const Scene& scene, const std::string& key, const std::string& message) {
   throw SceneError({{scene.location(key), message}});
 }

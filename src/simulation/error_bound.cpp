@@ -5,7 +5,7 @@
 namespace stillpoint {
 
 ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1)
-    : phase_(phase), omega_1_(phase.updated_lagrangian() ? std::nullopt : omega_1) {}
+    : phase_(phase), omega_1_(phase.info().updated_lagrangian ? std::nullopt : omega_1) {}
 
 std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u) const {
   if (!omega_1_) return std::nullopt;
@@ -14,7 +14,7 @@ std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const V
 
 bool ErrorBound::refresh(double t, ConstVec u, double residual) {
   constexpr double much_nearer = 0.25;
-  if (!omega_1_ || !phase_.nonlinear() || !(residual < much_nearer * refreshed_at_)) return false;
+  if (!omega_1_ || !phase_.info().nonlinear || !(residual < much_nearer * refreshed_at_)) return false;
   refreshed_at_ = residual;
   const FrequencyEstimate lowest = omega_1_of_tangent(phase_, t, u);
   omega_1_ = lowest.converged ? std::optional(lowest.omega) : std::nullopt;

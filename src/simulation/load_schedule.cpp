@@ -8,15 +8,14 @@ namespace stillpoint {
 std::vector<double> loads_at(const SemiDiscrete& system, double t) {
   const std::vector<double> rest(system.size(), 0.0);
   std::vector<double> F(system.size());
-  system.external_force(t, F);
-  system.add_following_force(t, rest, F);
+  system.external_force(t, rest, F);
   return F;
 }
 
 std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
   const std::vector<double> rest(system.size(), 0.0);
   std::vector<double> Q = loads_at(system, t), R(system.size());
-  system.internal_force(t, rest, R);
+  system.internal_force(t, rest, R, *system.make_trial());
   for (std::size_t i = 0; i < Q.size(); ++i) Q[i] -= R[i];
   return Q;
 }

@@ -9,8 +9,10 @@
 #include <numbers>
 #include <utility>
 
+#include <Eigen/SparseCore>
 #include <fmt/format.h>
 
+#include "linalg/sparse_cholesky.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/load_schedule.hpp"
@@ -85,7 +87,7 @@ void choose_mass(const Scene& scene, Model& model) {
 // Whether R can be evaluated where the motion begins.
 void check_initial_state(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   std::vector<double> R(phase.size());
-  if (phase.internal_force(0, u, R)) return;
+  if (phase.internal_force(0, u, R, *phase.make_trial())) return;
   throw_scene_error(scene, "initial",
                     "the initial state cannot be evaluated: det f <= 0 or a stress that is not finite");
 }
@@ -113,7 +115,7 @@ double displacement_scale(const Scene& scene, const Model& model) {
   phase.point_velocity(0, model.v, at_points);
   widen(1 / *model.omega_1);
 
-  const SparseCholesky K(phase.elastic_tangent_matrix(0, model.u));
+  const SparseCholesky K(phase.tangents().matrix(Tangent::elastic, 0, model.u));
   const double span = scene.stop.time > 0 ? scene.stop.time : two_pi / *model.omega_1;
   const int samples = loads_vary(scene) ? 32 : 0;
   for (int k = 0; k <= samples; ++k) {
@@ -150,7 +152,7 @@ void set_tolerances(const Scene& scene, Model& model) {
 double step_fraction(const Scene& scene, const Model& model) {
   const RelaxationInfo* relaxation = model.relaxation;
   if (!relaxation || !(relaxation->step_fraction > 0)) return scene.integrator.step_fraction;
-  const bool follows = relaxation->needs_upper_end && model.phase->stiffens();
+  const bool follows = relaxation->needs_upper_end && model.phase->info().stiffens;
   return follows ? relaxation->step_fraction / StiffeningStep::notch : relaxation->step_fraction;
 }
 
@@ -291,7 +293,7 @@ Model make_model(const Scene& scene) {
   if (!model.static_method) set_tolerances(scene, model);
   choose_step(scene, model);
   model.relaxing.max_step = model.integrator.max_step;
-  if (model.phase->stiffens() && !scene.integrator.step) {
+  if (model.phase->info().stiffens && !scene.integrator.step) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);
   }
   return model;

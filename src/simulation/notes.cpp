@@ -50,7 +50,7 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureRe
 // Where a point crosses a line of the grid its share of a linear function's gradient changes sign: what an elastic body
 // settles over many phases comes out too large [Steffen, Kirby and Berzins 2008].
 std::vector<std::string> phase_notes(const Scene& scene, const LagrangianPhase& phase) {
-  if (!phase.updated_lagrangian() || phase.history_dependent() || scene.grid.basis != BasisKind::linear) return {};
+  if (!phase.info().updated_lagrangian || phase.history_dependent() || scene.grid.basis != BasisKind::linear) return {};
   return {
       "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % too "
       "far; a quadratic basis is within 0.3 %"};
@@ -75,7 +75,7 @@ std::vector<std::string> support_notes(const Scene& scene) {
 }  // namespace
 
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase) {
-  std::vector<std::string> notes = quadrature_notes(scene, phase.quadrature());
+  std::vector<std::string> notes = quadrature_notes(scene, phase.discretisation().quadrature);
   std::ranges::move(support_notes(scene), std::back_inserter(notes));
   std::ranges::move(phase_notes(scene, phase), std::back_inserter(notes));
   return notes;

@@ -133,8 +133,8 @@ class Simulation::Impl {
     s.damping = scene_.damping.strategy;
     s.notes = model_.notes;
     s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
-    if (model_.phase->updated_lagrangian()) {
-      const auto transfer = model_.phase->transfer_errors();
+    if (model_.phase->info().updated_lagrangian) {
+      const auto transfer = model_.phase->control().transfer_errors();
       s.mass_error = transfer.mass;
       s.momentum_error = transfer.momentum;
       s.added_mass = transfer.added_mass;
@@ -185,7 +185,7 @@ class Simulation::Impl {
     if (options_.stops) watch();
     sample(done());
     report_progress();
-    if (!done() && model_.phase->phase_progress(t_, motion_->u()) >= 1) next_phase();
+    if (!done() && model_.phase->control().progress(t_, motion_->u()) >= 1) next_phase();
   }
 
   // Where a step has to land. Without records and an end: so far away that steps are what the method takes by itself.
@@ -201,7 +201,7 @@ class Simulation::Impl {
     if (recorder_) recorder_->end_phase(t_, *motion_);
     tell_phase_change(false);
     try {
-      const std::vector<double> v0 = model_.phase->begin_next_phase(t_, motion_->u(), motion_->v());
+      const std::vector<double> v0 = model_.phase->control().begin_next(t_, motion_->u(), motion_->v());
       earlier_steps_ = steps();
       earlier_evaluations_ = evaluations();
       earlier_rejected_ += motion_->integrator->rejected_steps();
@@ -221,7 +221,7 @@ class Simulation::Impl {
   }
   // A cell that is about to turn inside out is good again in the next phase.
   bool try_next_phase() {
-    if (!model_.phase->updated_lagrangian() || motion_->integrator->steps() == 0) return false;
+    if (!model_.phase->info().updated_lagrangian || motion_->integrator->steps() == 0) return false;
     next_phase();
     return !done();
   }
@@ -234,7 +234,7 @@ class Simulation::Impl {
     kinetic_energy_ = motion_->system.kinetic_energy(motion_->v_vector);
   }
 
-  bool has_distance() const { return model_.omega_1 && !model_.phase->updated_lagrangian(); }
+  bool has_distance() const { return model_.omega_1 && !model_.phase->info().updated_lagrangian; }
   // The distance by the stiffness that the body has now.
   void refresh_distance() {
     if (error_bound_.refresh(t_, motion_->u(), residual_)) {

@@ -69,7 +69,7 @@ double ReferenceSolution::error(ConstVec at) const {
 
 Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted) {
   const std::shared_ptr<LagrangianPhase> phase = make_phase(scene);
-  if (phase->updated_lagrangian()) {
+  if (phase->info().updated_lagrangian) {
     throw_scene_error(
         scene, "phase",
         "an equilibrium is compared on one set of unknowns, so in one phase; expected phase.max_motion = \"none\", "
@@ -83,8 +83,8 @@ Equilibrium find_equilibrium(const Scene& scene, int threads, const std::functio
   }
   Equilibrium found;
   found.state = {phase->initial_displacement(scene.stop.time), phase};
-  found.unique = !phase->history_dependent() && !phase->has_contact();
-  if (phase->has_contact() || !solve(scene, found)) relax(scene, threads, interrupted, found);
+  found.unique = !phase->history_dependent() && !phase->contact();
+  if (phase->contact() || !solve(scene, found)) relax(scene, threads, interrupted, found);
   if (!(found.state.size() > 0)) {
     throw_scene_error(scene, "body_force",
                       "in equilibrium nothing is displaced, so that no error is relative; expected a load");
@@ -94,7 +94,7 @@ Equilibrium find_equilibrium(const Scene& scene, int threads, const std::functio
 
 std::optional<ReferenceSolution> slow_ramp(const Scene& scene, std::vector<std::string>& notes) {
   const std::shared_ptr<LagrangianPhase> phase = make_phase(scene);
-  if (phase->has_contact()) {
+  if (phase->contact()) {
     notes.emplace_back("no slow ramp: Newton's method has no contact");
     return std::nullopt;
   }

@@ -42,7 +42,7 @@ TransientReference transient_reference(const Scene& scene,
                                        const std::function<Scene(const std::vector<std::string>&)>& load) {
   const auto phase = make_phase(scene);
   const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
-  const bool smooth = !phase->history_dependent() && !phase->has_contact() && !phase->updated_lagrangian() &&
+  const bool smooth = !phase->history_dependent() && !phase->contact() && !phase->info().updated_lagrangian &&
                       !strategy.is_local && !strategy.is_relaxation;
   const std::vector<std::string> overrides =
       smooth ? std::vector<std::string>{"integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-11"}

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
 #include "linalg/power_iteration.hpp"
+#include "linalg/sparse_cholesky.hpp"
 
 namespace stillpoint {
 namespace {
@@ -49,24 +51,29 @@ Mass Mass::lumped(std::vector<double> diagonal) {
   return mass;
 }
 
-Mass Mass::consistent(SparseMatrix matrix) {
-  matrix.makeCompressed();
+struct Mass::Consistent {
+  explicit Consistent(const SparseMatrix& M) : matrix(M), factor(matrix) {}
+
+  SparseMatrix matrix;
+  SparseCholesky factor;
+};
+
+Mass Mass::consistent(const SparseMatrix& matrix) {
   Mass mass;
   mass.diagonal_.resize(static_cast<std::size_t>(matrix.rows()));
   Map(mass.diagonal_.data(), matrix.rows()) = matrix.diagonal();
-  mass.factor_.emplace(matrix);
-  if (!mass.factor_->positive_definite()) refuse_consistent(mass.size(), "its Cholesky factorisation breaks down");
+  mass.consistent_ = std::make_shared<const Consistent>(matrix);
+  const SparseCholesky& factor = mass.consistent_->factor;
+  if (!factor.positive_definite()) refuse_consistent(mass.size(), "its Cholesky factorisation breaks down");
   constexpr double singular = 1e-12;  // M⁻¹ would keep fewer than four digits
-  if (const double s = mass.size() > 0 ? smallest_scaled_eigenvalue(mass.diagonal_, *mass.factor_) : 1;
-      !(s > singular)) {
+  if (const double s = mass.size() > 0 ? smallest_scaled_eigenvalue(mass.diagonal_, factor) : 1; !(s > singular)) {
     refuse_consistent(mass.size(), fmt::format("singular to rounding: λ_min(D⁻¹M) = {:.1e} ≤ {:.0e}", s, singular));
   }
-  mass.matrix_.swap(matrix);  // Eigen's sparse matrices have no move
   return mass;
 }
 
 SparseMatrix Mass::matrix() const {
-  if (!is_lumped()) return matrix_;
+  if (!is_lumped()) return consistent_->matrix;
   SparseMatrix diagonal_matrix(index(size()), index(size()));
   diagonal_matrix.setIdentity();
   std::copy(diagonal_.begin(), diagonal_.end(), diagonal_matrix.valuePtr());
@@ -77,7 +84,7 @@ void Mass::apply(ConstVec x, Vec y) const {
   if (is_lumped()) {
     for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { y[i] = m[i] * x[i]; });
   } else {  // M = Mᵀ: by rows, y_i = Σ_j M_ij x_j, which writes each y_i once
-    Map(y.data(), index(y.size())).noalias() = matrix_.transpose() * ConstMap(x.data(), index(x.size()));
+    Map(y.data(), index(y.size())).noalias() = consistent_->matrix.transpose() * ConstMap(x.data(), index(x.size()));
   }
 }
 
@@ -85,7 +92,7 @@ void Mass::solve(ConstVec b, Vec x) const {
   if (is_lumped()) {
     for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { x[i] = b[i] / m[i]; });
   } else {
-    factor_->solve(b, x);
+    consistent_->factor.solve(b, x);
   }
 }
 

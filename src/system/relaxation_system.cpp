@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/parallel_loop.hpp"
+#include "system/force_scale.hpp"
 
 namespace stillpoint {
 
@@ -14,11 +15,15 @@ RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping,
       damping_(damping),
       linear_(damping.linear()),
       vectors_(vectors),
+      trial_(system.make_trial()),
       F_(vectors_.make(system.size())),
       R_(vectors_.make(system.size())),
-      Q_(vectors_.make(system.size())) {
+      Q_(vectors_.make(system.size())),
+      force_scale_(std::make_unique<ForceScale>()) {
   if (damping.uses_last_force()) Q_last_ = vectors_.make(system.size());
 }
+
+RelaxationSystem::~RelaxationSystem() = default;
 
 // y' = [ v ; M⁻¹ (F − R + D(v, F − R) − c_i v) − c_m v ]  for  C = c_m M + c_i I
 bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
@@ -46,11 +51,9 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
 
 // Q = F − R − M_fs (a_s + c_m v_s) + contact forces
 bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
-  const Vec F = F_.span(), R = R_.span();
-  system_.external_force(t, F);
-  system_.add_following_force(t, u, F);
+  system_.external_force(t, u, F_.span());
   last_t_ = t;
-  if (!system_.internal_force(t, u, R)) return false;
+  if (!system_.internal_force(t, u, R_.span(), *trial_)) return false;
   last_out_of_balance(t, Q);
   return true;
 }
@@ -59,7 +62,7 @@ void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
   const ConstVec F = F_.span(), R = R_.span();
   for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
   system_.add_support_inertia(t, linear_.mass, Q);
-  system_.add_contact_force(t, linear_, Q);
+  if (const Contact* contact = system_.contact()) contact->add_force(t, linear_, Q);
 }
 
 void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
@@ -69,7 +72,7 @@ void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
   } else {
     damping_.add_local(v, Q);
   }
-  system_.hold_contact(Q);
+  if (const Contact* contact = system_.contact()) contact->hold(Q);
 }
 
 void RelaxationSystem::remember_force() {
@@ -79,11 +82,12 @@ void RelaxationSystem::remember_force() {
 }
 
 bool RelaxationSystem::accept(double t, Vec y, bool force_is_current) {
-  if (!system_.history_dependent() && !system_.has_contact()) return false;
+  Contact* contact = system_.contact();
+  if (!system_.history_dependent() && !contact) return false;
   const ConstVec u = first_half(y);
   if (!force_is_current && !balance(t, u, Q_.span())) throw std::logic_error("an accepted state cannot be evaluated");
-  system_.commit_last();
-  return system_.update_contact(t, u, second_half(y));
+  system_.commit(*trial_);
+  return contact && contact->update(t, u, second_half(y));
 }
 
 double RelaxationSystem::residual(double t, ConstVec u) {
@@ -95,13 +99,9 @@ double RelaxationSystem::last_residual() {
   const ConstVec F = F_.span(), R = R_.span();
   const Vec Q = Q_.span();
   for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
-  system_.add_contact_force(last_t_, linear_, Q);
-  const double unbalanced = norm(Q_), loads = norm(F_);
-  force_scale_ = std::max({force_scale_, loads, loads > 0 ? 0 : system_.reaction_norm()});
-  if (unbalanced == 0) return 0;
-  if (force_scale_ > 0) return unbalanced / (loads > 0 ? loads : force_scale_);
-  internal_scale_ = std::max(internal_scale_, norm(R_));
-  return unbalanced / internal_scale_;
+  const Contact* contact = system_.contact();
+  if (contact) contact->add_force(last_t_, linear_, Q);
+  return relative(norm(Q_), force_scale_->of(F_, R_, *trial_, contact));
 }
 
 // ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q

@@ -1,70 +1,63 @@
-// The out-of-balance force of a static problem, and the scale by which it is small.
+// The out-of-balance force of a static problem, and how small it is.
 #pragma once
 
 #include <stillpoint/semi_discrete.hpp>
+#include <stillpoint/vector.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 #include <stdexcept>
-#include <vector>
+
+#include "base/parallel_loop.hpp"
+#include "linalg/vector_operations.hpp"
+#include "system/force_scale.hpp"
 
 namespace stillpoint {
 
-inline double dot(ConstVec x, ConstVec y) { return std::inner_product(x.begin(), x.end(), y.begin(), 0.0); }
-inline double norm(ConstVec x) { return std::sqrt(dot(x, x)); }
-
-/// y −= s A x
-inline void subtract_product(double s, const SparseMatrix& A, ConstVec x, Vec y) {
-  if (A.nonZeros() == 0) return;
-  const auto n = static_cast<Eigen::Index>(x.size());
-  Eigen::Map<Eigen::VectorXd>(y.data(), n) -= s * (A * Eigen::Map<const Eigen::VectorXd>(x.data(), n));
-}
-
 /// Q_s(u) = (1 − s) R₀ + s F(t, u) − R(t, u), s the load factor, R₀ the internal force at the start.
-class OutOfBalance {
+class StaticBalance {
  public:
-  OutOfBalance(const SemiDiscrete& system, double t)
-      : Q(system.size()), system_(system), t_(t), dead_(system.size()), F_(system.size()), R_(system.size()) {
-    if (system.has_contact())
+  StaticBalance(const SemiDiscrete& system, double t, const VectorSpace& vectors)
+      : Q(vectors.make(system.size())),
+        system_(system),
+        t_(t),
+        trial_(system.make_trial()),
+        F_(vectors.make(system.size())),
+        R_(vectors.make(system.size())),
+        R0_(vectors.make(system.size())) {
+    if (system.contact())
       throw std::invalid_argument("a static solution with contact is not written: take relaxation, or supports");
-    system.external_force(t, dead_);
   }
 
-  /// R₀ = R(u). False where u is inadmissible.
+  /// R₀ = R(u). False if u is inadmissible.
   bool start(ConstVec u) {
     if (!evaluate(1, u)) return false;
-    R0_ = R_;
+    copy(R_, R0_);
     return true;
   }
-  /// Q and residual() at u. False where u is inadmissible.
+  /// Q and residual() at u. False if u is inadmissible.
   bool evaluate(double s, ConstVec u) {
     ++evaluations;
-    if (!system_.internal_force(t_, u, R_)) return false;
-    F_ = dead_;
-    system_.add_following_force(t_, u, F_);
-    for (std::size_t i = 0; i < Q.size(); ++i) Q[i] = s * F_[i] - R_[i] + (s < 1 ? (1 - s) * R0_[i] : 0);
-    const double loads = norm(F_);
-    force_scale_ = std::max({force_scale_, loads, loads > 0 ? 0 : system_.reaction_norm()});
-    internal_scale_ = std::max(internal_scale_, norm(R_));
-    scale_ = loads > 0 ? loads : force_scale_ > 0 ? force_scale_ : internal_scale_;
+    if (!system_.internal_force(t_, u, R_.span(), *trial_)) return false;
+    system_.external_force(t_, u, F_.span());
+    for_each_index(Q.size(), [=, Q = Q.span().data(), F = F_.span().data(), R = R_.span().data(),
+                              R0 = R0_.span().data()](std::size_t i) { Q[i] = s * F[i] - R[i] + (1 - s) * R0[i]; });
+    scale_ = force_scale_.of(F_, R_, *trial_, nullptr);
     return true;
   }
-  /// ‖Q‖/‖F‖; where F = 0 of the largest reactions or, without any, of the largest ‖R‖. As RelaxationSystem has it.
-  double residual() const {
-    const double unbalanced = norm(Q);
-    return unbalanced == 0 ? 0 : unbalanced / scale_;
-  }
+  /// ‖Q‖/‖F‖, or whatever else is the scale.
+  double residual() const { return relative(norm(Q), scale_); }
+  /// What points would remember of the last evaluation.
+  TrialState& trial() { return *trial_; }
 
-  std::vector<double> Q;  // of the last evaluation, (n) [N]
+  Vector Q;  // of the last evaluation, (n) [N]
   long evaluations = 0;
 
  private:
   const SemiDiscrete& system_;
   double t_;
-  std::vector<double> dead_, F_, R_, R0_;
-  double force_scale_ = 0, internal_scale_ = 0, scale_ = 0;
+  std::unique_ptr<TrialState> trial_;
+  Vector F_, R_, R0_;
+  ForceScale force_scale_;
+  double scale_ = 0;
 };
 
 }  // namespace stillpoint

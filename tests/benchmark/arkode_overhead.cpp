@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/SparseCore>
 #include <benchmark/benchmark.h>
 #include <nvector/nvector_serial.h>
 #include <omp.h>
@@ -33,17 +34,20 @@ double seconds_now() {
 }
 
 /// M = I, R = u.
-class Oscillators : public SemiDiscrete {
+class Oscillators : public SemiDiscrete, private Tangents {
  public:
   std::size_t size() const override { return dofs; }
   const Mass& mass() const override { return mass_; }
-  void external_force(double, Vec F) const override { std::ranges::fill(F, 0.0); }
-  bool internal_force(double, ConstVec u, Vec R) const override { return std::ranges::copy(u, R.begin()), true; }
-  void tangent(double, ConstVec, ConstVec du, Vec dR) const override { std::ranges::copy(du, dR.begin()); }
-  SparseMatrix tangent_matrix(double, ConstVec) const override { throw std::logic_error("not used"); }
-  void commit(double, ConstVec) override {}
+  void external_force(double, ConstVec, Vec F) const override { std::ranges::fill(F, 0.0); }
+  bool internal_force(double, ConstVec u, Vec R, TrialState&) const override {
+    return std::ranges::copy(u, R.begin()), true;
+  }
+  const Tangents& tangents() const override { return *this; }
 
  private:
+  void apply(Tangent, double, ConstVec, ConstVec du, Vec dR) const override { std::ranges::copy(du, dR.begin()); }
+  SparseMatrix matrix(Tangent, double, ConstVec) const override { throw std::logic_error("not used"); }
+
   Mass mass_ = Mass::lumped(std::vector<double>(dofs, 1.0));
 };
 

@@ -36,7 +36,8 @@ void internal_force(benchmark::State& state) {
   omp_set_num_threads(static_cast<int>(state.range(3)));
   const std::vector<double> u(phase->size(), 1e-6);
   std::vector<double> R(phase->size());
-  for (auto _ : state) benchmark::DoNotOptimize(phase->internal_force(0, u, R));
+  const auto trial = phase->make_trial();
+  for (auto _ : state) benchmark::DoNotOptimize(phase->internal_force(0, u, R, *trial));
   label(state, *phase);
 }
 

@@ -121,7 +121,7 @@ void gather_and_scatter(benchmark::State& state, int basis) {
     return 0.0;
   };
   for (auto _ : state) {
-    parts.force.template evaluate<true>(parts.u.data(), before.data(), copy, *parts.dofs, parts.R);
+    parts.force.template evaluate<true>(parts.u.data(), before.data(), copy, *parts.dofs, parts.R, {});
     benchmark::DoNotOptimize(parts.R.data());
   }
   count_points(state, parts.body.points.size(), bases[basis]);
@@ -139,11 +139,12 @@ void law_alone(benchmark::State& state) {
   Parts<BSpline<1>> parts(0, law);
   PointBlock<K> b{};
   const std::size_t points = parts.body.points.size();
+  std::vector<double> trial(parts.body.materials[0]->history_size());
   double bad = 0;
   for (auto _ : state) {
     for (b.first = 0; b.first < points; b.first += b.count) {
       b.count = std::min(PointBlock<K>::size, points - b.first);
-      bad += parts.body.materials[0]->stress(b, parts.body.points.volume.data(), 1e-4);
+      bad += parts.body.materials[0]->stress(b, parts.body.points.volume.data(), 1e-4, trial.data());
     }
     benchmark::DoNotOptimize(bad);
   }
@@ -159,7 +160,7 @@ void change_of_phase(benchmark::State& state) {
   double t = 0;
   for (auto _ : state) {
     const std::vector<double> rest(phase->size(), 0.0);
-    v = phase->begin_next_phase(t += 1e-9, rest, v);
+    v = phase->control().begin_next(t += 1e-9, rest, v);
   }
   count_points(state, phase->points(), bases[state.range(0)]);
 }

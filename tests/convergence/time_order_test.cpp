@@ -23,7 +23,7 @@ using namespace stillpoint;
 class DrivenChain : public test::Chain {
  public:
   DrivenChain() : Chain({.n = 4, .cubic = 0.5}) {}
-  void external_force(double t, Vec F) const override {
+  void external_force(double t, ConstVec, Vec F) const override {
     for (std::size_t i = 0; i < F.size(); ++i) F[i] = 0.5 * std::cos(3 * t + static_cast<double>(i));
   }
 };

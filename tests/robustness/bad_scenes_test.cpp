@@ -19,6 +19,11 @@ using stillpoint::testing::TemporaryFolder;
 
 namespace {
 
+constexpr const char* kMotion =
+    "[damping]\nstrategy = \"viscous\"\nc = 0.3\n[integrator]\nmethod = \"leapfrog\"\nstep_fraction = 0.9\n";
+constexpr const char* kLoadAndMotion =
+    "\"P0\"\n[damping]\nstrategy = \"viscous\"\nc = 0.3\n[integrator]\nmethod = \"leapfrog\"\nstep_fraction = 0.9\n";
+
 const std::vector<BadScene> kBadScenes = {
     {"not TOML", "cells = 4", "cells = ", "6:9", "not valid TOML"},
     {"a key twice", "E = 1.0", "E = 1.0\nE = 2.0", "13:5", "not valid TOML"},
@@ -58,7 +63,7 @@ const std::vector<BadScene> kBadScenes = {
     {"no area", "[body]", "[body]\narea = 0", "8:8", "body.area: must be greater than 0, not 0"},
     {"negative seed", "[body]", "[body]\nseed = -1", "8:8", "must be a whole number of at least 0, not -1"},
     {"support outside", "at = 0.0", "at = -0.5", "15:6", "support[0].at: -0.5 lies outside the grid, 0 to 10"},
-    {"support twice", "[[force]]", "[[support]]\nat = 0\n[[force]]", "18:6", "support[0] holds this place already"},
+    {"support twice", "[[force]]", "[[support]]\nat = 0\n[[force]]", "18:6", "support[0] holds this position already"},
     {"support's component", "u = 0.0", "component = 1", "16:13", "must be a whole number from 0 to 0, not 1"},
     {"force outside", "at = 10.0", "at = 12", "18:6", "force[0].at: 12 lies outside the body, 0 to 10"},
     {"not a number", "at = 10.0", "at = nan", "18:6", "force[0].at: expected a finite number, found nan"},
@@ -92,11 +97,28 @@ const std::vector<BadScene> kBadScenes = {
      "\"auto\"\n[integrator]\ndamping = \"lagged\"", "23:11", "damping 'auto' is no C v to be treated"},
     {"Chebyshev's step", "\"viscous\"\nc = 0.3", "\"chebyshev\"", "24:17",
      "damping 'chebyshev' has its own step; leave this out"},
-    {"a velocity without time", "\"viscous\"\nc = 0.3\n[integrator]\nmethod = \"leapfrog\"\nstep_fraction = 0.9",
-     "\"cg\"\n[initial]\nv = 1.0", "23:5", "damping 'cg' is a static iteration, which has no velocity"},
-    {"a load in time without time",
-     "\"P0\"\n[damping]\nstrategy = \"viscous\"\nc = 0.3\n[integrator]\nmethod = \"leapfrog\"\nstep_fraction = 0.9",
-     "\"P0*t\"\n[damping]\nstrategy = \"lbfgs\"", "21:12", "loads and supports must not depend on t"},
+    {"a static solver as a damping", "\"viscous\"\nc = 0.3", "\"cg\"", "21:12",
+     "damping.strategy: 'cg' is a static solver, not a damping or a relaxation; write solve.method = \"cg\""},
+    {"a damping as a solver", "[damping]", "[solve]\nmethod = \"viscous\"\n[damping]", "21:10",
+     "solve.method: 'viscous' is a way to rest in time, not a static solver; write damping.strategy = \"viscous\""},
+    {"no solver like it", "[damping]", "[solve]\nmethod = \"newtn\"\n[damping]", "21:10",
+     "solve.method: unknown value 'newtn'; did you mean 'newton'?"},
+    {"a velocity without time", kMotion, "[initial]\nv = 1.0\n[solve]\nmethod = \"cg\"\n", "21:5",
+     "initial.v: 'cg' is a static solver, which has no velocity"},
+    {"a load in time without time", kLoadAndMotion, "\"P0*t\"\n[solve]\nmethod = \"lbfgs\"\n", "21:10",
+     "solve.method: 'lbfgs' is a static solver, which has no time: loads and supports must not depend on t"},
+    {"a load in time and no end of it", kLoadAndMotion, "\"P0*t\"\n[solve]\nmethod = \"newton\"\n", "21:10",
+     "loads and supports depend on t, so give stop.time, at which it takes them"},
+    {"a wall without time", kMotion,
+     "[mass]\nkind = \"lumped\"\n[[wall]]\nname = \"w\"\nface = \"right\"\n[solve]\nmethod = \"newton\"\n", "26:10",
+     "solve.method: 'newton' is a static solver, in which no wall can open or close; take \"relaxation\""},
+    {"phases without time", kMotion, "[solve]\nmethod = \"newton\"\n[phase]\nmax_motion = 0.1\n", "23:14",
+     "phase.max_motion: 'newton' is a static solver, which needs a single phase: take \"none\""},
+    {"strain of phases without time", kMotion, "[solve]\nmethod = \"newton\"\n[phase]\nmax_strain = 0.1\n", "23:14",
+     "phase.max_strain: 'newton' is a static solver, which needs a single phase: leave this out"},
+    {"a damping without time",
+     "strategy = \"viscous\"\nc = 0.3\n[integrator]\nmethod = \"leapfrog\"\nstep_fraction = 0.9",
+     "alpha = 0.5\n[solve]\nmethod = \"newton\"", "21:9", "damping.alpha: has no part in a static solution"},
     {"a distance below zero", "residual = 1e-6", "residual = 1e-6\ndistance = -1", "28:12",
      "stop.distance: must be at least 0, not -1"},
     {"no step", "step_fraction = 0.9", "step = 0", "25:8", "integrator.step: must be greater than 0, not 0"},

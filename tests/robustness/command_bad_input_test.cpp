@@ -96,6 +96,13 @@ TEST_CASE("the command refuses an option that it does not know") {
 
 TEST_CASE("the command refuses a subcommand that it does not know") { refuses({kGoodScene, "rum SCENE"}, "rum"); }
 
+TEST_CASE("list refuses a topic that it does not know, and a format of what is no key") {
+  refuses({kGoodScene, "list kyes"}, "kyes");
+  refuses({kGoodScene, "list keys --format yaml"}, "yaml");
+  refuses({kGoodScene, "list bases --format schema"}, "--format schema: goes with the topic keys only");
+  CHECK(CommandRun(kGoodScene, "list keys").status == 0);
+}
+
 TEST_CASE("the command refuses stop.distance where nothing certifies it, at its place in the file") {
   const std::string scene = broken("residual = 1e-6", "distance = 1e-4");
   refuses({broken("[[support]]\nat = 0.0\nu = 0.0\n", "", scene), "run SCENE --out OUT"},

@@ -57,7 +57,7 @@ double defect(const test::Chain& chain, const std::string& strategy, const std::
     }
     chain.mass().apply(change, inertia);
     chain.mass().apply(w, Mw);
-    chain.internal_force(0, u[step], Q);
+    chain.internal_force(0, u[step], Q, *chain.make_trial());
     for (double& q : Q) q = chain.options().load - q;
     damping->add_local(v_before, Q);
     for (std::size_t i = 0; i < n; ++i) {

@@ -89,8 +89,8 @@ TEST_CASE("linear momentum goes over from each phase to the next, whatever the b
                                                     "phase={max_motion=0.1, " + transfer + "}"};
         const Scene scene = soil ? free_soil(overrides) : free_block(overrides);
         const auto at_start = make_phase(scene);
-        const std::vector<double> volume = at_start->volumes();
-        const double scale = at_start->total_mass();  // times 1 m/s
+        const std::vector<double> volume = at_start->point_data().volumes;
+        const double scale = at_start->info().total_mass;  // times 1 m/s
         Point<2> before{};
         int changes = 0;
         Simulation simulation = advanced(scene, 0.25, [&](const Moment& moment, bool after) {
@@ -102,7 +102,7 @@ TEST_CASE("linear momentum goes over from each phase to the next, whatever the b
           before = now;
         });
         CHECK(changes >= 6);
-        const TransferErrors errors = simulation.phase().transfer_errors();
+        const TransferErrors errors = simulation.phase().control().transfer_errors();
         CHECK(errors.mass < 1e-14);
         CHECK(errors.momentum < 1e-13);
         // Within a phase forces move nodes that were given inertia less than their mass says, so that a free body's
@@ -214,10 +214,10 @@ TEST_CASE(
 TEST_CASE("the followed wall stays on the last grid line from phase to phase") {
   const Scene scene =
       free_block({"wall=[{name='gate', face='right', motion='0.5*t'}]", "grid.follow=gate", "initial.v=[0.5, 0]"});
-  const int cells = make_phase(scene)->grid_cells().at(0);
+  const int cells = make_phase(scene)->discretisation().grid_cells.at(0);
   Simulation simulation = advanced(scene, 0.9);
-  CHECK(simulation.phase().grid_cells().at(0) == cells + 2);  // 0.45 m are 1.8 cells
-  CHECK(simulation.phase().grid_cells().at(1) == 4);
+  CHECK(simulation.phase().discretisation().grid_cells.at(0) == cells + 2);  // 0.45 m are 1.8 cells
+  CHECK(simulation.phase().discretisation().grid_cells.at(1) == 4);
 }
 
 TEST_CASE("sorting keeps points by material and cell, and their numbers with them") {
@@ -270,8 +270,8 @@ TEST_CASE("every output of a point keeps its number from phase to phase, with tw
       "stop.time=0.8"};
   const Scene scene = free_block(overrides);
   const auto at_start = make_phase(scene);
-  const std::vector<double> start = at_start->positions(), volume = at_start->volumes();
-  const std::vector<int> material = at_start->materials();
+  const std::vector<double> start = at_start->positions(), volume = at_start->point_data().volumes;
+  const std::vector<int> material = at_start->point_data().materials;
   REQUIRE(std::ranges::count(material, 0) > 20);  // 'stuff' comes first by name, though second by body
   REQUIRE(material.front() == 1);
   int changes = 0;
@@ -286,10 +286,10 @@ TEST_CASE("every output of a point keeps its number from phase to phase, with tw
       // but for the turn within 0.8 s and what the two do to each other where they touch
       CHECK(u[2 * p] == Approx(moment.t * (1 - 0.1 * (y - 1.5))).margin(0.03));
       CHECK(u[2 * p + 1] == Approx(moment.t * (0.5 + 0.1 * (x - 2))).margin(0.03));
-      CHECK(phase.volumes()[p] == Approx(volume[p]).epsilon(0.1));
+      CHECK(phase.point_data().volumes[p] == Approx(volume[p]).epsilon(0.1));
     }
-    CHECK(phase.initial_positions() == start);
-    CHECK(phase.materials() == material);
+    CHECK(phase.point_data().initial_positions == start);
+    CHECK(phase.point_data().materials == material);
   });
   CHECK(changes > 20);
   const Summary s = run(scene, {.threads = 1});

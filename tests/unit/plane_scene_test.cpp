@@ -246,6 +246,12 @@ TEST_CASE("an override reaches every key of a plane scene") {
   CHECK(load_slope({"support[1].kind=fixed"}).supports.at(1).roller == false);
 }
 
+TEST_CASE("the component that a support holds is a number or a coordinate's name") {
+  CHECK(load_slope({"support[2].component=y"}).supports.at(2).component == 1);
+  CHECK(load_slope({"support[2].component=x"}).supports.at(2).component == 0);
+  CHECK(load_slope({"support[2].component=0"}).supports.at(2).component == 0);
+}
+
 TEST_CASE("a transfer given by --set replaces the file's, with the keys that belong to it") {
   const Scene apic = load_slope({"phase.transfer=apic"});
   CHECK(apic.phase.transfer == Transfer::apic);

@@ -12,6 +12,7 @@
 
 #include "allocation_count.hpp"
 #include "scenes.hpp"
+#include "statics.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
@@ -36,7 +37,7 @@ std::vector<double> random_displacement(std::size_t n, double scale, unsigned se
 
 std::vector<double> force(const LagrangianPhase& phase, double t, const std::vector<double>& u) {
   std::vector<double> R(phase.size());
-  REQUIRE(phase.internal_force(t, u, R));
+  REQUIRE(phase.internal_force(t, u, R, *phase.make_trial()));
   return R;
 }
 /// Stress and plastic strain as of the last commit.
@@ -69,7 +70,7 @@ TEST_CASE("a trial of plastic points is repeatable to the bit and leaves what wa
   CHECK(force(*phase, 0.01, small) == first);
   CHECK(state(*phase) == at_start);
 
-  phase->commit(0.01, small);
+  statics::commit(*phase, small, 0.01);
   const auto committed = state(*phase);
   CHECK(committed != at_start);
   CHECK(std::ranges::count_if(
@@ -85,17 +86,38 @@ TEST_CASE("a trial of plastic points is repeatable to the bit and leaves what wa
   for (std::size_t i = 0; i < n; ++i) CHECK(there[i] == Approx(first[i]).margin(1e-9 * 1800 * 9.81 * 3));
 }
 
-TEST_CASE("commit is a force evaluation followed by commit_last, to the bit") {
-  const auto together = make_phase(slope()), apart = make_phase(slope());
+TEST_CASE("what is committed is the trial's last evaluation, whichever trial it was and whatever it held, to the bit") {
+  const auto anew = make_phase(slope()), again = make_phase(slope());
+  const auto trial = again->make_trial();
+  std::vector<double> R(again->size());
   for (unsigned step = 1; step <= 3; ++step) {
-    const auto u = random_displacement(together->size(), 1e-3 * step, step);
+    const auto u = random_displacement(anew->size(), 1e-3 * step, step);
     const double t = 0.01 * step;
-    together->commit(t, u);
-    force(*apart, t, u);
-    apart->commit_last();
-    CHECK(state(*together) == state(*apart));
-    CHECK(force(*together, t + 0.01, u) == force(*apart, t + 0.01, u));
+    statics::commit(*anew, u, t);
+    REQUIRE(again->internal_force(t, random_displacement(anew->size(), 1e-3, 7), R, *trial));
+    REQUIRE(again->internal_force(t, u, R, *trial));
+    force(*again, t, random_displacement(anew->size(), 1e-3, 8));  // in another trial
+    again->commit(*trial);
+    CHECK(state(*anew) == state(*again));
+    CHECK(force(*anew, t + 0.01, u) == force(*again, t + 0.01, u));
   }
+}
+
+TEST_CASE("a trial of another phase, or one not evaluated since the last commit, is refused") {
+  const auto phase = make_phase(slope()), other = make_phase(slope());
+  const std::vector<double> u(phase->size(), 0.0);
+  std::vector<double> R(phase->size());
+  const auto trial = phase->make_trial(), of_other = other->make_trial();
+  CHECK_THROWS_AS(phase->commit(*trial), std::logic_error);
+  CHECK_THROWS_AS(phase->internal_force(0, u, R, *of_other), std::logic_error);
+  REQUIRE(phase->internal_force(0, u, R, *trial));
+  REQUIRE(other->internal_force(0, u, R, *of_other));
+  CHECK_THROWS_AS(phase->commit(*of_other), std::logic_error);
+  phase->commit(*trial);
+  CHECK_THROWS_AS(phase->commit(*trial), std::logic_error);
+  REQUIRE(phase->internal_force(0, u, R, *trial));
+  phase->control().begin_next(0.1, u, u);
+  CHECK_THROWS_AS(phase->commit(*trial), std::logic_error);
 }
 
 TEST_CASE("the right-hand side of a plastic scene with walls and local damping allocates nothing") {
@@ -120,7 +142,7 @@ TEST_CASE("plastic forces and what they commit are the same bits for 1 and 2 thr
     omp_set_num_threads(threads);
     const auto phase = make_phase(slope("70,33"));
     REQUIRE(phase->points() > 8192);  // fewer are left to one thread
-    phase->commit(0.01, random_displacement(phase->size(), 1e-4, 1));
+    statics::commit(*phase, random_displacement(phase->size(), 1e-4, 1), 0.01);
     forces[threads - 1] = force(*phase, 0.02, random_displacement(phase->size(), 1e-3, 2));
     states[threads - 1] = state(*phase);
   }

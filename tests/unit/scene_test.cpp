@@ -206,3 +206,32 @@ TEST_CASE("an override reaches into an array of tables by index") {
   CHECK(scene.forces[0].value[0]({}, 0) == 0.002);
   CHECK(scene.probes[1].name == "tip");
 }
+
+TEST_CASE(
+    "a scene is relaxed unless it names a static solver, which leaves the file's damping and steps without effect") {
+  const Scene relaxed = load_scene(kBar);
+  CHECK(relaxed.solve.method == "relaxation");
+  CHECK_FALSE(relaxed.solve.is_static());
+  const Scene newton = load_scene(kBar, {"solve.method=newton"});
+  CHECK(newton.solve.method == "newton");
+  CHECK(newton.solve.is_static());
+  CHECK_FALSE(newton.damping.c);
+  CHECK_THROWS_AS(load_scene(kBar, {"solve.method=newton", "damping.c=1"}), SceneError);
+}
+
+TEST_CASE("a static solver takes loads of time as they are at stop.time, if it can take them at all") {
+  const std::vector<std::string> growing = {"force[0].value=\"P0*t\"", "stop.time=2"};
+  const auto with = [&](const char* method) {
+    std::vector<std::string> overrides = growing;
+    overrides.push_back(std::string("solve.method=") + method);
+    return overrides;
+  };
+  CHECK(load_scene(kBar, with("newton")).stop.time == 2);
+  CHECK_THROWS_AS(load_scene(kBar, with("cg")), SceneError);
+}
+
+TEST_CASE("a law that keeps history brings no phases to a static solver") {
+  const auto footing = std::filesystem::path(STILLPOINT_PROBLEMS) / "footing.toml";
+  CHECK_FALSE(load_scene(footing, {"solve.method=newton", "phase={}"}).phase.max_motion);
+  CHECK_FALSE(load_scene(footing, {"solve.method=newton"}).phase.max_motion);
+}

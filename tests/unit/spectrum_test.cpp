@@ -24,7 +24,7 @@ std::vector<double> at_rest(const Chain& chain) { return std::vector<double>(cha
 
 // ω of K x = ω² M x in ascending order by Eigen's dense solver.
 Eigen::VectorXd dense_frequencies(const Chain& chain, ConstVec u) {
-  const Eigen::MatrixXd K = chain.tangent_matrix(0, u), M = chain.mass().matrix();
+  const Eigen::MatrixXd K = chain.tangents().matrix(Tangent::consistent, 0, u), M = chain.mass().matrix();
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().cwiseMax(0).cwiseSqrt();
 }
 
@@ -135,8 +135,8 @@ class PlainSystem : public Chain {
   PlainSystem(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M)
       : Chain({.n = static_cast<std::size_t>(K.rows())}), K_(K), M_(Mass::consistent(M.sparseView())) {}
   const Mass& mass() const override { return M_; }
-  SparseMatrix tangent_matrix(double, ConstVec) const override { return K_.sparseView(); }
-  void tangent(double, ConstVec, ConstVec du, Vec dR) const override {
+  SparseMatrix matrix(Tangent, double, ConstVec) const override { return K_.sparseView(); }
+  void apply(Tangent, double, ConstVec, ConstVec du, Vec dR) const override {
     const auto n = static_cast<Eigen::Index>(size());
     Eigen::Map<Eigen::VectorXd>(dR.data(), n) = K_ * Eigen::Map<const Eigen::VectorXd>(du.data(), n);
   }

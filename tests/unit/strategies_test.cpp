@@ -34,7 +34,7 @@ const std::vector<std::string> iterations = {"kinetic",   "adaptive", "papadraka
 class LoadedChain final : public test::Chain {
  public:
   LoadedChain(test::ChainOptions options, Values loads) : Chain(std::move(options)), loads_(std::move(loads)) {}
-  void external_force(double /*t*/, Vec F) const override { std::copy(loads_.begin(), loads_.end(), F.begin()); }
+  void external_force(double /*t*/, ConstVec /*u*/, Vec F) const override { std::copy(loads_.begin(), loads_.end(), F.begin()); }
 
  private:
   Values loads_;
@@ -47,10 +47,10 @@ test::ChainOptions long_chain() { return {.n = 156, .left_held = true, .right_he
 Values static_solution(const SemiDiscrete& system) {
   Values u(system.size()), Q(system.size()), R(system.size());
   for (int iteration = 0; iteration < 50; ++iteration) {
-    system.external_force(0, Q);
-    system.internal_force(0, u, R);
+    system.external_force(0, u, Q);
+    system.internal_force(0, u, R, *system.make_trial());
     for (std::size_t i = 0; i < u.size(); ++i) Q[i] -= R[i];
-    SparseCholesky(system.tangent_matrix(0, u)).solve(Q, Q);
+    SparseCholesky(system.tangents().matrix(Tangent::consistent, 0, u)).solve(Q, Q);
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += Q[i];
   }
   return u;
@@ -596,8 +596,8 @@ TEST_CASE("auto recovers from a step past the critical one", "[strategies]") {
 class NoisyChain final : public test::Chain {
  public:
   using Chain::Chain;
-  bool internal_force(double t, ConstVec u, Vec R) const override {
-    const bool ok = Chain::internal_force(t, u, R);
+  bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const override {
+    const bool ok = Chain::internal_force(t, u, R, trial);
     for (double& r : R) r += 1e-3 * (2 * static_cast<double>(random_()) / 4294967295.0 - 1);
     return ok;
   }

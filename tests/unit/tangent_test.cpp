@@ -67,23 +67,23 @@ TEST_CASE("the tangent of every law is the derivative of the internal force, app
         CAPTURE(material, state, basis);
         const auto phase = column(material, state, basis);
         const std::size_t n = phase->size();
-        phase->commit(0.01, random_vector(n, 0.02, 1));
+        statics::commit(*phase, random_vector(n, 0.02, 1), 0.01);
         const double t = 0.03;
         const auto u = random_vector(n, 0.03, 2), du = random_vector(n, 1, 3);
         const auto R = [&](ConstVec at) { return statics::internal_force(*phase, at, t); };
         const auto differences = difference(R, u, du, 1e-8);
-        const SparseMatrix K = phase->tangent_matrix(t, u);
+        const SparseMatrix K = phase->tangents().matrix(Tangent::consistent, t, u);
         std::vector<double> applied(n);
-        phase->tangent(t, u, du, applied);
+        phase->tangents().apply(Tangent::consistent, t, u, du, applied);
         CHECK(distance(applied, product(K, du)) < 1e-12);
         CHECK(distance(applied, differences) < 2e-6);  // rounding/d, and points that d takes over an edge
         const bool plastic = material.find("drucker") != std::string::npos;
         CHECK((asymmetry(K) > 1e-3) == plastic);
         // Frequencies are of a symmetric K_e
-        const SparseMatrix K_e = phase->elastic_tangent_matrix(t, u);
+        const SparseMatrix K_e = phase->tangents().matrix(Tangent::elastic, t, u);
         CHECK(asymmetry(K_e) < 1e-14);
         CHECK((distance(product(K_e, du), applied) > 0.05) == plastic);
-        phase->elastic_tangent(t, u, du, applied);
+        phase->tangents().apply(Tangent::elastic, t, u, du, applied);
         CHECK(distance(applied, product(K_e, du)) < 1e-12);
       }
     }
@@ -93,8 +93,8 @@ TEST_CASE("the tangent of every law is the derivative of the internal force, app
 TEST_CASE("yielding leaves omega_max and the critical step where they were") {
   const auto phase = column("{law='drucker-prager', E=1e7, nu=0.3, rho=2000, phi=30, c=1e4}", "plane-strain", "linear");
   const std::vector<double> at_rest(phase->size(), 0.0), u = random_vector(phase->size(), 1e-3, 1);
-  const auto yields = (phase->tangent_matrix(0, u) - phase->elastic_tangent_matrix(0, u)).norm();
-  CHECK(yields > 0.1 * phase->elastic_tangent_matrix(0, u).norm());
+  const auto yields = (phase->tangents().matrix(Tangent::consistent, 0, u) - phase->tangents().matrix(Tangent::elastic, 0, u)).norm();
+  CHECK(yields > 0.1 * phase->tangents().matrix(Tangent::elastic, 0, u).norm());
   const double before = omega_max_by_power_iteration(*phase, 0, at_rest).omega;
   CHECK(omega_max_by_power_iteration(*phase, 0, u).omega == Approx(before).epsilon(0.01));  // the grid's motion, 1e-3
   CHECK(omega_max_by_arpack(*phase, 0, u).omega == Approx(before).epsilon(0.01));
@@ -111,10 +111,10 @@ TEST_CASE("the tangent of a pressure that follows the surface is the derivative 
     const auto u = random_vector(phase->size(), 0.02, 1), du = random_vector(phase->size(), 1, 2);
     const auto F = [&](ConstVec at) {
       std::vector<double> force(phase->size(), 0.0);
-      phase->add_following_force(0, at, force);
+      phase->external_force(0, at, force);
       return force;
     };
-    const auto K = phase->following_tangent_matrix(0, u);
+    const auto K = phase->tangents().of_loads(0, u);
     CAPTURE(state);
     CHECK(distance(product(K, du), difference(F, u, du, 1e-5)) <
           1e-9);  // of second degree in u: exact but for rounding

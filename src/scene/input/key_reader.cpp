@@ -45,6 +45,8 @@ std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key) {
   if (key.kind == Kind::whole) {
     const auto* const text = value.node.as_string();
     if (const auto number = text ? number_of(text->get(), key, dim) : std::nullopt) return number;
+    if (text && names_in(text->get()) == std::vector{text->get()} && !value.reading.constants.contains(text->get()))
+      return report_unknown_word(value, key, text->get()), std::nullopt;
     return read_whole(value, from(0, static_cast<double>(key.words_in(dim).size()) - 1));
   }
   const auto word = read_text(value);

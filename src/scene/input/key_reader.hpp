@@ -4,7 +4,7 @@
 #include <concepts>
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -120,12 +120,6 @@ Key<Spec> key_of(std::string_view name, Access access, std::string_view help, Ke
             if (auto read = read_value<T>(value, key)) std::invoke(access, spec) = std::move(*read);
           }};
 }
-template <class Spec, class Member>
-Key<Spec> key(std::string_view name, Member Spec::*member, std::string_view help, KeyInfo info = {},
-              std::type_identity_t<std::function<void(Spec&)>> on_word = {}) {
-  return key_of<Spec>(name, member, help, std::move(info), std::move(on_word));
-}
-
 /// One table that was found in a file.
 struct FoundTable {
   const toml::table& table;
@@ -159,26 +153,55 @@ std::vector<KeyInfo> infos_of(const std::vector<Key<Spec>>& keys) {
   return infos;
 }
 
-/// info: what is told of the table. access: the part of a Scene that it describes: a Spec, an optional of one, or an
-/// array, of which each [[table]] is an entry.
-template <class Spec, class Access>
-TableInfo table(TableInfo info, Access access, std::type_identity_t<std::vector<Key<Spec>>> keys) {
-  info.keys = infos_of(keys);
-  info.read = [access, keys = std::move(keys)](const TableInfo& self, const toml::table& root, Scene& scene,
-                                               Reading& reading) {
-    for (const FoundTable& found : find_tables(self, root, reading)) {
-      auto& part = std::invoke(access, scene);
-      using Part = std::remove_cvref_t<decltype(part)>;
-      if constexpr (std::is_same_v<Part, Spec>) {
-        read_keys(found, self, keys, part, reading);
-      } else if constexpr (Unwrapped<Part>::is_optional) {
-        read_keys(found, self, keys, part.emplace(), reading);
-      } else {
-        read_keys(found, self, keys, part.emplace_back(), reading);
+/// The keys of the table added last, in the order of its rows.
+template <class Spec>
+class Rows {
+ public:
+  Rows(TableInfo& info, std::shared_ptr<std::vector<Key<Spec>>> keys) : info_(info), keys_(std::move(keys)) {}
+
+  /// As key_of().
+  template <class Access>
+  Rows& key(std::string_view name, Access access, std::string_view help, KeyInfo about = {},
+            std::function<void(Spec&)> on_word = {}) {
+    keys_->push_back(key_of<Spec>(name, access, help, std::move(about), std::move(on_word)));
+    info_.keys.push_back(keys_->back().info);
+    return *this;
+  }
+  /// The key before this is read in a way of its own.
+  Rows& read_by(void (*read)(Spec&, const Value&, const KeyInfo&)) {
+    keys_->back().read = read;
+    return *this;
+  }
+
+ private:
+  TableInfo& info_;
+  std::shared_ptr<std::vector<Key<Spec>>> keys_;
+};
+
+struct Tables {
+  std::vector<TableInfo> all;
+
+  /// access: the part of a Scene that the table describes: plain data, an optional of it, or an array, of which each
+  /// [[table]] is an entry.
+  template <class Access>
+  auto add(TableInfo info, Access access) {
+    using Part = std::remove_cvref_t<std::invoke_result_t<Access, Scene&>>;
+    using Spec = typename Unwrapped<Part>::type;
+    const auto keys = std::make_shared<std::vector<Key<Spec>>>();
+    info.read = [access, keys](const TableInfo& self, const toml::table& root, Scene& scene, Reading& reading) {
+      for (const FoundTable& found : find_tables(self, root, reading)) {
+        Part& part = std::invoke(access, scene);
+        if constexpr (std::is_same_v<Part, Spec>) {
+          read_keys(found, self, *keys, part, reading);
+        } else if constexpr (Unwrapped<Part>::is_optional) {
+          read_keys(found, self, *keys, part.emplace(), reading);
+        } else {
+          read_keys(found, self, *keys, part.emplace_back(), reading);
+        }
       }
-    }
-  };
-  return info;
-}
+    };
+    return Rows<Spec>(all.emplace_back(std::move(info)), keys);
+  }
+};
 
 }  // namespace stillpoint

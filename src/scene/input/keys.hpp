@@ -20,6 +20,9 @@ enum Dims : unsigned { kLine = 1, kPlane = 2, kAnyDim = 3 };
 
 /// A word that a key takes; an option is its word's number in the list.
 struct Word {
+  Word(std::string_view word, Dims in = kAnyDim) : name(word), dims(in) {}
+  Word(const char* word) : name(word) {}
+
   std::string_view name;
   Dims dims = kAnyDim;
 };

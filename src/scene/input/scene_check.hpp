@@ -6,9 +6,13 @@
 
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "base/text.hpp"
 #include "scene/input/toml_value.hpp"
 
 namespace stillpoint {
@@ -26,11 +30,31 @@ class SceneCheck {
   void add(const std::string& key, const std::string& message) { reading_.problem(scene_.location(key), key, message); }
   bool written(const std::string& key) const { return scene_.where.contains(key); }
   /// Not written, or written and in order.
-  bool sound(const std::string& key) const { return !reading_.wrong.contains(key); }
+  bool sound(const std::string& key) const {
+    const auto entry = reading_.wrong.lower_bound(key + "[");
+    return !reading_.wrong.contains(key) && (entry == reading_.wrong.end() || !entry->starts_with(key + "["));
+  }
   /// Reports each of these keys of a table that is written.
   void refuse(const std::string& table, std::initializer_list<const char*> keys, const std::string& why) {
     for (const std::string key : keys)
       if (written(table + "." + key)) add(table + "." + key, why);
+  }
+
+  /// Of two keys of a table exactly one is to be written.
+  void one_of(const std::string& table, const std::string& a, const std::string& b, const std::string& both,
+              const std::string& neither) {
+    const bool has_a = written(table + "." + a), has_b = written(table + "." + b);
+    if (has_a && has_b) add(table + "." + b, both);
+    if (!has_a && !has_b) add(table, neither);
+  }
+  /// Of the entries of an array of tables no two have the same name; returns all names.
+  template <class Spec>
+  std::set<std::string> unique_names(const std::string& table, const std::vector<Spec>& entries) {
+    std::set<std::string> names;
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      if (const std::string& name = entries[k].name; !name.empty() && !names.insert(name).second)
+        add(fmt::format("{}[{}].name", table, k), fmt::format("there is a {} {} already", table, in_quotes(name)));
+    return names;
   }
 
   /// The key of body k: "body.min", or "body[1].min" if there is an array of them.

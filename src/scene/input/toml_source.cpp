@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -26,19 +27,11 @@ std::optional<std::size_t> too_deep_a_key(std::string_view text) {
   return std::nullopt;
 }
 
-/// A TOML basic string that holds text.
-std::string basic_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char letter : text) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (letter == '"' || letter == '\\') result += '\\';
-    if (code < 0x20 || code == 0x7f) {
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(code));
-    } else {
-      result += letter;
-    }
-  }
-  return result + '"';
+/// A TOML string that holds text.
+std::string quoted(const std::string& text) {
+  std::ostringstream result;
+  result << toml::value<std::string>(text);
+  return result.str();
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -47,7 +40,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// What is wrong with a dotted key; empty where nothing is.
+/// What is wrong with a dotted key; empty if nothing is.
 std::string fault_of_key(std::string_view key) {
   if (key.empty()) return "the key before '=' is missing";
   for (std::size_t begin = 0; begin <= key.size();) {
@@ -63,7 +56,7 @@ std::string fault_of_key(std::string_view key) {
   return {};
 }
 
-/// Moves all of over into base; nodes keep the places where they were written.
+/// Moves all of over into base; nodes keep the locations where they were written.
 void merge(toml::table& base, toml::table&& over, const std::string& prefix, const Location& where,
            std::vector<Problem>& problems) {
   for (auto&& [key, node] : over) {
@@ -76,10 +69,10 @@ void merge(toml::table& base, toml::table&& over, const std::string& prefix, con
       problems.push_back(
           {where, fmt::format("{}: is an array; --set can replace it, or reach into it with an index", path)});
     } else {
-      // An insertion that replaces keeps the old key with its place in the file, so the old entry goes first.
+      // An insertion that replaces keeps the old key with its location, so the old entry goes first.
       base.erase(key.str());
       std::move(node).visit(
-          [&, &place = key](auto&& value) { base.insert_or_assign(place, std::forward<decltype(value)>(value)); });
+          [&, &name = key](auto&& value) { base.insert_or_assign(name, std::forward<decltype(value)>(value)); });
     }
   }
 }
@@ -88,7 +81,7 @@ void merge(toml::table& base, toml::table&& over, const std::string& prefix, con
 struct Target {
   toml::table* table;
   std::string_view rest;
-  std::string fault;  // empty where there is such a table
+  std::string fault;  // empty if there is such a table
 };
 
 Target follow_indices(toml::table& root, std::string_view key) {
@@ -197,7 +190,7 @@ void apply_override(toml::table& table, const std::string& text, std::vector<Pro
   std::optional<toml::table> over;
   if (value.find_first_of("\n\r") == std::string::npos)
     over = parse_toml(fmt::format("{} = {}", key, value), name, not_toml);
-  if (!over) over = parse_toml(fmt::format("{} = {}", key, basic_string(value)), name, problems);
+  if (!over) over = parse_toml(fmt::format("{} = {}", key, quoted(value)), name, problems);
   if (over) merge(*target.table, std::move(*over), "", where, problems);
 }
 

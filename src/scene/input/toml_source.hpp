@@ -14,10 +14,10 @@
 
 namespace stillpoint {
 
-/// Where a node or key was written: a place in the file, or the override that wrote it.
+/// Where a node or key was written: a location in the file, or the override that wrote it.
 Location location_of(const toml::source_region& region);
 
-/// The text of a file. Empty, with a problem, where there is none to be had.
+/// The text of a file. Empty, with a problem, if there is none to be had.
 std::optional<std::string> read_file(const std::filesystem::path& file, std::vector<Problem>& problems);
 
 /// Parses text, whose locations are called name. Empty, with a problem, on a syntax error.
@@ -26,7 +26,7 @@ std::optional<toml::table> parse_toml(std::string_view text, const std::string& 
 /// Lays "dotted.key=value" over a table, making the tables on the way.
 void apply_override(toml::table& table, const std::string& text, std::vector<Problem>& problems);
 
-/// Every key of a table, dotted ("support[0].at"), with the place of its value.
+/// Every key of a table, dotted ("support[0].at"), with the location of its value.
 std::map<std::string, Location> locations_of(const toml::table& table);
 
 }  // namespace stillpoint

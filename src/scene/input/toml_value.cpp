@@ -106,8 +106,10 @@ std::optional<double> read_number(const Value& value, const Range& range) {
   std::optional<double> number;
   if (const auto* text = value.node.as_string()) {
     if (const auto formula = compile(*text, value, "")) number = (*formula)({}, 0);
-  } else if (value.node.is_number()) {
-    number = value.node.value<double>();
+  } else if (const auto* integer = value.node.as_integer()) {
+    number = static_cast<double>(integer->get());
+  } else if (const auto* real = value.node.as_floating_point()) {
+    number = real->get();
   } else {
     value.problem(fmt::format("expected a number or a formula, found {}", kind_of(value.node)));
   }

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
-#include "base/text.hpp"
 #include "scene/input/keys.hpp"
 #include "scene/input/scene_check.hpp"
 
@@ -145,16 +143,6 @@ void check_exact(SceneCheck& check) {
   }
 }
 
-void check_variant_names(SceneCheck& check) {
-  std::set<std::string> names;
-  const auto& variants = check.scene().variants;
-  for (std::size_t k = 0; k < variants.size(); ++k) {
-    const std::string& name = variants[k].name;
-    if (!name.empty() && !names.insert(name).second)
-      check.add(fmt::format("variant[{}].name", k), fmt::format("there is a variant {} already", in_quotes(name)));
-  }
-}
-
 }  // namespace
 
 bool check_grid(SceneCheck& check) {
@@ -212,7 +200,7 @@ void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
     check_strategy(check);
   }
   check_stop(check);
-  check_variant_names(check);
+  check.unique_names("variant", scene.variants);
 }
 
 }  // namespace stillpoint

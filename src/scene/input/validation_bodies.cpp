@@ -107,26 +107,26 @@ bool check_file(SceneCheck& check, std::size_t k, bool grid) {
   return true;
 }
 
-/// The number of points of bodies in order, about; a body that is not counts as one that fills the grid.
+/// The cells that a body spans along an axis; the whole grid if the body is not in order.
+double cells_along(SceneCheck& check, const BodySpec& body, std::size_t axis, bool in_order) {
+  return in_order ? (body.max[axis] - body.min[axis]) / check.cell_length(axis) : check.scene().grid.cells[axis];
+}
+
+/// Checks the number of points, about.
 void check_number_of_points(SceneCheck& check, const std::vector<bool>& in_order) {
   const Scene& scene = check.scene();
-  if (scene.grid.cells.empty()) return;
   constexpr double most = 5e7;  // about 10 GB of material points
   double all = 0;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+  for (std::size_t k = 0; k < scene.bodies.size() && !scene.grid.cells.empty(); ++k) {
     const BodySpec& body = scene.bodies[k];
     if (!body.file.empty()) continue;
     double points = 1;
-    for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis) {
-      const double share =
-          in_order[k] ? (body.max[axis] - body.min[axis]) / (scene.grid.max[axis] - scene.grid.min[axis]) : 1;
-      points *= share * scene.grid.cells[axis] * body.points_per_cell[axis];
-    }
+    for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis)
+      points *= cells_along(check, body, axis, in_order[k]) * body.points_per_cell[axis];
     all += points;
-    if (all <= most) continue;
-    check.add(check.body_key(k, "points_per_cell"),
-              fmt::format("{:.3g} material points are more than this program takes ({:g})", all, most));
-    return;
+    if (all > most)
+      return check.add(check.body_key(k, "points_per_cell"),
+                       fmt::format("{:.3g} material points are more than this program takes ({:g})", all, most));
   }
 }
 
@@ -216,17 +216,16 @@ std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
 
 long known_points(SceneCheck& check) {
   const Scene& scene = check.scene();
-  if (scene.grid.cells.empty()) return 0;
   long all = 0;
   for (const BodySpec& body : scene.bodies) {
     if (!body.polygon.empty() || !body.file.empty()) return 0;
-    long points = 1;
+    long points = scene.grid.cells.empty() ? 0 : 1;
     for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis) {
-      const double h = check.cell_length(axis);
-      const double first = (body.min[axis] - scene.grid.min[axis]) / h;
-      const double last = (body.max[axis] - scene.grid.min[axis]) / h;
-      if (std::abs(first - std::round(first)) > kSliver || std::abs(last - std::round(last)) > kSliver) return 0;
-      points *= std::lround(std::round(last) - std::round(first)) * body.points_per_cell[axis];
+      const double before = (body.min[axis] - scene.grid.min[axis]) / check.cell_length(axis);
+      const double cells = cells_along(check, body, axis, /*in_order=*/true);
+      const auto is_whole = [](double number) { return std::abs(number - std::round(number)) <= kSliver; };
+      if (!is_whole(before) || !is_whole(before + cells)) return 0;
+      points *= std::lround(cells) * body.points_per_cell[axis];
     }
     all += points;
   }

@@ -33,8 +33,8 @@ void check_supports(SceneCheck& check, bool grid) {
     SupportSpec& support = scene.supports[k];
     const std::string name = fmt::format("support[{}]", k);
     const bool at = check.written(name + ".at"), face = check.written(name + ".face");
-    if (at && face) check.add(name + ".face", "give either at or face, not both");
-    if (!at && !face) check.add(name, "give at, a position, or face, a side of the grid");
+    check.one_of(name, "at", "face", "give either at or face, not both",
+                 "give at, a position, or face, a side of the grid");
     if (!face) check.refuse(name, {"kind"}, "goes with a face; at a position, component says what is held");
     if (!at) check.refuse(name, {"component"}, "goes with a position; on a face, u is the motion along its normal");
     if (!grid || support.at.empty()) continue;
@@ -49,15 +49,11 @@ void check_walls(SceneCheck& check) {
   const Scene& scene = check.scene();
   if (!scene.walls.empty() && scene.mass.kind != MassKind::lumped)
     check.add("wall[0]", "a wall stops node by node, which needs mass.kind = \"lumped\"");
-  std::set<std::string> names;
-  for (std::size_t k = 0; k < scene.walls.size(); ++k) {
-    const std::string& name = scene.walls[k].name;
-    if (scene.dim == 1 && scene.walls[k].friction > 0)
-      check.add(fmt::format("wall[{}].friction", k), "there is none in one dimension");
-    if (name.empty()) return;  // has been said, and may be the one that the grid follows
-    if (!names.insert(name).second)
-      check.add(fmt::format("wall[{}].name", k), fmt::format("there is a wall {} already", in_quotes(name)));
-  }
+  for (std::size_t k = 0; k < scene.walls.size() && scene.dim == 1; ++k)
+    if (scene.walls[k].friction > 0) check.add(fmt::format("wall[{}].friction", k), "there is none in one dimension");
+  const std::set<std::string> names = check.unique_names("wall", scene.walls);
+  // A wall without a name has been reported, and may be the one that the grid follows.
+  if (std::ranges::find(scene.walls, "", &WallSpec::name) != scene.walls.end()) return;
   const std::string& follow = scene.grid.follow;
   if (follow.empty() || names.contains(follow)) return;
   check.add("grid.follow", names.empty()
@@ -67,15 +63,10 @@ void check_walls(SceneCheck& check) {
 
 void check_tractions(SceneCheck& check) {
   const Scene& scene = check.scene();
-  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
-    const std::string name = fmt::format("traction[{}]", k);
-    const bool value = check.written(name + ".value"), pressure = check.written(name + ".pressure");
-    if (value && pressure)
-      check.add(name + ".pressure",
-                "give either value, which keeps its direction, or pressure, which follows the face");
-    if (!value && !pressure)
-      check.add(name, "give value, which keeps its direction, or pressure, which follows the face");
-  }
+  for (std::size_t k = 0; k < scene.tractions.size(); ++k)
+    check.one_of(fmt::format("traction[{}]", k), "value", "pressure",
+                 "give either value, which keeps its direction, or pressure, which follows the face",
+                 "give value, which keeps its direction, or pressure, which follows the face");
   if (scene.bodies.empty()) return;
   const bool box = scene.bodies.size() == 1 && scene.bodies[0].polygon.empty() && scene.bodies[0].file.empty();
   for (std::size_t k = 0; k < scene.tractions.size() && !box; ++k)

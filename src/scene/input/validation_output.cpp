@@ -42,9 +42,8 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
     return check.refuse(key, {"point", "at", "fields"},
                         "goes with a point only; the angle of a slope has nothing but a name");
   }
-  const bool point = check.written(key + ".point"), at = check.written(key + ".at");
-  if (point && at) check.add(key + ".at", "give either point or at, not both");
-  if (!point && !at) check.add(key, "give point, the number of a material point, or at, a position");
+  check.one_of(key, "point", "at", "give either point or at, not both",
+               "give point, the number of a material point, or at, a position");
   if (!check.written(key + ".fields")) {
     check.add(key, "the key 'fields' is missing");
   } else if (probe.fields.empty() && check.sound(key + ".fields")) {
@@ -55,7 +54,7 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
 
 void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
   Scene& scene = check.scene();
-  std::set<std::string> names;
+  const std::set<std::string> names = check.unique_names("probe", scene.probes);
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
     ProbeSpec& probe = scene.probes[k];
     const std::string key = fmt::format("probe[{}]", k);
@@ -67,8 +66,6 @@ void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
                   fmt::format("there are {} material points, so {} is too large", points, *probe.point));
     }
     check_name(check, probe.name, key + ".name");
-    if (!probe.name.empty() && !names.insert(probe.name).second)
-      check.add(key + ".name", fmt::format("there is a probe {} already", in_quotes(probe.name)));
     check_kind(check, probe, key);
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {

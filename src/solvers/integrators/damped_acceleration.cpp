@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <Eigen/SparseCore>
+
 #include "base/parallel_loop.hpp"
 #include "solvers/spectrum/two_by_two.hpp"
 

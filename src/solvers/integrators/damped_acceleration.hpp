@@ -14,6 +14,8 @@
 #include <optional>
 #include <vector>
 
+#include "linalg/sparse_cholesky.hpp"
+
 namespace stillpoint {
 
 /// g(z) above.

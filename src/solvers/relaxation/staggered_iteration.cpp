@@ -75,7 +75,7 @@ void StaggeredIteration::stop() {
 void StaggeredIteration::set_rate(double c) {
   system().set_damping_rate(c);
   // What holds a contact, and what a moving support does through a consistent mass, depend on c.
-  if (!system().system().has_contact() && system().system().mass().is_lumped()) return;
+  if (!system().system().contact() && system().system().mass().is_lumped()) return;
   system().last_out_of_balance(t_, Q_.span());
   system().system().mass().solve(Q_.span(), a_.span());
 }

@@ -27,7 +27,7 @@ struct NearestEigenvalue {
   std::string status;
 };
 
-// λ = xᵀKx/xᵀMx where n = 1: Lanczos needs at least two dimensions.
+// λ = xᵀKx/xᵀMx if n = 1: Lanczos needs at least two dimensions.
 NearestEigenvalue single_eigenvalue(const LinearMap& solve, const Mass& mass, double sigma) {
   const std::array<double, 1> m = {mass.diagonal()[0]};
   std::array<double, 1> theta{};
@@ -43,7 +43,7 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
   static std::mutex arpack_state;
   const std::lock_guard lock(arpack_state);
 
-  const std::size_t n = mass.size();  // Lanczos vectors: twenty, where the system and max_iterations have room for them
+  const std::size_t n = mass.size();  // Lanczos vectors: twenty, if the system and max_iterations have room for them
   const std::size_t vectors = std::min(n, static_cast<std::size_t>(std::clamp(options.max_iterations, 2, 20)));
   const auto size = static_cast<a_int>(n), ncv = static_cast<a_int>(vectors);
   constexpr a_int nev = 1;
@@ -93,7 +93,7 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
 
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
   const Stopwatch watch;
-  const FactorisedStiffness K(system.mass(), system.elastic_tangent_matrix(t, u));
+  const FactorisedStiffness K(system.mass(), system.tangents().matrix(Tangent::elastic, t, u));
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
   const LinearMap solve = [&](ConstVec b, Vec x) { K.solve(b, x); };
   const auto [lambda, applications, converged, status] = nearest_eigenvalue(solve, system.mass(), 0, options);
@@ -112,7 +112,7 @@ FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, Cons
   if (bound.omega == 0) return {0, 0, watch.seconds(), true, "K = 0"};
   // Above the spectrum σM − K is positive definite, so that CHOLMOD serves: (K − σM)⁻¹ = −(σM − K)⁻¹.
   const double sigma = (1 + 1e-6) * bound.omega * bound.omega;
-  const SparseCholesky factor(SparseMatrix(sigma * system.mass().matrix() - system.elastic_tangent_matrix(t, u)));
+  const SparseCholesky factor(SparseMatrix(sigma * system.mass().matrix() - system.tangents().matrix(Tangent::elastic, t, u)));
   if (!factor.positive_definite()) return {0, 0, watch.seconds(), false, "σM − K is not positive definite"};
   const LinearMap solve = [&](ConstVec b, Vec x) {
     factor.solve(b, x);

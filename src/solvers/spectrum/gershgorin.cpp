@@ -12,10 +12,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
 #include "linalg/power_iteration.hpp"
+#include "linalg/sparse_cholesky.hpp"
 
 namespace stillpoint {
 namespace {
@@ -37,7 +39,7 @@ std::vector<double> scaled_row_sums(const SparseMatrix& A, ConstVec D) {
   return sums;
 }
 
-// max, or NaN where one is NaN.
+// max, or NaN if one is NaN.
 double largest(const std::vector<double>& values) {
   double result = 0;
   for (double value : values) result = value <= result ? result : value;
@@ -76,7 +78,7 @@ LowerBound lower_bound_of_scaled_mass(const Mass& mass) {
 FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, double t, ConstVec u) {
   const Stopwatch watch;
   const Mass& mass = system.mass();
-  const double G = largest(scaled_row_sums(system.elastic_tangent_matrix(t, u), mass.diagonal()));
+  const double G = largest(scaled_row_sums(system.tangents().matrix(Tangent::elastic, t, u), mass.diagonal()));
   if (!std::isfinite(G)) return {0, 0, watch.seconds(), false, "K is not finite"};
   if (mass.is_lumped()) return {std::sqrt(G), 0, watch.seconds(), true, "ω² ≤ max Σ |K_ij|/√(M_ii M_jj)"};
   const auto [s, factorisations] = lower_bound_of_scaled_mass(mass);

@@ -8,7 +8,7 @@
 //
 //   ω_max² ≈ θ + β_m |s_m|
 //
-// is above it, or below by a part of a per cent where the spectrum is crowded at its end [Zhou and Li, "Bounding the
+// is above it, or below by a part of a per cent if the spectrum is crowded at its end [Zhou and Li, "Bounding the
 // spectrum of large Hermitian matrices", Linear Algebra Appl. 435 (2011)]. Twelve applications of K do what power
 // iteration needs hundreds for, as they keep the polynomial that it throws away.
 #include <stillpoint/spectrum.hpp>
@@ -47,7 +47,7 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
   double last_beta = 0, bound = 0;
   constexpr double rounding = 1e-12;
   for (int j = 0; j < applications; ++j) {
-    system.elastic_tangent(t, u, q, Kq);
+    system.tangents().apply(Tangent::elastic, t, u, q, Kq);
     alpha.push_back(dot(q, Kq));
     mass.solve(Kq, z);
     for_each_index(n, [=, z = z.data(), q = q.data(), last_q = last_q.data(), a = alpha.back()](std::size_t i) {

@@ -35,7 +35,7 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
                                                const SpectrumOptions& options) {
   require_valid(options);
   const Stopwatch watch;
-  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { system.elastic_tangent(t, u, x, Kx); };
+  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { system.tangents().apply(Tangent::elastic, t, u, x, Kx); };
   const LinearMap solve_M = [&](ConstVec b, Vec x) { system.mass().solve(b, x); };
   const PowerIterationResult result =
       power_iteration(system.size(), apply_K, solve_M, options.tolerance, options.max_iterations);
@@ -77,11 +77,11 @@ FrequencyEstimate lowest_frequency(const SemiDiscrete& system, const SparseMatri
 
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
                                                const SpectrumOptions& options) {
-  return lowest_frequency(system, system.elastic_tangent_matrix(t, u), options);
+  return lowest_frequency(system, system.tangents().matrix(Tangent::elastic, t, u), options);
 }
 
 FrequencyEstimate omega_1_of_tangent(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
-  const SparseMatrix K = system.tangent_matrix(t, u), K_transposed = K.transpose();
+  const SparseMatrix K = system.tangents().matrix(Tangent::consistent, t, u), K_transposed = K.transpose();
   return lowest_frequency(system, 0.5 * (K + K_transposed), options);
 }
 

@@ -24,7 +24,7 @@ double spectral_radius(double omega, double rate) {
   return half <= omega ? omega : half + std::sqrt((half - omega) * (half + omega));
 }
 
-// The largest h ≤ h_max such that every step of the scan up to h is stable; h_max where none fails.
+// The largest h ≤ h_max such that every step of the scan up to h is stable; h_max if none fails.
 double largest_stable_step(const AmplificationRadius& amplification, double omega, double rate, double h_max) {
   const auto stable = [&](double h) { return amplification(h, omega, rate) <= 1 + growth; };  // false for NaN
   double good = 0, bad = std::min(h_max, r_first / spectral_radius(omega, rate));
@@ -42,7 +42,7 @@ double largest_stable_step(const AmplificationRadius& amplification, double omeg
 }
 
 // a = x_0 < … < x_m = b in geometric progression, each x_k/x_{k−1} ≤ ratio and at least `fewest` of them; a ≥ 0, and
-// from b·1e-4 where a = 0 (which is kept). One value where a = b.
+// from b·1e-4 if a = 0 (which is kept). One value if a = b.
 std::vector<double> geometric_grid(double a, double b, double ratio, int fewest) {
   if (!(a < b)) return {b};
   std::vector<double> grid;
@@ -54,7 +54,7 @@ std::vector<double> geometric_grid(double a, double b, double ratio, int fewest)
   return grid;
 }
 
-// Extreme eigenvalues of M [kg]: the diagonal where lumped. Where consistent, by power iteration on M from below and on
+// Extreme eigenvalues of M [kg]: the diagonal if lumped. If consistent, by power iteration on M from below and on
 // M⁻¹ from above until the estimated error is 0.1 %, and 1 % beyond for what the estimate may miss.
 std::pair<double, double> extreme_masses(const Mass& mass) {
   if (mass.size() == 0) return {1, 1};

@@ -5,9 +5,13 @@
 
 #include <string>
 
+#include <Eigen/SparseCore>
+
+#include "linalg/sparse_cholesky.hpp"
+
 namespace stillpoint {
 
-/// A symmetric K, assembled and factorised. Throws std::runtime_error where CHOLMOD itself fails.
+/// A symmetric K, assembled and factorised. Throws std::runtime_error if CHOLMOD itself fails.
 class FactorisedStiffness {
  public:
   FactorisedStiffness(const Mass& mass, const SparseMatrix& K);
@@ -16,8 +20,8 @@ class FactorisedStiffness {
   bool usable() const { return mass_.size() > 0 && factor_.positive_definite(); }
   /// x = K⁻¹ b; b, x: (n). Needs usable().
   void solve(ConstVec b, Vec x) const { factor_.solve(b, x); }
-  /// Why K gives no ω₁: no degrees of freedom, not finite, indefinite, or singular. Empty where it gives one.
-  /// omega_squared: the ω₁² that was found, 0 where K has no factor.
+  /// Why K gives no ω₁: no degrees of freedom, not finite, indefinite, or singular. Empty if it gives one.
+  /// omega_squared: the ω₁² that was found, 0 if K has no factor.
   std::string refusal(double omega_squared) const;
 
  private:

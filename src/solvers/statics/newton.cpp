@@ -4,7 +4,9 @@
 
 #include "base/stopwatch.hpp"
 #include "linalg/conjugate_gradients.hpp"
+#include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_lu.hpp"
+#include "solvers/statics/subtract_product.hpp"
 #include "system/static_balance.hpp"
 
 namespace stillpoint {
@@ -17,7 +19,7 @@ bool symmetric(const SparseMatrix& K, double tolerance) {
 class Newton {
  public:
   Newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options)
-      : system_(system), t_(t), u_(u), options_(options), balance_(system, t), trial_(u.size()), du_(u.size()) {}
+      : system_(system), t_(t), u_(u), options_(options), balance_(system, t, VectorSpace()), trial_(u.size()), du_(u.size()) {}
 
   StaticReport solve() {
     if (!balance_.start(u_)) {
@@ -35,7 +37,7 @@ class Newton {
       if (load_step(step, u)) {
         std::ranges::copy(u, u_.begin());
         report_.load_factor = step.to;
-        if (system_.history_dependent()) system_.commit(t_, u_);
+        if (system_.history_dependent()) system_.commit(balance_.trial());
         constexpr std::size_t easy = 9;
         if (step.residuals.size() <= easy) size = std::min(2 * size, options_.max_load_step);
       } else {
@@ -121,15 +123,15 @@ class Newton {
   // K du = Q, Q as last evaluated, at u. False where K cannot be solved with.
   bool consistent_direction(double s, ConstVec u) {
     indefinite_ = false;
-    const SparseMatrix following = system_.following_tangent_matrix(t_, u);
+    const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
     if (options_.solver == LinearSolver::conjugate_gradients) {
       return by_conjugate_gradients([&](ConstVec x, Vec Kx) {
-        system_.tangent(t_, u, x, Kx);
-        subtract_product(s, following, x, Kx);
+        system_.tangents().apply(Tangent::consistent, t_, u, x, Kx);
+        subtract_product(s, of_loads, x, Kx);
       });
     }
-    SparseMatrix K = system_.tangent_matrix(t_, u);
-    if (following.nonZeros() > 0) K -= s * following;
+    SparseMatrix K = system_.tangents().matrix(Tangent::consistent, t_, u);
+    if (of_loads.nonZeros() > 0) K -= s * of_loads;
     if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
     if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
       if (by_cholesky(K)) return true;
@@ -139,29 +141,30 @@ class Newton {
   }
   bool elastic_direction(ConstVec u) {
     if (options_.solver == LinearSolver::conjugate_gradients)
-      return by_conjugate_gradients([&](ConstVec x, Vec Kx) { system_.elastic_tangent(t_, u, x, Kx); });
-    return by_cholesky(system_.elastic_tangent_matrix(t_, u));
+      return by_conjugate_gradients(
+          [&](ConstVec x, Vec Kx) { system_.tangents().apply(Tangent::elastic, t_, u, x, Kx); });
+    return by_cholesky(system_.tangents().matrix(Tangent::elastic, t_, u));
   }
 
   bool by_cholesky(const SparseMatrix& K) {
     const SparseCholesky factor(K);
     ++report_.cholesky_factorisations;
     report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
-    if (factor.positive_definite()) factor.solve(balance_.Q, du_);
+    if (factor.positive_definite()) factor.solve(balance_.Q.span(), du_);
     return factor.positive_definite();
   }
   bool by_lu(const SparseMatrix& K) {
     const SparseLu factor(K);
     ++report_.lu_factorisations;
     report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
-    if (factor.regular()) factor.solve(balance_.Q, du_);
+    if (factor.regular()) factor.solve(balance_.Q.span(), du_);
     return factor.regular();
   }
   bool by_conjugate_gradients(const LinearMap& K) {
     const std::size_t n = du_.size();
     const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
     const double forcing = std::min(0.1, balance_.residual());
-    const auto result = stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q, du_, forcing, most);
+    const auto result = stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q.span(), du_, forcing, most);
     report_.tangent_products += result.iterations;
     return result.converged;
   }
@@ -179,7 +182,7 @@ class Newton {
   double t_;
   Vec u_;
   const NewtonOptions& options_;
-  OutOfBalance balance_;
+  StaticBalance balance_;
   std::vector<double> trial_, du_;
   static constexpr int most_short_steps = 3;
   static constexpr double short_step = 0.3;

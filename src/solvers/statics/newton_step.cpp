@@ -12,7 +12,7 @@ namespace {
 class NewtonStep final : public Integrator {
  public:
   NewtonStep(const NewtonOptions& options, RelaxationSystem& system) : options_(options), system_(system) {
-    if (system.system().has_contact()) {
+    if (system.system().contact()) {
       throw std::invalid_argument(
           "in a static solution nothing that touches the body can open or close: take relaxation");
     }

@@ -15,7 +15,7 @@ StaticIteration::StaticIteration(double max_step, RelaxationSystem& system, Line
       z_(system.vectors().make(system.size())),
       next_Q_(system.vectors().make(system.size())),
       p_(system.vectors().make(system.size())) {
-  if (system.system().has_contact()) {
+  if (system.system().contact()) {
     throw std::invalid_argument(
         "in a static solution nothing that touches the body can open or close: take relaxation");
   }

@@ -12,11 +12,11 @@ class PrescribedMotion {
   /// time_scale [s]: about 1/omega_max of the body. A motion that the grid resolves varies over much longer times, and
   /// a kink is spread over about a critical step, so that its impulse is right.
   PrescribedMotion(Expression motion, double time_scale)
-      : motion_(std::move(motion)), moves_(motion_.uses('t')), h_(time_scale / 4) {}
+      : motion_(std::move(motion)), moves_(motion_.uses('t')), fixed_(moves_ ? 0 : motion_({}, 0)), h_(time_scale / 4) {}
 
   bool moves() const { return moves_; }
-  double displacement(double t) const { return motion_({}, t); }
-  /// By central differences of fourth order, off by (h ω)⁴/30 for a motion of frequency ω. Where the formula has no
+  double displacement(double t) const { return moves_ ? motion_({}, t) : fixed_; }
+  /// By central differences of fourth order, off by (h ω)⁴/30 for a motion of frequency ω. If the formula has no
   /// value before t (a root, say), they are taken a little later.
   double velocity(double t) const;
   /// Likewise, off by (h ω)⁴/90.
@@ -29,7 +29,8 @@ class PrescribedMotion {
  private:
   Expression motion_;
   bool moves_;
-  double h_;  // [s]
+  double fixed_;  // the displacement if it does not move [m]
+  double h_;      // [s]
 };
 
 }  // namespace stillpoint

@@ -8,7 +8,8 @@ namespace stillpoint {
 WallContact::WallContact(std::string name, bool upper, double friction, PrescribedMotion motion)
     : name_(std::move(name)), outward_(upper ? 1 : -1), friction_(friction), motion_(std::move(motion)) {}
 
-void WallContact::begin_phase(double t, std::vector<Node> nodes, Vec v) {
+void WallContact::begin_phase(double t, ConstVec mass, std::vector<Node> nodes, Vec v) {
+  mass_ = mass;
   nodes_ = std::move(nodes);
   closed_.resize(nodes_.size(), 0);
   tangential_.resize(nodes_.size(), Tangential::stick);
@@ -53,10 +54,10 @@ bool WallContact::close(std::size_t k, double velocity, Vec v) {
   return changed;
 }
 
-void WallContact::add_force(double t, const LinearDamping& C, const Mass& mass, Vec Q) const {
+void WallContact::add_force(double t, const LinearDamping& C, Vec Q) const {
   const double w = step_ > 0 ? motion_.velocity_over(t, step_) : motion_.velocity(t);
   const double a = step_ > 0 ? motion_.acceleration_over(t, step_) : motion_.acceleration(t);
-  const ConstVec m = mass.diagonal();
+  const ConstVec m = mass_;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     normal_force_[k] = shear_force_[k] = 0;
     if (!closed_[k]) continue;
@@ -110,7 +111,7 @@ bool WallContact::update(double t, ConstVec u, Vec v) {
     if (nodes_[k].tangential < 0 || std::isinf(friction_) || friction_ == 0) continue;
     double& v_t = v[static_cast<std::size_t>(nodes_[k].tangential)];
     if (tangential_[k] == Tangential::stick) {
-      // F_t = −Q_t holds it; what exceeds the limit makes it slip the way Q_t pulls.
+      // F_t = −Q_t holds it; what exceeds the limit makes it slip the way of Q_t.
       if (std::abs(shear_force_[k]) > friction_ * std::abs(normal_force_[k])) {
         tangential_[k] = shear_force_[k] < 0 ? Tangential::slip_up : Tangential::slip_down;
       }
@@ -123,19 +124,17 @@ bool WallContact::update(double t, ConstVec u, Vec v) {
   return changed;
 }
 
-WallForce WallContact::force() const {
-  WallForce sum;
+// On the wall: minus the forces on the body. Power on the body: Σ F_n w.
+WallReaction WallContact::reaction(double t) const {
+  WallReaction sum{.name = name_, .displacement = motion_.displacement(t)};
+  double force = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     sum.normal -= outward_ * normal_force_[k];
     sum.shear -= shear_force_[k];
+    force += normal_force_[k];
   }
+  sum.power = force * motion_.velocity(t);
   return sum;
-}
-
-double WallContact::power(double t) const {
-  double sum = 0;
-  for (const double force : normal_force_) sum += force;
-  return sum * motion_.velocity(t);
 }
 
 double WallContact::square_of_forces() const {

@@ -1,10 +1,10 @@
-// Rigid walls along faces of the grid: they push and never pull, with Coulomb friction.
+// Rigid walls along faces of the grid: they take no tension, with Coulomb friction.
 //
 // A wall acts at the grid functions that alone are not zero on its face. Each of its nodes is open or closed, and when
 // closed sticks or slips. The set changes only between accepted steps, so that within a step the motion stays a smooth
 // ODE; the forces follow from it. With the out-of-balance force Q, the wall's velocity w, and s = ±1 outwards:
 //
-//   closed   a_n = w',  contact force  F_n = m (w' + c w) − Q_n          opens when s F_n > 0, a pull
+//   closed   a_n = w',  contact force  F_n = m (w' + c w) − Q_n          opens if s F_n > 0, tension
 //   open     F_n = 0                                                     closes when it touches: s (u_n − u_w) ≥ 0 and
 //                                                                        s (v_n − w) > 0; then v_n = w
 //   stick    a_t = 0,   F_t = −Q_t                                       slips when |F_t| > μ |F_n|
@@ -15,20 +15,15 @@
 #pragma once
 
 #include <stillpoint/damping.hpp>
-#include <stillpoint/mass.hpp>
 #include <stillpoint/types.hpp>
 
 #include <string>
 #include <vector>
 
 #include "space/boundary/prescribed_motion.hpp"
+#include "space/boundary/wall_reaction.hpp"
 
 namespace stillpoint {
-
-/// Forces of the body on a wall: along its outward normal and along the face's coordinate [N].
-struct WallForce {
-  double normal = 0, shear = 0;
-};
 
 class WallContact {
  public:
@@ -36,29 +31,24 @@ class WallContact {
   WallContact(std::string name, bool upper, double friction, PrescribedMotion motion);
 
   /// A phase begins at t: the nodes in order along the face, by the free degrees of freedom of their components, −1
-  /// where it is not free. What was closed and sticking stays so.
+  /// if it is not free. What was closed and sticking stays so.
   struct Node {
     int normal = -1, tangential = -1;
   };
-  void begin_phase(double t, std::vector<Node> nodes, Vec v);
+  /// mass: diagonal of the lumped M, which outlives the phase, (n).
+  void begin_phase(double t, ConstVec mass, std::vector<Node> nodes, Vec v);
 
   /// Q += contact forces, for C = c_m M + c_i I; Q: (n). A pure function of what is closed.
-  void add_force(double t, const LinearDamping& C, const Mass& mass, Vec Q) const;
+  void add_force(double t, const LinearDamping& C, Vec Q) const;
   /// Q of the closed nodes' normals as the last add_force() left it.
   void hold(Vec Q) const;
   /// Opens and closes nodes after an accepted step at t. Q: the last one given to add_force, without contact. True
-  /// where an entry of v was changed.
+  /// if an entry of v was changed.
   bool update(double t, ConstVec u, Vec v);
-  /// At the last add_force().
-  WallForce force() const;
-
-  /// What the wall does to the body, Σ F_n w, of the same [W].
-  double power(double t) const;
+  /// What the body does to it, of the last add_force(), and where it is at t.
+  WallReaction reaction(double t) const;
   /// Σ F² over the nodes, of the same.
   double square_of_forces() const;
-
-  const std::string& name() const { return name_; }
-  const PrescribedMotion& motion() const { return motion_; }
 
  private:
   enum class Tangential : signed char { slip_down = -1, stick = 0, slip_up = 1 };
@@ -69,6 +59,7 @@ class WallContact {
   std::string name_;
   double outward_, friction_;
   PrescribedMotion motion_;
+  ConstVec mass_;
   std::vector<Node> nodes_;
   std::vector<char> closed_;
   std::vector<Tangential> tangential_;

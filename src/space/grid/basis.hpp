@@ -96,7 +96,7 @@ template <AxisBasis B, int Dim>
 struct TensorBasis {
   static constexpr int per_cell = power(B::per_cell, Dim);
 
-  /// N[a] and dN[d][a] = ∂N_a/∂x_d at a place.
+  /// N[a] and dN[d][a] = ∂N_a/∂x_d at a point.
   struct Values {
     std::array<double, per_cell> N;
     std::array<std::array<double, per_cell>, Dim> dN;
@@ -144,7 +144,7 @@ struct TensorBasis {
   }
   /// The functions that are not zero on a face of the grid, ascending; face_values() leaves out slopes along the face.
   static std::vector<int> face_functions(const Grid<Dim>& grid, int axis, bool upper) {
-    // Across the face the one value there is: the last function, or the last but one where a slope follows it.
+    // Across the face the one value there is: the last function, or the last but one if a slope follows it.
     const int count = B::count(grid.axes[static_cast<std::size_t>(axis)]);
     const int across = !upper ? 0 : B::is_value(B::per_cell - 1) ? count - 1 : count - 2;
     int stride = 1;

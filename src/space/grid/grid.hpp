@@ -21,7 +21,7 @@ struct Axis {
   double max() const { return nodes.back(); }
   /// The cell that holds x: at a node the one above it, at the ends (and past them) the end cell.
   int cell_of(double x) const { return cell_of(x, cells() / (max() - min())); }
-  /// The same, sooner where the lines are evenly spaced, or nearly so: cells_per_length is a mean [1/m].
+  /// The same, sooner if the lines are evenly spaced, or nearly so: cells_per_length is a mean [1/m].
   int cell_of(double x, double cells_per_length) const {
     const double guess = (x - nodes.front()) * cells_per_length;
     if (guess >= 0 && guess < static_cast<double>(nodes.size() - 1)) {

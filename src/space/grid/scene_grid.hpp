@@ -10,7 +10,7 @@
 
 namespace stillpoint {
 
-/// The scene's grid where the followed wall has moved by `moved` [m]: its face lies at the wall, all other lines stay
+/// The scene's grid when the followed wall has moved by `moved` [m]: its face lies at the wall, all other lines stay
 /// where they were, and columns are added or taken away next to it so that the last one is 0.5 to 1.5 cells wide.
 template <int Dim>
 Grid<Dim> grid_at(const Scene& scene, double moved) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
-#include "linalg/sparse_cholesky.hpp"
+#include <Eigen/SparseCore>
+
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/kernels/point_weights.hpp"
 
@@ -12,8 +14,8 @@ namespace stillpoint {
 
 /// A matrix over all degrees of freedom, split at the free ones.
 struct SplitMatrix {
-  SparseMatrix free;        // (n × n)
-  SparseMatrix prescribed;  // (n × supports): how supports act on free degrees of freedom
+  Eigen::SparseMatrix<double> free;        // (n × n)
+  Eigen::SparseMatrix<double> prescribed;  // (n × supports): how supports act on free degrees of freedom
 };
 
 /// Row and column [Dim a + i]: local function a, component i.
@@ -21,44 +23,109 @@ template <int Dim, int PerCell>
 using CellMatrix =
     std::array<std::array<double, static_cast<std::size_t>(Dim* PerCell)>, static_cast<std::size_t>(Dim* PerCell)>;
 
-/// Σ_cells of add_point(cell k, point p, cell matrix) over the cell's points.
-template <AxisBasis B, Kinematics K, class AddPoint>
-SplitMatrix assemble_cells(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
-                           const DegreesOfFreedom& dofs, const AddPoint& add_point) {
-  constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
-  std::vector<Eigen::Triplet<double>> free, prescribed;
-  const int n = static_cast<int>(dofs.size());
-  for (std::size_t k = 0; k < points.cells(); ++k) {
-    CellMatrix<dim, per_cell> matrix{};
-    for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
-    std::array<int, static_cast<std::size_t>(dim * per_cell)> number;
-    for (int a = 0; a < per_cell; ++a) {
-      for (int i = 0; i < dim; ++i) {
-        number[dim * a + i] = dofs.number[static_cast<std::size_t>(dim * weights.function(k, a) + i)];
-      }
+/// A matrix between neighbouring functions of a tensor-product basis, in blocks of components. Two functions of a cell
+/// are less than B::per_cell apart along each axis: for each column function there is a block for every such distance,
+/// in ascending order of the row function.
+template <AxisBasis B, int Dim>
+class NeighbourMatrix {
+  static constexpr int reach = B::per_cell - 1, span = 2 * reach + 1;
+  static constexpr int neighbours = power(span, Dim), per_cell = power(B::per_cell, Dim);
+
+ public:
+  explicit NeighbourMatrix(const Grid<Dim>& grid) {
+    int stride = 1;
+    for (int d = 0; d < Dim; ++d) {
+      for (int k = 0; k < neighbours; ++k) offset_[k] += stride * (k / power(span, d) % span - reach);
+      stride *= B::count(grid.axes[d]);
     }
-    for (std::size_t r = 0; r < number.size(); ++r) {
-      if (!dofs.is_free(number[r])) continue;
-      for (std::size_t c = 0; c < number.size(); ++c) {
-        if (matrix[r][c] == 0 || number[c] < 0) continue;
-        if (dofs.is_free(number[c])) {
-          free.emplace_back(number[r], number[c], matrix[r][c]);
-        } else {
-          prescribed.emplace_back(number[r], number[c] - n, matrix[r][c]);
+    entry_.assign(static_cast<std::size_t>(stride) * neighbours * Dim * Dim, untouched);
+  }
+
+  /// function(a): global number of the cell's local function a. Entries of 0 leave no trace.
+  template <class Function>
+  void add(const CellMatrix<Dim, per_cell>& matrix, const Function& function) {
+    for (int b = 0; b < per_cell; ++b) {
+      double* column = entry_.data() + blocks_of(function(b));
+      for (int a = 0; a < per_cell; ++a) {
+        int neighbour = 0;
+        for (int d = Dim - 1; d >= 0; --d) neighbour = neighbour * span + along(a, d) - along(b, d) + reach;
+        for (int j = 0; j < Dim; ++j) {
+          for (int i = 0; i < Dim; ++i) {
+            const double value = matrix[Dim * a + i][Dim * b + j];
+            if (value != 0) column[(j * neighbours + neighbour) * Dim + i] += value;
+          }
         }
       }
     }
   }
-  SplitMatrix split{SparseMatrix(n, n), SparseMatrix(n, static_cast<Eigen::Index>(dofs.prescribed.size()))};
-  split.free.setFromTriplets(free.begin(), free.end());
-  split.prescribed.setFromTriplets(prescribed.begin(), prescribed.end());
-  return split;
-}  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
+
+  /// The columns of the given unknowns, the rows of the free ones.
+  Eigen::SparseMatrix<double> columns(const std::vector<int>& unknowns, const DegreesOfFreedom& dofs) const {
+    Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(dofs.size()),
+                                       static_cast<Eigen::Index>(unknowns.size()));
+    const auto count = [&](std::size_t c) {
+      int entries = 0;
+      visit(unknowns[c], dofs, [&](int, double) { ++entries; });
+      return entries;
+    };
+    int* begin = matrix.outerIndexPtr();
+    for (std::size_t c = 0; c < unknowns.size(); ++c) begin[c + 1] = begin[c] + count(c);
+    matrix.resizeNonZeros(begin[unknowns.size()]);
+    for (std::size_t c = 0; c < unknowns.size(); ++c) {
+      int next = begin[c];
+      visit(unknowns[c], dofs, [&](int row, double value) {
+        matrix.innerIndexPtr()[next] = row;
+        matrix.valuePtr()[next++] = value;
+      });
+    }
+    return matrix;
+  }
+
+ private:
+  // −0 + x = x for every x, and no sum of entries other than 0 is −0.
+  static constexpr double untouched = -0.0;
+
+  static constexpr int along(int a, int d) { return a / power(B::per_cell, d) % B::per_cell; }
+  static std::size_t blocks_of(int function) { return static_cast<std::size_t>(function) * neighbours * Dim * Dim; }
+
+  /// take(free row, value) of a column's entries, rows ascending.
+  template <class Take>
+  void visit(int unknown, const DegreesOfFreedom& dofs, const Take& take) const {
+    const int function = unknown / Dim;
+    const double* column = entry_.data() + blocks_of(function) + unknown % Dim * neighbours * Dim;
+    for (int k = 0; k < neighbours; ++k) {
+      for (int i = 0; i < Dim; ++i) {
+        const double value = column[k * Dim + i];
+        if (value == 0 && std::signbit(value)) continue;
+        const int row = dofs.number[static_cast<std::size_t>(Dim * (function + offset_[k]) + i)];
+        if (dofs.is_free(row)) take(row, value);
+      }
+    }
+  }
+
+  std::array<int, neighbours> offset_{};  // of a row function from the column's
+  std::vector<double> entry_;             // (functions × Dim × neighbours × Dim): column, component, row, component
+};
+
+/// Σ_cells of add_point(cell k, point p, cell matrix) over the cell's points.
+template <AxisBasis B, Kinematics K, class AddPoint>
+SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
+                           const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs,
+                           const AddPoint& add_point) {
+  constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
+  NeighbourMatrix<B, dim> sum(grid);
+  for (std::size_t k = 0; k < points.cells(); ++k) {
+    CellMatrix<dim, per_cell> matrix{};
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
+    sum.add(matrix, [&](int a) { return weights.function(k, a); });
+  }
+  return {sum.columns(dofs.free, dofs), sum.columns(dofs.prescribed, dofs)};
+}
 
 /// M_ij = Σ_p m_p N_ip N_jp for each component.
 template <AxisBasis B, Kinematics K>
-SplitMatrix consistent_mass(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
-                            const DegreesOfFreedom& dofs) {
+SplitMatrix consistent_mass(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
+                            const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<dim, per_cell>& matrix) {
     const auto N = weights.N(k, p);
@@ -69,7 +136,7 @@ SplitMatrix consistent_mass(const MaterialPoints<dimensions(K)>& points, const P
       }
     }
   };
-  return assemble_cells<B, K>(points, weights, dofs, add_point);
+  return assemble_cells<B, K>(grid, points, weights, dofs, add_point);
 }
 
 }  // namespace stillpoint

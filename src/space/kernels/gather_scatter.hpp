@@ -21,7 +21,7 @@ struct GatherScatter {
   static constexpr int per_cell = Weights::per_cell;
   static constexpr int rows = Weights::rows;
 
-  /// H_p = Σ_a u_a ⊗ ∇N_ap, and where Increments dH of u − u_before, for the points begin … end − 1 of occupied cell k;
+  /// H_p = Σ_a u_a ⊗ ∇N_ap, and if Increments dH of u − u_before, for the points begin … end − 1 of occupied cell k;
   /// rows begin with point number `first`. u, u_before: over the grid's functions, component i at [dim function + i].
   template <bool Increments>
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,

@@ -1,4 +1,4 @@
-// Gather and scatter in bilinear cells, without weights. With the place (ξ, η) of a point in its cell and the corners'
+// Gather and scatter in bilinear cells, without weights. With the position (ξ, η) of a point in its cell and the corners'
 // displacements u_00, u_10, u_01, u_11,
 //
 //   ∂u/∂x = [(u_10 − u_00) + η (u_11 − u_01 − u_10 + u_00)]/h_x = a + b η,    ∂u/∂y = c + d ξ   likewise,

@@ -44,20 +44,17 @@ class NodalForce {
     divide_into_blocks();
   }
 
-  void set_prescribed(std::size_t count) { reactions_.assign(count, 0); }
-
   const CornerSum& corner_sum() const { return corner_sum_; }
-  /// At the prescribed degrees of freedom, of the last evaluation [N].
-  const std::vector<double>& reactions() const { return reactions_; }
 
-  /// answer(material number, block) turns block.H (and dH, of u − u_before, where Increments) into block.VP and returns
-  /// 0, or NaN where it cannot. u, u_before and, where Directed, the direction that goes to block.direction: over the
+  /// answer(material number, block) turns block.H (and dH, of u − u_before, if Increments) into block.VP and returns
+  /// 0, or NaN if it cannot. u, u_before and, if Directed, the direction that goes to block.direction: over the
   /// grid's functions, component i at [dim function + i].
-  /// R: forces at the free degrees of freedom, (n); at the prescribed ones they become reactions().
-  /// False where an answer was NaN.
+  /// R: forces at the free degrees of freedom, (n); reactions: at the prescribed ones, unless
+  /// Directed.
+  /// False if an answer was NaN.
   template <bool Increments, bool Directed = false, class Answer>
   bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
-                const double* direction = nullptr) {
+                Vec reactions, const double* direction = nullptr) {
     double bad = 0;
     const std::size_t blocks = blocks_.size();
     const int* number = dofs.number.data();
@@ -83,7 +80,7 @@ class NodalForce {
         for (int i = 0; i < dim; ++i) {
           const int dof = number[dim * f + i];
           if (dof >= n) {
-            reactions_[static_cast<std::size_t>(dof - n)] = total[i];
+            if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
           } else if (dof >= 0) {
             R[static_cast<std::size_t>(dof)] = total[i];
           }
@@ -145,7 +142,7 @@ class NodalForce {
     return std::min(points_->end(k), block.first + block.count);
   }
 
-  // H, and dH where Increments, of the points in the block.
+  // H, and dH if Increments, of the points in the block.
   template <bool Increments>
   void gather(const BlockOfCells& cells, const double* u, const double* u_before, const Block& block,
               typename Block::Rows& H, typename Block::Rows& dH) const {
@@ -173,8 +170,7 @@ class NodalForce {
   CornerSum corner_sum_;
   std::vector<int> function_of_corner_;  // (cells × per_cell)
   std::vector<BlockOfCells> blocks_;
-  std::vector<double> corner_;     // (cells × per_cell × dim) [N]
-  std::vector<double> reactions_;  // (prescribed degrees of freedom) [N]
+  std::vector<double> corner_;  // (cells × per_cell × dim) [N]
 };
 
 }  // namespace stillpoint

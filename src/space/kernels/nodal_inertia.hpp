@@ -1,4 +1,4 @@
-// The inertia of the grid's functions: their mass, scaled where the scene says so.
+// The inertia of the grid's functions: their mass, scaled if the scene says so.
 //
 // In a body that moves on, points come to lie next to a cell's edge and give nodes across it stiffness but hardly any
 // mass: their frequencies would shorten the step without end, or blow the run up. Such a node gets as much inertia as

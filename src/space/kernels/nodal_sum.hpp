@@ -34,7 +34,7 @@ std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const
 }
 
 /// Mass of each grid function that keeps each cell's mass, (functions):
-///   row sums Σ_p m_p N_ip where the basis is a partition of unity; otherwise, cell by cell, the diagonal of the
+///   row sums Σ_p m_p N_ip if the basis is a partition of unity; otherwise, cell by cell, the diagonal of the
 ///   consistent mass scaled so that its values (not its slopes) sum to the cell's mass [Hinton, Rock, Zienkiewicz
 ///   1976].
 template <AxisBasis B, Kinematics K>

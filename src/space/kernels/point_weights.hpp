@@ -18,9 +18,9 @@
 namespace stillpoint {
 
 /// All weights of a point lie together: the loops over cells go from point to point and take the local functions of one
-/// at a time. A row of gradients is ∂N_a/∂x_j for one j, and where axisymmetric the last row is N_a/r.
+/// at a time. A row of gradients is ∂N_a/∂x_j for one j, and if axisymmetric the last row is N_a/r.
 ///
-/// Linear functions in the plane are made anew where they are needed, from the place of a point in its cell: that is
+/// Linear functions in the plane are made anew where they are needed, from the position of a point in its cell: that is
 /// less work than to read them from memory, and an eighth of the bytes.
 template <AxisBasis B, Kinematics K>
 class PointWeights {
@@ -30,7 +30,7 @@ class PointWeights {
   static constexpr int per_cell = Basis::per_cell;
   static constexpr int slack = 4;  // entries after the last, for who reads a few at a time
   static constexpr int rows = K == Kinematics::axisymmetric ? dim + 1 : dim;
-  static constexpr bool from_places = dim == 2 && std::same_as<B, BSpline<1>>;
+  static constexpr bool from_positions = dim == 2 && std::same_as<B, BSpline<1>>;
 
   /// A cell's corner and sides, from which its linear functions are made.
   struct Cell {
@@ -40,7 +40,7 @@ class PointWeights {
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
     offset_ = Basis::offsets(grid);
     first_.resize(points.cells());
-    if constexpr (from_places) {
+    if constexpr (from_positions) {
       cell_.resize(points.cells());
       for (auto& along : position_) along.resize(points.size() + slack);
     } else {
@@ -50,7 +50,7 @@ class PointWeights {
     for_each_block(points.cells(), [&](std::size_t k) {
       const auto cell = grid.cell_at(points.cell[k]);
       first_[k] = Basis::first(grid, cell);
-      if constexpr (from_places) {
+      if constexpr (from_positions) {
         locate_in_cell(grid, cell, points, k);
         return;
       }
@@ -71,7 +71,7 @@ class PointWeights {
   int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
   /// N_a, [a] (per_cell), of point p in occupied cell k.
   auto N([[maybe_unused]] std::size_t k, std::size_t p) const {
-    if constexpr (from_places) {
+    if constexpr (from_positions) {
       const double x = position_[0][p], y = position_[1][p];
       return std::array{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
     } else {
@@ -80,7 +80,7 @@ class PointWeights {
   }
   /// Its gradients, [per_cell row + a] (rows × per_cell).
   auto dN([[maybe_unused]] std::size_t k, std::size_t p) const {
-    if constexpr (from_places) {
+    if constexpr (from_positions) {
       const double x = position_[0][p], y = position_[1][p];
       const auto [per_x, per_y] = cell_[k].inverse_side;
       std::array<double, rows * per_cell> of_point{-(1 - y) * per_x, (1 - y) * per_x, -y * per_x,      y * per_x,
@@ -98,10 +98,10 @@ class PointWeights {
   /// What is kept for each point.
   static std::vector<PointArray> arrays() {
     constexpr double real = sizeof(double);
-    if constexpr (from_places) return {{"place in the cell", dim * real}};
+    if constexpr (from_positions) return {{"position in the cell", dim * real}};
     return {{"weights N", per_cell * real}, {"gradients of N", rows * per_cell * real}};
   }
-  /// Where the points lie in their cells, 0 to 1 along an axis, (P + slack); from_places alone.
+  /// Where the points lie in their cells, 0 to 1 along an axis, (P + slack); from_positions alone.
   const double* position_in_cell(int axis) const { return position_[static_cast<std::size_t>(axis)].data(); }
   const Cell& cell(std::size_t k) const { return cell_[k]; }
 

@@ -7,7 +7,7 @@
 //                  what m passes of averaging do not keep is noise [Hammerquist and Nairn 2017]
 //   apic           v_p  = Σ_i N_ip v_i,  B_p = Σ_i N_ip v_i ⊗ (x_i − x_p), as they are at the end [Jiang et al. 2015]
 //
-// x_i is where function i has its centre, Σ_i N_i(x) x_i = x. B_p goes back to the grid by weights w_ip with Σ_i w_ip =
+// x_i is the centre of function i, Σ_i N_i(x) x_i = x. B_p goes back to the grid by weights w_ip with Σ_i w_ip =
 // 0 and Σ_i x_i ⊗ w_ip = I, so that momentum and angular momentum Σ_p m_p x_p × v_p + m_p (B_p,yx − B_p,xy) are kept:
 // ∇N_ip for a linear basis, N_ip (x_i − x_p)/D, D = Σ_i N_ip (x_i − x_p)², for smoother ones.
 #pragma once
@@ -149,7 +149,7 @@ class VelocityTransfer {
 
   static AffineWeights affine_weights(const Weights& weights, const Centres& centre, const Point<dim>& x, std::size_t k,
                                       std::size_t p) {
-    constexpr double singular = 1e-6;  // D where only one function acts, at a boundary; of the distances' squares
+    constexpr double singular = 1e-6;  // D if only one function acts, at a boundary; of the distances' squares
     const auto N = weights.N(k, p);
     const auto dN = weights.dN(k, p);
     AffineWeights w;

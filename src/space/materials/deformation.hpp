@@ -1,5 +1,5 @@
 // Products of displacement gradients' tensors in the components of a Kinematics: a 1 × 1 or 2 × 2 matrix, row by row,
-// and where axisymmetric the hoop's component beside it.
+// and if axisymmetric the hoop's component beside it.
 #pragma once
 
 #include <stillpoint/material.hpp>

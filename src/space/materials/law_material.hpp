@@ -102,7 +102,9 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   bool history_dependent() const override { return false; }
   bool finite_strain() const override { return Law::finite_strain; }
 
-  [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/) override {
+  std::size_t history_size() const override { return 0; }
+
+  [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
     const Law law = law_;
     if (!moved()) {
       return loop(
@@ -117,7 +119,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
           return push(F_0, law.first_piola(total(F_0, H)));
         });
   }
-  void commit() override {}
+  void commit(std::vector<double>&) override {}
 
   ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
     if (!moved()) return law_.moduli(H);
@@ -143,7 +145,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
       for (std::size_t c = 0; c < components; ++c) F0_[count_ * c + p - begin_] = F[c];
     }
   }
-  void reorder(const std::vector<int>& order) override {
+  void reorder(const std::vector<int>& order, std::vector<double>&) override {
     if (!moved()) return;
     std::vector<double> sorted(F0_.size());
     for (std::size_t c = 0; c < components; ++c) {
@@ -196,7 +198,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   std::vector<double> F0_;  // (components × points); empty in a body that never moves on
 };
 
-/// A law with history: two copies, so that a trial leaves what was committed alone and to commit is to swap them.
+/// A law with history. A trial leaves what was committed alone, and to commit is to swap them.
 template <HistoryLaw Law>
 class HistoryMaterial final : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
@@ -212,9 +214,11 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   bool history_dependent() const override { return true; }
   bool finite_strain() const override { return true; }
 
-  [[gnu::flatten]] double stress(Block& block, const double* V, double dt) override {
+  std::size_t history_size() const override { return committed_.size(); }
+
+  [[gnu::flatten]] double stress(Block& block, const double* V, double dt, double* trial) const override {
     const double* from = committed_.data() + block.first - begin_;
-    double* to = trial_.data() + block.first - begin_;
+    double* to = trial + block.first - begin_;
     const double* volume = V + block.first;
     const Law law = law_;
     const std::size_t count = block.count, n = count_;
@@ -227,7 +231,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     };
     return Base::sum_in_groups(count, point);
   }
-  void commit() override { committed_.swap(trial_); }
+  void commit(std::vector<double>& trial) override { committed_.swap(trial); }
 
   ModuliMatrix moduli(Tangent kind, const Tensor& H, const Tensor& dH, double dt, std::size_t p) const override {
     return kind == Tangent::elastic ? law_.elastic_moduli(H, history(p)) : law_.moduli(H, dH, dt, history(p));
@@ -236,19 +240,18 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   double wave_modulus() const override { return law_.elastic_moduli({}, law_.initial_history({}))[0]; }
 
   void end_phase(const Block&) override {}
-  void reorder(const std::vector<int>& order) override {
+  void reorder(const std::vector<int>& order, std::vector<double>& work) override {
     for (std::size_t h = 0; h < Law::history; ++h) {
       const double* from = committed_.data() + count_ * h;
-      double* to = trial_.data() + count_ * h;  // free until the next stress()
+      double* to = work.data() + count_ * h;
       for_each_index(count_, [=, begin = begin_, at = order.data() + begin_](std::size_t k) {
         to[k] = from[static_cast<std::size_t>(at[k]) - begin];
       });
     }
-    committed_.swap(trial_);
+    committed_.swap(work);
   }
   void set_stress(const std::vector<Stresses>& stress) override {
     committed_.resize(Law::history * count_);
-    trial_.resize(committed_.size());
     for (std::size_t k = 0; k < count_; ++k) {
       const History of_point = law_.initial_history(stress[k]);
       for (std::size_t h = 0; h < Law::history; ++h) committed_[count_ * h + k] = of_point[h];
@@ -274,7 +277,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     return of_point;
   }
 
-  std::vector<double> committed_, trial_;  // (history × points)
+  std::vector<double> committed_;  // (history × points)
 };
 
 }  // namespace stillpoint

@@ -3,6 +3,7 @@
 
 #include <stillpoint/material.hpp>
 #include <stillpoint/scene.hpp>
+#include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/types.hpp>
 
 #include <array>
@@ -35,7 +36,7 @@ struct PointBlock {
   [[gnu::always_inline]] TensorOf<K> H_at(std::size_t q) const { return row(H, q); }
   [[gnu::always_inline]] TensorOf<K> dH_at(std::size_t q) const { return row(dH, q); }
   [[gnu::always_inline]] TensorOf<K> direction_at(std::size_t q) const { return row(direction, q); }
-  /// VP = V P at point q; 0, or NaN where P is not finite: a sum of these needs no branch.
+  /// VP = V P at point q; 0, or NaN if P is not finite: a sum of these needs no branch.
   [[gnu::always_inline]] double store_stress(std::size_t q, double V, const TensorOf<K>& P) {
     double bad = 0;
     unroll<components>([&](auto c) __attribute__((always_inline)) {
@@ -53,10 +54,6 @@ struct PointBlock {
   }
 };
 
-/// consistent: the derivative of what stress() answers. elastic: as if no point yielded, symmetric, and no trial is
-/// stiffer. Of a law without history the two are the same.
-enum class Tangent { consistent, elastic };
-
 /// One virtual call serves a block of points, so that the loop over them knows its law and is vectorised, while the
 /// loops over cells are compiled once for all laws. Points have their numbers in the whole body.
 template <Kinematics K>
@@ -69,21 +66,23 @@ class PointMaterial {
   virtual bool history_dependent() const = 0;
   virtual bool finite_strain() const = 0;
 
-  /// block.VP = V_p P_p for the deformation in block.H (and dH, over dt, where history_dependent()); what the points
-  /// would remember becomes the trial history. V: volumes when the phase began, of all points.
-  /// Returns 0, or NaN where some P is not finite.
-  virtual double stress(PointBlock<K>& block, const double* V, double dt) = 0;
-  /// The trial history becomes the committed one; every block has had its stress() since the last commit.
-  virtual void commit() = 0;
+  /// What the material keeps of the committed state, and a trial of its own: entries of an array of that.
+  virtual std::size_t history_size() const = 0;
+  /// block.VP = V_p P_p for the deformation in block.H (and dH, over dt, if history_dependent()); what the points would
+  /// remember is written to trial, (history_size()). V: volumes when the phase began, of all points.
+  /// Returns 0, or NaN if some P is not finite.
+  virtual double stress(PointBlock<K>& block, const double* V, double dt, double* trial) const = 0;
+  /// The trial history becomes the committed one and the other way round; every block has had its stress() in it.
+  virtual void commit(std::vector<double>& trial) = 0;
   /// block.VP = V_p (∂P/∂H at block.H, block.dH and dt) : block.direction.
   virtual void tangent(Tangent kind, PointBlock<K>& block, const double* V, double dt) const = 0;
 
-  /// At point p under H, of which dH came over dt since commit: ∂P/∂H where both change alike.
+  /// At point p under H, of which dH came over dt since commit: ∂P/∂H if both change alike.
   virtual ModuliMatrix moduli(Tangent kind, const TensorOf<K>& H, const TensorOf<K>& dH, double dt,
                               std::size_t p) const = 0;
-  /// The Cauchy stress of point p under H, of the committed history where there is one.
+  /// The Cauchy stress of point p under H, of the committed history if there is one.
   virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
-  /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite where it is not
+  /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite if it is not
   /// finite.
   virtual double stiffness_bound(const PointBlock<K>& block) const = 0;
   /// λ + 2μ or its like in the undeformed state [Pa].
@@ -91,8 +90,8 @@ class PointMaterial {
 
   /// The phase ends with the deformation in block.H: it becomes part of what the next phase starts from.
   virtual void end_phase(const PointBlock<K>& block) = 0;
-  /// Points change places: the one that was number order[k] becomes number begin + k.
-  virtual void reorder(const std::vector<int>& order) = 0;
+  /// Points are sorted anew: the one that was number order[k] becomes number begin + k. work: (history_size()).
+  virtual void reorder(const std::vector<int>& order, std::vector<double>& work) = 0;
   /// Points start under these Cauchy stresses, (points × stress components).
   virtual void set_stress(const std::vector<Stresses>& stress) = 0;
 

@@ -1,30 +1,59 @@
 // A Lagrangian phase of the material point method: the grid moves with the material, weights are frozen at the material
-// points' places when the phase began, and the unknown is the nodal displacement u since then.
+// points' positions when the phase began, and the unknown is the nodal displacement u since then.
 //
 //   f_p = I + Σ_i u_i ⊗ ∇N_ip,   R_i = Σ_p V_p P_p ∇N_ip,   F_i = Σ_p N_ip m_p b + tractions and point forces
 //
-// Where the scene asks for it a phase ends and the next begins: the points move on, the grid starts afresh.
+// If the scene asks for it a phase ends and the next begins: the points move on, the grid starts afresh.
 #pragma once
 
 #include <stillpoint/scene.hpp>
 #include <stillpoint/semi_discrete.hpp>
 
 #include <memory>
+#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/memory_report.hpp"
+#include "space/boundary/wall_reaction.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
 
-/// What a rigid wall feels from the body: along its outward normal, and along the face's coordinate [N].
-struct WallReaction {
-  std::string name;
-  double normal = 0, shear = 0;
-  double power = 0;  // of the wall on the body [W]
+/// What stays the same in all phases of a body.
+struct PhaseInfo {
+  int dim = 0;
+  int gradient_components = 0;  // of a displacement gradient (material.hpp)
+  int stress_components = 0;    // of a Cauchy stress
+  std::size_t points = 0;
+  double total_mass = 0;                   // Σ m_p [kg]
+  std::vector<std::string> history_names;  // what laws remember beside the stress ("plastic_strain")
+  bool updated_lagrangian = false;         // whether there will be more phases than one
+  bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
+  bool stiffens = false;  // whether a point can become stiffer than it was, so that the critical step has to follow
 };
+
+/// How a phase is discretised, for `stillpoint check`.
+struct Discretisation {
+  std::vector<PointArray> arrays;
+  std::size_t supported_degrees_of_freedom = 0;
+  std::vector<int> grid_cells;  // along each coordinate
+  std::size_t occupied_cells = 0;
+  QuadratureReport quadrature;
+};
+
+/// P points, in the order in which the body was first filled, whatever the phase.
+struct PointData {
+  std::vector<double> positions;          // when the phase began, (P × dim) [m]
+  std::vector<double> initial_positions;  // when the run began, likewise
+  std::vector<double> volumes;            // V_p when the phase began, (P) [m³]
+  std::vector<int> materials;             // number of each point's material, by name, (P)
+};
+
+/// Values at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain ∂u/∂x
+/// since the phase began, (P × gradient_components); Cauchy stress, (P × stress_components) [Pa], if the law has a
+/// history as of the last commit.
+enum class PointQuantity { displacement, velocity, strain, stress };
 
 /// How well masses and momenta went from the points to the grid and back, the worst so far.
 struct TransferErrors {
@@ -33,66 +62,58 @@ struct TransferErrors {
   double added_mass = 0;  // mass that nodes were given so that none shortens the step, as a share of Σ_p m_p
 };
 
-/// The semi-discrete system of one phase, with what a user wants to see of its points. P points; arrays of values are
-/// in the order in which the body was first filled, whatever the phase.
+/// When a phase should end, and how the next one begins.
+class PhaseControl {
+ public:
+  virtual ~PhaseControl() = default;
+  /// How far the phase has come: 1 if it should end (phase.max_motion or phase.max_strain is reached).
+  virtual double progress(double t, ConstVec u) = 0;
+  /// Ends the phase at t with u and v, and begins the next, with other unknowns: size() and everything else may change.
+  /// Returns v, (size()); u is 0. Throws PointLost.
+  virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
+  virtual TransferErrors transfer_errors() const = 0;
+};
+
+/// The semi-discrete system of one phase, with what a user wants to see of its points.
 class LagrangianPhase : public SemiDiscrete {
  public:
-  virtual int dim() const = 0;
-  virtual int gradient_components() const = 0;  // of a displacement gradient (material.hpp)
-  virtual int stress_components() const = 0;    // of a Cauchy stress
-  virtual std::size_t points() const = 0;
-  virtual std::vector<double> positions() const = 0;          // when the phase began, (P × dim) [m]
-  virtual std::vector<double> initial_positions() const = 0;  // when the run began, likewise
-  virtual std::vector<double> volumes() const = 0;            // V_p when the phase began, (P) [m³]
-  virtual std::vector<int> materials() const = 0;             // number of each point's material, by name, (P)
-  virtual double total_mass() const = 0;                      // Σ m_p [kg]
-
-  /// Values at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain
-  /// ∂u/∂x since the phase began, (P × gradient_components); Cauchy stress, (P × stress_components) [Pa], where the law
-  /// has a history as of the last commit.
-  virtual void point_displacement(double t, ConstVec u, Vec out) const = 0;
-  virtual void point_velocity(double t, ConstVec v, Vec out) const = 0;
-  virtual void point_strain(double t, ConstVec u, Vec out) const = 0;
-  virtual void point_stress(double t, ConstVec u, Vec out) const = 0;
-  /// What laws remember beside the stress, by name ("plastic_strain"), (P); 0 where a point's law does not.
-  virtual std::vector<std::string> history_names() const = 0;
+  const PhaseInfo& info() const { return info_; }
+  virtual Discretisation discretisation() const = 0;
+  virtual PointData point_data() const = 0;
+  /// nodal: u, or v for the velocity, (n).
+  virtual void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const = 0;
+  /// One of info().history_names, (P); 0 if a point's law does not remember it.
   virtual void point_history(const std::string& name, Vec out) const = 0;
 
   /// u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
   virtual std::vector<double> initial_displacement(double t) const = 0;
   virtual std::vector<double> initial_velocity(double t) = 0;
 
-  /// Whether there will be more phases than this one.
-  virtual bool updated_lagrangian() const = 0;
-  /// How far the phase has come: 1 where it should end (phase.max_motion or phase.max_strain is reached).
-  virtual double phase_progress(double t, ConstVec u) const = 0;
-  /// Ends the phase at t with u and v, and begins the next, with other unknowns: size() and everything else may change.
-  /// Returns v, (size()); u is 0. Throws PointLost.
-  virtual std::vector<double> begin_next_phase(double t, ConstVec u, ConstVec v) = 0;
-  virtual TransferErrors transfer_errors() const = 0;
-
   /// Of the last evaluation.
   virtual std::vector<WallReaction> wall_reactions(double t) const = 0;
+  /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
+  /// Infinite if u cannot be evaluated.
+  virtual double stiffening(double t, ConstVec u) const = 0;
+  virtual PhaseControl& control() = 0;
+  virtual const PhaseControl& control() const = 0;
 
-  /// What is modelled, for `stillpoint check`.
-  virtual std::vector<PointArray> point_arrays() const = 0;
-  /// Of all of them together.
+  // --- the same, one by one ------------------------------------------------------------------------
+  int dim() const { return info_.dim; }
+  std::size_t points() const { return info_.points; }
+  std::vector<double> positions() const { return point_data().positions; }
+  void point_displacement(double t, ConstVec u, Vec out) const { point_field(PointQuantity::displacement, t, u, out); }
+  void point_velocity(double t, ConstVec v, Vec out) const { point_field(PointQuantity::velocity, t, v, out); }
+  void point_strain(double t, ConstVec u, Vec out) const { point_field(PointQuantity::strain, t, u, out); }
+  void point_stress(double t, ConstVec u, Vec out) const { point_field(PointQuantity::stress, t, u, out); }
+  /// Of all arrays together.
   double bytes_per_point() const {
     double total = 0;
-    for (const PointArray& array : point_arrays()) total += array.bytes_per_point;
+    for (const PointArray& array : discretisation().arrays) total += array.bytes_per_point;
     return total;
   }
-  virtual std::size_t supported_degrees_of_freedom() const = 0;
-  virtual std::vector<int> grid_cells() const = 0;  // along each coordinate
-  virtual std::size_t occupied_cells() const = 0;
-  virtual QuadratureReport quadrature() const = 0;
-  /// Whether K depends on u, so that frequencies change with it.
-  virtual bool nonlinear() const = 0;
-  /// Whether a point can become stiffer than it was, so that the critical step has to follow.
-  virtual bool stiffens() const = 0;
-  /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
-  /// Infinite where u cannot be evaluated.
-  virtual double stiffening(double t, ConstVec u) const = 0;
+
+ protected:
+  PhaseInfo info_;
 };
 
 /// A material point has left the grid.

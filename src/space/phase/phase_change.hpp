@@ -6,27 +6,34 @@
 namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
-double MaterialPointPhase<B, K>::phase_progress(double t, ConstVec u) const {
-  if (!updated_lagrangian_) return 0;
+double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
+  if (!updated_lagrangian()) return 0;
   if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
   double share = 0;
   if (scene_.phase.max_motion) share = largest_motion(u) / *scene_.phase.max_motion;
   constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
   if (scene_.phase.max_strain && ++looks_ % between_looks == 0) {
     spread(t, u, grid_u_);
-    share = std::max(share, largest_strain() / *scene_.phase.max_strain);
+    share = std::max(share, largest_strain(grid_u_.data()) / *scene_.phase.max_strain);
   }
   return share;
 }
 
 template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::begin_next_phase(double t, ConstVec u, ConstVec v) {
-  Grid<Dim> next_grid = grid_at<Dim>(scene_, boundary_.displacement_of(scene_.grid.follow, t));
-  check_inside(next_grid, t, u);  // before anything changes: a run that ends here shows the state it had
+std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, ConstVec v) {
+  const std::vector<WallReaction> walls = wall_reactions(t);
+  const auto followed = std::ranges::find(walls, scene_.grid.follow, &WallReaction::name);
+  Grid<Dim> next_grid = grid_at<Dim>(scene_, followed == walls.end() ? 0 : followed->displacement);
+  spread(t, u, grid_u_);
+  check_inside(next_grid, grid_u_, t);  // before anything changes: a run that ends here shows the state it had
   end_phase(t, u, v);
+  ++phase_;
   grid_ = std::move(next_grid);
   order_.sort(body_.points, grid_);
-  for (const auto& material : body_.materials) material->reorder(order_.order());
+  if (!spare_) make_trial();  // the trials of the phase are dead, and their arrays are free
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+    body_.materials[m]->reorder(order_.order(), spare_->history[m]);
+  }
   begin_phase(t);
   return velocity_from_points(t);
 }
@@ -37,19 +44,20 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   const std::size_t functions = static_cast<std::size_t>(Basis::count(grid_));
   nodal_force_.rebuild(body_.points, weights_, functions);
   const std::vector<char> reached = active_functions();
-  boundary_.template begin_phase<Basis>(scene_, grid_, reached, t);
-  dofs_.emplace(reached, Dim, boundary_.prescribed());
+  held_ = HeldUnknowns(Dim * functions, t);
+  for (const auto& condition : boundary_) condition->hold(grid_, reached, held_);
+  dofs_.emplace(reached, Dim, held_.prescribed());
   grid_u_.assign(Dim * functions, 0);
-  grid_work_.assign(Dim * functions, 0);
-  nodal_force_.set_prescribed(dofs_->prescribed.size());
+  grid_du_.assign(Dim * functions, 0);
   committed_u_.assign(Dim * functions, 0);
   spread_prescribed(t, committed_u_);
-  committed_t_ = last_t_ = t;
+  committed_t_ = t;
   make_mass();
-  loads_.begin_phase(grid_, body_.points, weights_, *dofs_, inertia_.mass());
+  constant_force_.assign(size(), 0);
+  for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
 }
 
-// Every function that a point gives mass to; where nodes get inertia anyhow, every one of a cell with material.
+// Every function that a point gives mass to; if nodes get inertia anyhow, every one of a cell with material.
 template <AxisBasis B, Kinematics K>
 std::vector<char> MaterialPointPhase<B, K>::active_functions() const {
   std::vector<char> reached(static_cast<std::size_t>(Basis::count(grid_)), 0);
@@ -57,7 +65,7 @@ std::vector<char> MaterialPointPhase<B, K>::active_functions() const {
     for (int a = 0; a < per_cell; ++a) {
       char& of_function = reached[static_cast<std::size_t>(weights_.function(k, a))];
       for (std::size_t p = body_.points.begin(k); p < body_.points.end(k) && !of_function; ++p) {
-        of_function = updated_lagrangian_ || weights_.N(k, p)[a] != 0;
+        of_function = updated_lagrangian() || weights_.N(k, p)[a] != 0;
       }
     }
   }
@@ -83,13 +91,19 @@ void MaterialPointPhase<B, K>::make_mass() {
   std::vector<double> wave_modulus;
   for (const auto& material : body_.materials) wave_modulus.push_back(material->wave_modulus());
   inertia_.begin_phase(body_.points, weights_, nodal_force_.corner_sum(), wave_modulus);
-  if (!updated_lagrangian_) {
-    consistent_ = consistent_mass<B, K>(body_.points, weights_, *dofs_);
-    check_projection();
+  const bool is_consistent = scene_.mass.kind == MassKind::consistent;
+  if (is_consistent || (projects() && !updated_lagrangian())) {
+    consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);
+    // Initial values are fitted with the consistent mass, whatever the motion has.
+    if (!is_consistent && !SparseCholesky(consistent_->free).positive_definite()) {
+      throw_scene_error(
+          scene_, "initial",
+          "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
+    }
   }
   try {
-    if (scene_.mass.kind == MassKind::consistent) {
-      mass_.emplace(Mass::consistent(consistent_.free));
+    if (is_consistent) {
+      mass_.emplace(Mass::consistent(consistent_->free));
     } else {
       std::vector<double> diagonal(size());
       for (std::size_t k = 0; k < diagonal.size(); ++k) {
@@ -100,17 +114,6 @@ void MaterialPointPhase<B, K>::make_mass() {
   } catch (const std::invalid_argument& error) {
     throw_scene_error(scene_, "mass.kind", error.what());
   }
-}
-
-// Initial values are fitted with the consistent mass, whatever the motion uses.
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::check_projection() const {
-  const bool projects = !scene_.initial_u.empty() || !scene_.initial_v.empty();
-  if (!projects || scene_.mass.kind == MassKind::consistent || SparseCholesky(consistent_.free).positive_definite())
-    return;
-  throw_scene_error(
-      scene_, "initial",
-      "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
 }
 
 // σ_yy = −ρ b_y (surface − y)  from  ∂σ_yy/∂y + ρ b_y = 0,  σ_xx = σ_zz = K0 σ_yy
@@ -143,12 +146,12 @@ void MaterialPointPhase<B, K>::set_initial_point_velocity() {
 
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
-  transfer_.conservation().compare_mass(initial_mass_, inertia_.mass());
+  transfer_.conservation().compare_mass(info_.total_mass, inertia_.mass());
   const std::vector<double> grid_v =
       transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
   std::vector<double> v(size());
   for (std::size_t k = 0; k < v.size(); ++k) v[k] = grid_v[static_cast<std::size_t>(dofs_->free[k])];
-  begin_contact(t, v);
+  begin_motion(t, v);
   start_velocity_ = nodal_velocity(t, v);
   return v;
 }
@@ -159,7 +162,7 @@ std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec 
   std::vector<double> grid_v(grid_u_.size(), 0.0);
   for (std::size_t k = 0; k < v.size(); ++k) grid_v[static_cast<std::size_t>(dofs_->free[k])] = v[k];
   for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
-    grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = boundary_.motion_of(s).velocity(t);
+    grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.motion(s).velocity(t);
   }
   return grid_v;
 }
@@ -183,15 +186,14 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
       for (int d = 0; d < Dim; ++d) body_.points.x[d][p] += u_p[d];
     }
   });
-  loads_.end_phase(grid_u_.data());
+  for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
 }
 
 template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, double t, ConstVec u) const {
-  spread(t, u, grid_u_);
+void MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, ConstVec grid_u, double t) const {
   const auto where_to = [&](std::size_t k, std::size_t p) {
     Point<Dim> x = body_.points.position(p);
-    const auto u_p = weights_.value(grid_u_.data(), k, p);
+    const auto u_p = weights_.value(grid_u.data(), k, p);
     for (int d = 0; d < Dim; ++d) x[d] += u_p[d];
     return x;
   };
@@ -221,7 +223,7 @@ void MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, double t
   }
 }
 
-// Largest |u_i| over a cell's width; no point moves further than the nodes around it where N_i ≥ 0 and Σ N_i = 1.
+// Largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
   std::array<double, Dim> h;
@@ -233,9 +235,9 @@ double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
 }
 
 template <AxisBasis B, Kinematics K>
-double MaterialPointPhase<B, K>::largest_strain() const {
+double MaterialPointPhase<B, K>::largest_strain(const double* grid_u) const {
   double largest = 0;
-  nodal_force_.visit(grid_u_.data(), [&](std::size_t, const Block& block) {
+  nodal_force_.visit(grid_u, [&](std::size_t, const Block& block) {
     double of_block = 0;
     for (const auto& row : block.H) {
       for (std::size_t q = 0; q < block.count; ++q) of_block = std::max(of_block, std::abs(row[q]));
@@ -245,4 +247,5 @@ double MaterialPointPhase<B, K>::largest_strain() const {
   });
   return largest;
 }
+
 }  // namespace stillpoint

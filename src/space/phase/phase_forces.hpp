@@ -6,42 +6,101 @@
 namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
-bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R) const {
-  spread(t, u, grid_u_);
-  const double* V = body_.points.volume.data();
-  if (history_dependent_) {
-    last_t_ = t;
-    const double dt = t - committed_t_;
-    const auto stress = [&, V, dt](std::size_t m, Block& block) { return body_.materials[m]->stress(block, V, dt); };
-    return nodal_force_.template evaluate<true>(grid_u_.data(), committed_u_.data(), stress, *dofs_, R);
+void MaterialPointPhase<B, K>::external_force(double t, ConstVec u, Vec F) const {
+  for_each_index(F.size(), [F, constant = constant_force_.data()](std::size_t i) { F[i] = constant[i]; });
+  for (const auto& condition : boundary_) condition->add_force(parts(), t, F);
+  for (const auto& condition : boundary_) {
+    if (!condition->follows()) continue;
+    spread(t, u, grid_u_);
+    condition->add_following_force(parts(), t, grid_u_.data(), F);
   }
-  const auto stress = [&, V](std::size_t m, Block& block) { return body_.materials[m]->stress(block, V, 0); };
-  return nodal_force_.template evaluate<false>(grid_u_.data(), nullptr, stress, *dofs_, R);
 }
 
-// The derivatives of the reactions take their place until the next internal_force().
 template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::apply_tangent(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const {
+SparseMatrix MaterialPointPhase<B, K>::of_loads(double t, ConstVec u) const {
+  MatrixEntries entries;
   spread(t, u, grid_u_);
-  std::ranges::fill(grid_work_, 0.0);
-  for (std::size_t k = 0; k < du.size(); ++k) grid_work_[static_cast<std::size_t>(dofs_->free[k])] = du[k];
+  for (const auto& condition : boundary_) condition->add_following_tangent(parts(), t, grid_u_.data(), entries);
+  const auto n = static_cast<Eigen::Index>(u.size());
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
+
+// Phases that follow one upon the other use the same arrays, whose pages are there already.
+template <AxisBasis B, Kinematics K>
+std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
+  auto trial = std::make_unique<Trial>();
+  trial->of = this;
+  trial->phase = phase_;
+  trial->reactions.assign(dofs_->prescribed.size(), 0);
+  if (!spare_) spare_ = std::make_shared<TrialArrays>();
+  trial->arrays = spare_.use_count() == 1 ? spare_ : std::make_shared<TrialArrays>();
+  trial->arrays->u.assign(grid_u_.size(), 0);
+  trial->arrays->history.resize(body_.materials.size());
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+    trial->arrays->history[m].resize(body_.materials[m]->history_size());
+  }
+  return trial;
+}
+
+template <AxisBasis B, Kinematics K>
+bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, TrialState& any) const {
+  Trial& trial = own(any);
+  std::vector<double>& grid_u = trial.arrays->u;
+  spread(t, u, grid_u);
+  trial.t = t;
+  const double* V = body_.points.volume.data();
+  if (history_dependent_) {
+    const double dt = t - committed_t_;
+    const auto stress = [&, V, dt, history = trial.arrays->history.data()](std::size_t m, Block& block) {
+      return body_.materials[m]->stress(block, V, dt, history[m].data());
+    };
+    trial.evaluated = nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), stress, *dofs_, R,
+                                                           trial.reactions);
+  } else {
+    const auto stress = [&, V](std::size_t m, Block& block) {
+      return body_.materials[m]->stress(block, V, 0, nullptr);
+    };
+    trial.evaluated =
+        nodal_force_.template evaluate<false>(grid_u.data(), nullptr, stress, *dofs_, R, trial.reactions);
+  }
+  return trial.evaluated;
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::commit(TrialState& any) {
+  Trial& trial = own(any);
+  if (!history_dependent_) return;
+  if (!trial.evaluated) throw std::logic_error("a trial state that was not evaluated since the last commit");
+  trial.evaluated = false;
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) body_.materials[m]->commit(trial.arrays->history[m]);
+  committed_u_.swap(trial.arrays->u);
+  committed_t_ = trial.t;
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const {
+  spread(t, u, grid_u_);
+  std::ranges::fill(grid_du_, 0.0);
+  for (std::size_t k = 0; k < du.size(); ++k) grid_du_[static_cast<std::size_t>(dofs_->free[k])] = du[k];
   const double* V = body_.points.volume.data();
   const double dt = t - committed_t_;
   const auto answer = [&, V, dt](std::size_t m, Block& block) {
     body_.materials[m]->tangent(kind, block, V, dt);
     return 0.0;
   };
-  nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR,
-                                             grid_work_.data());
+  nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR, {},
+                                             grid_du_.data());
 }
 
 // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
 template <AxisBasis B, Kinematics K>
-SparseMatrix MaterialPointPhase<B, K>::assemble_tangent(Tangent kind, double t, ConstVec u) const {
+SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u) const {
   spread(t, u, grid_u_);
-  std::ranges::transform(grid_u_, committed_u_, grid_work_.begin(), std::minus<>());
+  std::ranges::transform(grid_u_, committed_u_, grid_du_.begin(), std::minus<>());
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<Dim, per_cell>& matrix) {
-    const auto H = weights_.gradient(grid_u_.data(), k, p), dH = weights_.gradient(grid_work_.data(), k, p);
+    const auto H = weights_.gradient(grid_u_.data(), k, p), dH = weights_.gradient(grid_du_.data(), k, p);
     const auto A = material_of(k).moduli(kind, H, dH, t - committed_t_, p);
     std::array<TensorOf<K>, Dim * per_cell> G{};
     const auto dN = weights_.dN(k, p);
@@ -62,50 +121,25 @@ SparseMatrix MaterialPointPhase<B, K>::assemble_tangent(Tangent kind, double t, 
       }
     }
   };
-  return assemble_cells<B, K>(body_.points, weights_, *dofs_, add_point).free;
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::commit(double t, ConstVec u) {
-  if (!history_dependent_) return;
-  std::vector<double> R(size());
-  internal_force(t, u, R);
-  commit_last();
-}
-
-// What internal_force() was last evaluated at is in grid_u_, which every use fills anew.
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::commit_last() {
-  if (!history_dependent_) return;
-  for (const auto& material : body_.materials) material->commit();
-  committed_u_.swap(grid_u_);
-  committed_t_ = last_t_;
+  return assemble_cells<B, K>(grid_, body_.points, weights_, *dofs_, add_point).free;
 }
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::add_support_inertia(double t, double c, Vec Q) const {
-  if (consistent_.prescribed.nonZeros() == 0 || mass_->is_lumped()) return;
-  for (std::size_t s = 0; s < boundary_.prescribed().size(); ++s) {
-    const PrescribedMotion& motion = boundary_.motion_of(s);
+  if (mass_->is_lumped()) return;
+  for (std::size_t s = 0; s < held_.prescribed().size(); ++s) {
+    const PrescribedMotion& motion = held_.motion(s);
     if (!motion.moves()) continue;
-    const double pull = motion.acceleration(t) + c * motion.velocity(t);
-    for (SparseMatrix::InnerIterator m(consistent_.prescribed, static_cast<Eigen::Index>(s)); m; ++m) {
-      Q[static_cast<std::size_t>(m.row())] -= m.value() * pull;
+    const double driven = motion.acceleration(t) + c * motion.velocity(t);
+    for (SparseMatrix::InnerIterator m(consistent_->prescribed, static_cast<Eigen::Index>(s)); m; ++m) {
+      Q[static_cast<std::size_t>(m.row())] -= m.value() * driven;
     }
   }
 }
 
 template <AxisBasis B, Kinematics K>
-double MaterialPointPhase<B, K>::reaction_norm() const {
-  double sum = 0;
-  for (const double reaction : nodal_force_.reactions()) sum += reaction * reaction;
-  for (const WallContact& wall : boundary_.walls()) sum += wall.square_of_forces();
-  return std::sqrt(sum);
-}
-
-template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
-  if (!stiffens()) return 1;
+  if (!info_.stiffens) return 1;
   const auto largest_bound = [&] {
     double largest = 0;
     nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
@@ -122,4 +156,5 @@ double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
   spread(t, u, grid_u_);
   return largest_bound() / undeformed_bound_;
 }
+
 }  // namespace stillpoint

@@ -1,79 +1,74 @@
 // What a user sees of the points of a phase, and how initial values come to the grid.
 #pragma once
 
+#include <set>
+
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::positions() const {
-  std::vector<double> out(Dim * points());
-  for_points([&](std::size_t, std::size_t p, std::size_t number) {
-    for (int d = 0; d < Dim; ++d) out[Dim * number + d] = body_.points.x[d][p];
-  });
-  return out;
-}
-
-template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::volumes() const {
-  std::vector<double> out(points());
-  for_points([&](std::size_t, std::size_t p, std::size_t number) { out[number] = body_.points.volume[p]; });
-  return out;
-}
-
-template <AxisBasis B, Kinematics K>
-std::vector<int> MaterialPointPhase<B, K>::materials() const {
-  std::vector<int> out(points());
-  for_points([&](std::size_t k, std::size_t, std::size_t number) { out[number] = body_.points.material_of_cell(k); });
-  return out;
-}
-
-template <AxisBasis B, Kinematics K>
-double MaterialPointPhase<B, K>::total_mass() const {
-  // in the order of the points' numbers, which does not change
-  std::vector<double> m(points());
-  for_points([&](std::size_t, std::size_t p, std::size_t number) { m[number] = body_.points.mass[p]; });
-  return sum_over(m.size(), [&](std::size_t p) { return m[p]; });
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::point_displacement(double t, ConstVec u, Vec out) const {
-  spread(t, u, grid_u_);
-  for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-    const auto u_p = weights_.value(grid_u_.data(), k, p);
-    for (int i = 0; i < Dim; ++i) {
-      out[Dim * number + i] = updated_lagrangian_ ? body_.points.x[i][p] - origin_[Dim * number + i] + u_p[i] : u_p[i];
-    }
-  });
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::point_velocity(double t, ConstVec v, Vec out) const {
-  const std::vector<double> grid_v = nodal_velocity(t, v);
-  write_points(out, [&](std::size_t k, std::size_t p) { return weights_.value(grid_v.data(), k, p); });
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::point_strain(double t, ConstVec u, Vec out) const {
-  spread(t, u, grid_u_);
-  write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(grid_u_.data(), k, p); });
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::point_stress(double t, ConstVec u, Vec out) const {
-  spread(t, u, grid_u_);
-  write_points(out, [&](std::size_t k, std::size_t p) {
-    return material_of(k).cauchy(weights_.gradient(grid_u_.data(), k, p), p);
-  });
-}
-
-template <AxisBasis B, Kinematics K>
-std::vector<std::string> MaterialPointPhase<B, K>::history_names() const {
+void MaterialPointPhase<B, K>::describe() {
   std::set<std::string> names;
+  bool finite_strain = false;
   for (const auto& material : body_.materials) {
+    history_dependent_ = history_dependent_ || material->history_dependent();
+    finite_strain = finite_strain || material->finite_strain();
     for (const auto& [name, values] : material->shown_history()) names.insert(name);
   }
-  return {names.begin(), names.end()};
+  std::vector<double> m(body_.points.size());  // in the order of the points' numbers, which does not change
+  for_points([&](std::size_t, std::size_t p, std::size_t number) { m[number] = body_.points.mass[p]; });
+  info_ = {.dim = Dim,
+           .gradient_components = components,
+           .stress_components = stillpoint::stress_components(K),
+           .points = m.size(),
+           .total_mass = sum_over(m.size(), [&](std::size_t p) { return m[p]; }),
+           .history_names = {names.begin(), names.end()},
+           .updated_lagrangian = moves_on(scene_),
+           .nonlinear = finite_strain || history_dependent_,
+           // With history the elastic part is small, and what it yields only softens.
+           .stiffens = finite_strain && !history_dependent_};
+}
+
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::point_positions() const {
+  std::vector<double> out(Dim * points());
+  write_points(out, [&](std::size_t, std::size_t p) { return body_.points.position(p); });
+  return out;
+}
+
+template <AxisBasis B, Kinematics K>
+PointData MaterialPointPhase<B, K>::point_data() const {
+  PointData data{point_positions(), origin_, std::vector<double>(points()), std::vector<int>(points())};
+  for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+    data.volumes[number] = body_.points.volume[p];
+    data.materials[number] = body_.points.material_of_cell(k);
+  });
+  return data;
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const {
+  if (quantity == PointQuantity::velocity) {
+    const std::vector<double> v = nodal_velocity(t, nodal);
+    return write_points(out, [&](std::size_t k, std::size_t p) { return weights_.value(v.data(), k, p); });
+  }
+  spread(t, nodal, grid_u_);
+  const double* u = grid_u_.data();
+  if (quantity == PointQuantity::strain)
+    return write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(u, k, p); });
+  if (quantity == PointQuantity::stress) {
+    return write_points(out, [&](std::size_t k, std::size_t p) {
+      return material_of(k).cauchy(weights_.gradient(u, k, p), p);
+    });
+  }
+  for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+    const auto u_p = weights_.value(u, k, p);
+    for (int i = 0; i < Dim; ++i) {
+      out[Dim * number + i] =
+          updated_lagrangian() ? body_.points.x[i][p] - origin_[Dim * number + i] + u_p[i] : u_p[i];
+    }
+  });
 }
 
 template <AxisBasis B, Kinematics K>
@@ -93,39 +88,36 @@ void MaterialPointPhase<B, K>::point_history(const std::string& name, Vec out) c
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::initial_displacement(double t) const {
   std::vector<double> held;
-  for (std::size_t s = 0; s < boundary_.prescribed().size(); ++s)
-    held.push_back(boundary_.motion_of(s).displacement(t));
+  for (std::size_t s = 0; s < held_.prescribed().size(); ++s) held.push_back(held_.motion(s).displacement(t));
   return project(scene_.initial_u, held);
 }
 
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::initial_velocity(double t) {
-  if (updated_lagrangian_) return velocity_from_points(t);
+  if (updated_lagrangian()) return velocity_from_points(t);
   std::vector<double> held;
-  for (std::size_t s = 0; s < boundary_.prescribed().size(); ++s) held.push_back(boundary_.motion_of(s).velocity(t));
+  for (std::size_t s = 0; s < held_.prescribed().size(); ++s) held.push_back(held_.motion(s).velocity(t));
   std::vector<double> v = project(scene_.initial_v, held);
-  begin_contact(t, v);
+  begin_motion(t, v);
   return v;
 }
 
 template <AxisBasis B, Kinematics K>
 std::vector<WallReaction> MaterialPointPhase<B, K>::wall_reactions(double t) const {
   std::vector<WallReaction> reactions;
-  for (const WallContact& wall : boundary_.walls()) {
-    const WallForce force = wall.force();
-    reactions.push_back({wall.name(), force.normal, force.shear, wall.power(t)});
-  }
+  for (const auto& condition : boundary_) condition->report(t, reactions);
   return reactions;
 }
 
 template <AxisBasis B, Kinematics K>
-std::vector<PointArray> MaterialPointPhase<B, K>::point_arrays() const {
+Discretisation MaterialPointPhase<B, K>::discretisation() const {
   constexpr double real = sizeof(double);
-  std::vector<PointArray> arrays = {{"place", Dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
+  std::vector<PointArray> arrays = {
+      {"position", Dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
   std::ranges::copy(PointWeights<B, K>::arrays(), std::back_inserter(arrays));
-  if (updated_lagrangian_) {
+  if (updated_lagrangian()) {
     arrays.push_back({"velocity", Dim * real});
-    arrays.push_back({"place at the start", Dim * real});
+    arrays.push_back({"position at the start", Dim * real});
     if (scene_.phase.transfer == Transfer::apic) arrays.push_back({"affine velocity", Dim * Dim * real});
   }
   // What a law keeps counts for the share of points that have it.
@@ -137,18 +129,14 @@ std::vector<PointArray> MaterialPointPhase<B, K>::point_arrays() const {
       arrays.push_back(array);
     }
   }
-  return arrays;
-}
-
-template <AxisBasis B, Kinematics K>
-std::vector<int> MaterialPointPhase<B, K>::grid_cells() const {
   std::vector<int> cells;
   for (const Axis& axis : grid_.axes) cells.push_back(axis.cells());
-  return cells;
+  const std::set<int> occupied(body_.points.cell.begin(), body_.points.cell.end());
+  return {std::move(arrays), dofs_->prescribed.size(), std::move(cells), occupied.size(), body_.quadrature};
 }
 
 // M_ff u_f = Σ_p m_p N_fp u_0(x_p) − M_fs u_s: the least-squares fit at the material points, whatever M the motion
-// uses.
+// has.
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::project(const std::vector<Expression>& field,
                                                       const std::vector<double>& held) const {
@@ -160,7 +148,9 @@ std::vector<double> MaterialPointPhase<B, K>::project(const std::vector<Expressi
       weights_.add_at_functions(k, p, i, moment, *dofs_, u);
     }
   });
-  const SplitMatrix M = updated_lagrangian_ ? consistent_mass<B, K>(body_.points, weights_, *dofs_) : consistent_;
+  std::optional<SplitMatrix> of_points;
+  if (!consistent_) of_points = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);
+  const SplitMatrix& M = consistent_ ? *consistent_ : *of_points;
   if (!held.empty()) {
     const Eigen::Map<const Eigen::VectorXd> u_s(held.data(), static_cast<Eigen::Index>(held.size()));
     Eigen::Map<Eigen::VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())) -= M.prescribed * u_s;
@@ -168,4 +158,5 @@ std::vector<double> MaterialPointPhase<B, K>::project(const std::vector<Expressi
   SparseCholesky(M.free).solve(u, u);
   return u;
 }
+
 }  // namespace stillpoint

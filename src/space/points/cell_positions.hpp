@@ -29,8 +29,8 @@ inline std::vector<double> line_positions(Placement placement, int n) {
   return xi;
 }
 
-/// How far each of these places may move without coming nearer to a neighbour's than half the way, or past −1 or 1:
-/// half the spacing of uniform places.
+/// How far each of these positions may move without coming nearer to a neighbour's than half the way, or past −1 or 1:
+/// half the spacing of uniform positions.
 inline std::vector<double> line_room(const std::vector<double>& xi) {
   std::vector<double> room;
   for (std::size_t k = 0; k < xi.size(); ++k) {
@@ -68,7 +68,7 @@ class CellPositions {
     xi_ = pattern_;
   }
 
-  /// Whether every cell has places of its own.
+  /// Whether every cell has positions of its own.
   bool vary() const { return random_ || jitter_ > 0; }
 
   /// (Dim × count); asked once a cell, in order.
@@ -80,7 +80,7 @@ class CellPositions {
         xi_(d, p) = random_ ? r : pattern_(d, p) + jitter_ * room_(d, p) * r;
       }
     }
-    if (Dim == 1) std::sort(xi_.data(), xi_.data() + xi_.cols());  // points are numbered in order of place
+    if (Dim == 1) std::sort(xi_.data(), xi_.data() + xi_.cols());  // points are numbered in order of position
     return xi_;
   }
 

@@ -58,7 +58,7 @@ struct Box {
     for (int d = 0; d < Dim; ++d) product *= high[d] - low[d];
     return product;
   }
-  /// The place of ξ in [−1, 1]^Dim.
+  /// The position of ξ in [−1, 1]^Dim.
   Point<Dim> position(const Eigen::MatrixXd& xi, Eigen::Index p) const {
     Point<Dim> x;
     for (int d = 0; d < Dim; ++d) x[d] = low[d] + 0.5 * (1 + xi(d, p)) * (high[d] - low[d]);
@@ -71,7 +71,7 @@ template <int Dim>
 class Filling {
  public:
   Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points)
-      : body_(body), grid_(grid), points_(points), places_(body) {
+      : body_(body), grid_(grid), points_(points), positions_(body) {
     quadrature_.degree = std::numeric_limits<int>::max();
   }
 
@@ -104,7 +104,7 @@ class Filling {
     return box;
   }
 
-  /// Of the cell's lengths, how much the part has; not positive where it has none.
+  /// Of the cell's lengths, how much the part has; not positive if it has none.
   static double smallest_share(const Box<Dim>& part, const Box<Dim>& cell) {
     double share = 1;
     for (int d = 0; d < Dim; ++d) share = std::min(share, (part.high[d] - part.low[d]) / (cell.high[d] - cell.low[d]));
@@ -113,8 +113,8 @@ class Filling {
 
   /// The whole pattern in a part of a cell that is a box.
   void fill(int number, const Box<Dim>& part, const Box<Dim>& cell) {
-    const Eigen::MatrixXd& xi = places_.next();
-    if (fit_.weights.size() == 0 || places_.vary())
+    const Eigen::MatrixXd& xi = positions_.next();
+    if (fit_.weights.size() == 0 || positions_.vary())
       fit_ = body_.volumes == VolumeRule::consistent ? fit_moments(xi) : equal_weights(xi);
     note_cell(fit_.degree, smallest_share(part, cell));
     quadrature_.cells_limited_by_sign += fit_.limited_by_sign ? 1 : 0;
@@ -133,7 +133,7 @@ class Filling {
     if (share > 1 - kRounding) return fill(number, cell, cell);
     if (share < kSliver) return;
 
-    const Eigen::MatrixXd& xi = places_.next();
+    const Eigen::MatrixXd& xi = positions_.next();
     std::vector<Point<Dim>> inside;
     for (Eigen::Index p = 0; p < xi.cols(); ++p)
       if (contains(local, {0.5 * (1 + xi(0, p)), 0.5 * (1 + xi(1, p))})) inside.push_back(cell.position(xi, p));
@@ -165,12 +165,12 @@ class Filling {
   const BodySpec& body_;
   const Grid<Dim>& grid_;
   PointCollector<Dim>& points_;
-  CellPositions<Dim> places_;
+  CellPositions<Dim> positions_;
   MomentFit fit_;
   QuadratureReport quadrature_;
 };
 
-/// The points of a file, sorted by cell; in one dimension by place.
+/// The points of a file, sorted by cell; in one dimension by position.
 template <int Dim>
 void take_from_file(const std::filesystem::path& file, const Grid<Dim>& grid, PointCollector<Dim>& points) {
   std::vector<double> min, max;

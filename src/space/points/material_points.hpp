@@ -1,4 +1,4 @@
-// Material points of a body: places, masses and volumes, sorted by the cell that they lie in.
+// Material points of a body: positions, masses and volumes, sorted by the cell that they lie in.
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -14,7 +14,7 @@ namespace stillpoint {
 /// listed once for each.
 template <int Dim>
 struct MaterialPoints {
-  std::array<std::vector<double>, Dim> x;  // places [m], each (n)
+  std::array<std::vector<double>, Dim> x;  // positions [m], each (n)
   std::vector<double> volume;              // V_p [m³] (cross-section included), (n)
   std::vector<double> mass;                // m_p [kg], (n)
   std::vector<int> cell_begin;             // first point of occupied cell k, and n at its end: (occupied cells + 1)
@@ -48,7 +48,7 @@ struct MaterialPoints {
 struct QuadratureReport {
   int degree = 0;                 // polynomials up to this power in each coordinate are integrated exactly over areas
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
-  int cells_limited_by_sign = 0;  // cells where a higher degree would need a negative volume
+  int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
 };
 
 template <int Dim>
@@ -59,12 +59,11 @@ struct PlacedBody {
 
 /// The material points of a body, cell by cell.
 /// - A box: in each cell's part of it, points_per_cell of them along each coordinate (uniform, at Gauss-Legendre
-/// places,
-///   seeded random, jittered), with volumes equal or fitted to moments.
+///   positions, seeded random, jittered), with volumes equal or fitted to moments.
 /// - A polygon: cells that lie inside are filled in the same way. A cell that its border cuts keeps those of the cell's
 ///   points that lie inside, or else has one at the centroid of the part inside; they share its area equally. Parts
 ///   below 1e-6 of a cell are left out.
-/// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError where it is wrong.
+/// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError if it is wrong.
 /// A volume is an area times the thickness, in an axisymmetric body times 2π r, all the way round. density [kg/m³].
 template <int Dim>
 PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state);

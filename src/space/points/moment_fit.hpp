@@ -13,7 +13,7 @@ struct MomentFit {
 };
 
 /// Σ_p w_p q(ξ_p) = mean of q over the cube, for all polynomials q up to the degree that the points can carry with w ≥
-/// 0; where that leaves a choice, the w nearest to 1/n. xi: (Dim × n) places of the points in the cube, n ≥ 1. Degrees
+/// 0; if that leaves a choice, the w nearest to 1/n. xi: (Dim × n) positions of the points in the cube, n ≥ 1. Degrees
 /// are tried in whole groups of equal (largest, total) power, so that no coordinate is preferred. Source of the
 /// constrained fit: Lawson and Hanson 1974, problem LDP (least distance programming, chapter 23).
 MomentFit fit_moments(const Eigen::MatrixXd& xi);

@@ -1,0 +1,61 @@
+// The body force of a scene: F_i = Σ_p N_ip m_p b(x_p, t).
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "space/boundary/boundary_condition.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class BodyForce final : public BoundaryCondition<B, K> {
+  static constexpr int dim = dimensions(K);
+  using typename BoundaryCondition<B, K>::Parts;
+
+ public:
+  explicit BodyForce(const Scene& scene) : b_(scene.body_force) {}
+
+  void begin_phase(const Parts& phase, Vec F) override {
+    if (varies()) return;
+    const auto uniform = [](const Expression& b) { return !b.uses('x') && !b.uses('y') && !b.uses('z'); };
+    if (B::partition_of_unity && std::ranges::all_of(b_, uniform)) {  // it acts on the nodes' masses
+      std::array<double, dim> b;
+      for (std::size_t i = 0; i < dim; ++i) b[i] = b_[i]({}, 0);
+      for (std::size_t k = 0; k < F.size(); ++k) {
+        const auto unknown = static_cast<std::size_t>(phase.dofs.free[k]);
+        F[k] += phase.node_mass[unknown / dim] * b[unknown % dim];
+      }
+      return;
+    }
+    std::vector<double> sum(F.size(), 0.0);
+    add_from_points(phase, 0, sum);
+    for (std::size_t k = 0; k < F.size(); ++k) F[k] += sum[k];
+  }
+  void add_force(const Parts& phase, double t, Vec F) const override {
+    if (varies()) add_from_points(phase, t, F);
+  }
+
+ private:
+  bool varies() const {
+    return std::ranges::any_of(b_, [](const Expression& b) { return b.uses('t'); });
+  }
+  void add_from_points(const Parts& phase, double t, Vec F) const {
+    const auto& points = phase.points;
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        for (int i = 0; i < dim; ++i) {
+          const double b = b_[static_cast<std::size_t>(i)](points.position(p), t);
+          phase.weights.add_at_functions(k, p, i, points.mass[p] * b, phase.dofs, F);
+        }
+      }
+    }
+  }
+
+  const std::vector<Expression>& b_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,105 @@
+// What holds or loads a body: the one interface of supports, walls, tractions, point forces and body forces.
+#pragma once
+
+#include <stillpoint/semi_discrete.hpp>
+
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "space/boundary/prescribed_motion.hpp"
+#include "space/boundary/wall_reaction.hpp"
+#include "space/grid/degrees_of_freedom.hpp"
+#include "space/kernels/point_weights.hpp"
+
+namespace stillpoint {
+
+/// The unknowns of a grid (Dim function + component) that boundary conditions take hold of when a phase begins.
+class HeldUnknowns {
+ public:
+  HeldUnknowns() = default;
+  /// t: when the phase begins [s].
+  HeldUnknowns(std::size_t unknowns, double t) : start_(t), by_(unknowns, nothing) {}
+
+  /// It follows the motion, which outlives this object.
+  void prescribe(int unknown, const PrescribedMotion& motion) {
+    by_[static_cast<std::size_t>(unknown)] = support;
+    prescribed_.push_back(unknown);
+    motions_.push_back(&motion);
+  }
+  /// It stays free, and a wall acts along it.
+  void guide(int unknown) {
+    if (!is_prescribed(unknown)) by_[static_cast<std::size_t>(unknown)] = wall;
+  }
+  bool is_prescribed(int unknown) const { return by_[static_cast<std::size_t>(unknown)] == support; }
+  bool is_guided(int unknown) const { return by_[static_cast<std::size_t>(unknown)] == wall; }
+
+  /// In the order in which they were prescribed, and how each moves.
+  const std::vector<int>& prescribed() const { return prescribed_; }
+  const PrescribedMotion& motion(std::size_t s) const { return *motions_[s]; }
+  /// Since the phase began; in the first one, from the undeformed body.
+  double displacement(std::size_t s, double t) const {
+    return motion(s).displacement(t) - (start_ > 0 ? motion(s).displacement(start_) : 0);
+  }
+
+ private:
+  enum By : char { nothing, support, wall };
+
+  double start_ = 0;
+  std::vector<By> by_;  // of each unknown
+  std::vector<int> prescribed_;
+  std::vector<const PrescribedMotion*> motions_;
+};
+
+/// What a phase consists of, for its boundary conditions.
+template <AxisBasis B, Kinematics K>
+struct PhaseParts {
+  const Grid<dimensions(K)>& grid;
+  const MaterialPoints<dimensions(K)>& points;
+  const PointWeights<B, K>& weights;
+  const HeldUnknowns& held;
+  const DegreesOfFreedom& dofs;
+  const std::vector<double>& node_mass;  // m_i, (functions) [kg]
+  const Mass& mass;
+};
+
+/// Entries of a matrix over the free degrees of freedom; those of equal row and column are summed.
+using MatrixEntries = std::vector<Eigen::Triplet<double>>;
+
+/// All boundary conditions of one kind that a scene has. F: (n) [N]; u: over the grid's functions, component i at
+/// [Dim function + i] [m].
+template <AxisBasis B, Kinematics K>
+class BoundaryCondition {
+ public:
+  using Parts = PhaseParts<B, K>;
+  using GridOf = Grid<dimensions(K)>;
+
+  virtual ~BoundaryCondition() = default;
+
+  // A phase begins, in this order:
+  /// Takes hold of unknowns. reached: whether material reaches a function, (functions).
+  virtual void hold(const GridOf&, const std::vector<char>& /*reached*/, HeldUnknowns&) {}
+  /// F += the forces that depend on neither t nor u.
+  virtual void begin_phase(const Parts&, Vec /*F*/) {}
+  /// v: the velocities with which it begins, changed if they would go through a wall; (n).
+  virtual void begin_motion(const Parts&, double /*t*/, Vec /*v*/) {}
+
+  /// F += the forces that depend on t, not on u.
+  virtual void add_force(const Parts&, double /*t*/, Vec /*F*/) const {}
+  /// Whether some depend on u.
+  virtual bool follows() const { return false; }
+  /// F += these.
+  virtual void add_following_force(const Parts&, double /*t*/, const double* /*u*/, Vec /*F*/) const {}
+  /// ∂F/∂u of these.
+  virtual void add_following_tangent(const Parts&, double /*t*/, const double* /*u*/, MatrixEntries&) const {}
+
+  /// The phase ends with u.
+  virtual void end_phase(const double* /*u*/) {}
+
+  /// Null if nothing opens and closes; one kind alone may have one.
+  virtual Contact* contact() { return nullptr; }
+  /// Appends what its walls feel, of the last evaluation.
+  virtual void report(double /*t*/, std::vector<WallReaction>& /*to*/) const {}
+};
+
+}  // namespace stillpoint

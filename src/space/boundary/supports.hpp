@@ -1,0 +1,79 @@
+// Supports: displacements prescribed at a point or along a face of the grid, u_s = u_s(t).
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/throw_scene_error.hpp"
+#include "space/boundary/boundary_condition.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class Supports final : public BoundaryCondition<B, K> {
+  static constexpr int dim = dimensions(K);
+  using Basis = TensorBasis<B, dim>;
+  using typename BoundaryCondition<B, K>::GridOf;
+
+ public:
+  Supports(const Scene& scene, double time_scale) : scene_(scene), rest_(Expression(0.0), time_scale) {
+    for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale);
+  }
+
+  void hold(const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) override {
+    for (std::size_t s = 0; s < motions_.size(); ++s) {
+      if (scene_.supports[s].face) {
+        hold_face(s, grid, reached, held);
+      } else {
+        hold_position(s, grid, reached, held);
+      }
+    }
+  }
+
+ private:
+  void hold_position(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {
+    const std::string key = fmt::format("support[{}].at", s);
+    const SupportSpec& support = scene_.supports[s];
+    Point<dim> at;
+    std::copy_n(support.at.begin(), dim, at.begin());
+    const auto function = Basis::interpolating_function(grid, at);
+    if (!function) {
+      throw_scene_error(
+          scene_, key,
+          "a support must lie where the basis has a value of its own: at a node of a linear or hermite grid, at "
+          "an end of a quadratic or cubic one");
+    }
+    const int unknown = dim * *function + support.component;
+    if (!reached[static_cast<std::size_t>(*function)])
+      throw_scene_error(scene_, key, "no material reaches this support");
+    if (held.is_prescribed(unknown)) throw_scene_error(scene_, key, "this place is supported already");
+    held.prescribe(unknown, motions_[s]);
+  }
+
+  // Every function that is not zero on the face: values move with the support, slopes along it stay.
+  void hold_face(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {
+    const SupportSpec& support = scene_.supports[s];
+    const int axis = axis_of(*support.face);
+    const std::vector<int> values = Basis::face_values(grid, axis, is_upper(*support.face));
+    for (const int function : Basis::face_functions(grid, axis, is_upper(*support.face))) {
+      if (!reached[static_cast<std::size_t>(function)]) continue;
+      for (int component = 0; component < dim; ++component) {
+        const int unknown = dim * function + component;
+        if ((component != axis && support.roller) || held.is_prescribed(unknown)) continue;
+        const bool moves = component == axis && std::ranges::binary_search(values, function);
+        held.prescribe(unknown, moves ? motions_[s] : rest_);
+      }
+    }
+  }
+
+  const Scene& scene_;
+  PrescribedMotion rest_;
+  std::vector<PrescribedMotion> motions_;  // of each support
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,38 @@
+// The force beside which an out-of-balance force is small.
+#pragma once
+
+#include <stillpoint/semi_discrete.hpp>
+#include <stillpoint/vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stillpoint {
+
+/// ‖F‖. If F = 0, the largest ‖F‖ or ‖reactions‖ seen so far: those of the moment fall with the out-of-balance force
+/// itself when a body is unloaded. Without any, as in a free body that vibrates, the largest ‖R‖.
+class ForceScale {
+ public:
+  /// Of an evaluation of F and R, (n); trial, contact: the reactions that belong to it.
+  double of(const Vector& F, const Vector& R, const TrialState& trial, const Contact* contact) {
+    const double loads = norm(F);
+    force_ = std::max(force_, loads > 0 ? loads : reactions(trial, contact));
+    if (force_ > 0) return loads > 0 ? loads : force_;
+    internal_ = std::max(internal_, norm(R));
+    return internal_;
+  }
+
+ private:
+  static double reactions(const TrialState& trial, const Contact* contact) {
+    double sum = 0;
+    for (const double reaction : trial.reactions) sum += reaction * reaction;
+    return std::sqrt(contact ? contact->squared_forces(sum) : sum);
+  }
+
+  double force_ = 0, internal_ = 0;
+};
+
+/// ‖Q‖/scale; 0 in balance, whatever the scale.
+inline double relative(double unbalanced, double scale) { return unbalanced == 0 ? 0 : unbalanced / scale; }
+
+}  // namespace stillpoint
