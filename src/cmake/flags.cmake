@@ -1,7 +1,7 @@
 # How our own files are compiled, kept in one interface target, and what they link.
 add_library(stillpoint_flags INTERFACE)
 target_compile_options(stillpoint_flags INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow
+  -Wall -Wextra -Wconversion -Wshadow -Wno-sign-conversion  # which clang has in -Wconversion, and gcc has not
   $<$<BOOL:${STILLPOINT_WERROR}>:-Werror>
   # The few floating-point flags that keep non-finite values visible and results the same bits:
   # errno of sqrt and friends is never read, and no trap handler is installed, so both only free the vectoriser.
@@ -10,8 +10,8 @@ target_compile_options(stillpoint_flags INTERFACE
   $<$<CONFIG:Release>:-O3>
   # What gcc 12 guesses from the code that -O3 has inlined is wrong, inside its own <string> and AVX-512 headers. The
   # asan build, at -O1, keeps these warnings.
-  $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:
-    -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict>)
+  "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:\
+-Wno-maybe-uninitialized;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>")
 
 find_package(CLI11 CONFIG REQUIRED)  # of the command alone
 set(STILLPOINT_DEPENDENCIES

@@ -68,7 +68,7 @@ TEST_CASE("vector operations entry by entry agree with plain loops", "[vector]")
       CAPTURE(a, b);
       N_VLinearSum(a, X, b, Y, Z);
       // No tighter than a rounding: the compiler may or may not fuse a product with a sum.
-      CHECK(std::ranges::all_of(z, [&, i = std::size_t{0}](double value) mutable {
+      CHECK(std::ranges::all_of(z, [&, a = a, b = b, i = std::size_t{0}](double value) mutable {
         const double expected = a * x[i] + b * y[i];
         ++i;
         return std::abs(value - expected) <= 1e-15 * 4;

@@ -218,7 +218,7 @@ TEMPLATE_TEST_CASE_SIG("moduli are the derivative of the return: elastic, on the
       const PlaneTensor start = checks::rotation(angle) * PlaneTensor{1.1, 0.1, 0, 0.9, 1.05} - identity;
       const Gradient<S> H = gradient_part<S>(start + increment), dH = gradient_part<S>(increment);
       History next = before;
-      const auto trial = [&](const Gradient<S>& to) {
+      const auto trial = [&, &before = before](const Gradient<S>& to) {
         Gradient<S> change = dH;
         for (std::size_t a = 0; a < change.size(); ++a) change[a] += to[a] - H[a];
         next = before;
