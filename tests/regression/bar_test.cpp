@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 using scenes::bar;

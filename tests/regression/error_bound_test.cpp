@@ -20,6 +20,7 @@
 #include "largest.hpp"
 #include "scenes.hpp"
 #include "simulation/motion.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 #include "way_to_rest.hpp"
 
 using namespace stillpoint;

@@ -9,6 +9,7 @@
 
 #include "allocation_count.hpp"
 #include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 

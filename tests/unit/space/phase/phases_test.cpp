@@ -15,6 +15,7 @@
 #include "free_block.hpp"
 #include "scenes.hpp"
 #include "space/grid/scene_grid.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 #include "space/points/point_order.hpp"
 
 using namespace stillpoint;

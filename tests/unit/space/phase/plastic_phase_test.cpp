@@ -12,6 +12,7 @@
 
 #include "allocation_count.hpp"
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
 
