@@ -19,7 +19,6 @@
 
 #include "largest.hpp"
 #include "scenes.hpp"
-#include "simulation/motion.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "way_to_rest.hpp"
 
