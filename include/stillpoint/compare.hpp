@@ -1,5 +1,5 @@
 // Many ways to rest on one scene, side by side: speed against error, measured against the exact discrete equilibrium
-// and against the lower bound of every method that only evaluates forces.
+// and against the Chebyshev estimate ½ √κ ln(2/ε).
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -25,7 +25,7 @@ struct CompareOptions {
   std::vector<double> step_fractions{0.9};  // of the critical step, for fixed steps
   std::vector<double> tolerances{1e-3};     // rtol, for adaptive steps
   double goal = 1e-6;                       // relative error at which evaluations and time are read
-  double limit = 50;                        // evaluations at most, in lower bounds
+  double limit = 50;                        // evaluations at most, in Chebyshev estimates
   double seconds = 30;                      // wall time at most of one run
   int repeats = 3;                          // timed ones, in random order
   unsigned seed = 1;                        // of that order
@@ -94,8 +94,8 @@ struct Comparison {
   std::optional<double> over_chebyshev_estimate(const ComparedRun& run) const;
 };
 
-/// Evaluations that conjugate gradients need for an error ε in a linear system of condition number κ, and that no
-/// method which only evaluates forces betters by much: ½ √κ ln(2/ε) [Axelsson 1994, §13.2].
+/// Evaluations that the best polynomial iteration needs at worst for an error ε in a linear system of condition number
+/// κ: ½ √κ ln(2/ε) [Axelsson 1994, §13.2]. No bound for a given load: one that excites few modes takes fewer.
 double chebyshev_estimate(double kappa, double error);
 
 /// Runs the scene once for each combination to count, in parallel if there are cores, and those that reach the goal

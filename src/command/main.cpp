@@ -50,7 +50,8 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
       ->check(positive)
       ->type_name("X,...");
   compare.add_option("--goal", options.goal, "relative error to reach (default: 1e-6)")->check(CLI::Range(1e-15, 0.5));
-  compare.add_option("--limit", options.limit, "evaluations at most, in lower bounds (default: 50)")->check(positive);
+  compare.add_option("--limit", options.limit, "evaluations at most, in Chebyshev estimates (default: 50)")
+      ->check(positive);
   compare.add_option("--seconds", options.seconds, "wall time at most of one run (default: 30)")->check(positive);
   compare.add_option("--repeats", options.repeats, "timed runs of each (default: 3)")->check(CLI::Range(0, 1000));
   compare.add_option("--seed", options.seed, "of the order in which runs are timed");

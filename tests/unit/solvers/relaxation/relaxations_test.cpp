@@ -1,6 +1,6 @@
 // Damping strategies that own their iteration: what they cost on chains whose answers are known, and where they lead.
 //
-// The lower bound for a linear system of condition number κ is ½ √κ ln(2/ε) force evaluations.
+// The Chebyshev estimate for a linear system of condition number κ is ½ √κ ln(2/ε) force evaluations.
 #include <stillpoint/spectrum.hpp>
 
 #include <algorithm>
@@ -117,7 +117,8 @@ double kappa_of(const SemiDiscrete& system) {
   return std::pow(omega_max_by_arpack(system, 0, u).omega / omega_1_by_arpack(system, 0, u).omega, 2);
 }
 
-TEST_CASE("Chebyshev's semi-iteration costs the lower bound, 726 evaluations to 1e-6 at kappa = 9989", "[strategies]") {
+TEST_CASE("Chebyshev's semi-iteration costs the Chebyshev estimate, 726 evaluations to 1e-6 at kappa = 9989",
+          "[strategies]") {
   const test::Chain chain(long_chain());
   const long cost = evaluations_of(
       chain, {.strategy = "chebyshev", .step_fraction = 1, .options = {.omega_1 = chain.exact_omega(1)}});
@@ -181,7 +182,7 @@ TEST_CASE("conjugate gradients end after 78 steps of two evaluations: the load m
 }
 
 TEST_CASE(
-    "on linear scenes leapfrog with c = 2 omega_1 at 0.95 of the critical step costs 1.3 lower bounds at most, "
+    "on linear scenes leapfrog with c = 2 omega_1 at 0.95 of the critical step costs 1.3 Chebyshev estimates at most, "
     "and auto, which is told nothing, 1.6",
     "[strategies]") {
   const auto check = [](SemiDiscrete& system, double kappa, const Model* model = nullptr) {
