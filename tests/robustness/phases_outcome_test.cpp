@@ -10,6 +10,7 @@
 
 #include "free_block.hpp"
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 
 using namespace stillpoint;
 using stillpoint::testing::free_block;
