@@ -26,6 +26,12 @@ std::string to_string(RunStatus status) {
   return "unknown";
 }
 
+namespace {
+
+Json text(const std::string& word) { return word.empty() ? Json(nullptr) : Json(word); }
+
+}  // namespace
+
 std::string to_json(const Summary& s) {
   Json error = nullptr;
   if (s.error) {
@@ -67,8 +73,8 @@ std::string to_json(const Summary& s) {
                      {"slope_angle", number(s.slope_angle)},
                      {"stages", stages},
                      {"method", s.method},
-                     {"integrator", s.integrator},
-                     {"damping", s.damping},
+                     {"integrator", text(s.integrator)},
+                     {"damping", text(s.damping)},
                      {"omega_1", number(s.omega_1)},
                      {"omega_max", number(s.omega_max)},
                      {"c", number(s.c)},

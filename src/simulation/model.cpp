@@ -297,7 +297,7 @@ Model make_model(const Scene& scene) {
   }
   if (model.static_method && model.static_method->takes_end_of_loads) model.t = scene.stop.time;
   model.dwell = dwell_of(scene, model);
-  model.equilibrium_must_last = !residual_bounds_error(scene, model);
+  model.equilibrium_must_last = !model.static_method && !residual_bounds_error(scene, model);
   choose_strategy(scene, takes_c, model);
   if (!model.static_method) set_tolerances(scene, model);
   choose_step(scene, model);

@@ -130,8 +130,10 @@ class Simulation::Impl {
     s.dt = step_;
     s.critical_step = model_.critical_step;
     s.method = scene_.solve.method;
-    s.integrator = model_.method.name;
-    s.damping = scene_.damping.strategy;
+    if (!model_.static_method) {
+      s.integrator = model_.method.name;
+      s.damping = scene_.damping.strategy;
+    }
     s.notes = model_.notes;
     s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
     if (model_.phase->info().updated_lagrangian) {
