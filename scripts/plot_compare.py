@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """plot_compare.py DIR [--out FILE]: the work-precision picture of a comparison, from DIR/compare.json.
 
-Error against force evaluations and against wall time, a line a run (a dot where only its end is known), with the lower
-bound of methods that only evaluate forces. FILE is DIR/compare.png if not given. Exit status 2 and a message where
+Error against force evaluations and against wall time, a line a run (a dot if only its end is known), with the Chebyshev
+estimate of a polynomial iteration's worst case. FILE is DIR/compare.png if not given. Exit status 2 and a message if
 there is nothing to draw.
 """
 
@@ -65,7 +65,7 @@ def draw(comparison, file):
         root = comparison["kappa"] ** 0.5
         errors = [10 ** (-k / 4) for k in range(1, 45)]
         by_evaluations.plot([0.5 * root * math.log(2 / e) for e in errors], errors, color="0.5", linewidth=4, alpha=0.4,
-                            zorder=0, label="lower bound ½ √κ ln(2/ε)")
+                            zorder=0, label="Chebyshev estimate ½ √κ ln(2/ε)")
     goal = comparison["goal"]
     for axis, what in ((by_evaluations, "force evaluations"), (by_time, "wall time [s]")):
         axis.axhline(goal, color="0.7", linewidth=0.8)

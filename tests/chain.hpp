@@ -33,8 +33,7 @@ struct ChainOptions {
 
 class Chain : public SemiDiscrete, public Tangents {
  public:
-  explicit Chain(ChainOptions options = {})
-      : options_(with_masses(std::move(options))), mass_(make_mass(options_)) {}
+  explicit Chain(ChainOptions options = {}) : options_(with_masses(std::move(options))), mass_(make_mass(options_)) {}
 
   std::size_t size() const override { return options_.n; }
   const Mass& mass() const override { return mass_; }

@@ -9,6 +9,8 @@
 #include <Eigen/SparseCholesky>
 #include <catch2/catch.hpp>
 
+#include "space/phase/lagrangian_phase.hpp"
+
 namespace statics {
 
 using stillpoint::ConstVec;

@@ -17,6 +17,11 @@ inline std::unique_ptr<Damping> damping_of(const std::string& name, double c, do
   return strategy && !strategy->is_relaxation ? make_damping(name, c, alpha) : no_damping();
 }
 
+/// The override by which a scene takes it.
+inline std::string override_of(const std::string& name) {
+  return (catalogue().static_method(name) ? "solve.method=" : "damping.strategy=") + name;
+}
+
 /// What steps the system on that way to rest, with options.max_step.
 inline std::unique_ptr<Integrator> stepper_of(const std::string& name, IntegratorOptions options,
                                               RelaxationSystem& system, RelaxationOptions relaxing = {}) {

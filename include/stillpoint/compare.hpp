@@ -1,5 +1,5 @@
 // Many ways to rest on one scene, side by side: speed against error, measured against the exact discrete equilibrium
-// and against the lower bound of every method that only evaluates forces.
+// and against the Chebyshev estimate ½ √κ ln(2/ε).
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -25,7 +25,7 @@ struct CompareOptions {
   std::vector<double> step_fractions{0.9};  // of the critical step, for fixed steps
   std::vector<double> tolerances{1e-3};     // rtol, for adaptive steps
   double goal = 1e-6;                       // relative error at which evaluations and time are read
-  double limit = 50;                        // evaluations at most, in lower bounds
+  double limit = 50;                        // evaluations at most, in Chebyshev estimates
   double seconds = 30;                      // wall time at most of one run
   int repeats = 3;                          // timed ones, in random order
   unsigned seed = 1;                        // of that order
@@ -66,8 +66,8 @@ struct ComparedRun {
   long first_evaluations = 0;       // until it first was at the goal; 0: never
   long estimating = 0;              // products K x spent on the spectrum that the method itself needs, of evaluations
   double setup_s = 0;               // everything before the first step
-  std::optional<Spread> wall_s;     // of those steps; where it converged
-  // At the end; NaN where it did not run.
+  std::optional<Spread> wall_s;     // of those steps; if it converged
+  // At the end; NaN if it did not run.
   double error = std::numeric_limits<double>::quiet_NaN(), residual = std::numeric_limits<double>::quiet_NaN();
   std::optional<double> distance;
   std::optional<double> overshoot;  // ‖u − u_ramp‖_M/‖u_ramp‖_M
@@ -90,17 +90,17 @@ struct Comparison {
   std::vector<ComparedRun> runs;          // in the order of their names' lists
   std::vector<std::string> notes;
 
-  /// Evaluations of a run over the lower bound; nothing where there is none, or where it made none.
+  /// Evaluations of a run over the Chebyshev estimate; nothing if there is none, or if it made none.
   std::optional<double> over_chebyshev_estimate(const ComparedRun& run) const;
 };
 
-/// Evaluations that conjugate gradients need for an error ε in a linear system of condition number κ, and that no
-/// method which only evaluates forces betters by much: ½ √κ ln(2/ε) [Axelsson 1994, §13.2].
+/// Evaluations that the best polynomial iteration needs at worst for an error ε in a linear system of condition number
+/// κ: ½ √κ ln(2/ε) [Axelsson 1994, §13.2]. No bound for a given load: one that excites few modes takes fewer.
 double chebyshev_estimate(double kappa, double error);
 
-/// Runs the scene once for each combination to count, in parallel where there are cores, and those that reach the goal
+/// Runs the scene once for each combination to count, in parallel if there are cores, and those that reach the goal
 /// `repeats` times more to time them, one at a time. A combination that the scene refuses is a row with the reason.
-/// Throws SceneError where the scene itself is wrong, or a name in the options is none (in the words of --set).
+/// Throws SceneError if the scene itself is wrong, or a name in the options is none (in the words of --set).
 Comparison compare(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                    const CompareOptions& options = {});
 

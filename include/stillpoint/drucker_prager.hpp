@@ -1,7 +1,7 @@
 // Drucker–Prager plasticity, rate-independent or viscous, with a tension cut-off that opens a gap. Tension is positive.
 //   f = √J₂ + η p − ξ c,   p = tr σ/3,   flow by √J₂ + η̄ p:   dᵖ = γ̇ᵖ (s/(2 √J₂) + η̄/3 I)
 // The plastic strain γᵖ = ∫ γ̇ᵖ dt is conjugate to √J₂ (s : dᵖ = √J₂ γ̇ᵖ): in simple shear, the plastic part of γ.
-// Either f ≤ 0, or γ̇ᵖ = β f where f > 0 [Perzyna 1966], by backward Euler.
+// Either f ≤ 0, or γ̇ᵖ = β f if f > 0 [Perzyna 1966], by backward Euler.
 // Return mapping: [de Souza Neto, Perić and Owen 2008, §8.3].
 //
 // An increment [Hughes and Winget 1980], with f = I + H at its end and g = f − dH/2 half-way:
@@ -184,7 +184,7 @@ class DruckerPrager {
     }
   }
 
-  // P = det(f) σ f⁻ᵀ = σ cof f;  NaN, through σ_xy, where f or g is turned inside out.
+  // P = det(f) σ f⁻ᵀ = σ cof f;  NaN, through σ_xy, if f or g is turned inside out.
   template <class Number>
   static Components<Number> nominal_stress(const Components<Number>& H, const Number& det_g, const Number& xx,
                                            const Number& yy, const Number& zz, const Number& xy) {

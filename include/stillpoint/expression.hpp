@@ -27,7 +27,7 @@ class Expression {
   /// The constant 0.
   Expression();
   explicit Expression(double value);
-  /// variables: the names the formula may use, of "x", "y", "z", "t". Throws ExpressionError; also where the formula
+  /// variables: the names the formula may use, of "x", "y", "z", "t". Throws ExpressionError; also if the formula
   /// without variables is not a finite number.
   Expression(const std::string& text, const Constants& constants, const std::string& variables = "xyzt");
   Expression(const Expression&);

@@ -19,7 +19,7 @@ class Hencky {
   explicit Hencky(const LameParameters& m)
       : uniaxial_(S == StressState::uniaxial_stress ? m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu)  // E
                                                     : m.lambda + 2 * m.mu),
-        // τ_zz = 0 where e_zz = −λ/(λ + 2μ) (e_xx + e_yy); what is left of λ is 2 λ μ/(λ + 2μ)
+        // τ_zz = 0 for e_zz = −λ/(λ + 2μ) (e_xx + e_yy); what is left of λ is 2 λ μ/(λ + 2μ)
         lambda_(S == StressState::plane_stress ? 2 * m.lambda * m.mu / (m.lambda + 2 * m.mu) : m.lambda),
         mu_(m.mu),
         contraction_(S == StressState::uniaxial_stress ? m.lambda / (m.lambda + m.mu)
@@ -66,7 +66,7 @@ class Hencky {
   struct LogStrain {
     PlaneTensor b, dev;     // dev₂ b
     double m, y, a, slope;  // slope = da/dy
-    double plane, zz, J;    // ln det₂F, ln F_zz and ln J, NaN where inside out
+    double plane, zz, J;    // ln det₂F, ln F_zz and ln J, NaN if inside out
 
     explicit LogStrain(const PlaneTensor& F) : b(F * transpose(F)), m((b.xx + b.yy) / 2) {
       const double half = (b.xx - b.yy) / 2, plane_ratio = plane_determinant(F);

@@ -24,7 +24,7 @@ struct IntegratorOptions {
   DampingTreatment treatment = DampingTreatment::automatic;
   /// The largest step [s]: a fixed step's length, an adaptive step's cap (the stability limit times a fraction). > 0.
   double max_step = 0;
-  /// Adaptive step where set (erk with an embedding, gsl): local error ≤ rtol |y| + atol.
+  /// Adaptive step if set (erk with an embedding, gsl): local error ≤ rtol |y| + atol.
   std::optional<double> rtol{};
   double atol_u = 1e-12;  // [m]
   double atol_v = 1e-12;  // [m/s]
@@ -62,7 +62,7 @@ class Integrator {
   /// One accepted step, never past t_stop. A fixed step is the largest not above max_step of which a whole number
   /// reaches t_stop, so that equal steps land on every output time. After a failure y holds the last good state.
   virtual StepReport step(double t_stop) = 0;
-  /// Lowers or raises max_step from the next step on, where the critical step changes with the state. h > 0 [s].
+  /// Lowers or raises max_step from the next step on, if the critical step changes with the state. h > 0 [s].
   virtual void set_max_step(double h) = 0;
   /// v in y was changed at the present t, as by a contact that closed; u was not.
   virtual void velocity_changed() = 0;
@@ -90,7 +90,7 @@ struct Method : MethodInfo {
 /// Every method on offer, in the order of `stillpoint list integrators`.
 std::vector<Method> methods();
 /// One method by name; for leapfrog and symplectic-euler the treatment decides stability.
-/// Throws std::invalid_argument naming the nearest method where there is none of that name.
+/// Throws std::invalid_argument naming the nearest method if there is none of that name.
 Method find_method(std::string_view name, DampingTreatment treatment = DampingTreatment::automatic);
 
 /// Throws std::invalid_argument if options and method do not fit (a damping that does not go with it, rtol for a method

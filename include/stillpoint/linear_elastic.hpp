@@ -14,7 +14,7 @@ class LinearElastic {
   explicit LinearElastic(const LameParameters& m)
       : uniaxial_(S == StressState::uniaxial_stress ? m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu)  // E
                                                     : m.lambda + 2 * m.mu),
-        // σ_zz = 0 where ε_zz = −λ/(λ + 2μ) (ε_xx + ε_yy); what is left of λ is 2 λ μ/(λ + 2μ)
+        // σ_zz = 0 for ε_zz = −λ/(λ + 2μ) (ε_xx + ε_yy); what is left of λ is 2 λ μ/(λ + 2μ)
         lambda_(S == StressState::plane_stress ? 2 * m.lambda * m.mu / (m.lambda + 2 * m.mu) : m.lambda),
         mu_(m.mu) {}
 
@@ -31,7 +31,7 @@ class LinearElastic {
 
   Stress<S> cauchy(const Gradient<S>& H) const {
     if constexpr (dimensions(S) == 1) {
-      // σ_xx = E ε_xx where the section is free to contract, (λ + 2μ) ε_xx where it is not
+      // σ_xx = E ε_xx if the section is free to contract, (λ + 2μ) ε_xx if it is not
       return {uniaxial_ * H[0]};
     } else {
       const double e_zz = S == StressState::axisymmetric ? H[H.size() - 1] : 0;

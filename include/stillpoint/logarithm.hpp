@@ -8,7 +8,7 @@
 
 namespace stillpoint {
 
-/// ln x; NaN where x is not positive and finite, or below the smallest normal number.
+/// ln x; NaN if x is not positive and finite, or below the smallest normal number.
 inline double logarithm(double x) {
   // x = 2ᵏ m, √½ ≤ m < √2: with the bits of √½ as its zero, the exponent field counts k + 1023
   constexpr std::uint64_t sqrt_half = 0x3FE6A09E667F3BCD, one = 0x3FF0000000000000, mantissa = 0x000FFFFFFFFFFFFF;

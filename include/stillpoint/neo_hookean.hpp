@@ -19,8 +19,8 @@ class NeoHookean {
 
   Gradient<S> first_piola(const Gradient<S>& H) const {
     if constexpr (dimensions(S) == 1) {
-      // With the stretch F = 1 + H and the section's area ratio w (1 where it cannot contract), J = F w:
-      //   P = μ (F − 1/F) + λ ln J / F     (NaN where F ≤ 0: not admissible)
+      // With the stretch F = 1 + H and the section's area ratio w (1 if it cannot contract), J = F w:
+      //   P = μ (F − 1/F) + λ ln J / F     (NaN if F ≤ 0: not admissible)
       const double F = 1 + H[0], log_J = std::log(F) + log_area_ratio(F);
       return {mu_ * (F - 1 / F) + lambda_ * log_J / F};
     } else {
@@ -58,7 +58,7 @@ class NeoHookean {
   }
 
  private:
-  // ln J = ln det₂F + ln F_zz, NaN where either is turned inside out
+  // ln J = ln det₂F + ln F_zz, NaN if either is turned inside out
   static double log_volume_ratio(const PlaneTensor& F) {
     return logarithm(plane_determinant(F)) + (S == StressState::plane_strain ? 0 : logarithm(F.zz));
   }

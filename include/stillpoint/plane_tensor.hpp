@@ -34,7 +34,7 @@ constexpr PlaneTensor inverse(const PlaneTensor& A) {
   return {r * A.yy, -r * A.xy, -r * A.yx, r * A.xx, 1 / A.zz};
 }
 
-/// F = I + H; F_zz = 1 where H does not know it.
+/// F = I + H; F_zz = 1 if H does not know it.
 template <StressState S>
 constexpr PlaneTensor deformation_gradient(const Gradient<S>& H) {
   if constexpr (S == StressState::axisymmetric) {

@@ -32,7 +32,7 @@ class RelaxationSystem {
   bool out_of_balance(double t, ConstVec u, Vec Q);
   /// The same from the last evaluation, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
-  /// Q += D(v, Q) of local damping, except where a contact holds; v, Q: (n), Q as the two above leave it.
+  /// Q += D(v, Q) of local damping, except if a contact holds; v, Q: (n), Q as the two above leave it.
   void add_local_damping(ConstVec v, Vec Q) const;
 
   /// Q of the last evaluation is that of an accepted step: for local damping by the sign of dQ/dt.

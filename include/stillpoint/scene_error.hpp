@@ -12,7 +12,7 @@ struct Location {
   std::string file;
   int line = 0, column = 0;
 };
-/// "file:line:column", or the file alone where there is no line.
+/// "file:line:column", or the file alone if there is no line.
 std::string to_string(const Location& where);
 
 /// One thing that is wrong with a scene.

@@ -8,14 +8,14 @@
 
 namespace stillpoint {
 
-/// |largest eigenvalue| of one step's map for u'' + rate·u' + omega² u = 0 with step h: stable where ≤ 1.
+/// |largest eigenvalue| of one step's map for u'' + rate·u' + omega² u = 0 with step h: stable if ≤ 1.
 using AmplificationRadius = std::function<double(double h, double omega, double rate)>;
 
 /// What the stability of u'' + rate·u' + omega² u = 0 depends on, over all modes of M a + C v + K u = 0.
 /// By Rayleigh quotients every eigenvalue of the damped system solves λ² + rate λ + omega² = 0 with some omega and rate
 /// in these ranges.
 struct DampedSpectrum {
-  double omega_1 = 0;    // lowest angular frequency [rad/s]; 0 where unknown
+  double omega_1 = 0;    // lowest angular frequency [rad/s]; 0 if unknown
   double omega_max = 0;  // highest angular frequency [rad/s]
   double rate_min = 0;   // smallest and largest vᵀCv / vᵀMv [1/s]
   double rate_max = 0;
@@ -25,7 +25,7 @@ struct DampedSpectrum {
 /// Rates of C = mass·M + identity·I: [c_m + c_i/max m, c_m + c_i/min m] with the extreme eigenvalues of M.
 DampedSpectrum damped_spectrum(double omega_1, double omega_max, const Damping& damping, const Mass& mass);
 
-/// The largest h such that the amplification stays ≤ 1 for every step in (0, h] and every mode [s]. 0 where none is
+/// The largest h such that the amplification stays ≤ 1 for every step in (0, h] and every mode [s]. 0 if none is
 /// stable.
 double critical_step(const AmplificationRadius& amplification, const DampedSpectrum& spectrum);
 

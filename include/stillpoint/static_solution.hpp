@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-/// How K du = Q is solved. automatic: by CHOLMOD where K is symmetric and positive definite, by UMFPACK otherwise, and
+/// How K du = Q is solved. automatic: by CHOLMOD if K is symmetric and positive definite, by UMFPACK otherwise, and
 /// an equilibrium whose K is symmetric but indefinite is refused as unstable.
 /// cholesky: with the symmetric part of K.
 enum class LinearSolver { automatic, cholesky, lu, conjugate_gradients };
@@ -17,10 +17,10 @@ enum class LinearSolver { automatic, cholesky, lu, conjugate_gradients };
 struct NewtonOptions {
   double tolerance = 1e-10;     // of ‖F − R‖/‖F‖
   int max_iterations = 25;      // in a load step
-  int load_steps = 1;           // to begin with: halved where one fails, doubled where it is easy
+  int load_steps = 1;           // to begin with: halved if one fails, doubled if it is easy
   double max_load_step = 1;     // share of the load, so that a path is followed closely
   double min_load_step = 1e-3;  // share of the load: a shorter step that fails is the end
-  double symmetry = 1e-12;      // K is symmetric where ‖K − Kᵀ‖ ≤ this ‖K‖ (Frobenius)
+  double symmetry = 1e-12;      // K is symmetric if ‖K − Kᵀ‖ ≤ this ‖K‖ (Frobenius)
   int max_cg_iterations = 0;    // in a Newton iteration; 0: n
   LinearSolver solver = LinearSolver::automatic;
   /// Says what is wrong, or nothing.
@@ -33,7 +33,7 @@ struct ConjugateGradientOptions {
   std::string validate() const;
 };
 
-/// From one load factor s to another, which it reached where it converged.
+/// From one load factor s to another, which it reached if it converged.
 struct LoadStep {
   double from = 0, to = 1;
   bool converged = false;
@@ -43,7 +43,7 @@ struct LoadStep {
 struct StaticReport {
   bool converged = false;
   std::string reason;      // the inequality that ended it
-  double residual = 0;     // ‖F − R‖/‖F‖ over the free degrees of freedom; of the reactions' norm where F = 0
+  double residual = 0;     // ‖F − R‖/‖F‖ over the free degrees of freedom; of the reactions' norm if F = 0
   double load_factor = 0;  // s in equilibrium: 0 the state at the start, 1 the full load
   std::vector<LoadStep> load_steps;  // failed ones as well
   int iterations = 0;                // of Newton's method, or of conjugate gradients alone
@@ -57,12 +57,12 @@ struct StaticReport {
 
 /// Newton's method on Q(u) = F_s(u) − R(u) = 0, K du = Q with the consistent tangent K = ∂R/∂u − s ∂F/∂u:
 ///   F_s = (1 − s) R(u₀) + s F(t, u),   s from 0 to 1 in load steps,
-/// each committed where history_dependent(). u, (n): u₀ at the start, in the end the last equilibrium. A step du is
-/// halved while ‖Q(u + λ du)‖ > (1 − 10⁻⁴ λ) ‖Q(u)‖ [Kelley 1995, §8.1] or u + λ du is inadmissible; where that comes
+/// each committed if history_dependent(). u, (n): u₀ at the start, in the end the last equilibrium. A step du is
+/// halved while ‖Q(u + λ du)‖ > (1 − 10⁻⁴ λ) ‖Q(u)‖ [Kelley 1995, §8.1] or u + λ du is inadmissible; if that comes
 /// down to three short steps in a row, in a body without history, the load step is begun again with full ones.
 /// Conjugate gradients solve K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the order 2 [Dembo, Eisenstat and Steihaug
 /// 1982]. Everything happens at t: supports are where they then are from the first load step on, and a viscous law
-/// flows in the first one, for the time since the last commit. Throws std::invalid_argument on bad options and where
+/// flows in the first one, for the time since the last commit. Throws std::invalid_argument on bad options and if
 /// the system has contact, which has no tangent here.
 StaticReport newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options = {});
 

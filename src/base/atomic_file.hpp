@@ -12,7 +12,7 @@ std::filesystem::path partial_name(std::filesystem::path file);
 
 class AtomicFile {
  public:
-  /// Creates the folder if need be. Throws std::filesystem::filesystem_error where the file cannot be written.
+  /// Creates the folder if need be. Throws std::filesystem::filesystem_error if the file cannot be written.
   explicit AtomicFile(std::filesystem::path file);
   /// Appends and flushes, so that NAME.partial keeps what there was even if the process is killed.
   void write(std::string_view text);

@@ -5,7 +5,7 @@
 namespace stillpoint {
 namespace {
 
-/// Twice the signed area of the triangle a, b, c: positive where c lies left of the way from a to b.
+/// Twice the signed area of the triangle a, b, c: positive if c lies left of the way from a to b.
 double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }

@@ -11,7 +11,7 @@ namespace stillpoint {
 using PlanePoint = std::array<double, 2>;
 using Polygon = std::vector<PlanePoint>;
 
-/// Positive where the corners run counter-clockwise.
+/// Positive if the corners run counter-clockwise.
 double signed_area(const Polygon& polygon);
 
 /// Of a polygon with an area.
@@ -25,7 +25,7 @@ bool contains(const Polygon& polygon, const PlanePoint& x);
 Polygon clipped_to_unit_square(const Polygon& polygon);
 
 /// Two edges (k: from corner k to the next) that cross, touch or lie on each other, though no corner joins them or they
-/// fold back at it; empty where the polygon is simple. Corners that repeat their neighbour count as such edges.
+/// fold back at it; empty if the polygon is simple. Corners that repeat their neighbour count as such edges.
 std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon& polygon);
 
 }  // namespace stillpoint

@@ -45,7 +45,7 @@ std::string seconds(double s) {
 }
 
 /// The folder to write into, made before anything runs, since one that cannot be made is bad input. It does not stay
-/// where nothing came of it.
+/// if nothing came of it.
 class OutputFolder {
  public:
   explicit OutputFolder(const std::filesystem::path& path) : path_(path) {
@@ -86,7 +86,7 @@ void print_heading(const Comparison& c) {
              c.threads == 1 ? "" : "s");
   fmt::print("  reference: {}\n", c.reference);
   if (c.chebyshev_estimate) {
-    fmt::print("  kappa {:.4g}; lower bound for an error of {:g}: {:.0f} evaluations\n", *c.kappa, c.goal,
+    fmt::print("  kappa {:.4g}; Chebyshev estimate for an error of {:g}: {:.0f} evaluations\n", *c.kappa, c.goal,
                *c.chebyshev_estimate);
   }
   if (c.ramp_difference) {
@@ -100,7 +100,7 @@ void print_table(const Comparison& c) {
   std::size_t width = 0;
   for (const ComparedRun& run : c.runs) width = std::max(width, run.label().size());
   fmt::print("\n  {:<{}}{:>12}{:>12}{:>9}{:>11}{:>8}{:>11}{:>11}{:>11}{}\n", "", width, "status", "evaluations",
-             "x bound", "time", "+-", "error", "residual", "distance", overshoot ? "  overshoot" : "");
+             "x estimate", "time", "+-", "error", "residual", "distance", overshoot ? "  overshoot" : "");
   for (const ComparedRun* run : ranked(c)) {
     const bool converged = run->status == ComparedStatus::converged;
     const auto ratio = c.over_chebyshev_estimate(*run);

@@ -50,7 +50,8 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
       ->check(positive)
       ->type_name("X,...");
   compare.add_option("--goal", options.goal, "relative error to reach (default: 1e-6)")->check(CLI::Range(1e-15, 0.5));
-  compare.add_option("--limit", options.limit, "evaluations at most, in lower bounds (default: 50)")->check(positive);
+  compare.add_option("--limit", options.limit, "evaluations at most, in Chebyshev estimates (default: 50)")
+      ->check(positive);
   compare.add_option("--seconds", options.seconds, "wall time at most of one run (default: 30)")->check(positive);
   compare.add_option("--repeats", options.repeats, "timed runs of each (default: 3)")->check(CLI::Range(0, 1000));
   compare.add_option("--seed", options.seed, "of the order in which runs are timed");
@@ -112,7 +113,7 @@ int dispatch(int argc, char** argv) {
 }
 
 // OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and
-// ten times slower than one thread where another program wants a core. So they wait for microseconds here, unless the
+// ten times slower than one thread if another program wants a core. So they wait for microseconds here, unless the
 // user has said otherwise. The library reads its environment before main(): the program starts itself once more.
 void wait_briefly(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;

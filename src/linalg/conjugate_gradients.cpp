@@ -1,31 +1,30 @@
 #include "linalg/conjugate_gradients.hpp"
 
+#include <stillpoint/vector.hpp>
+
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <vector>
+
+#include "base/parallel_loop.hpp"
 
 namespace stillpoint {
-namespace {
-
-double dot(ConstVec x, ConstVec y) { return std::inner_product(x.begin(), x.end(), y.begin(), 0.0); }
-double norm(ConstVec x) { return std::sqrt(dot(x, x)); }
-
-}  // namespace
 
 ConjugateGradientResult conjugate_gradients(const LinearMap& A, ConstVec D, ConstVec b, Vec x, double tolerance,
                                             int max_iterations, const std::function<void(double)>& each) {
   const std::size_t n = b.size();
-  std::vector<double> r(b.begin(), b.end()), z(n), p(n, 0.0), Ap(n);
+  const VectorSpace vectors;
+  Vector r = vectors.make(n), z = vectors.make(n), p = vectors.make(n), Ap = vectors.make(n);
+  double *r_i = r.span().data(), *z_i = z.span().data(), *p_i = p.span().data();
+  const double* Ap_i = Ap.span().data();
+  std::ranges::copy(b, r_i);
   std::ranges::fill(x, 0.0);
-  const double enough = tolerance * norm(b);
+  const double enough = tolerance * norm(r);
   ConjugateGradientResult result;
   double rz_before = 0;
   while (!(result.converged = norm(r) <= enough) && result.iterations < max_iterations) {
-    for (std::size_t i = 0; i < n; ++i) z[i] = r[i] / D[i];
+    for_each_index(n, [=](std::size_t i) { z_i[i] = r_i[i] / D[i]; });
     const double rz = dot(r, z), beta = result.iterations > 0 ? rz / rz_before : 0;
-    for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
-    A(p, Ap);
+    for_each_index(n, [=](std::size_t i) { p_i[i] = z_i[i] + beta * p_i[i]; });
+    A(p.span(), Ap.span());
     ++result.iterations;
     const double curvature = dot(p, Ap);
     if (!(curvature > 0)) {
@@ -33,10 +32,10 @@ ConjugateGradientResult conjugate_gradients(const LinearMap& A, ConstVec D, Cons
       return result;
     }
     const double alpha = rz / curvature;
-    for (std::size_t i = 0; i < n; ++i) {
-      x[i] += alpha * p[i];
-      r[i] -= alpha * Ap[i];
-    }
+    for_each_index(n, [=](std::size_t i) {
+      x[i] += alpha * p_i[i];
+      r_i[i] -= alpha * Ap_i[i];
+    });
     rz_before = rz;
     if (each) each(norm(r));
   }

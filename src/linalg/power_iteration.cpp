@@ -1,15 +1,17 @@
 #include "linalg/power_iteration.hpp"
 
+#include <stillpoint/vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
+#include <utility>
+
+#include "base/parallel_loop.hpp"
 
 namespace stillpoint {
 namespace {
-
-double dot(ConstVec x, ConstVec y) { return std::inner_product(x.begin(), x.end(), y.begin(), 0.0); }
 
 // What ρ_k still misses, from its changes δ_k = ρ_k − ρ_{k−1}. The change alone would stop a slow iteration far from λ.
 //   one mode left beside the dominant one:  λ − ρ_k = δ_k (q + q² + …) = δ_k q/(1 − q),   q = δ_k/δ_{k−1};
@@ -50,22 +52,24 @@ PowerIterationResult power_iteration(std::size_t n, const LinearMap& apply_A, co
                                      double tolerance, int max_iterations) {
   PowerIterationResult result;
   MissingPart missing(tolerance);
-  std::vector<double> x(n), Ax(n), Bx = start_vector(n);  // B x needs no product: B (B⁻¹A x) = A x
-  solve_B(Bx, x);
+  const VectorSpace vectors;
+  Vector x = vectors.make(n), Ax = vectors.make(n), Bx = vectors.make(n);  // B x needs no product: B (B⁻¹A x) = A x
+  std::ranges::copy(start_vector(n), Bx.span().begin());
+  solve_B(Bx.span(), x.span());
   while (result.iterations < max_iterations) {
     const double norm = std::sqrt(dot(x, Bx));  // ‖x‖_B
     if (norm == 0) {                            // A x = 0 for a random x: A = 0
       result = {0, 0, result.iterations, true};
       return result;
     }
-    for (double& value : x) value /= norm;
-    apply_A(x, Ax);
+    for_each_index(n, [x = x.span().data(), norm](std::size_t i) { x[i] /= norm; });
+    apply_A(x.span(), Ax.span());
     ++result.iterations;
     result.eigenvalue = dot(x, Ax);  // ρ = xᵀAx, xᵀBx = 1
     result.converged = missing.converged(result.eigenvalue, result.iterations);
     result.relative_error = missing.error();
     if (result.converged || !std::isfinite(result.eigenvalue)) return result;
-    solve_B(Ax, x);
+    solve_B(Ax.span(), x.span());
     std::swap(Ax, Bx);
   }
   return result;

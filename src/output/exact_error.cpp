@@ -35,7 +35,8 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
     const double V = volumes[p];
     for (std::size_t i = 0; i < dim; ++i) in_u.add(V, displacement[dim * p + i], scene.exact_u[i](x, t));
     if (scene.exact_stress)
-      in_stress.add(V, stress[static_cast<std::size_t>(phase.info().stress_components) * p], (*scene.exact_stress)(x, t));
+      in_stress.add(V, stress[static_cast<std::size_t>(phase.info().stress_components) * p],
+                    (*scene.exact_stress)(x, t));
   }
   if (in_u.exact == 0) return std::nullopt;
   ExactError error{.u_rel_l2 = in_u.rel_l2(), .u_rel_max = in_u.max_difference / in_u.max_exact, .stress_rel_l2 = {}};

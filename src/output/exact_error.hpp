@@ -10,7 +10,7 @@
 namespace stillpoint {
 
 /// ‖u_h − u‖/‖u‖ over the material points with weights V_p, at (t, u); stress as of the last commit.
-/// Empty where the scene gives no exact solution or it vanishes.
+/// Empty if the scene gives no exact solution or it vanishes.
 std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
 
 }  // namespace stillpoint

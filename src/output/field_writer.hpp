@@ -33,8 +33,8 @@ struct FieldFrame {
 ///
 /// Both files are written as NAME.partial. finish() gives them their names; without it the destructor removes them.
 /// After each frame they are flushed, so that a killed process leaves all its frames in fields.h5.partial. The
-/// constructor creates the folder if need be. It, add() and finish() throw std::filesystem::filesystem_error where a
-/// file cannot be written, in HDF5's words where it is HDF5 that cannot.
+/// constructor creates the folder if need be. It, add() and finish() throw std::filesystem::filesystem_error if a
+/// file cannot be written, in HDF5's words if it is HDF5 that cannot.
 class FieldWriter {
  public:
   explicit FieldWriter(const std::filesystem::path& folder);

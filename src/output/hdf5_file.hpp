@@ -15,7 +15,7 @@ struct Columns {
   std::size_t width, first, count, columns;
 };
 
-/// Every function throws std::filesystem::filesystem_error, in the library's words, where the library fails.
+/// Every function throws std::filesystem::filesystem_error, in the library's words, if the library fails.
 /// Numbers are little-endian float64 and int32. Equal calls make equal files: no times are kept.
 class Hdf5File {
  public:
@@ -30,7 +30,7 @@ class Hdf5File {
   void remove(const std::string& name) noexcept;
   void write_attribute(const std::string& group, const std::string& name, double value);
   void write_attribute(const std::string& group, const std::string& name, int value);
-  /// At least one row. Chunked, and compressed where the library can, a chunk at a time.
+  /// At least one row. Chunked, and compressed if the library can, a chunk at a time.
   void write(const std::string& name, const std::vector<double>& values, const Columns& columns);
   void write(const std::string& name, const std::vector<int>& values);
 

@@ -16,14 +16,14 @@ namespace stillpoint {
 /// At the times of output.snapshots and every output.fields_every; a run that ends writes its last state as well.
 class Snapshots {
  public:
-  /// Nothing is written where the scene asks for no fields or the folder is empty; angles are taken all the same.
+  /// Nothing is written if the scene asks for no fields or the folder is empty; angles are taken all the same.
   Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder);
 
-  /// The next moment that a step must not pass; infinite where there is none.
+  /// The next moment that a step must not pass; infinite if there is none.
   double next_time() const;
-  /// Writes the state at (t, u, v) where it is due.
+  /// Writes the state at (t, u, v) if it is due.
   void sample(double t, ConstVec u, ConstVec v);
-  /// The run ends: writes its last state where the scene asks for fields, and closes the files.
+  /// The run ends: writes its last state if the scene asks for fields, and closes the files.
   void finish(double t, ConstVec u, ConstVec v);
 
   const std::vector<Snapshot>& taken() const { return taken_; }
@@ -39,7 +39,7 @@ class Snapshots {
   std::vector<Snapshot> taken_;
 };
 
-/// The angle of the free surface of the points as they are at (t, u), in a scene of the plane [degrees]; NaN where
+/// The angle of the free surface of the points as they are at (t, u), in a scene of the plane [degrees]; NaN if
 /// there is no slope.
 double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
 

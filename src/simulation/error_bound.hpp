@@ -10,16 +10,16 @@
 
 namespace stillpoint {
 
-/// ‖u − u*‖_M ≤ ‖M⁻¹(F − R)‖_M/ω₁², relative to ‖u‖_M. A bound where K is constant, with the ω₁ of the beginning; where
+/// ‖u − u*‖_M ≤ ‖M⁻¹(F − R)‖_M/ω₁², relative to ‖u‖_M. A bound if K is constant, with the ω₁ of the beginning; if
 /// it is not, an estimate with the ω₁ of the tangent where refresh() last looked.
 class ErrorBound {
  public:
-  /// omega_1: of the beginning; empty where there is none, and then there is no distance.
+  /// omega_1: of the beginning; empty if there is none, and then there is no distance.
   ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1);
 
   std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u) const;
-  /// Looks at the tangent at (t, u), where that may have changed since it last did with a larger residual. Where the
-  /// tangent is not positive definite there is no distance any more. False where nothing was done.
+  /// Looks at the tangent at (t, u), if that may have changed since it last did with a larger residual. Where the
+  /// tangent is not positive definite there is no distance any more. False if nothing was done.
   bool refresh(double t, ConstVec u, double residual);
 
  private:

@@ -26,7 +26,7 @@ LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, doubl
   if (end_time > 0 && loads_vary(scene)) at_end_ = pull(end_time);
 }
 
-// The loads alone where no support moves: R(u = 0) changes with what a body remembers.
+// The loads alone if no support moves: R(u = 0) changes with what a body remembers.
 std::vector<double> LoadSchedule::pull(double t) const {
   return supports_move_ ? total_load_at(system_, t) : loads_at(system_, t);
 }

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-// ω_max for the step. Power iteration underestimates: where it has not converged, a margin or the guaranteed bound.
+// ω_max for the step. Power iteration underestimates: if it has not converged, a margin or the guaranteed bound.
 double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
   constexpr int applications = 30;
@@ -58,7 +58,7 @@ bool wants_equilibrium_only(const Scene& scene) { return scene.stop.wants_equili
 
 // auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
 // body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
-// of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes where the scene leaves the kind open.
+// of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes if the scene leaves the kind open.
 void choose_mass(const Scene& scene, Model& model) {
   const std::vector<double> u = model.phase->initial_displacement(0);
   model.omega_max = quick_highest_frequency(scene, model, *model.phase, u);
@@ -245,6 +245,14 @@ double dwell_of(const Scene& scene, const Model& model) {
   return scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
 }
 
+// Whether ‖u − u*‖ ≤ ‖M⁻¹Q‖/ω₁² holds at every moment, as in a linear body under steady loads: with the kinetic energy
+// small as well, no later moment can be further off. Only auto makes use of it so far.
+bool residual_bounds_error(const Scene& scene, const Model& model) {
+  const PhaseInfo& info = model.phase->info();
+  return model.relaxation && model.relaxation->chooses_mass && model.omega_1 && !info.nonlinear &&
+         !info.updated_lagrangian && !loads_vary(scene) && !model.phase->contact();
+}
+
 // How the way to rest is gone: the damping and what steps it.
 void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
   if (takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
@@ -289,6 +297,7 @@ Model make_model(const Scene& scene) {
   }
   if (model.static_method && model.static_method->takes_end_of_loads) model.t = scene.stop.time;
   model.dwell = dwell_of(scene, model);
+  model.equilibrium_must_last = !residual_bounds_error(scene, model);
   choose_strategy(scene, takes_c, model);
   if (!model.static_method) set_tolerances(scene, model);
   choose_step(scene, model);

@@ -29,7 +29,7 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
     return RunStatus::running;
   }
   if (balanced_since_ < 0) balanced_since_ = t;
-  if (t - balanced_since_ < options_.dwell * (1 - 1e-12)) return RunStatus::running;
+  if (options_.must_last && t - balanced_since_ < options_.dwell * (1 - 1e-12)) return RunStatus::running;
   std::vector<std::string> tests;
   if (options_.residual > 0) tests.push_back(fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual));
   if (options_.distance > 0) tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
@@ -39,7 +39,7 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
                                 options_.kinetic_energy));
   }
   reason_ = fmt::format("{}", fmt::join(tests, " and "));
-  reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);
+  if (options_.must_last) reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);
   return RunStatus::equilibrium;
 }
 

@@ -10,26 +10,28 @@ namespace stillpoint {
 
 struct MonitorOptions {
   double residual = 0;        // ‖F − R‖/‖F‖; 0: no test of it
-  double distance = 0;        // certified, relative; 0: no test of it. Without either there is no equilibrium
+  double distance = 0;        // the error bound, relative; 0: no test of it. Without either there is no equilibrium
   double kinetic_energy = 0;  // share of the largest kinetic energy so far; 0: only the others count
   double dwell = 0;           // all held for this long [s]: a kinetic energy alone is small at every turning point
-  double end_time = 0;        // [s]; 0: none
-  long steps = 0;             // 0: no limit
-  double wall_time = 0;       // [s]; 0: no limit
+  /// Whether it has to last. If the residual bounds the error at every moment the dwell only says how often to test.
+  bool must_last = true;
+  double end_time = 0;   // [s]; 0: none
+  long steps = 0;        // 0: no limit
+  double wall_time = 0;  // [s]; 0: no limit
 };
 
 class Monitor {
  public:
   explicit Monitor(const MonitorOptions& options) : options_(options), next_check_(options.dwell / checks_a_dwell) {}
 
-  /// The hold from now on [s], where a period of the slowest motion shows on the way.
-  void set_dwell(double hold) { options_.dwell = hold; }
-  /// Whether observe() wants residual and kinetic energy at t; in between, looking costs nothing.
+  /// The dwell from now on [s], if a period of the slowest motion shows on the way.
+  void set_dwell(double dwell) { options_.dwell = dwell; }
+  /// Whether observe() wants residual and kinetic energy at t; in between, asking costs nothing.
   bool due(double t) const { return t >= next_check_; }
   /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
   /// the work counts as rest, also in a body that never moved.
   /// settled: whether the loads are what they will be at the end; before, balance is none.
-  /// distance: where there is a test of it; unknown counts as far.
+  /// distance: if there is a test of it; unknown counts as far.
   RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true,
                     std::optional<double> distance = std::nullopt);
   /// The limits that do not need the state; call after every step.

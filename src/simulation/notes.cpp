@@ -22,7 +22,7 @@ int degree_of(BasisKind basis) {
   throw std::logic_error("a basis without a degree");
 }
 
-// A basis of degree p keeps its order of convergence where the points integrate degree 2p − 2 [Strang and Fix
+// A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 [Strang and Fix
 // 1973, 4.3].
 std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureReport& quadrature) {
   std::vector<std::string> notes;

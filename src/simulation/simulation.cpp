@@ -24,6 +24,7 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
           .distance = scene.stop.distance,
           .kinetic_energy = scene.stop.kinetic_energy,
           .dwell = model.dwell,
+          .must_last = model.equilibrium_must_last,
           .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
           .steps = scene.stop.steps,
           .wall_time = scene.stop.wall_time};

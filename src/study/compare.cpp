@@ -46,7 +46,7 @@ std::string to_string(ComparedStatus status) {
 
 std::string ComparedRun::label() const {
   std::string text = strategy;
-  if (!integrator.empty() && integrator != "leapfrog") text += ", " + integrator;
+  if (!integrator.empty() && integrator != IntegratorSpec{}.method) text += ", " + integrator;
   if (step_fraction) text += fmt::format(" {:g}", *step_fraction);
   if (rtol) text += fmt::format(" rtol {:g}", *rtol);
   return text;
@@ -134,7 +134,7 @@ class Comparing {
             ? omega_max_by_lanczos(*phase, end_time(), exact_->u, 40)
             : omega_max_by_power_iteration(*phase, end_time(), exact_->u, {.tolerance = 1e-6});
     if (!lowest.converged || !(highest.omega > 0)) {
-      result_.notes.push_back("there is no lower bound: " + (lowest.converged ? highest.status : lowest.status));
+      result_.notes.push_back("there is no Chebyshev estimate: " + (lowest.converged ? highest.status : lowest.status));
       return;
     }
     result_.omega_1 = lowest.omega;
@@ -190,7 +190,7 @@ class Comparing {
     } catch (const SceneError& error) {
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.problems().front().message;
-    } catch (const std::invalid_argument& error) {  // as Newton's method, where walls touch
+    } catch (const std::invalid_argument& error) {  // as Newton's method, if walls touch
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.what();
     } catch (const std::exception& error) {
@@ -200,10 +200,10 @@ class Comparing {
   }
 
   BenchmarkLimits limits() const {
-    const double bound = result_.chebyshev_estimate.value_or(10'000);
+    const double estimate = result_.chebyshev_estimate.value_or(10'000);
     return {.goal = options_.goal,
             .by_residual = result_.by_residual,
-            .evaluations = static_cast<long>(std::max(1000.0, options_.limit * bound)),
+            .evaluations = static_cast<long>(std::max(1000.0, options_.limit * estimate)),
             .seconds = options_.seconds,
             .ramp = ramp_ ? &*ramp_ : nullptr,
             .interrupted = options_.interrupted};

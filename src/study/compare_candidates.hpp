@@ -14,7 +14,7 @@ struct Candidate {
   bool is_newton = false;              // solved as a whole, not step by step
 };
 
-/// integrators × strategies × step fractions (or tolerances where a method is named "…:adaptive"); a strategy that owns
+/// integrators × strategies × step fractions (or tolerances if a method is named "…:adaptive"); a strategy that owns
 /// its iteration has only its own. transient: strategies do not vary, the scene's own is what moves. Throws SceneError
 /// on a name that is none, naming the option and the nearest name that is one.
 std::vector<Candidate> candidates(const CompareOptions& options, const Scene& scene, bool transient);

@@ -31,12 +31,12 @@ struct Equilibrium {
   std::vector<std::string> notes;
 };
 
-/// By Newton's method in one load step, or where it has no answer by the scene's own relaxation. At stop.time where
-/// that is set. Throws SceneError for a scene of several phases, with loads that have no end, or where nothing is
+/// By Newton's method in one load step, or if it has no answer by the scene's own relaxation. At stop.time if
+/// that is set. Throws SceneError for a scene of several phases, with loads that have no end, or if nothing is
 /// displaced.
 Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted);
 
-/// The limit of slow loading: equilibrium after equilibrium, in 64 load steps. Nothing, and a note, where there is
+/// The limit of slow loading: equilibrium after equilibrium, in 64 load steps. Nothing, and a note, if there is
 /// none.
 std::optional<ReferenceSolution> slow_ramp(const Scene& scene, std::vector<std::string>& notes);
 

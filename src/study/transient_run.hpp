@@ -14,8 +14,8 @@ struct TransientReference {
   std::string what;
 };
 
-/// Of the scene's own damping: by an integrator of order 7 at rtol 1e-11 where the motion is smooth, by leapfrog at a
-/// sixteenth of the critical step where laws remember, walls touch or phases follow each other. load: the scene under
+/// Of the scene's own damping: by an integrator of order 7 at rtol 1e-11 if the motion is smooth, by leapfrog at a
+/// sixteenth of the critical step if laws remember, walls touch or phases follow each other. load: the scene under
 /// more overrides.
 TransientReference transient_reference(const Scene& scene,
                                        const std::function<Scene(const std::vector<std::string>&)>& load);

@@ -35,7 +35,7 @@ class OneSided final : public Damping {
  public:
   explicit OneSided(double alpha) : alpha_(alpha) {}
   bool is_local() const override { return alpha_ > 0; }
-  // D_i = −α Q_i where v_i Q_i > 0, else 0
+  // D_i = −α Q_i if v_i Q_i > 0, else 0
   void add_local(ConstVec v, Vec Q) const override {
     for_each_index(Q.size(), [=, kept = 1 - alpha_](std::size_t i) { Q[i] *= v[i] * Q[i] > 0 ? kept : 1.0; });
   }

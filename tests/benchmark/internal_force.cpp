@@ -6,6 +6,8 @@
 #include <omp.h>
 
 #include "scenes.hpp"
+#include "simulation/model.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 namespace {
 

@@ -1,5 +1,6 @@
 // Cost of a step in the plane, ns per material point, for each basis, law and number of threads; where the time goes;
 // and how it grows with the number of points. The body is that of problems/slope.toml, four points in each cell.
+#include <stillpoint/integrator.hpp>
 #include <stillpoint/relaxation_system.hpp>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "scenes.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/nodal_force.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 #include "space/points/body.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "output/exact_error.hpp"
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 #include "statics.hpp"
 
 using namespace stillpoint;

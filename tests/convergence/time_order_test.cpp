@@ -15,6 +15,7 @@
 
 #include "chain.hpp"
 #include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 namespace {
 

@@ -1,9 +1,11 @@
 // The paper's elastic bar [Więckowski 2011, section 3.1 and Fig. 1]; numbers of DESIGN section 6 where the paper has
 // none.
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 using scenes::bar;

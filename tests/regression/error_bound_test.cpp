@@ -19,7 +19,8 @@
 
 #include "largest.hpp"
 #include "scenes.hpp"
-#include "simulation/motion.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+#include "way_to_rest.hpp"
 
 using namespace stillpoint;
 using Values = std::vector<double>;
@@ -109,12 +110,12 @@ const std::vector<Case> linear = {
 
 Scene with(const Case& problem, const std::string& strategy, std::vector<std::string> overrides = {}) {
   overrides.insert(overrides.begin(), problem.overrides.begin(), problem.overrides.end());
-  overrides.push_back("damping.strategy=" + strategy);
+  overrides.push_back(stillpoint::test::override_of(strategy));
   if (strategy == "viscous") overrides.emplace_back("damping.c=critical");
   return scenes::load(problem.name, overrides);
 }
 
-constexpr double rounding = 1e-5;  // of ratios, where the error itself is 1e-6 and that of u* 1e-11
+constexpr double rounding = 1e-5;  // of ratios, if the error itself is 1e-6 and that of u* 1e-11
 
 }  // namespace
 

@@ -87,7 +87,7 @@ TEST_CASE("a wall that yields by 0.5 % of its height brings the thrust from K0 t
     // At T/20 the wall has moved by less than 1e-3 of its way.
     CHECK(thrust.share.at(1) == Approx(K0).epsilon(0.01));
     // The plateau while the wall still moves. Measured 0.275 to 0.276, 1.6 % above K_a, its rows 1 % apart; 0.277 to
-    // 0.280 on twice as fine a grid, whatever the transfer; 0.269 where the wall moves by 1 % of its height in 8 s.
+    // 0.280 on twice as fine a grid, whatever the transfer; 0.269 if the wall moves by 1 % of its height in 8 s.
     double mean = 0;
     int rows = 0;
     for (std::size_t k = 0; k < thrust.t.size(); ++k) {

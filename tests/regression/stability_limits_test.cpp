@@ -1,4 +1,5 @@
 // The table of stability limits h ω in SUNDIALS.md, from the methods' own amplification.
+#include <stillpoint/integrator.hpp>
 #include <stillpoint/stability.hpp>
 
 #include <cmath>

@@ -192,6 +192,15 @@ TEST_CASE("each of over 20 broken phases, masses, stages and probes of a plane g
   check_each(kBadPhasesAndOutput, kGoodPlane);
 }
 
+TEST_CASE("a polygon whose corners need a wrong constant is not said to have none") {
+  const TemporaryFolder folder;
+  const std::string scene = broken("angle = 35", "angle = 35\nside = \"sid\"", kGoodPlane);
+  const auto problems =
+      problems_of(folder.write("bad.toml", broken("max = [8, 3]", "polygon = [[0, 0], [\"side\", 0], [0, 3]]", scene)));
+  REQUIRE(problems.size() == 1);
+  CHECK_THAT(problems[0].message, Catch::StartsWith("constants.side: unknown name 'sid'"));
+}
+
 TEST_CASE("what the parts of a plane scene ask of each other is said at each of them") {
   const TemporaryFolder folder;
   const auto messages = [&](const std::string& scene) {

@@ -109,7 +109,7 @@ inline std::string broken(const std::string& from, const std::string& to, std::s
   return scene.replace(at, from.size(), to);
 }
 
-/// The problems of a scene; empty where it loads.
+/// The problems of a scene; empty if it loads.
 inline std::vector<Problem> problems_of(const std::filesystem::path& file,
                                         const std::vector<std::string>& overrides = {}) {
   try {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 
 using namespace stillpoint;
 

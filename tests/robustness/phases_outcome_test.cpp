@@ -1,4 +1,4 @@
-// How runs of several phases end where something goes wrong.
+// How runs of several phases end if something goes wrong.
 #include <stillpoint/stillpoint.hpp>
 
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "free_block.hpp"
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 
 using namespace stillpoint;
 using stillpoint::testing::free_block;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

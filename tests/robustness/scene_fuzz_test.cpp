@@ -110,7 +110,7 @@ std::string with_lines_changed(const std::string& text, Random& random) {
   return result;
 }
 
-/// True where loading ends as it may: with a scene, or with at least one problem.
+/// True if loading ends as it may: with a scene, or with at least one problem.
 bool ends_well(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}) {
   try {
     load_scene(file, overrides);

@@ -65,11 +65,11 @@ def _(folder):
     assert result.returncode == 0 and (folder / "a.pdf").read_bytes().startswith(b"%PDF"), result
 
 
-@claim("each way of a comparison is a line by evaluations and one by time, an end alone a dot, beside the lower bound")
+@claim("each way of a comparison is a line by evaluations and one by time, an end alone a dot, beside the Chebyshev estimate")
 def _(folder):
     by_evaluations, by_time = figure_of(folder, COMPARISON)
     lines = {line.get_label(): line for line in by_evaluations.lines if not line.get_label().startswith("_")}
-    assert list(lines) == ["viscous 0.9", "newton", "lower bound ½ √κ ln(2/ε)"], lines
+    assert list(lines) == ["viscous 0.9", "newton", "Chebyshev estimate ½ √κ ln(2/ε)"], lines
     assert lines["viscous 0.9"].get_xydata().tolist() == [[300, 1e-2], [900, 1e-6]]
     assert lines["newton"].get_marker() == "o" and len(lines["newton"].get_xdata()) == 1
     assert abs(by_time.lines[0].get_xdata()[-1] - 0.01) < 1e-12

@@ -27,8 +27,11 @@ std::optional<Location> location_in_string(const toml::value<std::string>& text,
 /// Compiles the formula in a string.
 std::optional<Expression> compile(const toml::value<std::string>& text, const Value& value,
                                   const std::string& variables) {
-  for (const std::string& name : names_in(*text))
-    if (value.reading.broken.contains(name)) return std::nullopt;
+  for (const std::string& name : names_in(*text)) {
+    if (!value.reading.broken.contains(name)) continue;
+    value.reading.wrong.insert(value.path);
+    return std::nullopt;
+  }
   try {
     return Expression(*text, value.reading.constants, variables);
   } catch (const ExpressionError& error) {

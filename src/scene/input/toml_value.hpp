@@ -21,7 +21,7 @@ struct Reading {
   int dim = 1;
   Constants constants{};
   std::set<std::string> broken{};  // constants that could not be computed; what uses them is not reported again
-  std::set<std::string> wrong{};   // dotted keys whose values are wrong
+  std::set<std::string> wrong{};   // dotted keys whose values are wrong, or could not be computed
   std::vector<Problem> problems{};
 
   /// Records that the value of the dotted key path is wrong.

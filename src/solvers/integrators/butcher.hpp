@@ -23,7 +23,7 @@ struct ButcherTable {
 
 /// Whether the last stage is f(t + h, y⁺), the next step's first: c_s = 1 and the last row of A is b.
 bool first_same_as_last(const ButcherTable& table);
-/// Right-hand sides a step costs when implemented right: stages, less one where first same as last.
+/// Right-hand sides a step costs when implemented right: stages, less one if first same as last.
 int effective_stages(const ButcherTable& table);
 /// max |R(h λ)| over the two roots of λ² + rate λ + omega² = 0, with the stability polynomial
 /// R(z) = 1 + Σ_k z^k bᵀA^{k−1}1. A call allocates nothing.

@@ -48,7 +48,7 @@ DampedAcceleration::DampedAcceleration(DampingTreatment treatment, const LinearD
   if (mass_.is_lumped()) {
     factor_.resize(mass_.size());
   } else {
-    implicitness(treatment_);  // throws where there is none
+    implicitness(treatment_);  // throws if there is none
     if (C_.mass != 0) Mv_.resize(mass_.size());
   }
 }

@@ -26,11 +26,11 @@ AmplificationRadius kick_drift_amplification(DampingTreatment treatment);
 
 class DampedAcceleration {
  public:
-  /// Throws std::invalid_argument for exact where C and M are not diagonal together. mass is the system's and outlives
+  /// Throws std::invalid_argument for exact if C and M are not diagonal together. mass is the system's and outlives
   /// this.
   DampedAcceleration(DampingTreatment treatment, const LinearDamping& C, const Mass& mass);
 
-  /// a from Q, in its place; h [s], v: (n), Q_to_a: (n). Allocates only where M + θ h C has to be factorised for a new
+  /// a from Q, in its place; h [s], v: (n), Q_to_a: (n). Allocates only if M + θ h C has to be factorised for a new
   /// h.
   void operator()(double h, ConstVec v, Vec Q_to_a);
 
@@ -42,8 +42,8 @@ class DampedAcceleration {
   LinearDamping C_;
   const Mass& mass_;
   double h_ = -1;                         // what the next two were made for
-  std::vector<double> factor_;            // g(h r_i), (n), where c_i ≠ 0 and M is a diagonal
-  std::optional<SparseCholesky> matrix_;  // M + θ h C, where c_i ≠ 0 and M is not
+  std::vector<double> factor_;            // g(h r_i), (n), if c_i ≠ 0 and M is a diagonal
+  std::optional<SparseCholesky> matrix_;  // M + θ h C, if c_i ≠ 0 and M is not
   std::vector<double> Mv_;
 };
 

@@ -2,7 +2,7 @@
 //
 //   M (v⁺ − v⁻)/h + C (v⁻ + v⁺)/2 = Q_n,   u_{n+1} = u_n + h v⁺,   v⁻ at t_n − h/2, v⁺ at t_n + h/2,
 //
-// with C v⁻ in place of the mean where the damping is lagged. Here in its synchronised form, with v_n = (v⁻ + v⁺)/2
+// with C v⁻ in place of the mean if the damping is lagged. Here in its synchronised form, with v_n = (v⁻ + v⁺)/2
 // known at every t_n, so that the step may change between calls:
 //
 //   v⁺ = v_n + h/2 a_n                                kick

@@ -11,7 +11,7 @@ namespace stillpoint {
 Method leapfrog_method(DampingTreatment treatment);
 Method symplectic_euler_method(DampingTreatment treatment);
 
-/// Throw likewise; also where the treatment does not fit the system's damping and mass.
+/// Throw likewise; also if the treatment does not fit the system's damping and mass.
 std::unique_ptr<Integrator> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system);
 

@@ -12,7 +12,7 @@ class StepDivision {
   explicit StepDivision(double max_step) : max_step_(max_step) {}
 
   /// The step to take from t; needs t < t_stop. The same bits from step to step until t_stop, and on to the next t_stop
-  /// where the intervals differ by no more than the rounding of t: what depends on h alone may be kept.
+  /// if the intervals differ by no more than the rounding of t: what depends on h alone may be kept.
   double step_from(double t, double t_stop) {
     if (t != t_ || t_stop != t_stop_ || remaining_ < 1) divide(t, t_stop);
     return h_;

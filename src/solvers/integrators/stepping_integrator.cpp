@@ -34,7 +34,7 @@ StepReport SteppingIntegrator::step(double t_stop) {
   for (int halvings = 0;; ++halvings) {
     Attempt tried = attempt(t_, *y_, h, t_stop, *trial_);
     if (tried.status == StepReport::Status::ok) {
-      // A sum of squares is not finite where any entry is not.
+      // A sum of squares is not finite if any entry is not.
       if (std::isfinite(dot(*trial_, *trial_))) return accept(tried);
       refused();
       tried = {.status = StepReport::Status::not_finite, .h = tried.h, .message = "the new state is not finite"};

@@ -34,7 +34,7 @@ class SteppingIntegrator : public Integrator {
 
   /// Begins at (t, y).
   virtual void begin(double t, const Vector& y) = 0;
-  /// Begins again at (t, y) where only v has changed; the last force evaluation was there.
+  /// Begins again at (t, y) if only v has changed; the last force evaluation was there.
   virtual void restart(double t, const Vector& y) { begin(t, y); }
   /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
   /// read.

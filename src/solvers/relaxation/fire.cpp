@@ -7,7 +7,7 @@
 //
 // fire:   ϑ_0 = 0.1, N_min = 5
 //         [Bitzek, Koskinen, Gähler, Moseler, Gumbsch, Phys. Rev. Lett. 97, 170201 (2006)]
-// fire2:  ϑ_0 = 0.25, N_min = 20; where P ≤ 0 also u ← u − h v/2, as the turning point lies behind, and h is left alone
+// fire2:  ϑ_0 = 0.25, N_min = 20; if P ≤ 0 also u ← u − h v/2, as the turning point lies behind, and h is left alone
 //         in the first N_min steps
 //         [Guénolé et al., Comput. Mater. Sci. 175, 109584 (2020)]
 //

@@ -7,7 +7,7 @@
 //
 //   λ² − (1 + β − γ h² ω²) λ + β = 0,
 //
-// and where damping is more than critical the slowest λ is real: the ratio λ = ‖Δu_{n+1}‖/‖Δu_n‖, in the M-norm,
+// and if damping is more than critical the slowest λ is real: the ratio λ = ‖Δu_{n+1}‖/‖Δu_n‖, in the M-norm,
 // settles on it and gives ω₁² = −(λ² − (1 + β) λ + β)/(γ h² λ). It starts with β = 0, more than critical for every
 // mode; each time that λ has settled, c is set by the ω₁ it shows. A ratio that settles before the slowest mode
 // dominates shows a larger ω: c comes down to 2 ω₁ in a few such steps.

@@ -5,7 +5,7 @@
 //              [Underwood, "Dynamic relaxation", in Belytschko and Hughes (eds.), Computational Methods for Transient
 //              Analysis, 1983, eq. 5.24]
 //
-// 0 where the motion has no stiffness, or a negative one.
+// 0 if the motion has no stiffness, or a negative one.
 #pragma once
 
 #include <stillpoint/types.hpp>
@@ -21,7 +21,7 @@ inline double global_quotient(ConstVec v, ConstVec Q_before, ConstVec Q, double 
   if (!(vMv > 0)) return 0;
   const double vdR = sum_over(v.size(), [=](std::size_t i) { return v[i] * (Q_before[i] - Q[i]); });
   const double quotient = vdR / (h * vMv);
-  return quotient > 0 ? quotient : 0;  // also where it is not a number
+  return quotient > 0 ? quotient : 0;  // also if it is not a number
 }
 
 /// u, v, Q_before, Q: (n); uMu = uᵀMu.

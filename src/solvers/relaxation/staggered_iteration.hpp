@@ -41,7 +41,7 @@ class StaggeredIteration : public SteppingIntegrator {
   /// Begins afresh from the state, or from one of which a contact has changed v.
   virtual void on_restart() {}
 
-  /// The share of the step given that is taken, where the strategy chooses one; 0: where it does not.
+  /// The share of the step given that is taken, if the strategy chooses one; 0: if it does not.
   virtual double step_share() const { return 0; }
 
   /// v⁺ = β v⁻ + γ k M⁻¹Q,  u⁺ = u + h v⁺
@@ -49,7 +49,7 @@ class StaggeredIteration : public SteppingIntegrator {
   double kick(double h) const { return (last_step_ + h) / 2; }  // k
   /// v = 0, and half a kick next.
   void stop();
-  /// c, where one is in force: supports and walls that move take it along.
+  /// c, if one is in force: supports and walls that move take it along.
   void set_rate(double c);
 
   // The present state, (n) each; valid from on_restart() on.

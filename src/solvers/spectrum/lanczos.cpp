@@ -12,7 +12,9 @@
 // spectrum of large Hermitian matrices", Linear Algebra Appl. 435 (2011)]. Twelve applications of K do what power
 // iteration needs hundreds for, as they keep the polynomial that it throws away.
 #include <stillpoint/spectrum.hpp>
+#include <stillpoint/vector.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -26,34 +28,27 @@
 #include "linalg/power_iteration.hpp"
 
 namespace stillpoint {
-namespace {
-
-double dot(ConstVec x, ConstVec y) {
-  return sum_over(x.size(), [=](std::size_t i) { return x[i] * y[i]; });
-}
-
-}  // namespace
-
 FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications) {
   if (applications < 1) throw std::invalid_argument("Lanczos' method needs at least one application of K");
   const Stopwatch watch;
   const Mass& mass = system.mass();
   const std::size_t n = system.size();
   std::vector<double> alpha, beta;
-  std::vector<double> q = start_vector(n), last_q(n, 0.0), Kq(n), z(n), Mz(n);
-  mass.apply(q, Mz);
+  const VectorSpace vectors;
+  Vector q = vectors.make(n), last_q = vectors.make(n), Kq = vectors.make(n), z = vectors.make(n), Mz = vectors.make(n);
+  std::ranges::copy(start_vector(n), q.span().begin());
+  mass.apply(q.span(), Mz.span());
   double norm = std::sqrt(dot(q, Mz));
-  for_each_index(n, [q = q.data(), norm](std::size_t i) { q[i] /= norm; });
+  for_each_index(n, [q = q.span().data(), norm](std::size_t i) { q[i] /= norm; });
   double last_beta = 0, bound = 0;
   constexpr double rounding = 1e-12;
   for (int j = 0; j < applications; ++j) {
-    system.tangents().apply(Tangent::elastic, t, u, q, Kq);
+    system.tangents().apply(Tangent::elastic, t, u, q.span(), Kq.span());
     alpha.push_back(dot(q, Kq));
-    mass.solve(Kq, z);
-    for_each_index(n, [=, z = z.data(), q = q.data(), last_q = last_q.data(), a = alpha.back()](std::size_t i) {
-      z[i] -= a * q[i] + last_beta * last_q[i];
-    });
-    mass.apply(z, Mz);
+    mass.solve(Kq.span(), z.span());
+    for_each_index(n, [=, z = z.span().data(), q = q.span().data(), last_q = last_q.span().data(),
+                       a = alpha.back()](std::size_t i) { z[i] -= a * q[i] + last_beta * last_q[i]; });
+    mass.apply(z.span(), Mz.span());
     norm = std::sqrt(std::max(0.0, dot(z, Mz)));
     beta.push_back(norm);
     if (!std::isfinite(alpha.back()) || !std::isfinite(norm)) {
@@ -63,7 +58,7 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
     if (norm <= rounding * bound) break;  // the start lies in what has been seen
     last_beta = norm;
     std::swap(last_q, q);
-    for_each_index(n, [q = q.data(), z = z.data(), norm](std::size_t i) { q[i] = z[i] / norm; });
+    for_each_index(n, [q = q.span().data(), z = z.span().data(), norm](std::size_t i) { q[i] = z[i] / norm; });
   }
 
   const auto m = static_cast<Eigen::Index>(alpha.size());

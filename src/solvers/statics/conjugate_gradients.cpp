@@ -53,9 +53,9 @@ StaticReport conjugate_gradients(const SemiDiscrete& system, double t, Vec u, co
       subtract_product(1, of_loads, x, Kx);
     };
     const double first = report.residual / norm(balance.Q);
-    const auto result =
-        conjugate_gradients(K, system.mass().diagonal(), balance.Q.span(), du, 0.5 * options.tolerance / report.residual,
-                            most - report.iterations, [&](double r) { residuals.push_back(first * r); });
+    const auto result = conjugate_gradients(K, system.mass().diagonal(), balance.Q.span(), du,
+                                            0.5 * options.tolerance / report.residual, most - report.iterations,
+                                            [&](double r) { residuals.push_back(first * r); });
     report.iterations += result.iterations;
     if (result.indefinite) return end(false, "K is not positive definite along a direction of conjugate gradients");
     for (std::size_t i = 0; i < n; ++i) u[i] += du[i];

@@ -2,7 +2,7 @@
 //
 //   |Q(u + α p)·p| ≤ σ Q(u)·p
 //
-// by the secant method on Q·p, inside a bracket once there is one. Q is −gradient of the potential energy where there
+// by the secant method on Q·p, inside a bracket once there is one. Q is −gradient of the potential energy if there
 // is one, and this is the curvature condition of Wolfe's; the energy itself is not asked for, as friction and
 // plasticity have none. Where Q is linear the secant is exact: two evaluations. Directions that have to stay conjugate
 // ask for that secant by a σ for the first trial that is next to nothing.
@@ -32,7 +32,7 @@ class LineSearch {
     alpha_ = (lower_ + alpha_) / 2;
   }
 
-  /// Q·p at alpha(). True where the search is over; else alpha() is the next one.
+  /// Q·p at alpha(). True if the search is over; else alpha() is the next one.
   bool done(double slope) {
     ++trials_;
     if (std::abs(slope) <= (trials_ == 1 ? sigma_.first : sigma_.later) * slope_) return true;

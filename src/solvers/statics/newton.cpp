@@ -19,7 +19,13 @@ bool symmetric(const SparseMatrix& K, double tolerance) {
 class Newton {
  public:
   Newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options)
-      : system_(system), t_(t), u_(u), options_(options), balance_(system, t, VectorSpace()), trial_(u.size()), du_(u.size()) {}
+      : system_(system),
+        t_(t),
+        u_(u),
+        options_(options),
+        balance_(system, t, VectorSpace()),
+        trial_(u.size()),
+        du_(u.size()) {}
 
   StaticReport solve() {
     if (!balance_.start(u_)) {
@@ -104,7 +110,7 @@ class Newton {
     return true;
   }
 
-  // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays where none does.
+  // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays if none does.
   bool descend(double s, Vec u, double before) {
     constexpr int most_halvings = 10;
     constexpr double decrease = 1e-4;
@@ -120,7 +126,7 @@ class Newton {
     return false;
   }
 
-  // K du = Q, Q as last evaluated, at u. False where K cannot be solved with.
+  // K du = Q, Q as last evaluated, at u. False if K cannot be solved with.
   bool consistent_direction(double s, ConstVec u) {
     indefinite_ = false;
     const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
@@ -164,7 +170,8 @@ class Newton {
     const std::size_t n = du_.size();
     const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
     const double forcing = std::min(0.1, balance_.residual());
-    const auto result = stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q.span(), du_, forcing, most);
+    const auto result =
+        stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q.span(), du_, forcing, most);
     report_.tangent_products += result.iterations;
     return result.converged;
   }
@@ -188,7 +195,7 @@ class Newton {
   static constexpr double short_step = 0.3;
   bool full_steps_ = false;  // whatever ‖Q‖ does
   int short_steps_ = 0;      // one after the other
-  bool indefinite_ = false;  // K of the last iteration, where symmetric
+  bool indefinite_ = false;  // K of the last iteration, if symmetric
   StaticReport report_;
 };
 

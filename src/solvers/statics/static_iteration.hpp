@@ -16,7 +16,7 @@ class StaticIteration : public SteppingIntegrator {
   bool static_iteration() const final { return true; }
 
  protected:
-  /// max_step: below leapfrog's critical step [s]; sigma: of the line search. Throws std::invalid_argument where
+  /// max_step: below leapfrog's critical step [s]; sigma: of the line search. Throws std::invalid_argument if
   /// something touches the body.
   StaticIteration(double max_step, RelaxationSystem& system, LineSearch::Accuracy sigma);
 

@@ -12,7 +12,10 @@ class PrescribedMotion {
   /// time_scale [s]: about 1/omega_max of the body. A motion that the grid resolves varies over much longer times, and
   /// a kink is spread over about a critical step, so that its impulse is right.
   PrescribedMotion(Expression motion, double time_scale)
-      : motion_(std::move(motion)), moves_(motion_.uses('t')), fixed_(moves_ ? 0 : motion_({}, 0)), h_(time_scale / 4) {}
+      : motion_(std::move(motion)),
+        moves_(motion_.uses('t')),
+        fixed_(moves_ ? 0 : motion_({}, 0)),
+        h_(time_scale / 4) {}
 
   bool moves() const { return moves_; }
   double displacement(double t) const { return moves_ ? motion_({}, t) : fixed_; }

@@ -51,7 +51,8 @@ class Tractions final : public BoundaryCondition<B, K> {
     for (const Piece& piece : pieces_) {
       if (!piece.traction->pressure) continue;
       const auto area = deformed_area(piece, u);
-      for (int i = 0; i < dim; ++i) add_component(piece, phase.dofs, i, -(*piece.traction->pressure)({}, t) * area[i], F);
+      for (int i = 0; i < dim; ++i)
+        add_component(piece, phase.dofs, i, -(*piece.traction->pressure)({}, t) * area[i], F);
     }
   }
   // Unsymmetric.

@@ -42,8 +42,8 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
       std::vector<WallContact::Node> nodes;
       for (const int function : wall.functions) {
         const int along = dim * function + 1 - normal;
-        nodes.push_back({free_dof(dim * function + normal),
-                         dim == 1 || phase.held.is_guided(along) ? -1 : free_dof(along)});
+        nodes.push_back(
+            {free_dof(dim * function + normal), dim == 1 || phase.held.is_guided(along) ? -1 : free_dof(along)});
       }
       wall.contact.begin_phase(t, phase.mass.diagonal(), std::move(nodes), v);
     }

@@ -110,8 +110,7 @@ class NeighbourMatrix {
 /// Σ_cells of add_point(cell k, point p, cell matrix) over the cell's points.
 template <AxisBasis B, Kinematics K, class AddPoint>
 SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
-                           const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs,
-                           const AddPoint& add_point) {
+                           const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs, const AddPoint& add_point) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   NeighbourMatrix<B, dim> sum(grid);
   for (std::size_t k = 0; k < points.cells(); ++k) {

@@ -1,5 +1,5 @@
-// Gather and scatter in bilinear cells, without weights. With the position (ξ, η) of a point in its cell and the corners'
-// displacements u_00, u_10, u_01, u_11,
+// Gather and scatter in bilinear cells, without weights. With the position (ξ, η) of a point in its cell and the
+// corners' displacements u_00, u_10, u_01, u_11,
 //
 //   ∂u/∂x = [(u_10 − u_00) + η (u_11 − u_01 − u_10 + u_00)]/h_x = a + b η,    ∂u/∂y = c + d ξ   likewise,
 //
@@ -48,7 +48,8 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
     // What lies past the end belongs to the next cell, which writes it again, or to nobody.
     for (std::size_t p = begin; p < end; p += lanes) {
       const std::size_t q = p - first;
-      const auto xi = Points::load(weights.position_in_cell(0) + p), eta = Points::load(weights.position_in_cell(1) + p);
+      const auto xi = Points::load(weights.position_in_cell(0) + p),
+                 eta = Points::load(weights.position_in_cell(1) + p);
       unroll<dim>([&](auto i) __attribute__((always_inline)) {
         line(a[i], b[i], eta).store(&H[dim * i][q]);
         line(c[i], d[i], xi).store(&H[dim * i + 1][q]);
@@ -77,7 +78,8 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
     for (std::size_t p = begin; p < end; p += lanes) {
       const std::size_t q = p - block.first;
       const std::size_t inside = end - p;
-      const auto xi = Points::load(weights.position_in_cell(0) + p), eta = Points::load(weights.position_in_cell(1) + p);
+      const auto xi = Points::load(weights.position_in_cell(0) + p),
+                 eta = Points::load(weights.position_in_cell(1) + p);
       unroll<dim * dim>([&](auto ij) __attribute__((always_inline)) {
         const auto VP = Points::load(&block.VP[ij][q]).first(inside);
         S[ij] = S[ij].plus(VP);

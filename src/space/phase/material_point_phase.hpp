@@ -132,9 +132,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   double largest_motion(ConstVec u) const;
   double largest_strain(const double* grid_u) const;
 
-  PhaseParts<B, K> parts() const {
-    return {grid_, body_.points, weights_, held_, *dofs_, inertia_.mass(), *mass_};
-  }
+  PhaseParts<B, K> parts() const { return {grid_, body_.points, weights_, held_, *dofs_, inertia_.mass(), *mass_}; }
 
   // --- values at the grid's functions and at the points --------------------------------------------
   const PointMaterial<K>& material_of(std::size_t k) const {
@@ -187,7 +185,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   PointWeights<B, K> weights_;
   HeldUnknowns held_;
   std::optional<DegreesOfFreedom> dofs_;
-  std::vector<double> constant_force_;      // part of F, (n)
+  std::vector<double> constant_force_;     // part of F, (n)
   std::optional<SplitMatrix> consistent_;  // M as assembled, if projections or moving supports need it
   std::optional<Mass> mass_;
   std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)

@@ -56,14 +56,13 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
     const auto stress = [&, V, dt, history = trial.arrays->history.data()](std::size_t m, Block& block) {
       return body_.materials[m]->stress(block, V, dt, history[m].data());
     };
-    trial.evaluated = nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), stress, *dofs_, R,
-                                                           trial.reactions);
+    trial.evaluated =
+        nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), stress, *dofs_, R, trial.reactions);
   } else {
     const auto stress = [&, V](std::size_t m, Block& block) {
       return body_.materials[m]->stress(block, V, 0, nullptr);
     };
-    trial.evaluated =
-        nodal_force_.template evaluate<false>(grid_u.data(), nullptr, stress, *dofs_, R, trial.reactions);
+    trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, stress, *dofs_, R, trial.reactions);
   }
   return trial.evaluated;
 }

@@ -58,15 +58,13 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
   if (quantity == PointQuantity::strain)
     return write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(u, k, p); });
   if (quantity == PointQuantity::stress) {
-    return write_points(out, [&](std::size_t k, std::size_t p) {
-      return material_of(k).cauchy(weights_.gradient(u, k, p), p);
-    });
+    return write_points(
+        out, [&](std::size_t k, std::size_t p) { return material_of(k).cauchy(weights_.gradient(u, k, p), p); });
   }
   for_points([&](std::size_t k, std::size_t p, std::size_t number) {
     const auto u_p = weights_.value(u, k, p);
     for (int i = 0; i < Dim; ++i) {
-      out[Dim * number + i] =
-          updated_lagrangian() ? body_.points.x[i][p] - origin_[Dim * number + i] + u_p[i] : u_p[i];
+      out[Dim * number + i] = updated_lagrangian() ? body_.points.x[i][p] - origin_[Dim * number + i] + u_p[i] : u_p[i];
     }
   });
 }

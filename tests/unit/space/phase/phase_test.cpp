@@ -3,11 +3,13 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 #include <omp.h>
 
 #include "allocation_count.hpp"
 #include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 
@@ -57,8 +59,8 @@ TEST_CASE("the tangent is the derivative of the internal force, applied and asse
       phase->internal_force(0, shifted, above, *phase->make_trial());
       for (std::size_t i = 0; i < n; ++i) shifted[i] = u[i] - d * du[i];
       phase->internal_force(0, shifted, below, *phase->make_trial());
-      const Eigen::VectorXd assembled =
-          phase->tangents().matrix(Tangent::consistent, 0, u) * Eigen::Map<const Eigen::VectorXd>(du.data(), static_cast<Eigen::Index>(n));
+      const Eigen::VectorXd assembled = phase->tangents().matrix(Tangent::consistent, 0, u) *
+                                        Eigen::Map<const Eigen::VectorXd>(du.data(), static_cast<Eigen::Index>(n));
       for (std::size_t i = 0; i < n; ++i) {
         CHECK(applied[i] == Approx((above[i] - below[i]) / (2 * d)).margin(1e-7));
         CHECK(assembled(static_cast<Eigen::Index>(i)) == Approx(applied[i]).margin(1e-12));

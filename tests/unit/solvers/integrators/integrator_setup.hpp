@@ -24,9 +24,9 @@ class TroubledChain : public Chain {
   std::function<bool(ConstVec u, Vec R)> trouble;  // true: R is set, or the trial refused, by trouble itself
   bool answer = true;                              // what internal_force then returns
 
-  bool internal_force(double t, ConstVec u, Vec R) const override {
+  bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const override {
     if (trouble && trouble(u, R)) return answer;
-    return Chain::internal_force(t, u, R);
+    return Chain::internal_force(t, u, R, trial);
   }
 };
 

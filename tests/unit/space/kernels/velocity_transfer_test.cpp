@@ -98,7 +98,8 @@ class FreeBlock {
     }
     return sum;
   }
-  /// A field at the places where functions have their centres (Σ_i N_i(x) x_i = x), which an affine field is made of.
+  /// A field at the positions where functions have their centres (Σ_i N_i(x) x_i = x), which an affine field is made
+  /// of.
   std::vector<double> nodal_values(const Field& field) const {
     const auto centre = [](const Axis& axis, int function) {
       double sum = 0;

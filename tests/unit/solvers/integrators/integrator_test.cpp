@@ -13,8 +13,8 @@
 #include <catch2/catch.hpp>
 
 #include "allocation_count.hpp"
-#include "integrator_setup.hpp"
 #include "linalg/sundials.hpp"
+#include "solvers/integrators/integrator_setup.hpp"
 
 namespace {
 

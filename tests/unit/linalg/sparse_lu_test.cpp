@@ -6,9 +6,12 @@
 #include <vector>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 #include <dlfcn.h>
 #include <suitesparse/SuiteSparse_config.h>
+
+#include "linalg/sparse_cholesky.hpp"
 
 using stillpoint::SparseCholesky;
 using stillpoint::SparseLu;

@@ -12,6 +12,7 @@
 
 #include "allocation_count.hpp"
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
 
@@ -107,6 +108,7 @@ TEST_CASE("a trial of another phase, or one not evaluated since the last commit,
   const auto phase = make_phase(slope()), other = make_phase(slope());
   const std::vector<double> u(phase->size(), 0.0);
   std::vector<double> R(phase->size());
+  const std::vector<double> v = phase->initial_velocity(0);
   const auto trial = phase->make_trial(), of_other = other->make_trial();
   CHECK_THROWS_AS(phase->commit(*trial), std::logic_error);
   CHECK_THROWS_AS(phase->internal_force(0, u, R, *of_other), std::logic_error);
@@ -116,7 +118,7 @@ TEST_CASE("a trial of another phase, or one not evaluated since the last commit,
   phase->commit(*trial);
   CHECK_THROWS_AS(phase->commit(*trial), std::logic_error);
   REQUIRE(phase->internal_force(0, u, R, *trial));
-  phase->control().begin_next(0.1, u, u);
+  phase->control().begin_next(0.1, u, v);
   CHECK_THROWS_AS(phase->commit(*trial), std::logic_error);
 }
 

@@ -136,7 +136,7 @@ TEST_CASE("a plane scene loads with every key that it says") {
   CHECK(body.seed == 7);
   CHECK(scene.materials.at("soil").parameters.at("psi") == 5);
   CHECK(scene.materials.at("soil").choices.at("cone") == "mean");
-  CHECK(scene.materials.at("soil").parameters.at("phi_residual") == 35);  // as phi, where nothing else is said
+  CHECK(scene.materials.at("soil").parameters.at("phi_residual") == 35);  // as phi, if nothing else is said
   CHECK(scene.materials.at("soil").parameters.at("fluidity") == 0);
 
   CHECK(scene.mass.kind == MassKind::lumped);

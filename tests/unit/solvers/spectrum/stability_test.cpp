@@ -79,7 +79,6 @@ double leapfrog(double h, double omega, double rate) {
 class TestDamping : public Damping {
  public:
   TestDamping(LinearDamping C, double factor) : C_(C), factor_(factor) {}
-  std::string_view name() const override { return "test"; }
   LinearDamping linear() const override { return C_; }
   double stiffness_factor() const override { return factor_; }
 

@@ -113,7 +113,7 @@ TEST_CASE("jittered points pass the patch test where their volumes are fitted to
 }
 
 TEST_CASE("forces of bilinear cells are those of the assembled stiffness, for any number of points in a cell") {
-  // R(u) = K u where the law is linear: R takes its points a few at a time and its cells a block at a time, K point by
+  // R(u) = K u if the law is linear: R takes its points a few at a time and its cells a block at a time, K point by
   // point. A block holds 128 points, so that 169 do not fit.
   for (const std::string state : {"plane-strain", "axisymmetric"}) {
     for (const std::string points : {"1", "4", "9", "25", "169"}) {
@@ -125,7 +125,8 @@ TEST_CASE("forces of bilinear cells are those of the assembled stiffness, for an
       for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(static_cast<double>(i * i + 1));
       const std::vector<double> R = statics::internal_force(*phase, u);
       const auto n = static_cast<Eigen::Index>(u.size());
-      const Eigen::VectorXd Ku = phase->tangents().matrix(Tangent::consistent, 0, u) * Eigen::Map<const Eigen::VectorXd>(u.data(), n);
+      const Eigen::VectorXd Ku =
+          phase->tangents().matrix(Tangent::consistent, 0, u) * Eigen::Map<const Eigen::VectorXd>(u.data(), n);
       CHECK((Eigen::Map<const Eigen::VectorXd>(R.data(), n) - Ku).norm() < 1e-13 * Ku.norm());
     }
   }
@@ -236,7 +237,7 @@ TEST_CASE("a pressure round a whole body is in balance at any deformation that i
   const auto u = phase->initial_displacement(0);
   std::vector<double> F(phase->size());
   phase->external_force(0, u, F);
-    CHECK(largest_magnitude(F) > 0.01);
+  CHECK(largest_magnitude(F) > 0.01);
   std::array<double, 2> sum{};
   double moment = 0;
   const int nodes = 5;  // along a side, numbered row by row

@@ -11,7 +11,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "integrator_setup.hpp"
+#include "solvers/integrators/integrator_setup.hpp"
 
 namespace {
 

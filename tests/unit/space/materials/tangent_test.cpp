@@ -93,7 +93,8 @@ TEST_CASE("the tangent of every law is the derivative of the internal force, app
 TEST_CASE("yielding leaves omega_max and the critical step where they were") {
   const auto phase = column("{law='drucker-prager', E=1e7, nu=0.3, rho=2000, phi=30, c=1e4}", "plane-strain", "linear");
   const std::vector<double> at_rest(phase->size(), 0.0), u = random_vector(phase->size(), 1e-3, 1);
-  const auto yields = (phase->tangents().matrix(Tangent::consistent, 0, u) - phase->tangents().matrix(Tangent::elastic, 0, u)).norm();
+  const auto yields =
+      (phase->tangents().matrix(Tangent::consistent, 0, u) - phase->tangents().matrix(Tangent::elastic, 0, u)).norm();
   CHECK(yields > 0.1 * phase->tangents().matrix(Tangent::elastic, 0, u).norm());
   const double before = omega_max_by_power_iteration(*phase, 0, at_rest).omega;
   CHECK(omega_max_by_power_iteration(*phase, 0, u).omega == Approx(before).epsilon(0.01));  // the grid's motion, 1e-3

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 #include <dlfcn.h>
 #include <suitesparse/SuiteSparse_config.h>

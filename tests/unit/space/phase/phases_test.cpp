@@ -15,6 +15,7 @@
 #include "free_block.hpp"
 #include "scenes.hpp"
 #include "space/grid/scene_grid.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 #include "space/points/point_order.hpp"
 
 using namespace stillpoint;
@@ -135,7 +136,7 @@ TEST_CASE("a phase ends where phase.max_motion or phase.max_strain says, and nev
 }
 
 TEST_CASE("phases move an elastic block as classical MPM does, ever closer with the grid and with max_motion") {
-  // A smooth basis: where points cross cells a linear one makes forces jump, whatever the phases.
+  // A smooth basis: if points cross cells a linear one makes forces jump, whatever the phases.
   double last = 1;
   for (const int n : {4, 8, 16}) {
     const double classical = settlement(squash(n, {"grid.basis=quadratic", "phase.max_motion=0"}));

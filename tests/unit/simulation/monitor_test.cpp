@@ -111,3 +111,12 @@ TEST_CASE("no distance is near enough before the loads have come to their end") 
   Monitor monitor(alone);
   for (int k = 0; k < 100; ++k) CHECK(monitor.observe(k, 0, 0, 0, false, 0.0) == RunStatus::running);
 }
+
+TEST_CASE("equilibrium that need not last is declared at the first moment in balance") {
+  stillpoint::Monitor lasting({.residual = 1e-3, .dwell = 10}),
+      at_once({.residual = 1e-3, .dwell = 10, .must_last = false});
+  CHECK(lasting.observe(1, 1e-4, 0) == stillpoint::RunStatus::running);
+  CHECK(at_once.observe(1, 1e-2, 0) == stillpoint::RunStatus::running);
+  CHECK(at_once.observe(2, 1e-4, 0) == stillpoint::RunStatus::equilibrium);
+  CHECK(at_once.reason() == "residual 0.0001 <= 0.001");
+}
