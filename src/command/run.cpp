@@ -53,8 +53,8 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   for (const auto& [name, fields] : s.probes) {
     std::string values;
     for (const auto& [field, value] : fields) values += fmt::format("{} = {:.9g}  ", field, value);
-    const auto place = s.probe_positions.find(name);
-    if (place != s.probe_positions.end()) values += fmt::format(" at x = {:.6g}", fmt::join(place->second, ", "));
+    const auto position = s.probe_positions.find(name);
+    if (position != s.probe_positions.end()) values += fmt::format(" at x = {:.6g}", fmt::join(position->second, ", "));
     row((fields.front().first == "normal" ? "force on " : "probe ") + name, values);
   }
   for (const std::string& note : s.notes) row("note", note);

@@ -28,10 +28,10 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
   phase.point_displacement(t, u, displacement);
   std::vector<double> stress(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
   phase.point_stress(t, u, stress);
-  const std::vector<double> places = phase.positions(), volumes = phase.point_data().volumes;
+  const std::vector<double> positions = phase.positions(), volumes = phase.point_data().volumes;
   Norms in_u, in_stress;
   for (std::size_t p = 0; p < phase.points(); ++p) {
-    const std::span<const double> x(places.data() + dim * p, dim);
+    const std::span<const double> x(positions.data() + dim * p, dim);
     const double V = volumes[p];
     for (std::size_t i = 0; i < dim; ++i) in_u.add(V, displacement[dim * p + i], scene.exact_u[i](x, t));
     if (scene.exact_stress)

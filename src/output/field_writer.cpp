@@ -31,7 +31,7 @@ void validate(const FieldFrame& frame) {
   const auto expect = [](const std::string& name, std::size_t size, std::size_t expected) {
     if (size != expected) refuse(fmt::format("{} has {} values, expected {}", name, size, expected));
   };
-  expect("place", frame.place.size(), frame.points * static_cast<std::size_t>(frame.dim));
+  expect("place", frame.position.size(), frame.points * static_cast<std::size_t>(frame.dim));
   if (!frame.material.empty()) expect("material", frame.material.size(), frame.points);
   std::set<std::string> names = {"place", "material"};
   for (const PointField& field : frame.fields) {
@@ -148,7 +148,7 @@ class FieldWriter::Files {
     hdf5_.write_attribute(group, "dim", frame.dim);
     GridText grid(group, frame.t, frame.points, vertices(frame.points));
     const auto dim = static_cast<std::size_t>(frame.dim);
-    hdf5_.write(group + "/place", frame.place, {dim, 0, dim, 3});
+    hdf5_.write(group + "/place", frame.position, {dim, 0, dim, 3});
     for (const PointField& field : frame.fields) write(field, group, grid);
     if (!frame.material.empty()) {
       hdf5_.write(group + "/material", frame.material);

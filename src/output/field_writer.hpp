@@ -21,8 +21,8 @@ struct PointField {
 struct FieldFrame {
   double t;
   int dim;
-  std::size_t points;         // > 0
-  std::vector<double> place;  // (points × dim) [m], deformed
+  std::size_t points;            // > 0
+  std::vector<double> position;  // (points × dim) [m], deformed
   std::vector<PointField> fields;
   std::vector<int> material;  // (points), or empty: not written
 };

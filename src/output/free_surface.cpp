@@ -14,7 +14,7 @@ namespace stillpoint {
 namespace {
 
 // A square of side w with points in it, [column, column + 1) × [row, row + 1) in units of w. Whole numbers, but of type
-// double: they hold any place.
+// double: they hold any position.
 struct Square {
   double column, row;
   std::size_t points;   // in it
@@ -25,10 +25,10 @@ struct Square {
 bool before(const Square& a, const Square& b) { return std::tie(a.column, a.row) < std::tie(b.column, b.row); }
 
 // In order of their columns, and from below.
-std::vector<Square> occupied_squares(ConstVec place, double w) {
+std::vector<Square> occupied_squares(ConstVec position, double w) {
   std::vector<Square> squares;
-  for (std::size_t k = 0; k + 1 < place.size(); k += 2) {
-    const double x = place[k], y = place[k + 1];
+  for (std::size_t k = 0; k + 1 < position.size(); k += 2) {
+    const double x = position[k], y = position[k + 1];
     if (std::isfinite(x) && std::isfinite(y)) squares.push_back({std::floor(x / w), std::floor(y / w), 1, x, y, 0});
   }
   std::sort(squares.begin(), squares.end(), [](const Square& a, const Square& b) {
@@ -80,9 +80,9 @@ std::size_t largest_cluster(std::vector<Square>& squares) {
 
 }  // namespace
 
-FreeSurface free_surface(ConstVec place, double w) {
+FreeSurface free_surface(ConstVec position, double w) {
   if (!(w > 0)) throw std::invalid_argument("the columns of a free surface need a positive width");
-  std::vector<Square> squares = occupied_squares(place, w);
+  std::vector<Square> squares = occupied_squares(position, w);
   const std::size_t mass = largest_cluster(squares);
   FreeSurface surface;
   double column = std::numeric_limits<double>::quiet_NaN();

@@ -12,12 +12,12 @@
 namespace stillpoint {
 namespace {
 
-std::size_t nearest_point(const std::vector<double>& places, std::size_t dim, const std::vector<double>& at) {
+std::size_t nearest_point(const std::vector<double>& positions, std::size_t dim, const std::vector<double>& at) {
   std::size_t best = 0;
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < places.size() / dim; ++p) {
+  for (std::size_t p = 0; p < positions.size() / dim; ++p) {
     double square = 0;
-    for (std::size_t d = 0; d < dim; ++d) square += (places[dim * p + d] - at[d]) * (places[dim * p + d] - at[d]);
+    for (std::size_t d = 0; d < dim; ++d) square += (positions[dim * p + d] - at[d]) * (positions[dim * p + d] - at[d]);
     if (square < smallest) smallest = square, best = p;
   }
   return best;
@@ -26,19 +26,19 @@ std::size_t nearest_point(const std::vector<double>& places, std::size_t dim, co
 }  // namespace
 
 Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase), specs_(scene.probes) {
-  const std::vector<double> places = phase.positions();
+  const std::vector<double> positions = phase.positions();
   const auto dim = static_cast<std::size_t>(phase.dim());
   for (const ProbeSpec& probe : specs_) {
     if (probe.kind == ProbeKind::slope_angle) {
-      place_.emplace_back();
+      position_.emplace_back();
       columns_.push_back(probe.name + ".slope_angle");
       sources_.push_back({"slope_angle", 0, 0, 0});
       continue;
     }
     const std::size_t point =
-        probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(places, dim, probe.at);
-    place_.emplace_back(places.begin() + static_cast<std::ptrdiff_t>(dim * point),
-                        places.begin() + static_cast<std::ptrdiff_t>(dim * (point + 1)));
+        probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(positions, dim, probe.at);
+    position_.emplace_back(positions.begin() + static_cast<std::ptrdiff_t>(dim * point),
+                           positions.begin() + static_cast<std::ptrdiff_t>(dim * (point + 1)));
     for (const std::string& field : probe.fields) {
       columns_.push_back(probe.name + "." + field);
       const auto [name, component, components] = find_point_field(phase, field);

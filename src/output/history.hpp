@@ -29,7 +29,7 @@ class Probes {
   const std::vector<std::string>& columns() const { return columns_; }  // "<probe>.<field>"
   const std::vector<ProbeSpec>& specs() const { return specs_; }
   /// Where probe k's material point was when the run began, (dim) [m]; empty for a probe of another kind.
-  const std::vector<double>& position(std::size_t k) const { return place_[k]; }
+  const std::vector<double>& position(std::size_t k) const { return position_[k]; }
   /// Values at (t, u, v), in the order of columns(); the state is that of the last commit.
   std::vector<double> read(double t, ConstVec u, ConstVec v);
 
@@ -44,7 +44,7 @@ class Probes {
   const Scene& scene_;
   const LagrangianPhase& phase_;
   std::vector<ProbeSpec> specs_;
-  std::vector<std::vector<double>> place_;
+  std::vector<std::vector<double>> position_;
   std::vector<std::string> columns_;
   std::vector<Source> sources_;  // of the first columns
 };

@@ -53,7 +53,7 @@ void Snapshots::take(double t, ConstVec u, ConstVec v) {
   FieldFrame frame{.t = t,
                    .dim = phase_.dim(),
                    .points = phase_.points(),
-                   .place = current_positions(phase_, t, u),
+                   .position = current_positions(phase_, t, u),
                    .fields = {},
                    .material = phase_.point_data().materials};
   std::vector<std::string> names = {"u", "v", "stress"};

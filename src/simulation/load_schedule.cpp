@@ -23,11 +23,11 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time)
     : scene_(scene), system_(system), end_time_(end_time) {
   supports_move_ = std::ranges::any_of(scene.supports, [](const auto& s) { return s.motion.uses('t'); });
-  if (end_time > 0 && loads_vary(scene)) at_end_ = pull(end_time);
+  if (end_time > 0 && loads_vary(scene)) at_end_ = load(end_time);
 }
 
 // The loads alone if no support moves: R(u = 0) changes with what a body remembers.
-std::vector<double> LoadSchedule::pull(double t) const {
+std::vector<double> LoadSchedule::load(double t) const {
   return supports_move_ ? total_load_at(system_, t) : loads_at(system_, t);
 }
 
@@ -39,7 +39,7 @@ bool LoadSchedule::settled(double t) const {
     if (left > rounding * std::abs(end - wall.motion({}, 0))) return false;
   }
   const bool remembers = supports_move_ && system_.history_dependent();
-  const std::vector<double> now = pull(t), end = remembers ? pull(end_time_) : at_end_;
+  const std::vector<double> now = load(t), end = remembers ? load(end_time_) : at_end_;
   double difference = 0, scale = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
     difference = std::max(difference, std::abs(now[i] - end[i]));

@@ -1,4 +1,4 @@
-// What pulls at a body over time: loads and moving supports, and whether they have come to their end.
+// What acts on a body over time: loads and moving supports, and whether they have come to their end.
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -10,7 +10,7 @@ namespace stillpoint {
 
 /// F(t) on the undeformed body, (n) [N].
 std::vector<double> loads_at(const SemiDiscrete& system, double t);
-/// Q(t) = F(t) − R(u = 0, t): loads and the pull of displaced supports on the undeformed body, (n) [N].
+/// Q(t) = F(t) − R(u = 0, t): loads and the force of displaced supports on the undeformed body, (n) [N].
 std::vector<double> total_load_at(const SemiDiscrete& system, double t);
 
 /// Tells a plateau of the loads from their end, so that equilibrium is not declared before a load has acted.
@@ -18,11 +18,11 @@ class LoadSchedule {
  public:
   /// For one phase. end_time 0: open; then every moment counts as the end.
   LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time);
-  /// Whether everything pulls at t as it will at the end.
+  /// Whether everything acts at t as it will at the end.
   bool settled(double t) const;
 
  private:
-  std::vector<double> pull(double t) const;
+  std::vector<double> load(double t) const;
 
   const Scene& scene_;
   const SemiDiscrete& system_;

@@ -15,6 +15,7 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
+#include "simulation/highest_frequency.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/notes.hpp"
 #include "simulation/stiffening_step.hpp"
@@ -24,65 +25,6 @@ namespace stillpoint {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-
-// ω_max for the step. Power iteration underestimates: if it has not converged, a margin or the guaranteed bound.
-double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
-  const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
-  constexpr int applications = 30;
-  const FrequencyEstimate estimate = phase.size() > direct_solver_limit
-                                         ? omega_max_by_lanczos(phase, 0, u, applications)
-                                         : omega_max_by_power_iteration(phase, 0, u, options);
-  if (!(estimate.omega > 0) || !std::isfinite(estimate.omega)) {
-    throw_scene_error(
-        scene, "initial",
-        fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
-  }
-  if (estimate.converged) return estimate.omega;
-  constexpr double margin = 1.02;  // after 300 iterations an underestimate of 0.1 % is usual
-  return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
-}
-
-// The same for auto, which counts what it spends.
-double quick_highest_frequency(const Scene& scene, Model& model, const LagrangianPhase& phase, ConstVec u) {
-  const FrequencyEstimate estimate = omega_max_by_lanczos(phase, 0, u);
-  model.tangent_applications += estimate.iterations;
-  if (estimate.converged) return estimate.omega;
-  throw_scene_error(
-      scene, "initial",
-      fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
-}
-
-// Whether nothing but equilibrium is asked for, under a pull that stays: then inertia is free, and velocities may be
-// reset.
-bool wants_equilibrium_only(const Scene& scene) { return scene.stop.wants_equilibrium() && !loads_vary(scene); }
-
-// auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
-// body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
-// of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes if the scene leaves the kind open.
-void choose_mass(const Scene& scene, Model& model) {
-  const std::vector<double> u = model.phase->initial_displacement(0);
-  model.omega_max = quick_highest_frequency(scene, model, *model.phase, u);
-  if (!wants_equilibrium_only(scene)) {
-    model.notes.push_back(
-        "auto keeps the physical mass and halts no motion, as loads or supports depend on t or the transient is asked "
-        "for; its c M v holds back a body that flows: take one-sided or cundall there");
-    return;
-  }
-  const bool kind_is_fixed = scene.where.contains("mass.kind") && scene.mass.kind == MassKind::consistent;
-  if (scene.where.contains("mass.scaling") || kind_is_fixed || scene.grid.basis == BasisKind::hermite) return;
-  Scene scaled = scene;
-  scaled.mass.kind = MassKind::lumped;
-  scaled.mass.scaling = MassScaling::gershgorin;
-  std::unique_ptr<LagrangianPhase> phase = make_phase(scaled);
-  const double omega_max = quick_highest_frequency(scene, model, *phase, phase->initial_displacement(0));
-  const double gain = model.omega_max * model.omega_max / (omega_max * omega_max);
-  constexpr double worthwhile = 1.05;
-  if (gain < worthwhile) return;
-  model.phase = std::move(phase);
-  model.omega_max = omega_max;
-  model.notes.push_back(fmt::format(
-      "auto scales the mass by Gershgorin's bound: the condition number becomes about {:.3g} times smaller", gain));
-}
 
 // Whether R can be evaluated where the motion begins.
 void check_initial_state(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {

@@ -21,7 +21,7 @@ FieldFrame a_frame(std::size_t number, int dim, std::size_t points, const std::v
     values.resize(static_cast<std::size_t>(components) * points);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = value(number, seed, k);
   };
-  fill(frame.place, dim, 0);
+  fill(frame.position, dim, 0);
   std::size_t seed = 1;
   for (PointField& field : frame.fields) fill(field.values, field.components, seed++);
   return frame;

@@ -10,7 +10,7 @@
 //   instability  h² vᵀΔR/(h vᵀMv) > 4 · 0.925, which no stable motion shows, in a motion that grows:
 //                ω_max was underestimated or has become more;  v = 0 and a shorter step
 //
-// Where the pull depends on t the residual need not fall and a halt would be felt: then c alone is adapted.
+// If the loads depend on t the residual need not fall and a halt would be felt: then c alone is adapted.
 
 #include <algorithm>
 #include <cmath>

@@ -53,8 +53,8 @@ class Fire final : public StaggeredIteration {
     const double keep = uphill_ ? 0 : 1, back = uphill_ && constants_.goes_back ? h / 2 : 0;
     const ConstVec u_now = u().span(), v_now = v().span(), a_now = a().span();
     for_each_index(u_now.size(), [=](std::size_t i) { v_new[i] = keep * v_now[i] + h * a_now[i]; });
-    const double speed = std::sqrt(mass_norm_squared(v_new)), pull = std::sqrt(std::max(0.0, dot(a(), Q())));
-    const double turned = pull > 0 ? theta_ * speed / pull : 0;
+    const double speed = std::sqrt(mass_norm_squared(v_new)), a_norm = std::sqrt(std::max(0.0, dot(a(), Q())));
+    const double turned = a_norm > 0 ? theta_ * speed / a_norm : 0;
     for_each_index(u_now.size(), [=, straight = 1 - theta_](std::size_t i) {
       v_new[i] = straight * v_new[i] + turned * a_now[i];
       u_new[i] = u_now[i] - back * v_now[i] + h * v_new[i];

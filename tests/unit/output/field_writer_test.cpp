@@ -33,7 +33,7 @@ FieldFrame a_frame(double t, std::size_t points = 3) {
       values.push_back(static_cast<double>(state));
     }
   };
-  fill(frame.place, 2 * points);
+  fill(frame.position, 2 * points);
   for (PointField& field : frame.fields) fill(field.values, static_cast<std::size_t>(field.components) * points);
   frame.material.assign(points, 1);
   return frame;

@@ -1,0 +1,21 @@
+// The highest frequency of a scene, which its step needs, and the mass that a relaxation chooses by it.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include "simulation/model.hpp"
+
+namespace stillpoint {
+
+/// Whether nothing but equilibrium is asked for, under loads that stay: then inertia is free, and velocities may be
+/// reset.
+bool wants_equilibrium_only(const Scene& scene);
+
+/// ω_max for the step [rad/s]. Throws SceneError if the initial state has none.
+double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u);
+
+/// Physical masses or those by Gershgorin's bound, whichever gives the smaller κ: sets phase, omega_max, and what it
+/// spent on them.
+void choose_mass(const Scene& scene, Model& model);
+
+}  // namespace stillpoint
