@@ -63,7 +63,7 @@ bool is_word(const Value& value, const KeyInfo& key) {
 }
 
 std::optional<std::string> read_string(const Value& value, const KeyInfo& key) {
-  const auto text = read_text(value);
+  auto text = read_text(value);
   if (!text) return std::nullopt;
   if (!key.words.empty() && !number_of(*text, key, value.reading.dim)) {
     report_unknown_word(value, key, *text);

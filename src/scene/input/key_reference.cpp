@@ -47,7 +47,7 @@ std::string told_type(const KeyInfo& key) {
   } else {
     kinds.push_back(fmt::format("a name of `{}`", key.listed_by));
   }
-  const std::string one = fmt::format("{}", fmt::join(kinds, " | "));
+  std::string one = fmt::format("{}", fmt::join(kinds, " | "));
   switch (key.shape) {
     case Shape::one:
       return one;

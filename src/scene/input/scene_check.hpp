@@ -36,8 +36,10 @@ class SceneCheck {
   }
   /// Reports each of these keys of a table that is written.
   void refuse(const std::string& table, std::initializer_list<const char*> keys, const std::string& why) {
-    for (const std::string key : keys)
-      if (written(table + "." + key)) add(table + "." + key, why);
+    for (const char* key : keys) {
+      const std::string whole = fmt::format("{}.{}", table, key);
+      if (written(whole)) add(whole, why);
+    }
   }
 
   /// Of two keys of a table exactly one is to be written.
