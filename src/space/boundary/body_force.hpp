@@ -35,7 +35,7 @@ class BodyForce final : public BoundaryCondition<B, K> {
     add_from_points(phase, 0, sum);
     for (std::size_t k = 0; k < F.size(); ++k) F[k] += sum[k];
   }
-  void add_force(const Parts& phase, double t, Vec F) const override {
+  void add_load(const Parts& phase, double t, Vec F) const override {
     if (varies()) add_from_points(phase, t, F);
   }
 

@@ -85,7 +85,7 @@ class BoundaryCondition {
   virtual void begin_motion(const Parts&, double /*t*/, Vec /*v*/) {}
 
   /// F += the forces that depend on t, not on u.
-  virtual void add_force(const Parts&, double /*t*/, Vec /*F*/) const {}
+  virtual void add_load(const Parts&, double /*t*/, Vec /*F*/) const {}
   /// Whether some depend on u.
   virtual bool follows() const { return false; }
   /// F += these.

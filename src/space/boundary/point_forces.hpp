@@ -40,7 +40,7 @@ class PointForces final : public BoundaryCondition<B, K> {
       }
     }
   }
-  void add_force(const Parts&, double t, Vec F) const override {
+  void add_load(const Parts&, double t, Vec F) const override {
     for (const Varying& load : varying_) add(load, t, F);
   }
 

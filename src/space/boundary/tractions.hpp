@@ -35,7 +35,7 @@ class Tractions final : public BoundaryCondition<B, K> {
       if (!freeze_weights(piece, phase)) throw_scene_error(scene_, "traction", "there is no material at this face");
     }
   }
-  void add_force(const Parts& phase, double t, Vec F) const override {
+  void add_load(const Parts& phase, double t, Vec F) const override {
     for (const Piece& piece : pieces_) {
       if (piece.traction->pressure) continue;
       for (int i = 0; i < dim; ++i) {

@@ -8,7 +8,7 @@ namespace stillpoint {
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::external_force(double t, ConstVec u, Vec F) const {
   for_each_index(F.size(), [F, constant = constant_force_.data()](std::size_t i) { F[i] = constant[i]; });
-  for (const auto& condition : boundary_) condition->add_force(parts(), t, F);
+  for (const auto& condition : boundary_) condition->add_load(parts(), t, F);
   for (const auto& condition : boundary_) {
     if (!condition->follows()) continue;
     spread(t, u, grid_u_);
