@@ -141,7 +141,7 @@ void law_alone(benchmark::State& state) {
   Parts<BSpline<1>> parts(0, law);
   PointBlock<K> b{};
   const std::size_t points = parts.body.points.size();
-  std::vector<double> trial(parts.body.materials[0]->history_size());
+  std::vector<double> trial(parts.body.materials[0]->info().history_size);
   double bad = 0;
   for (auto _ : state) {
     for (b.first = 0; b.first < points; b.first += b.count) {

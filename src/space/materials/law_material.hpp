@@ -40,7 +40,8 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
  protected:
   static constexpr double real = sizeof(double);
 
-  LawMaterialBase(const Law& law, std::size_t begin, std::size_t count) : law_(law), begin_(begin), count_(count) {}
+  LawMaterialBase(const Law& law, std::size_t begin, std::size_t count, const PointMaterialInfo& info)
+      : PointMaterial<K>(info), law_(law), begin_(begin), count_(count) {}
 
   /// Σ point(q), q = 0 … count − 1, in groups that fill the processor's registers. The last group begins early enough
   /// to be whole: a point that it meets again answers the same again, which costs less than a rest of single points.
@@ -91,18 +92,13 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
 
  public:
   ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool updated_lagrangian)
-      : Base(law, begin, count) {
+      : Base(law, begin, count, {.finite_strain = Law::finite_strain, .wave_modulus = law.moduli({})[0]}) {
     if (!updated_lagrangian || !Law::finite_strain) return;
     const Tensor I = plus_identity<K>({});
     F0_.resize(components * count);
     for (std::size_t c = 0; c < components; ++c)
       std::fill_n(F0_.begin() + static_cast<std::ptrdiff_t>(count * c), count, I[c]);
   }
-
-  bool history_dependent() const override { return false; }
-  bool finite_strain() const override { return Law::finite_strain; }
-
-  std::size_t history_size() const override { return 0; }
 
   [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
     const Law law = law_;
@@ -136,7 +132,6 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     return pushed;
   }
   Stresses cauchy(const Tensor& H, std::size_t p) const override { return law_.cauchy(moved() ? total(F0(p), H) : H); }
-  double wave_modulus() const override { return law_.moduli({})[0]; }
 
   void end_phase(const Block& block) override {
     for (std::size_t q = 0; q < block.count; ++q) {
@@ -207,14 +202,14 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   using History = typename Law::History;
 
  public:
-  HistoryMaterial(const Law& law, std::size_t begin, std::size_t count) : Base(law, begin, count) {
+  HistoryMaterial(const Law& law, std::size_t begin, std::size_t count)
+      : Base(law, begin, count,
+             {.history_dependent = true,
+              .finite_strain = true,
+              .history_size = Law::history * count,
+              .wave_modulus = law.elastic_moduli({}, law.initial_history({}))[0]}) {
     set_stress(std::vector<Stresses>(count, Stresses{}));
   }
-
-  bool history_dependent() const override { return true; }
-  bool finite_strain() const override { return true; }
-
-  std::size_t history_size() const override { return committed_.size(); }
 
   [[gnu::flatten]] double stress(Block& block, const double* V, double dt, double* trial) const override {
     const double* from = committed_.data() + block.first - begin_;
@@ -237,7 +232,6 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     return kind == Tangent::elastic ? law_.elastic_moduli(H, history(p)) : law_.moduli(H, dH, dt, history(p));
   }
   Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
-  double wave_modulus() const override { return law_.elastic_moduli({}, law_.initial_history({}))[0]; }
 
   void end_phase(const Block&) override {}
   void reorder(const std::vector<int>& order, std::vector<double>& work) override {

@@ -54,6 +54,14 @@ struct PointBlock {
   }
 };
 
+/// What is the same for all points of a material, and stays so.
+struct PointMaterialInfo {
+  bool history_dependent = false;
+  bool finite_strain = false;
+  std::size_t history_size = 0;  // entries of what is kept of the committed state, and of a trial of its own
+  double wave_modulus = 0;       // λ + 2μ or its like in the undeformed state [Pa]
+};
+
 /// One virtual call serves a block of points, so that the loop over them knows its law and is vectorised, while the
 /// loops over cells are compiled once for all laws. Points have their numbers in the whole body.
 template <Kinematics K>
@@ -62,14 +70,12 @@ class PointMaterial {
   using Stresses = std::array<double, stress_components(K)>;
   using ModuliMatrix = std::array<double, gradient_components(K) * gradient_components(K)>;
 
+  explicit PointMaterial(const PointMaterialInfo& info) : info_(info) {}
   virtual ~PointMaterial() = default;
-  virtual bool history_dependent() const = 0;
-  virtual bool finite_strain() const = 0;
+  const PointMaterialInfo& info() const { return info_; }
 
-  /// What the material keeps of the committed state, and a trial of its own: entries of an array of that.
-  virtual std::size_t history_size() const = 0;
-  /// block.VP = V_p P_p for the deformation in block.H (and dH, over dt, if history_dependent()); what the points would
-  /// remember is written to trial, (history_size()). V: volumes when the phase began, of all points.
+  /// block.VP = V_p P_p for the deformation in block.H (and dH, over dt, if history_dependent); what the points would
+  /// remember is written to trial, (history_size). V: volumes when the phase began, of all points.
   /// Returns 0, or NaN if some P is not finite.
   virtual double stress(PointBlock<K>& block, const double* V, double dt, double* trial) const = 0;
   /// The trial history becomes the committed one and the other way round; every block has had its stress() in it.
@@ -85,12 +91,10 @@ class PointMaterial {
   /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite if it is not
   /// finite.
   virtual double stiffness_bound(const PointBlock<K>& block) const = 0;
-  /// λ + 2μ or its like in the undeformed state [Pa].
-  virtual double wave_modulus() const = 0;
 
   /// The phase ends with the deformation in block.H: it becomes part of what the next phase starts from.
   virtual void end_phase(const PointBlock<K>& block) = 0;
-  /// Points are sorted anew: the one that was number order[k] becomes number begin + k. work: (history_size()).
+  /// Points are sorted anew: the one that was number order[k] becomes number begin + k. work: (history_size).
   virtual void reorder(const std::vector<int>& order, std::vector<double>& work) = 0;
   /// Points start under these Cauchy stresses, (points × stress components).
   virtual void set_stress(const std::vector<Stresses>& stress) = 0;
@@ -99,6 +103,9 @@ class PointMaterial {
   virtual std::vector<PointArray> arrays() const = 0;
   /// Committed history that a user may want to see: name and values in order of the points.
   virtual std::vector<std::pair<std::string, ConstVec>> shown_history() const = 0;
+
+ private:
+  PointMaterialInfo info_;
 };
 
 /// The material of points begin … begin + count − 1. updated_lagrangian: whether there will be another phase, which an

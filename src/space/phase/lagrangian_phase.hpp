@@ -69,7 +69,8 @@ class PhaseControl {
   /// How far the phase has come: 1 if it should end (phase.max_motion or phase.max_strain is reached).
   virtual double progress(double t, ConstVec u) = 0;
   /// Ends the phase at t with u and v, and begins the next, with other unknowns: size() and everything else may change.
-  /// Returns v, (size()); u is 0. Throws PointLost.
+  /// Returns v, (size()); u is 0. Throws PointLost; std::logic_error if the scene has a single phase, or if
+  /// initial_velocity() has not begun the first.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
 };

@@ -21,6 +21,8 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
 
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, ConstVec v) {
+  if (start_velocity_.size() != grid_u_.size())
+    throw std::logic_error("no phase ends in a scene of a single one, nor before initial_velocity()");
   const std::vector<WallReaction> walls = wall_reactions(t);
   const auto followed = std::ranges::find(walls, scene_.grid.follow, &WallReaction::name);
   Grid<Dim> next_grid = grid_at<Dim>(scene_, followed == walls.end() ? 0 : followed->displacement);
@@ -81,7 +83,7 @@ double MaterialPointPhase<B, K>::time_scale() const {
   }
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
     const double density = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
-    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->wave_modulus()));
+    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->info().wave_modulus));
   }
   return shortest;
 }
@@ -89,7 +91,7 @@ double MaterialPointPhase<B, K>::time_scale() const {
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::make_mass() {
   std::vector<double> wave_modulus;
-  for (const auto& material : body_.materials) wave_modulus.push_back(material->wave_modulus());
+  for (const auto& material : body_.materials) wave_modulus.push_back(material->info().wave_modulus);
   inertia_.begin_phase(body_.points, weights_, nodal_force_.corner_sum(), wave_modulus);
   const bool is_consistent = scene_.mass.kind == MassKind::consistent;
   if (is_consistent || (projects() && !updated_lagrangian())) {
@@ -175,7 +177,7 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), grid_u_.data(), grid_v,
                       start_velocity_);
   nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
-    if (!body_.materials[m]->finite_strain()) return;
+    if (!body_.materials[m]->info().finite_strain) return;
     body_.materials[m]->end_phase(block);
     double* V = body_.points.volume.data() + block.first;
     for (std::size_t q = 0; q < block.count; ++q) V[q] *= determinant<K>(plus_identity<K>(block.H_at(q)));

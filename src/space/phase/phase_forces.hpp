@@ -39,7 +39,7 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   trial->arrays->u.assign(grid_u_.size(), 0);
   trial->arrays->history.resize(body_.materials.size());
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
-    trial->arrays->history[m].resize(body_.materials[m]->history_size());
+    trial->arrays->history[m].resize(body_.materials[m]->info().history_size);
   }
   return trial;
 }

@@ -12,8 +12,8 @@ void MaterialPointPhase<B, K>::describe() {
   std::set<std::string> names;
   bool finite_strain = false;
   for (const auto& material : body_.materials) {
-    history_dependent_ = history_dependent_ || material->history_dependent();
-    finite_strain = finite_strain || material->finite_strain();
+    history_dependent_ = history_dependent_ || material->info().history_dependent;
+    finite_strain = finite_strain || material->info().finite_strain;
     for (const auto& [name, values] : material->shown_history()) names.insert(name);
   }
   std::vector<double> m(body_.points.size());  // in the order of the points' numbers, which does not change

@@ -122,6 +122,20 @@ TEST_CASE("a trial of another phase, or one not evaluated since the last commit,
   CHECK_THROWS_AS(phase->commit(*trial), std::logic_error);
 }
 
+TEST_CASE("no phase ends before its initial velocity is known, nor in a scene of a single phase") {
+  Scene scene = slope();
+  const auto not_begun = make_phase(scene);
+  const std::vector<double> rest(not_begun->size(), 0.0);
+  CHECK_THROWS_AS(not_begun->control().begin_next(0.1, rest, rest), std::logic_error);
+  not_begun->initial_velocity(0);
+  CHECK_NOTHROW(not_begun->control().begin_next(0.1, rest, rest));
+
+  scene.phase = {};
+  const auto single = make_phase(scene);
+  const std::vector<double> v = single->initial_velocity(0);
+  CHECK_THROWS_AS(single->control().begin_next(0.1, v, v), std::logic_error);
+}
+
 TEST_CASE("the right-hand side of a plastic scene with walls and local damping allocates nothing") {
   const Model model = make_model(slope());
   RelaxationSystem system(*model.phase, *model.damping);
