@@ -25,7 +25,6 @@
 
 #include <fmt/format.h>
 
-#include "base/parallel_loop.hpp"
 #include "linalg/sundials.hpp"
 #include "solvers/integrators/butcher.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
@@ -112,7 +111,8 @@ class Erk final : public SteppingIntegrator {
       : SteppingIntegrator(options, system),
         table_(table_of(options.method)),
         kinetic_(options.halts_at_energy_peaks),
-        Q_(kinetic_ ? system.size() : 0) {}
+        Q_(system.vectors().make(kinetic_ ? system.size() : 0)),
+        v_(system.vectors().view(Q_.span())) {}
   Erk(const Erk&) = delete;
   Erk& operator=(const Erk&) = delete;
   ~Erk() override {
@@ -254,10 +254,10 @@ class Erk final : public SteppingIntegrator {
     auto& erk = *static_cast<Erk*>(self);
     try {
       const ConstVec both(N_VGetArrayPointer(y), 2 * erk.system().size());
-      const ConstVec v = second_half(both), Q = erk.Q_;
-      erk.inadmissible_ = !erk.system().out_of_balance(t, first_half(both), erk.Q_);
+      erk.inadmissible_ = !erk.system().out_of_balance(t, first_half(both), erk.Q_.span());
       if (erk.inadmissible_) return 1;
-      *value = sum_over(v.size(), [=](std::size_t i) { return v[i] * Q[i]; });
+      N_VSetArrayPointer(N_VGetArrayPointer(y) + erk.system().size(), erk.v_.handle());
+      *value = dot(erk.v_, erk.Q_);
       return 0;
     } catch (...) {
       erk.exception_ = std::current_exception();
@@ -277,7 +277,7 @@ class Erk final : public SteppingIntegrator {
 
   ButcherTable table_;
   bool kinetic_;
-  std::vector<double> Q_;  // of power(), (n)
+  Vector Q_, v_;  // of power(), (n); v_ is a view of the second half of the y that is asked for
   void* arkode_ = nullptr;
   SUNContext context_ = nullptr;
   N_Vector weights_ = nullptr;  // the vector that unit_weights() filled

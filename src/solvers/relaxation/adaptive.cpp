@@ -29,10 +29,9 @@ class Adaptive final : public StaggeredIteration {
   }
 
   void moved(double h) override {
-    const ConstVec v_now = v().span(), Q_before = last_Q().span(), Q_now = Q().span();
     const double omega_squared = quotient_ == Quotient::global
-                                     ? global_quotient(v_now, Q_before, Q_now, h, mass_dot(v(), v()))
-                                     : diagonal_quotient(u().span(), v_now, Q_before, Q_now, h, mass_dot(u(), u()));
+                                     ? global_quotient(v(), last_Q(), Q(), h, mass_dot(v(), v()), work())
+                                     : diagonal_quotient(u(), v(), last_Q(), Q(), h, mass_dot(u(), u()), work());
     c_ = 2 * std::sqrt(omega_squared);
     set_rate(c_);
   }

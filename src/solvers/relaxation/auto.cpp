@@ -46,7 +46,7 @@ class Auto final : public StaggeredIteration {
   void moved(double step) override {
     ++steps_;
     const double h = share_ * step;
-    const double quotient = global_quotient(v().span(), last_Q().span(), Q().span(), h, mass_dot(v(), v()));
+    const double quotient = global_quotient(v(), last_Q(), Q(), h, mass_dot(v(), v()), work());
     c_ = kinetic_ ? 0 : 2 * std::sqrt(quotient);
     set_rate(c_);
     const double unbalanced = std::sqrt(std::max(0.0, dot(Q(), a())));

@@ -32,14 +32,16 @@ class Nesterov final : public StaggeredIteration {
   }
 
   void propose(double h, Vec u_new, Vec v_new) override {
-    const ConstVec u_now = u().span(), a_now = a().span(), Q_now = Q().span(), x = x_.span();
-    const Vec x_new = next_x_.span();
-    for_each_index(x.size(), [=, s = h * h / 4](std::size_t i) { x_new[i] = u_now[i] + s * a_now[i]; });
-    const double downhill = sum_over(x.size(), [=](std::size_t i) { return Q_now[i] * (x_new[i] - x[i]); });
-    const double theta = downhill < 0 ? 1 : theta_;
+    const ConstVec u_now = u().span(), a_now = a().span(), x = x_.span();
+    const Vec x_new = next_x_.span(), dx = work().span();
+    for_each_index(x.size(), [=, s = h * h / 4](std::size_t i) {
+      x_new[i] = u_now[i] + s * a_now[i];
+      dx[i] = x_new[i] - x[i];
+    });
+    const double theta = dot(Q(), work()) < 0 ? 1 : theta_;  // uphill: begin afresh
     next_theta_ = (1 + std::sqrt(1 + 4 * theta * theta)) / 2;
     for_each_index(x.size(), [=, momentum = (theta - 1) / next_theta_](std::size_t i) {
-      u_new[i] = x_new[i] + momentum * (x_new[i] - x[i]);
+      u_new[i] = x_new[i] + momentum * dx[i];
       v_new[i] = (u_new[i] - u_now[i]) / h;
     });
   }

@@ -8,7 +8,7 @@
 // 0 if the motion has no stiffness, or a negative one.
 #pragma once
 
-#include <stillpoint/types.hpp>
+#include <stillpoint/vector.hpp>
 
 #include <cmath>
 
@@ -16,22 +16,27 @@
 
 namespace stillpoint {
 
-/// v, Q_before, Q: (n), ΔR = Q_before − Q; vMv = vᵀMv.
-inline double global_quotient(ConstVec v, ConstVec Q_before, ConstVec Q, double h, double vMv) {
+/// v, Q_before, Q: (n), ΔR = Q_before − Q; vMv = vᵀMv; work: (n), becomes ΔR.
+inline double global_quotient(const Vector& v, const Vector& Q_before, const Vector& Q, double h, double vMv,
+                              Vector& work) {
   if (!(vMv > 0)) return 0;
-  const double vdR = sum_over(v.size(), [=](std::size_t i) { return v[i] * (Q_before[i] - Q[i]); });
-  const double quotient = vdR / (h * vMv);
+  const Vec dR = work.span();
+  for_each_index(dR.size(),
+                 [dR, before = Q_before.span(), now = Q.span()](std::size_t i) { dR[i] = before[i] - now[i]; });
+  const double quotient = dot(v, work) / (h * vMv);
   return quotient > 0 ? quotient : 0;  // also if it is not a number
 }
 
-/// u, v, Q_before, Q: (n); uMu = uᵀMu.
-inline double diagonal_quotient(ConstVec u, ConstVec v, ConstVec Q_before, ConstVec Q, double h, double uMu) {
+/// u, v, Q_before, Q: (n); uMu = uᵀMu; work: (n), becomes Su.
+inline double diagonal_quotient(const Vector& u, const Vector& v, const Vector& Q_before, const Vector& Q, double h,
+                                double uMu, Vector& work) {
   if (!(uMu > 0)) return 0;
-  const double uSu = sum_over(u.size(), [=](std::size_t i) {
-    const double S = (Q_before[i] - Q[i]) / (h * v[i]);
-    return std::isfinite(S) ? u[i] * S * u[i] : 0.0;
+  const Vec Su = work.span();
+  for_each_index(Su.size(), [=, u = u.span(), v = v.span(), before = Q_before.span(), now = Q.span()](std::size_t i) {
+    const double S = (before[i] - now[i]) / (h * v[i]);
+    Su[i] = std::isfinite(S) ? S * u[i] : 0.0;
   });
-  const double quotient = uSu / uMu;
+  const double quotient = dot(u, work) / uMu;
   return quotient > 0 ? quotient : 0;
 }
 

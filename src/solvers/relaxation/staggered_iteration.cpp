@@ -15,7 +15,7 @@ StaggeredIteration::StaggeredIteration(const RelaxationOptions& options, Relaxat
       next_Q_(system.vectors().make(system.size())),
       next_a_(system.vectors().make(system.size())),
       Mx_(system.vectors().make(system.size())),
-      x_(system.vectors().make(system.size())) {}
+      work_(system.vectors().make(system.size())) {}
 
 void StaggeredIteration::begin(double t, const Vector& /*y*/) {
   u_.emplace(system().vectors().view(first_half(state().span())));
@@ -86,8 +86,8 @@ double StaggeredIteration::mass_dot(const Vector& x, const Vector& y) {
 }
 
 double StaggeredIteration::mass_norm_squared(ConstVec x) {
-  std::ranges::copy(x, x_.span().begin());
-  return mass_dot(x_, x_);
+  std::ranges::copy(x, work_.span().begin());
+  return mass_dot(work_, work_);
 }
 
 }  // namespace stillpoint

@@ -63,6 +63,8 @@ class StaggeredIteration : public SteppingIntegrator {
   double mass_dot(const Vector& x, const Vector& y);
   /// uᵀMu of what is not a Vector; x: (n).
   double mass_norm_squared(ConstVec x);
+  /// (n), for the moment: mass_norm_squared() writes to it as well.
+  Vector& work() { return work_; }
   double t() const { return t_; }
   const RelaxationOptions& relaxation() const { return relaxation_; }
 
@@ -74,7 +76,7 @@ class StaggeredIteration : public SteppingIntegrator {
 
   RelaxationOptions relaxation_;
   std::optional<Vector> u_, v_;  // the halves of y, in place
-  Vector Q_, a_, next_Q_, next_a_, Mx_, x_;
+  Vector Q_, a_, next_Q_, next_a_, Mx_, work_;
   double t_ = 0, trial_t_ = 0;
   double last_step_ = 0, trial_step_ = 0;
   bool admissible_ = true, force_is_current_ = false;
