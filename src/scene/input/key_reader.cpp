@@ -137,7 +137,17 @@ std::vector<FoundTable> find_tables(const TableInfo& info, const toml::table& ro
   return found;
 }
 
-void report_unknown_keys(const FoundTable& found, const TableInfo& info, Reading& reading) {
+void read_keys(const FoundTable& found, const TableInfo& info, const std::vector<Key>& keys, void* part,
+               Reading& reading) {
+  for (const Key& key : keys) {
+    if (!key.info.is_in(reading.dim)) continue;
+    const std::string name(key.info.name);
+    if (const toml::node* const node = found.table.get(name)) {
+      key.read(part, {*node, found.path.empty() ? name : found.path + "." + name, reading}, key.info);
+    } else if (key.info.required) {
+      reading.problem(location_of(found.table.source()), found.path, fmt::format("the key '{}' is missing", name));
+    }
+  }
   std::vector<std::string> known;
   for (const KeyInfo& key : info.keys)
     if (key.is_in(reading.dim)) known.emplace_back(key.name);
@@ -147,6 +157,12 @@ void report_unknown_keys(const FoundTable& found, const TableInfo& info, Reading
     if (std::ranges::find(known, name) == known.end())
       reading.problem(location_of(key.source()), found.path, unknown_word("unknown key", name, known));
   }
+}
+
+std::vector<KeyInfo> infos_of(const std::vector<Key>& keys) {
+  std::vector<KeyInfo> infos;
+  for (const Key& key : keys) infos.push_back(key.info);
+  return infos;
 }
 
 }  // namespace stillpoint

@@ -88,20 +88,21 @@ std::string told_default(const T& value, const KeyInfo& key) {
   }
 }
 
-/// A key of the tables whose values go into a Spec.
-template <class Spec>
+/// A key, and how its value gets into the part of a scene that its table describes, of whatever type that is: the same
+/// for all tables, or the compiler would make all that follows anew for each of them.
 struct Key {
   KeyInfo info;
-  std::function<void(Spec& spec, const Value& value, const KeyInfo& info)> read;
+  std::function<void(void* part, const Value& value, const KeyInfo& info)> read;
 };
 
-/// access: a pointer to the member that takes the value, or a function from a Spec to it. on_word: what a number's word
-/// does; without it the member becomes empty.
+/// access: a pointer to the member of a Spec that takes the value, or a function from a Spec to it. on_word: what a
+/// number's word does; without it the member becomes empty.
 template <class Spec, class Access>
-Key<Spec> key_of(std::string_view name, Access access, std::string_view help, KeyInfo info,
-                 std::function<void(Spec&)> on_word = {}) {
+Key key_of(std::string_view name, Access access, std::string_view help, const KeyInfo& about,
+           void (*on_word)(Spec&) = nullptr) {
   using Member = std::remove_cvref_t<std::invoke_result_t<Access, Spec&>>;
   using T = std::conditional_t<Unwrapped<Member>::depth == 0, typename Unwrapped<Member>::type, Member>;
+  KeyInfo info = about;
   info.name = name;
   info.help = help;
   info.kind = kind_of_type<typename Unwrapped<Member>::type>();
@@ -110,14 +111,13 @@ Key<Spec> key_of(std::string_view name, Access access, std::string_view help, Ke
                : info.list                     ? Shape::list
                                                : Shape::axes;
   if (Spec spec; info.fallback.empty() && !info.required) info.fallback = told_default(std::invoke(access, spec), info);
-  return {std::move(info), [access, on_word](Spec& spec, const Value& value, const KeyInfo& key) {
-            if constexpr (std::is_same_v<T, double>) {
-              if (!key.words.empty() && is_word(value, key)) {
-                if (on_word) on_word(spec);
-                return;
-              }
+  return {std::move(info), [access, on_word](void* part, const Value& value, const KeyInfo& key) {
+            Spec& spec = *static_cast<Spec*>(part);
+            if (std::is_same_v<T, double> && !key.words.empty() && is_word(value, key)) {
+              if (on_word) on_word(spec);
+            } else if (auto read = read_value<T>(value, key)) {
+              std::invoke(access, spec) = std::move(*read);
             }
-            if (auto read = read_value<T>(value, key)) std::invoke(access, spec) = std::move(*read);
           }};
 }
 /// One table that was found in a file.
@@ -128,54 +128,37 @@ struct FoundTable {
 };
 /// Every table that the file has of a kind; what stands there but is none is reported.
 std::vector<FoundTable> find_tables(const TableInfo& info, const toml::table& root, Reading& reading);
-/// Reports the entries of a table that are neither keys nor tables of it.
-void report_unknown_keys(const FoundTable& found, const TableInfo& info, Reading& reading);
-
-template <class Spec>
-void read_keys(const FoundTable& found, const TableInfo& info, const std::vector<Key<Spec>>& keys, Spec& spec,
-               Reading& reading) {
-  for (const Key<Spec>& key : keys) {
-    if (!key.info.is_in(reading.dim)) continue;
-    const std::string name(key.info.name);
-    if (const toml::node* const node = found.table.get(name)) {
-      key.read(spec, {*node, found.path.empty() ? name : found.path + "." + name, reading}, key.info);
-    } else if (key.info.required) {
-      reading.problem(location_of(found.table.source()), found.path, fmt::format("the key '{}' is missing", name));
-    }
-  }
-  report_unknown_keys(found, info, reading);
-}
-
-template <class Spec>
-std::vector<KeyInfo> infos_of(const std::vector<Key<Spec>>& keys) {
-  std::vector<KeyInfo> infos;
-  for (const Key<Spec>& key : keys) infos.push_back(key.info);
-  return infos;
-}
+/// Reads the keys of a table into the part of a scene that they are for; an entry that is neither a key nor a table of
+/// it is reported.
+void read_keys(const FoundTable& found, const TableInfo& info, const std::vector<Key>& keys, void* part,
+               Reading& reading);
+std::vector<KeyInfo> infos_of(const std::vector<Key>& keys);
 
 /// The keys of the table added last, in the order of its rows.
 template <class Spec>
 class Rows {
  public:
-  Rows(TableInfo& info, std::shared_ptr<std::vector<Key<Spec>>> keys) : info_(info), keys_(std::move(keys)) {}
+  Rows(TableInfo& info, std::shared_ptr<std::vector<Key>> keys) : info_(info), keys_(std::move(keys)) {}
 
   /// As key_of().
   template <class Access>
-  Rows& key(std::string_view name, Access access, std::string_view help, KeyInfo about = {},
-            std::function<void(Spec&)> on_word = {}) {
-    keys_->push_back(key_of<Spec>(name, access, help, std::move(about), std::move(on_word)));
+  Rows& key(std::string_view name, Access access, std::string_view help, const KeyInfo& about = {},
+            void (*on_word)(Spec&) = nullptr) {
+    keys_->push_back(key_of<Spec>(name, access, help, about, on_word));
     info_.keys.push_back(keys_->back().info);
     return *this;
   }
   /// The key before this is read in a way of its own.
   Rows& read_by(void (*read)(Spec&, const Value&, const KeyInfo&)) {
-    keys_->back().read = read;
+    keys_->back().read = [read](void* part, const Value& value, const KeyInfo& key) {
+      read(*static_cast<Spec*>(part), value, key);
+    };
     return *this;
   }
 
  private:
   TableInfo& info_;
-  std::shared_ptr<std::vector<Key<Spec>>> keys_;
+  std::shared_ptr<std::vector<Key>> keys_;
 };
 
 struct Tables {
@@ -187,16 +170,16 @@ struct Tables {
   auto add(TableInfo info, Access access) {
     using Part = std::remove_cvref_t<std::invoke_result_t<Access, Scene&>>;
     using Spec = typename Unwrapped<Part>::type;
-    const auto keys = std::make_shared<std::vector<Key<Spec>>>();
+    const auto keys = std::make_shared<std::vector<Key>>();
     info.read = [access, keys](const TableInfo& self, const toml::table& root, Scene& scene, Reading& reading) {
       for (const FoundTable& found : find_tables(self, root, reading)) {
         Part& part = std::invoke(access, scene);
         if constexpr (std::is_same_v<Part, Spec>) {
-          read_keys(found, self, *keys, part, reading);
+          read_keys(found, self, *keys, &part, reading);
         } else if constexpr (Unwrapped<Part>::is_optional) {
-          read_keys(found, self, *keys, part.emplace(), reading);
+          read_keys(found, self, *keys, &part.emplace(), reading);
         } else {
-          read_keys(found, self, *keys, part.emplace_back(), reading);
+          read_keys(found, self, *keys, &part.emplace_back(), reading);
         }
       }
     };

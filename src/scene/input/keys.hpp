@@ -27,6 +27,13 @@ struct Word {
   Dims dims = kAnyDim;
 };
 
+/// The names of a catalogue's rows.
+std::vector<Word> names_of(const auto& rows) {
+  std::vector<Word> words;
+  for (const auto& row : rows) words.emplace_back(row.name);
+  return words;
+}
+
 enum class Kind { number, whole, formula, text };
 enum class Shape { one, axes, list, positions };  // axes: one value for each coordinate, if there is one a plain value
 

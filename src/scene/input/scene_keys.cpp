@@ -1,10 +1,10 @@
 // The rows of the table of keys. A row's default is that of the member of Scene, if none is told here.
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "scene/input/constants.hpp"
 #include "scene/input/key_reader.hpp"
+#include "scene/input/material_keys.hpp"
 
 namespace stillpoint {
 namespace {
@@ -16,12 +16,6 @@ std::vector<Word> states() {
   std::vector<Word> words;
   for (int k = 0; k <= static_cast<int>(StressState::axisymmetric); ++k)
     words.emplace_back(to_string(static_cast<StressState>(k)), k < 2 ? kLine : kPlane);
-  return words;
-}
-
-std::vector<Word> names_of(const auto& rows) {
-  std::vector<Word> words;
-  for (const auto& row : rows) words.emplace_back(row.name);
   return words;
 }
 
@@ -54,78 +48,6 @@ void read_points_per_cell(BodySpec& body, const Value& value, const KeyInfo& key
     value.problem(
         fmt::format("must be a square (4 is 2 × 2 points in a cell), or an array [along x, along y]; not {}", *count));
   }
-}
-
-/// The keys of a material: its law's.
-std::vector<Key<MaterialSpec>> keys_of(const LawInfo& law, const Key<MaterialSpec>& law_key) {
-  std::vector<Key<MaterialSpec>> keys = {law_key};
-  for (const ParameterInfo& p : law.parameters) {
-    const auto value = [name = std::string(p.name)](MaterialSpec& m) -> double& { return m.parameters[name]; };
-    keys.push_back(key_of<MaterialSpec>(p.name, value, p.meaning,
-                                        {.range = {p.lower, p.upper, p.lower_allowed, false},
-                                         .unit = p.unit,
-                                         .fallback = p.required          ? ""
-                                                     : p.same_as.empty() ? fmt::format("{}", p.fallback)
-                                                                         : std::string(p.same_as),
-                                         .required = p.required}));
-  }
-  for (const ChoiceInfo& c : law.choices) {
-    const auto value = [name = std::string(c.name)](MaterialSpec& m) -> std::string& { return m.choices[name]; };
-    keys.push_back(key_of<MaterialSpec>(
-        c.name, value, c.meaning, {.words = {c.values.begin(), c.values.end()}, .fallback = std::string(c.fallback)}));
-  }
-  return keys;
-}
-
-/// Sets what a material does not say, unless what it says is wrong.
-void set_defaults(MaterialSpec& material, const LawInfo& law, const FoundTable& found, const Reading& reading) {
-  const auto missing = [&](const auto& values, std::string_view name) {
-    return !values.contains(std::string(name)) && !reading.wrong.contains(fmt::format("{}.{}", found.path, name));
-  };
-  for (const ParameterInfo& p : law.parameters) {
-    if (!missing(material.parameters, p.name)) continue;
-    const auto same = material.parameters.find(std::string(p.same_as));
-    material.parameters[std::string(p.name)] = same == material.parameters.end() ? p.fallback : same->second;
-  }
-  for (const ChoiceInfo& c : law.choices)
-    if (missing(material.choices, c.name)) material.choices[std::string(c.name)] = c.fallback;
-}
-
-/// A table of all materials, which reads them, and one for each law, which tells its keys.
-std::vector<TableInfo> materials(const Catalogue& catalogue) {
-  const auto law_key =
-      key_of<MaterialSpec>("law", &MaterialSpec::law, "`stillpoint list materials` has their equations",
-                           {.words = names_of(catalogue.laws), .required = true});
-  std::vector<TableInfo> tables = {
-      {.path = "material.<name>", .help = "what bodies are made of", .repeat = Repeat::named, .keys = {law_key.info}}};
-  std::map<std::string, std::vector<Key<MaterialSpec>>> keys;
-  for (const LawInfo& law : catalogue.laws) {
-    const auto& of_law = keys[std::string(law.name)] = keys_of(law, law_key);
-    tables.push_back({.path = "material.<name>",
-                      .help = law.equation,
-                      .repeat = Repeat::named,
-                      .law = law.name,
-                      .keys = infos_of(of_law)});
-  }
-  tables[0].read = [&catalogue, law_key, keys](const TableInfo& self, const toml::table& root, Scene& scene,
-                                               Reading& reading) {
-    for (const FoundTable& found : find_tables(self, root, reading)) {
-      MaterialSpec& material = scene.materials[found.name];
-      material.name = found.name;
-      if (const toml::node* const law = found.table.get("law")) {
-        law_key.read(material, {*law, found.path + ".law", reading}, law_key.info);
-      } else {
-        reading.problem(location_of(found.table.source()), found.path, "the key 'law' is missing");
-      }
-      if (material.law.empty()) continue;  // which other keys belong here is not known
-      const auto& of_law = keys.at(material.law);
-      TableInfo told = self;
-      told.keys = infos_of(of_law);
-      read_keys(found, told, of_law, material, reading);
-      set_defaults(material, *catalogue.law(material.law), found, reading);
-    }
-  };
-  return tables;
 }
 
 /// What else is to be said of a word that stands in the wrong table.
@@ -301,7 +223,7 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("volumes", &BodySpec::volumes, "equal, or fitted to the moments of each cell",
            {.words = {"equal", "consistent"}})
       .key("seed", &BodySpec::seed, "of random points and of jitter", {.range = kNotNegative});
-  for (TableInfo& material : materials(catalogue)) tables.all.push_back(std::move(material));
+  for (TableInfo& material : material_tables(catalogue)) tables.all.push_back(std::move(material));
   tables.add({"mass", "the mass matrix"}, &Scene::mass)
       .key("kind", &MassSpec::kind, "of the mass matrix; lumped by default if dim = 2",
            {.words = {"consistent", "lumped"}})
