@@ -11,7 +11,9 @@ target_compile_options(stillpoint_flags INTERFACE
   # What gcc 12 guesses from the code that -O3 has inlined is wrong, inside its own <string> and AVX-512 headers. The
   # asan build, at -O1, keeps these warnings.
   "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:\
--Wno-maybe-uninitialized;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>")
+-Wno-maybe-uninitialized;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>"
+  # Files that are compiled as one look like headers, in which nothing nameless should stand.
+  $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
 
 find_package(CLI11 CONFIG REQUIRED)  # of the command alone
 set(STILLPOINT_DEPENDENCIES

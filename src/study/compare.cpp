@@ -61,8 +61,6 @@ double chebyshev_estimate(double kappa, double error) { return 0.5 * std::sqrt(k
 
 namespace {
 
-constexpr double tight = 1e-12;  // of a residual
-
 Spread spread_of(std::vector<double> values) {
   std::ranges::sort(values);
   return {values[values.size() / 2], values.front(), values.back()};
@@ -218,7 +216,7 @@ class Comparing {
     NewtonOptions newton_options;
     newton_options.solver = linear_solver_of(run.strategy);
     // An error below the goal needs a residual that is smaller by up to κ: as far as rounding goes.
-    newton_options.tolerance = result_.by_residual ? options_.goal : std::max(1e-3 * options_.goal, tight);
+    newton_options.tolerance = result_.by_residual ? options_.goal : std::max(1e-3 * options_.goal, reference_residual);
     const StaticReport report = newton(*phase, end_time(), u, newton_options);
     run.status = report.converged ? ComparedStatus::converged : ComparedStatus::diverged;
     run.reason = report.reason;

@@ -13,7 +13,6 @@
 namespace stillpoint {
 namespace {
 
-constexpr double tight = 1e-12;  // of a residual
 constexpr double tight_in_motion = 1e-10;
 
 double mass_norm(const Mass& mass, ConstVec x) {
@@ -27,7 +26,7 @@ double mass_norm(const Mass& mass, ConstVec x) {
 // As near as rounding lets it come.
 bool solve(const Scene& scene, Equilibrium& found) {
   std::string reason;
-  for (const double tolerance : {tight, 1e2 * tight, 1e4 * tight}) {
+  for (const double tolerance : {reference_residual, 1e2 * reference_residual, 1e4 * reference_residual}) {
     const auto phase = make_phase(scene);
     std::vector<double> u = phase->initial_displacement(scene.stop.time);
     const StaticReport report = newton(*phase, scene.stop.time, u, {.tolerance = tolerance});

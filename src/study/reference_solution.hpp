@@ -13,6 +13,9 @@
 
 namespace stillpoint {
 
+/// The residual to which a reference is solved.
+inline constexpr double reference_residual = 1e-12;
+
 struct ReferenceSolution {
   std::vector<double> u;                         // (n)
   std::shared_ptr<const LagrangianPhase> phase;  // whose mass errors are measured with

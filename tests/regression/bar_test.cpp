@@ -1,9 +1,10 @@
 // The paper's elastic bar [Więckowski 2011, section 3.1 and Fig. 1]; numbers of DESIGN section 6 where the paper has
 // none.
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 
+#include "dense.hpp"
 #include "scenes.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
@@ -20,8 +21,8 @@ double off_by(double value, double expected) { return std::abs(value / expected 
 /// Frequencies of the discrete bar by a dense solve.
 Eigen::VectorXd dense_frequencies(const LagrangianPhase& phase) {
   const std::vector<double> u(phase.size(), 0.0);
-  const Eigen::MatrixXd K = phase.tangents().matrix(Tangent::consistent, 0, u), M = phase.mass().matrix();
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().cwiseSqrt();
+  const SparseMatrix K = phase.tangents().matrix(Tangent::consistent, 0, u), M = phase.mass().matrix();
+  return test::dense_eigenvalues(K, M).cwiseSqrt();
 }
 
 Summary transient(std::vector<std::string> overrides) {
