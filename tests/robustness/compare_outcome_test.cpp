@@ -4,19 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
+#include "files.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
+using stillpoint::test::contents;
+using stillpoint::test::json_of;
 using stillpoint::testing::TemporaryFolder;
 
 namespace {
@@ -31,13 +32,6 @@ const ComparedRun& row(const Comparison& c, const std::string& label) {
   const auto found = std::ranges::find(c.runs, label, &ComparedRun::label);
   if (found == c.runs.end()) throw std::out_of_range("no row " + label);
   return *found;
-}
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 const std::vector<std::string> crushed = {"material.bar.law=neo-hookean", "force=[{at=10.0, value=-50.0}]"};
@@ -126,7 +120,7 @@ TEST_CASE("a comparison's files are whole: a line and an object a run, and null 
   CHECK(commas(lines[2]) == commas(lines[0]));
   CHECK(lines[1].starts_with("viscous,leapfrog,0.9"));
 
-  const auto json = nlohmann::json::parse(contents(out / "compare.json"));
+  const auto json = json_of(out / "compare.json");
   CHECK(json["scene"] == "bar");
   CHECK(json["goal_of"] == "error");
   CHECK(json["kappa"].get<double>() == *c.kappa);
@@ -150,7 +144,7 @@ TEST_CASE("a row that was refused has no error in the files, not one of 0", "[co
   const Comparison c =
       compared("block_on_wall", {.strategies = {"cg"}, .repeats = 0}, {"stop.residual=1e-6", "stop.time=0"});
   write_comparison(c, folder.path());
-  const auto json = nlohmann::json::parse(contents(folder.path() / "compare.json"));
+  const auto json = json_of(folder.path() / "compare.json");
   CHECK(json["runs"][0]["error"].is_null());
   CHECK(json["runs"][0]["residual"].is_null());
   CHECK_THAT(contents(folder.path() / "compare.csv"), !Contains("nan"));

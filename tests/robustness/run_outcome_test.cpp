@@ -1,28 +1,22 @@
 // How runs end: each way has its status, its exit status and its files.
-#include <fstream>
 #include <sstream>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "files.hpp"
 #include "scenes.hpp"
 #include "simulation/model.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using scenes::bar;
+using stillpoint::test::contents;
+using stillpoint::test::json_of;
 using stillpoint::testing::TemporaryFolder;
 
 namespace {
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> lines(const std::filesystem::path& file) {
   std::vector<std::string> result;
@@ -46,7 +40,7 @@ TEST_CASE("a run writes its summary and history whole, with every key of the con
   const Summary s = run(bar(), {.out = out});
   CHECK(s.exit_status == 0);
   CHECK_FALSE(leftovers(out));
-  const auto json = nlohmann::json::parse(contents(out / "summary.json"));
+  const auto json = json_of(out / "summary.json");
   for (const char* key : {"scene",
                           "status",
                           "t",
@@ -101,7 +95,7 @@ TEST_CASE("with only stop.time set, reaching it is success and the history's las
 }
 
 TEST_CASE("a figure that was not computed is null") {
-  const auto json = nlohmann::json::parse(
+  const auto json = test::parsed(
       to_json(run(bar({"stop.time=1", "stop.residual=0", "damping.strategy=none", "exact.u=0*x", "exact.stress=0"}))));
   CHECK(json["omega_1"].is_null());
   CHECK(json["c"].is_null());
@@ -114,7 +108,7 @@ TEST_CASE("limits that come before equilibrium end the run with status 3 and kee
     const Summary s = run(bar(overrides), {.out = folder.path()});
     CHECK(s.status == expected);
     CHECK(s.exit_status == 3);
-    CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["status"] == to_string(expected));
+    CHECK(json_of(folder.path() / "summary.json")["status"] == to_string(expected));
     CHECK(lines(folder.path() / "history.csv").size() >= 3);
   };
   ends({"stop.time=10"}, RunStatus::end_time);  // residual is still asked for
@@ -165,7 +159,7 @@ TEST_CASE("an interrupt finishes the step, writes what there is and says so") {
   CHECK(s.status == RunStatus::interrupted);
   CHECK(s.exit_status == 3);
   CHECK(s.steps == 100);
-  CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["status"] == "interrupted");
+  CHECK(json_of(folder.path() / "summary.json")["status"] == "interrupted");
 }
 
 TEST_CASE("Ctrl-C ends the command in good order with status 3") {
@@ -186,7 +180,7 @@ TEST_CASE("Ctrl-C ends the command in good order with status 3") {
   waitpid(child, &status, 0);
   REQUIRE(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 3);
-  CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["status"] == "interrupted");
+  CHECK(json_of(folder.path() / "summary.json")["status"] == "interrupted");
   CHECK(lines(folder.path() / "history.csv").size() > 2);
   CHECK_FALSE(leftovers(folder.path()));
 }
@@ -264,7 +258,7 @@ TEST_CASE("a run that stops by its distance writes it down in the history and in
   const TemporaryFolder folder;
   const Summary s = run(scenes::load("chain", {"stop.residual=0", "stop.distance=1e-4"}), {.out = folder.path()});
   REQUIRE(s.status == RunStatus::equilibrium);
-  const auto json = nlohmann::json::parse(contents(folder.path() / "summary.json"));
+  const auto json = json_of(folder.path() / "summary.json");
   CHECK(json["distance"].get<double>() == *s.distance);
   CHECK(*s.distance <= 1e-4);
   const auto history = lines(folder.path() / "history.csv");
@@ -280,7 +274,7 @@ TEST_CASE("a distance that was not computed is null, and no column") {
       bar({"support=[]", "force=[]", "initial.v=1", "stop.residual=0", "stop.time=1", "exact.u=t", "exact.stress=0"}),
       {.out = folder.path()});
   CHECK_FALSE(s.distance);
-  CHECK(nlohmann::json::parse(contents(folder.path() / "summary.json"))["distance"].is_null());
+  CHECK(json_of(folder.path() / "summary.json")["distance"].is_null());
   CHECK_THAT(lines(folder.path() / "history.csv").front(), !Catch::Contains("distance"));
 }
 

@@ -10,9 +10,11 @@
 #include <catch2/catch.hpp>
 
 #include "broken_scene.hpp"
+#include "files.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::contents;
 using stillpoint::testing::broken;
 using stillpoint::testing::kGoodPlane;
 using stillpoint::testing::TemporaryFolder;
@@ -22,13 +24,6 @@ namespace {
 using Random = std::mt19937;  // its numbers are the same on every machine, unlike the distributions'
 
 std::size_t below(std::size_t n, Random& random) { return random() % n; }
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// A few bytes changed, inserted or removed.
 std::string with_bytes_changed(std::string text, Random& random) {
@@ -126,7 +121,7 @@ bool ends_well(const std::filesystem::path& file, const std::vector<std::string>
 
 TEST_CASE("3000 mutations of the bar either load or are refused with a reason") {
   const TemporaryFolder folder;
-  const std::string bar = text_of(std::filesystem::path(STILLPOINT_PROBLEMS) / "bar.toml");
+  const std::string bar = contents(std::filesystem::path(STILLPOINT_PROBLEMS) / "bar.toml");
   REQUIRE(bar.size() > 500);
   Random random(20111);
   for (int k = 0; k < 3000; ++k) {

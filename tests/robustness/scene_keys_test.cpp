@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -11,22 +10,18 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "base/json.hpp"
+#include "files.hpp"
 #include "scene/input/key_reference.hpp"
 #include "scene/input/keys.hpp"
 #include "simulation/catalogue.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::contents;
+using stillpoint::test::json_of;
 
 namespace {
 
 const std::filesystem::path kProblems = STILLPOINT_PROBLEMS;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// A value in the range of a key, as TOML.
 std::string example_of(const KeyInfo& key, int dim) {
@@ -146,7 +141,7 @@ TEST_CASE("every row of the table says what its key is for") {
 }
 
 TEST_CASE("the reference in problems/README.md is that of the table of keys") {
-  const std::string readme = text_of(kProblems / "README.md");
+  const std::string readme = contents(kProblems / "README.md");
   const auto generated = readme.find("## Every key\n");
   REQUIRE(generated != std::string::npos);
   INFO(
@@ -157,11 +152,11 @@ TEST_CASE("the reference in problems/README.md is that of the table of keys") {
 
 TEST_CASE("the schema in problems/ is that of the table of keys") {
   INFO("to write it anew: stillpoint list keys --format schema > problems/scene.schema.json");
-  CHECK(text_of(kProblems / "scene.schema.json") == key_schema(catalogue()));
+  CHECK(contents(kProblems / "scene.schema.json") == key_schema(catalogue()));
 }
 
 TEST_CASE("the schema has every key of every scene in problems/, and no other") {
-  const Json schema = Json::parse(text_of(kProblems / "scene.schema.json"));
+  const Json schema = json_of(kProblems / "scene.schema.json");
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kProblems)) {
     if (entry.path().extension() != ".toml") continue;

@@ -1,9 +1,7 @@
 // Trial and commit of a phase whose points remember, and the same bits for any number of threads.
 #include <stillpoint/stillpoint.hpp>
 
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -11,12 +9,14 @@
 #include <omp.h>
 
 #include "allocation_count.hpp"
+#include "files.hpp"
 #include "scenes.hpp"
 #include "simulation/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::contents;
 using stillpoint::testing::TemporaryFolder;
 
 namespace {
@@ -49,13 +49,6 @@ std::vector<double> state(const LagrangianPhase& phase) {
   phase.point_history("plastic_strain", strain);
   stress.insert(stress.end(), strain.begin(), strain.end());
   return stress;
-}
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// What a test finds in a file, read and parsed in one place.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/json.hpp"
+
+namespace stillpoint::test {
+
+/// All bytes of a file; throws std::runtime_error if it cannot be read.
+std::string contents(const std::filesystem::path& file);
+Json parsed(const std::string& json);
+inline Json json_of(const std::filesystem::path& file) { return parsed(contents(file)); }
+
+}  // namespace stillpoint::test
