@@ -3,49 +3,92 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stillpoint {
+#include <fmt/format.h>
 
-std::vector<double> loads_at(const SemiDiscrete& system, double t) {
-  const std::vector<double> rest(system.size(), 0.0);
-  std::vector<double> F(system.size());
-  system.external_force(t, rest, F);
-  return F;
+#include "scene/throw_scene_error.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// Every formula of what acts on the body, with its key.
+struct Acting {
+  std::string key;
+  const Expression& formula;
+};
+
+std::vector<Acting> all_that_acts(const Scene& scene) {
+  std::vector<Acting> all;
+  const auto add = [&](const std::string& key, const auto& formulas) {
+    for (const Expression& formula : formulas) all.push_back({key, formula});
+  };
+  add("body_force.value", scene.body_force);
+  for (std::size_t k = 0; k < scene.supports.size(); ++k)
+    all.push_back({fmt::format("support[{}].u", k), scene.supports[k].motion});
+  for (std::size_t k = 0; k < scene.walls.size(); ++k)
+    all.push_back({fmt::format("wall[{}].motion", k), scene.walls[k].motion});
+  for (std::size_t k = 0; k < scene.forces.size(); ++k) add(fmt::format("force[{}].value", k), scene.forces[k].value);
+  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
+    add(fmt::format("traction[{}].value", k), scene.tractions[k].value);
+    if (scene.tractions[k].pressure)
+      all.push_back({fmt::format("traction[{}].pressure", k), *scene.tractions[k].pressure});
+  }
+  return all;
 }
+
+bool uses_position(const Expression& formula) { return formula.uses('x') || formula.uses('y') || formula.uses('z'); }
+
+}  // namespace
 
 std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
   const std::vector<double> rest(system.size(), 0.0);
-  std::vector<double> Q = loads_at(system, t), R(system.size());
+  std::vector<double> Q(system.size()), R(system.size());
+  system.external_force(t, rest, Q);
   system.internal_force(t, rest, R, *system.make_trial());
   for (std::size_t i = 0; i < Q.size(); ++i) Q[i] -= R[i];
   return Q;
 }
 
-LoadSchedule::LoadSchedule(const Scene& scene, const SemiDiscrete& system, double end_time)
-    : scene_(scene), system_(system), end_time_(end_time) {
-  supports_move_ = std::ranges::any_of(scene.supports, [](const auto& s) { return s.motion.uses('t'); });
-  if (end_time > 0 && loads_vary(scene)) at_end_ = load(end_time);
+LoadSchedule::LoadSchedule(const Scene& scene, ConstVec positions, double end) {
+  if (!(end > 0)) return;
+  constexpr int moments = 20'000, moments_at_a_point = 2'000;
+  constexpr std::size_t most_points = 32;
+  const std::size_t dim = static_cast<std::size_t>(scene.dim), points = positions.size() / dim;
+  const std::size_t stride = (points + most_points - 1) / most_points;
+  for (const auto& [key, formula] : all_that_acts(scene)) {
+    if (!formula.uses('t')) continue;
+    if (!uses_position(formula)) {
+      look_at(scene, key, formula, {}, moments, end);
+    } else {
+      for (std::size_t p = 0; p < points; p += stride)
+        look_at(scene, key, formula, positions.subspan(dim * p, dim), moments_at_a_point, end);
+    }
+  }
 }
 
-// The loads alone if no support moves: R(u = 0) changes with what a body remembers.
-std::vector<double> LoadSchedule::load(double t) const {
-  return supports_move_ ? total_load_at(system_, t) : loads_at(system_, t);
-}
-
-bool LoadSchedule::settled(double t) const {
-  if (at_end_.empty()) return true;
-  constexpr double rounding = 1e-9;
-  for (const WallSpec& wall : scene_.walls) {
-    const double end = wall.motion({}, end_time_), left = std::abs(end - wall.motion({}, t));
-    if (left > rounding * std::abs(end - wall.motion({}, 0))) return false;
+void LoadSchedule::look_at(const Scene& scene, const std::string& key, const Expression& formula, ConstVec x,
+                           int moments, double end) {
+  const auto time = [&](int k) { return k == moments ? end : end * k / moments; };
+  std::vector<double> values;
+  for (int k = 0; k <= moments; ++k) {
+    values.push_back(formula(x, time(k)));
+    if (!std::isfinite(values.back()))
+      throw_scene_error(
+          scene, key,
+          fmt::format("the formula is {} at t = {:.6g}; expected a finite number until stop.time = {:.6g}",
+                      std::isnan(values.back()) ? "not a number" : "infinite", time(k), end));
   }
-  const bool remembers = supports_move_ && system_.history_dependent();
-  const std::vector<double> now = load(t), end = remembers ? load(end_time_) : at_end_;
-  double difference = 0, scale = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    difference = std::max(difference, std::abs(now[i] - end[i]));
-    scale = std::max({scale, std::abs(now[i]), std::abs(end[i])});
+  const auto [least, most] = std::ranges::minmax(values);
+  const double magnitude = std::max(std::abs(least), std::abs(most));
+  const double same = 1e-9 * (most - least) + 1e-14 * magnitude;  // of a change that counts, and of rounding
+  int last = moments;                                             // from here on it is what it will be at the end
+  while (last > 0 && std::abs(values[static_cast<std::size_t>(last) - 1] - values.back()) <= same) --last;
+  if (last == 0) return;
+  double before = time(last - 1), from = time(last);
+  for (int halving = 0; halving < 30; ++halving) {
+    const double middle = (before + from) / 2;
+    (std::abs(formula(x, middle) - values.back()) <= same ? from : before) = middle;
   }
-  return difference <= rounding * scale;
+  settled_from_ = std::max(settled_from_, from);
 }
 
 }  // namespace stillpoint

@@ -65,6 +65,7 @@ class Simulation::Impl {
         model_(make_model(scene_)),
         monitor_(monitor_options(scene_, model_)),
         error_bound_(*model_.phase, model_.omega_1),
+        schedule_(scene_, model_.phase->positions(), scene_.stop.time),
         t_(model_.t) {
     if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance());
     begin_phase(model_.u, model_.v);
@@ -156,10 +157,10 @@ class Simulation::Impl {
   Model model_;
   Monitor monitor_;
   ErrorBound error_bound_;
+  LoadSchedule schedule_;
   std::optional<Recorder> recorder_;
 
   std::optional<PhaseMotion> motion_;  // of the present phase
-  std::optional<LoadSchedule> schedule_;
   int phases_ = 1;
   double t_, step_ = 0;
   RunStatus status_ = RunStatus::running;
@@ -169,7 +170,6 @@ class Simulation::Impl {
   // What a phase begins with, the first like any other: the step that follows the stiffness is asked here.
   void begin_phase(ConstVec u0, ConstVec v0) {
     motion_.emplace(model_, scene_, vectors_, t_, u0, v0);
-    schedule_.emplace(scene_, *model_.phase, scene_.stop.wants_equilibrium() ? scene_.stop.time : 0);
   }
 
   void take_step(double t_stop) {
@@ -259,7 +259,7 @@ class Simulation::Impl {
       follow_period();
       measure();
       if (distance_ && *distance_ <= scene_.stop.distance) refresh_distance();
-      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_->settled(t_), distance_);
+      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_);
     }
     if (!done()) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
     reason_ = monitor_.reason();
@@ -339,6 +339,6 @@ const LagrangianPhase& Simulation::phase() const { return *impl_->model_.phase; 
 RelaxationSystem& Simulation::system() { return impl_->motion_->system; }
 const Integrator& Simulation::integrator() const { return *impl_->motion_->integrator; }
 std::optional<double> Simulation::distance() { return impl_->distance(); }
-bool Simulation::loads_settled() const { return impl_->schedule_->settled(impl_->t_); }
+bool Simulation::loads_settled() const { return impl_->schedule_.settled(impl_->t_); }
 
 }  // namespace stillpoint

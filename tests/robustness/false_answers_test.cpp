@@ -1,0 +1,48 @@
+// Runs that once ended in an equilibrium that was none, without a word.
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+#include "simulation/model.hpp"
+
+using namespace stillpoint;
+using Catch::Contains;
+
+namespace {
+
+constexpr double u12 = 0.001 * 115 / 12;  // of the bar's last point under its force, P0 x/(E A)
+
+}  // namespace
+
+TEST_CASE("equilibrium is that of the last change of the loads, not of a plateau that looks like the end") {
+  const Summary s = run(scenes::bar({"force[0].value=P0*(1 + 0.3*(t > 300)*(t < 340.5))", "stop.time=1000",
+                                     "stop.residual=1e-6", "damping.c=critical"}));
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.t >= 340.5);
+  CHECK(scenes::probe(s, "p12", "u") == Approx(u12).epsilon(1e-5));
+}
+
+TEST_CASE("a load that depends on the position is looked at where there are points") {
+  const Summary s = run(scenes::bar({"force=[]", "body_force.value=[\"1e-4*(1 - 0.5*(x > 8)*(t > 300)*(t < 350))\"]",
+                                     "stop.time=1000", "stop.residual=1e-6", "damping.c=critical", "exact={}"}));
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.t >= 350);
+}
+
+TEST_CASE("a load that is no number later in the run is refused before it begins, with the key and the time") {
+  CHECK_THROWS_WITH(run(scenes::bar({"force[0].value=P0*sqrt(400 - t)/20", "stop.time=1000"})),
+                    Contains("force[0].value") && Contains("not a number at t = 400.05"));
+  CHECK_THROWS_WITH(run(scenes::bar({"force=[]", "body_force.value=[\"1e-4/(t - 500)\"]", "stop.time=1000"})),
+                    Contains("body_force.value") && Contains("infinite at t = 500"));
+}
+
+TEST_CASE("a damping of any size leaves leapfrog the step of the highest frequency, 2/omega_max") {
+  for (const char* c : {"0.01", "1e2", "1e4", "1e6", "1e8"}) {
+    CAPTURE(c);
+    const Model model =
+        make_model(scenes::load("block_on_wall", {std::string("damping.c=") + c, "integrator.step_fraction=1"}));
+    REQUIRE(model.critical_step);
+    CHECK(*model.critical_step * model.omega_max == Approx(2).epsilon(1e-3));
+  }
+  CHECK_THROWS_WITH(run(scenes::load("block_on_wall", {"damping.c=1e6", "integrator.step=0.01"})),
+                    Contains("is past the critical one"));
+}
