@@ -22,8 +22,8 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   const bool near = options_.distance <= 0 || (distance && *distance <= options_.distance);
   const bool balanced = settled && near && (options_.residual <= 0 || residual <= options_.residual);
   constexpr double rounding = 1e-20;  // of an energy: velocities to ten digits
-  const double rest = std::max(options_.kinetic_energy * peak_kinetic_energy_, rounding * work_scale);
-  const bool at_rest = options_.kinetic_energy <= 0 || kinetic_energy <= rest;
+  const bool small = kinetic_energy <= options_.kinetic_energy * peak_kinetic_energy_;
+  const bool at_rest = options_.kinetic_energy <= 0 || small || kinetic_energy <= rounding * work_scale;
   if (!balanced || !at_rest) {
     balanced_since_ = -1;
     return RunStatus::running;
@@ -34,9 +34,14 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   if (options_.residual > 0) tests.push_back(fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual));
   if (options_.distance > 0) tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
   if (options_.kinetic_energy > 0) {
-    tests.push_back(fmt::format("kinetic energy {:.3g} <= {:.3g} of its peak",
-                                peak_kinetic_energy_ > 0 ? kinetic_energy / peak_kinetic_energy_ : 0.0,
-                                options_.kinetic_energy));
+    if (!small) {
+      tests.push_back(fmt::format("kinetic energy {:.3g} of the work, which is rounding", kinetic_energy / work_scale));
+    } else if (peak_kinetic_energy_ > 0) {
+      tests.push_back(fmt::format("kinetic energy {:.3g} <= {:.3g} of its peak", kinetic_energy / peak_kinetic_energy_,
+                                  options_.kinetic_energy));
+    } else {
+      tests.emplace_back("nothing has moved");
+    }
   }
   reason_ = fmt::format("{}", fmt::join(tests, " and "));
   if (options_.must_last) reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);

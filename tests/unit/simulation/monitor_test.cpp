@@ -23,6 +23,18 @@ TEST_CASE("equilibrium is declared only after residual and kinetic energy both h
   CHECK(monitor.reason().find("held for 10 s") != std::string::npos);
 }
 
+TEST_CASE("a kinetic energy is called small beside its peak only if it is") {
+  MonitorOptions at_once = options;
+  at_once.dwell = 0;
+  Monitor creeping(at_once);
+  CHECK(creeping.observe(0, 1e-4, 0.8e-22, 1) == RunStatus::equilibrium);
+  CHECK(creeping.reason() ==
+        "residual 0.0001 <= 0.001 and kinetic energy 8e-23 of the work, which is rounding, held for 0 s");
+  Monitor resting(at_once);
+  CHECK(resting.observe(0, 1e-4, 0, 1) == RunStatus::equilibrium);
+  CHECK(resting.reason() == "residual 0.0001 <= 0.001 and nothing has moved, held for 0 s");
+}
+
 TEST_CASE("a turning point, where the kinetic energy alone is small, is not equilibrium") {
   Monitor monitor(options);
   for (int k = 0; k < 100; ++k) CHECK(monitor.observe(k, 0.5, k % 2 == 0 ? 0.0 : 1.0) == RunStatus::running);
