@@ -4,6 +4,7 @@
 // plain number. Every number may also be a string: a formula in the scene's constants.
 #pragma once
 
+#include <stillpoint/boundary_specs.hpp>
 #include <stillpoint/expression.hpp>
 #include <stillpoint/scene_error.hpp>
 #include <stillpoint/scene_options.hpp>
@@ -43,32 +44,6 @@ struct MaterialSpec {  // [material.<name>]
   std::string name, law;
   std::map<std::string, double> parameters;    // complete: defaults filled in
   std::map<std::string, std::string> choices;  // likewise, those that are words (cone = "mean")
-};
-
-struct SupportSpec {         // [[support]]: u = motion(t) at a position, or on a face of the grid
-  std::vector<double> at;    // [m]; empty: on the face
-  std::optional<Face> face;  // of the grid
-  bool roller = false;       // on a face: only the normal component is held, otherwise the tangential one too (at 0)
-  int component = 0;         // at a position; on a face its normal
-  Expression motion;         // of t [m]; 0: fixed
-};
-
-struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, that pushes and never pulls
-  std::string name;
-  Face face = Face::right;
-  Expression motion;    // of t [m], along the face's coordinate
-  double friction = 0;  // Coulomb's coefficient: |T| ≤ friction · N; infinite: rough
-};
-
-struct PointForceSpec {           // [[force]]
-  std::vector<double> at;         // [m]
-  std::vector<Expression> value;  // of t [N]
-};
-
-struct TractionSpec {  // [[traction]]: a load on a face of the body's box
-  Face face = Face::right;
-  std::vector<Expression> value;       // of t, per undeformed area [Pa]; it keeps its direction
-  std::optional<Expression> pressure;  // of t, per deformed area [Pa], instead of value: it follows the face's normal
 };
 
 struct SolveSpec {                    // [solve]
@@ -150,7 +125,7 @@ struct VariantSpec {  // [[variant]]: the same scene with other values, drawn be
   std::vector<std::string> set;  // "key=value" as for --set
 };
 
-struct Scene {
+struct Scene : BoundarySpecs {
   std::string name;  // the file's stem
   std::string title;
   std::filesystem::path file;
@@ -162,11 +137,6 @@ struct Scene {
   std::map<std::string, MaterialSpec> materials;
   MassSpec mass;
   PhaseSpec phase;
-  std::vector<SupportSpec> supports;
-  std::vector<WallSpec> walls;
-  std::vector<PointForceSpec> forces;
-  std::vector<TractionSpec> tractions;
-  std::vector<Expression> body_force;            // of x, y, z, t; per mass [m/s²]; empty: none
   std::vector<Expression> initial_u, initial_v;  // of x, y, z [m], [m/s]; empty: 0
   std::optional<GeostaticSpec> geostatic;
   std::vector<Expression> exact_u;         // of x, y, z, t [m]; empty: not known

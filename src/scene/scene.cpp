@@ -1,7 +1,6 @@
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -52,14 +51,9 @@ Location Scene::location(const std::string& key) const {
 }
 
 bool loads_vary(const Scene& scene) {
-  const auto varies = [](const Expression& formula) { return formula.uses('t'); };
-  const auto any = [&](const std::vector<Expression>& formulas) { return std::ranges::any_of(formulas, varies); };
-  const auto pressure_varies = [&](const TractionSpec& f) { return f.pressure && varies(*f.pressure); };
-  return any(scene.body_force) || std::ranges::any_of(scene.tractions, pressure_varies) ||
-         std::ranges::any_of(scene.walls, [&](const WallSpec& w) { return varies(w.motion); }) ||
-         std::ranges::any_of(scene.forces, [&](const auto& f) { return any(f.value); }) ||
-         std::ranges::any_of(scene.tractions, [&](const auto& f) { return any(f.value); }) ||
-         std::ranges::any_of(scene.supports, [&](const auto& s) { return varies(s.motion); });
+  bool any = false;
+  scene.for_each_formula([&](const std::string&, const Expression& formula) { any = any || formula.uses('t'); });
+  return any;
 }
 
 std::vector<std::string> probe_fields(int dim) {

@@ -10,31 +10,6 @@
 namespace stillpoint {
 namespace {
 
-/// Every formula of what acts on the body, with its key.
-struct Acting {
-  std::string key;
-  const Expression& formula;
-};
-
-std::vector<Acting> all_that_acts(const Scene& scene) {
-  std::vector<Acting> all;
-  const auto add = [&](const std::string& key, const auto& formulas) {
-    for (const Expression& formula : formulas) all.push_back({key, formula});
-  };
-  add("body_force.value", scene.body_force);
-  for (std::size_t k = 0; k < scene.supports.size(); ++k)
-    all.push_back({fmt::format("support[{}].u", k), scene.supports[k].motion});
-  for (std::size_t k = 0; k < scene.walls.size(); ++k)
-    all.push_back({fmt::format("wall[{}].motion", k), scene.walls[k].motion});
-  for (std::size_t k = 0; k < scene.forces.size(); ++k) add(fmt::format("force[{}].value", k), scene.forces[k].value);
-  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
-    add(fmt::format("traction[{}].value", k), scene.tractions[k].value);
-    if (scene.tractions[k].pressure)
-      all.push_back({fmt::format("traction[{}].pressure", k), *scene.tractions[k].pressure});
-  }
-  return all;
-}
-
 bool uses_position(const Expression& formula) { return formula.uses('x') || formula.uses('y') || formula.uses('z'); }
 
 }  // namespace
@@ -54,15 +29,12 @@ LoadSchedule::LoadSchedule(const Scene& scene, ConstVec positions, double end) {
   constexpr std::size_t most_points = 32;
   const std::size_t dim = static_cast<std::size_t>(scene.dim), points = positions.size() / dim;
   const std::size_t stride = (points + most_points - 1) / most_points;
-  for (const auto& [key, formula] : all_that_acts(scene)) {
-    if (!formula.uses('t')) continue;
-    if (!uses_position(formula)) {
-      look_at(scene, key, formula, {}, moments, end);
-    } else {
-      for (std::size_t p = 0; p < points; p += stride)
-        look_at(scene, key, formula, positions.subspan(dim * p, dim), moments_at_a_point, end);
-    }
-  }
+  scene.for_each_formula([&](const std::string& key, const Expression& formula) {
+    if (!formula.uses('t')) return;
+    if (!uses_position(formula)) return look_at(scene, key, formula, {}, moments, end);
+    for (std::size_t p = 0; p < points; p += stride)
+      look_at(scene, key, formula, positions.subspan(dim * p, dim), moments_at_a_point, end);
+  });
 }
 
 void LoadSchedule::look_at(const Scene& scene, const std::string& key, const Expression& formula, ConstVec x,

@@ -168,9 +168,7 @@ class Simulation::Impl {
 
  private:
   // What a phase begins with, the first like any other: the step that follows the stiffness is asked here.
-  void begin_phase(ConstVec u0, ConstVec v0) {
-    motion_.emplace(model_, scene_, vectors_, t_, u0, v0);
-  }
+  void begin_phase(ConstVec u0, ConstVec v0) { motion_.emplace(model_, scene_, vectors_, t_, u0, v0); }
 
   void take_step(double t_stop) {
     const StepReport report = motion_->integrator->step(landing_time(t_stop));

@@ -14,9 +14,9 @@ namespace {
 // Stable means a growth per step of at most this. Where |R(iy)| leaves 1 at once but slowly (orders 5 and 6: like y⁶)
 // the limit is where the growth passes it: 0.02 … 0.04 for Cash–Karp and the like.
 constexpr double growth = 1e-12;
-// The scan in r = h |λ|: where it starts, its relative step, and, in h omega, where it gives up looking for a limit. The
-// damping does not shorten it: beside a large rate leapfrog's limit is 2/omega still, at a large r.
-// A method that is unstable at the start has no stable step: Heun–Euler on the imaginary axis.
+// The scan in r = h |λ|: where it starts, its relative step, and where it gives up looking for a limit, there of h
+// omega: beside a large damping rate leapfrog's limit is 2/omega still, at a large r. A method that is unstable at the
+// start has no stable step: Heun–Euler on the imaginary axis.
 constexpr double r_first = 0.01, r_ratio = 1.02, r_last = 1e3;
 
 // The larger |λ| of λ² + rate λ + omega² = 0.

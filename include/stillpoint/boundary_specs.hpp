@@ -1,0 +1,64 @@
+// What holds or loads a body, as a scene says it.
+#pragma once
+
+#include <stillpoint/expression.hpp>
+#include <stillpoint/scene_options.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+struct SupportSpec {         // [[support]]: u = motion(t) at a position, or on a face of the grid
+  std::vector<double> at;    // [m]; empty: on the face
+  std::optional<Face> face;  // of the grid
+  bool roller = false;       // on a face: only the normal component is held, otherwise the tangential one too (at 0)
+  int component = 0;         // at a position; on a face its normal
+  Expression motion;         // of t [m]; 0: fixed
+};
+
+struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, that pushes and never pulls
+  std::string name;
+  Face face = Face::right;
+  Expression motion;    // of t [m], along the face's coordinate
+  double friction = 0;  // Coulomb's coefficient: |T| ≤ friction · N; infinite: rough
+};
+
+struct PointForceSpec {           // [[force]]
+  std::vector<double> at;         // [m]
+  std::vector<Expression> value;  // of t [N]
+};
+
+struct TractionSpec {  // [[traction]]: a load on a face of the body's box
+  Face face = Face::right;
+  std::vector<Expression> value;       // of t, per undeformed area [Pa]; it keeps its direction
+  std::optional<Expression> pressure;  // of t, per deformed area [Pa], instead of value: it follows the face's normal
+};
+
+struct BoundarySpecs {
+  std::vector<SupportSpec> supports;
+  std::vector<WallSpec> walls;
+  std::vector<PointForceSpec> forces;
+  std::vector<TractionSpec> tractions;
+  std::vector<Expression> body_force;  // of x, y, z, t; per mass [m/s²]; empty: none
+
+  /// visit(key, formula) for each formula of these.
+  template <class Visit>
+  void for_each_formula(const Visit& visit) const {
+    const auto key = [](const char* table, std::size_t k, const char* name) {
+      return table + ("[" + std::to_string(k) + "].") + name;
+    };
+    for (std::size_t k = 0; k < supports.size(); ++k) visit(key("support", k, "u"), supports[k].motion);
+    for (std::size_t k = 0; k < walls.size(); ++k) visit(key("wall", k, "motion"), walls[k].motion);
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      for (const Expression& component : forces[k].value) visit(key("force", k, "value"), component);
+    for (std::size_t k = 0; k < tractions.size(); ++k) {
+      for (const Expression& component : tractions[k].value) visit(key("traction", k, "value"), component);
+      if (tractions[k].pressure) visit(key("traction", k, "pressure"), *tractions[k].pressure);
+    }
+    for (const Expression& component : body_force) visit("body_force.value", component);
+  }
+};
+
+}  // namespace stillpoint
