@@ -1,7 +1,11 @@
 #include "simulation/load_schedule.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,6 +15,29 @@ namespace stillpoint {
 namespace {
 
 bool uses_position(const Expression& formula) { return formula.uses('x') || formula.uses('y') || formula.uses('z'); }
+
+/// Of the positions, (points × dim), some at which the formula has a course in time of its own: those that differ in
+/// eight moments, or 32 of them.
+std::vector<ConstVec> where_it_differs(const Expression& formula, ConstVec positions, std::size_t dim, double end) {
+  constexpr std::size_t most_looked_at = 100'000, most = 32;
+  constexpr double golden = 0.6180339887498949;  // its multiples fill an interval without a period
+  const std::size_t points = positions.size() / dim;
+  std::set<std::array<std::uint64_t, 8>> seen;
+  std::vector<ConstVec> found;
+  for (std::size_t p = 0; p < points; p += (points + most_looked_at - 1) / most_looked_at) {
+    const ConstVec x = positions.subspan(dim * p, dim);
+    std::array<std::uint64_t, 8> course;
+    for (std::size_t k = 0; k < course.size(); ++k) {
+      const double share = golden * static_cast<double>(k + 1);
+      course[k] = std::bit_cast<std::uint64_t>(formula(x, end * (share - std::floor(share))));
+    }
+    if (seen.insert(course).second) found.push_back(x);
+  }
+  if (found.size() <= most) return found;
+  std::vector<ConstVec> some;
+  for (std::size_t k = 0; k < most; ++k) some.push_back(found[k * (found.size() - 1) / (most - 1)]);
+  return some;
+}
 
 }  // namespace
 
@@ -26,14 +53,12 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 LoadSchedule::LoadSchedule(const Scene& scene, ConstVec positions, double end) {
   if (!(end > 0)) return;
   constexpr int moments = 20'000, moments_at_a_point = 2'000;
-  constexpr std::size_t most_points = 32;
-  const std::size_t dim = static_cast<std::size_t>(scene.dim), points = positions.size() / dim;
-  const std::size_t stride = (points + most_points - 1) / most_points;
+  const auto dim = static_cast<std::size_t>(scene.dim);
   scene.for_each_formula([&](const std::string& key, const Expression& formula) {
     if (!formula.uses('t')) return;
     if (!uses_position(formula)) return look_at(scene, key, formula, {}, moments, end);
-    for (std::size_t p = 0; p < points; p += stride)
-      look_at(scene, key, formula, positions.subspan(dim * p, dim), moments_at_a_point, end);
+    for (const ConstVec x : where_it_differs(formula, positions, dim, end))
+      look_at(scene, key, formula, x, moments_at_a_point, end);
   });
 }
 

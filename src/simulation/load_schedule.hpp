@@ -14,7 +14,7 @@ namespace stillpoint {
 std::vector<double> total_load_at(const SemiDiscrete& system, double t);
 
 /// From when on nothing changes that acts on the body, up to the end: before, balance is that of a plateau, not of the
-/// end. Formulas are looked at in 20 000 moments, those of the position in 2 000 at 32 of the points.
+/// end. Formulas are looked at in 20 000 moments; those of the position in 2 000, at up to 32 of the points.
 class LoadSchedule {
  public:
   /// positions: of the material points, (points × dim) [m]; end: of the run [s], 0 if it is open, and then every moment

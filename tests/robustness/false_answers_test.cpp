@@ -28,6 +28,14 @@ TEST_CASE("a load that depends on the position is looked at where there are poin
   CHECK(s.t >= 350);
 }
 
+TEST_CASE("a load that comes and goes on few of the points is seen") {
+  const Summary s = run(
+      scenes::load("footing", {"stop.time=20", "body_force.value=[\"0\", \"-g*(y > 4)*(1 + 0.3*(t > 4)*(t < 8))\"]"}));
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.t >= 8);
+  CHECK(scenes::probe(s, "block", "u.y") < -0.0145);  // 12.4 mm before the load grows for a while
+}
+
 TEST_CASE("a load that is no number later in the run is refused before it begins, with the key and the time") {
   CHECK_THROWS_WITH(run(scenes::bar({"force[0].value=P0*sqrt(400 - t)/20", "stop.time=1000"})),
                     Contains("force[0].value") && Contains("not a number at t = 400.05"));
