@@ -41,10 +41,12 @@ void Snapshots::sample(double t, ConstVec u, ConstVec v) {
   take(t, u, v);
 }
 
-void Snapshots::finish(double t, ConstVec u, ConstVec v) {
-  if (!writer_) return;
-  if (taken_.empty() || taken_.back().t < t) take(t, u, v);
-  writer_->finish();
+void Snapshots::take_last(double t, ConstVec u, ConstVec v) {
+  if (writer_ && (taken_.empty() || taken_.back().t < t)) take(t, u, v);
+}
+
+void Snapshots::finish() {
+  if (writer_) writer_->finish();
 }
 
 void Snapshots::take(double t, ConstVec u, ConstVec v) {

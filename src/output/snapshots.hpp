@@ -23,8 +23,10 @@ class Snapshots {
   double next_time() const;
   /// Writes the state at (t, u, v) if it is due.
   void sample(double t, ConstVec u, ConstVec v);
-  /// The run ends: writes its last state if the scene asks for fields, and closes the files.
-  void finish(double t, ConstVec u, ConstVec v);
+  /// The state in which the run ends, if the scene asks for fields.
+  void take_last(double t, ConstVec u, ConstVec v);
+  /// Closes the files.
+  void finish();
 
   const std::vector<Snapshot>& taken() const { return taken_; }
 

@@ -1,6 +1,5 @@
 #include <stillpoint/scene.hpp>
 
-#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>

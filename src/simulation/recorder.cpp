@@ -72,8 +72,9 @@ void Recorder::end_phase(double t, PhaseMotion& motion) {
 }
 void Recorder::begin_phase(PhaseMotion& motion) { energy_balance_.begin_phase(motion.system.last_external_force()); }
 
-void Recorder::finish(double t, PhaseMotion& motion) {
-  snapshots_.finish(t, motion.u(), motion.v());
+void Recorder::finish(double t, const PhaseMotion* motion) {
+  if (motion) snapshots_.take_last(t, motion->u(), motion->v());
+  snapshots_.finish();
   history_.finish();
 }
 

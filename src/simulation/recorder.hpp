@@ -41,8 +41,8 @@ class Recorder {
   /// Before a phase ends, and when the next has begun.
   void end_phase(double t, PhaseMotion& motion);
   void begin_phase(PhaseMotion& motion);
-  /// Closes the files; a run that ends writes its last state as well.
-  void finish(double t, PhaseMotion& motion);
+  /// Closes the files; a run that ends writes its last state as well, if it can be read.
+  void finish(double t, const PhaseMotion* motion);
   void fill(Summary& summary, double t, PhaseMotion& motion);
 
  private:

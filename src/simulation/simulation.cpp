@@ -1,9 +1,13 @@
 #include <stillpoint/simulation.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
 #include "output/exact_error.hpp"
@@ -96,6 +100,7 @@ class Simulation::Impl {
   }
 
   ConstVec field(std::string_view name) {
+    if (!is_readable_) throw std::logic_error("there are no fields between two phases: " + reason_);
     field_ = name == "position" ? current_positions(*model_.phase, t_, motion_->u())
                                 : point_field(*model_.phase, std::string(name), t_, motion_->u(), motion_->v());
     return field_;
@@ -121,10 +126,7 @@ class Simulation::Impl {
       s.ns_per_point_step = 1e9 * stepping_s_ / (static_cast<double>(s.steps) * static_cast<double>(s.points));
     }
     s.bytes_per_point = model_.phase->bytes_per_point();
-    s.residual = residual();
-    if (scene_.stop.wants_equilibrium()) refresh_distance();
-    s.distance = distance_;
-    s.kinetic_energy = kinetic_energy_;
+    s.residual = s.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
     s.omega_1 = model_.omega_1;
     s.omega_max = model_.omega_max;
     s.c = model_.c ? model_.c : motion_->integrator->damping_rate();
@@ -136,6 +138,11 @@ class Simulation::Impl {
       s.damping = scene_.damping.strategy;
     }
     s.notes = model_.notes;
+    if (!is_readable_) return s;
+    s.residual = residual();
+    if (scene_.stop.wants_equilibrium()) refresh_distance();
+    s.distance = distance_;
+    s.kinetic_energy = kinetic_energy_;
     s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
     if (model_.phase->info().updated_lagrangian) {
       const auto transfer = model_.phase->control().transfer_errors();
@@ -215,6 +222,10 @@ class Simulation::Impl {
     } catch (const PointLost& lost) {
       status_ = RunStatus::failed;
       reason_ = lost.what();
+    } catch (const SceneError& error) {  // no bad input: that was looked at before the run
+      status_ = RunStatus::failed;
+      reason_ = fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what());
+      is_readable_ = false;
     }
   }
   void tell_phase_change(bool begun) const {
@@ -283,13 +294,14 @@ class Simulation::Impl {
   }
 
   void finish() {
-    motion_->finish(t_);
-    if (recorder_) recorder_->finish(t_, *motion_);
+    if (is_readable_) motion_->finish(t_);
+    if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
   }
 
   long earlier_steps_ = 0, earlier_evaluations_ = 0, earlier_rejected_ = 0;  // of the phases before
   bool started_ = false;
-  bool measured_ = false;  // whether the next three are of now
+  bool is_readable_ = true;  // false if the points are between two phases, because the second could not begin
+  bool measured_ = false;    // whether the next three are of now
   double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0;
   std::optional<double> distance_;
   double stepping_s_ = 0, next_progress_ = 0;

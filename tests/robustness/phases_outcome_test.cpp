@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "files.hpp"
 #include "free_block.hpp"
 #include "scenes.hpp"
 #include "simulation/model.hpp"
@@ -43,6 +44,30 @@ TEST_CASE("a material point that leaves the grid ends the run as failed, with it
   CHECK(std::stod(last_line(folder.path() / "history.csv")) == s.t);
   // What is reported is the state in which the run ended: the body moved at 1 m/s.
   CHECK(scenes::probe(s, "p", "u.y") == Approx(s.t).epsilon(1e-6));
+}
+
+TEST_CASE("a phase that cannot begin ends the run as failed, with the reason, and what was written is kept") {
+  const TemporaryFolder folder;
+  // The block slides off the node that is held.
+  const Scene scene = free_soil({"initial.v=[1, 0]", "support=[{at=[0.5, 0.25], component='y'}]", "stop.time=0.4",
+                                 "output.fields_every=0.05", "probe=[{name='p', point=23, fields=['u.x']}]"});
+  const Summary s = run(scene, {.out = folder.path(), .threads = 1});
+  CHECK(s.status == RunStatus::failed);
+  CHECK(s.exit_status == 4);
+  CHECK_THAT(s.reason,
+             Catch::Contains("cannot begin at t = 0.2") && Catch::Contains("no material reaches this support"));
+  // Its last points leave the cell of that node at 0.1875 s, and a phase lasts 0.025 s.
+  CHECK(s.t == Approx(0.2).margin(0.0126));
+  const Json summary = stillpoint::test::json_of(folder.path() / "summary.json");
+  CHECK(summary["status"] == "failed");
+  CHECK(summary["residual"].is_null());
+  CHECK(std::stod(last_line(folder.path() / "history.csv")) == Approx(s.t).margin(0.011));  // a row each 0.01 s
+  CHECK(std::filesystem::exists(folder.path() / "fields.h5"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "fields.h5.partial"));
+
+  Simulation simulation(scene);
+  CHECK(simulation.run() == RunStatus::failed);
+  CHECK_THROWS_AS(simulation.field("u"), std::logic_error);
 }
 
 TEST_CASE("a cell that a phase turns inside out is whole in the next phase, and the run goes on") {
