@@ -61,6 +61,15 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
   return compare;
 }
 
+// OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and
+// ten times slower than one thread if another program wants a core. So they wait for microseconds here, unless the
+// user has said otherwise. The library reads its environment before main(): the program starts itself once more, which
+// takes 20 ms.
+void wait_briefly(char** argv, int threads) {
+  if (threads == 1 || std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
+  if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", argv);
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("Quasi-static equilibrium by dynamic relaxation in the material point method", "stillpoint");
   app.set_version_flag("--version", STILLPOINT_VERSION);
@@ -101,8 +110,14 @@ int dispatch(int argc, char** argv) {
     fmt::print(stderr, "{}", app.help());
     return bad_input;
   }
-  if (run_app.parsed()) return run(run_arguments);
-  if (compare_app.parsed()) return compare(compare_arguments);
+  if (run_app.parsed()) {
+    wait_briefly(argv, run_arguments.threads);
+    return run(run_arguments);
+  }
+  if (compare_app.parsed()) {
+    wait_briefly(argv, compare_arguments.options.threads);
+    return compare(compare_arguments);
+  }
   if (check_app.parsed()) return check(scene_arguments);
   if (spectrum_app.parsed()) return spectrum(scene_arguments);
   if (format != "text" && topic != "keys") {
@@ -112,18 +127,9 @@ int dispatch(int argc, char** argv) {
   return list(topic, format);
 }
 
-// OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and
-// ten times slower than one thread if another program wants a core. So they wait for microseconds here, unless the
-// user has said otherwise. The library reads its environment before main(): the program starts itself once more.
-void wait_briefly(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", argv);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  wait_briefly(argv);
   try {
     return dispatch(argc, argv);
   } catch (const stillpoint::SceneError& error) {
