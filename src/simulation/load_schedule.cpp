@@ -50,13 +50,14 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
   return Q;
 }
 
-LoadSchedule::LoadSchedule(const Scene& scene, ConstVec positions, double end) {
+LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end) {
   if (!(end > 0)) return;
   constexpr int moments = 20'000, moments_at_a_point = 2'000;
   const auto dim = static_cast<std::size_t>(scene.dim);
   scene.for_each_formula([&](const std::string& key, const Expression& formula) {
     if (!formula.uses('t')) return;
     if (!uses_position(formula)) return look_at(scene, key, formula, {}, moments, end);
+    const std::vector<double> positions = phase.positions();
     for (const ConstVec x : where_it_differs(formula, positions, dim, end))
       look_at(scene, key, formula, x, moments_at_a_point, end);
   });

@@ -17,11 +17,10 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t);
 /// end. Formulas are looked at in 20 000 moments; those of the position in 2 000, at up to 32 of the points.
 class LoadSchedule {
  public:
-  /// positions: of the material points, (points × dim) [m]; end: of the run [s], 0 if it is open, and then every moment
-  /// counts as the end. Throws SceneError if a formula is not a finite number in one of these moments.
-  LoadSchedule(const Scene& scene, ConstVec positions, double end);
+  /// phase: the first; end: of the run [s], 0 if it is open, and then every moment counts as the end. Throws SceneError
+  /// if a formula is not a finite number in one of these moments.
+  LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end);
 
-  double settled_from() const { return settled_from_; }
   bool settled(double t) const { return t >= settled_from_; }
 
  private:

@@ -69,7 +69,7 @@ class Simulation::Impl {
         model_(make_model(scene_)),
         monitor_(monitor_options(scene_, model_)),
         error_bound_(*model_.phase, model_.omega_1),
-        schedule_(scene_, model_.phase->positions(), scene_.stop.time),
+        schedule_(scene_, *model_.phase, scene_.stop.time),
         t_(model_.t) {
     if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance());
     begin_phase(model_.u, model_.v);
