@@ -57,7 +57,7 @@ class RelaxationSystem {
   double work_scale(const Vector& u);
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
-  /// ½ vᵀ M v [J]; v: (n).
+  /// ½ vᵀ M v [J], without what was added to light nodes; v: (n).
   double kinetic_energy(const Vector& v);
 
   /// Force evaluations made by integrators (not by residual()).

@@ -68,7 +68,7 @@ class SemiDiscrete {
   virtual std::unique_ptr<TrialState> make_trial() const { return std::make_unique<TrialState>(); }
   /// R_i = Σ_p V_p P_p ∇N_ip from trial stresses; u, R: (n). Repeatable: the committed state is not touched.
   /// t places the moving supports. trial: made by this system for this phase; its last contents do not matter.
-  /// False if the trial cannot be evaluated (det f ≤ 0 or a non-finite stress).
+  /// False if the trial cannot be evaluated (det f ≤ 0, a non-finite stress, a motion too far for one phase).
   virtual bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const = 0;
   /// Accepts the state that internal_force() has put into the trial: what points remember is swapped in. Once an
   /// accepted step if history_dependent(); throws std::logic_error if the trial is not of this phase, or not evaluated

@@ -59,9 +59,10 @@ struct Summary {
   std::string method;               // solve.method
   std::string integrator, damping;  // damping: the strategy, a damping or a relaxation
   std::vector<std::string> notes;   // what a user should know of this scene's accuracy, a sentence each
-  // Of an updated Lagrangian body, the worst so far: |Σ_i m_i − Σ_p m_p|/Σ_p m_p, the same of momenta between points
-  // and grid, and mass that nodes were given so that none shortens the step, as a share of Σ_p m_p.
-  std::optional<double> mass_error, momentum_error, added_mass;
+  // Of an updated Lagrangian body, the worst so far: |Σ_i m_i − Σ_p m_p|/Σ_p m_p; the points' momentum beside the
+  // impulse of the forces, and if nothing acts on the body, momentum and angular momentum beside those of the start;
+  // and the inertia that light nodes were given so that none shortens the step, as a share of Σ_p m_p.
+  std::optional<double> mass_error, momentum_error, angular_momentum_error, added_mass;
   std::optional<double> external_work;  // [J]
   std::optional<double> slope_angle;    // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;

@@ -43,8 +43,10 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {} thread{}", s.wall_s, s.ns_per_point_step,
                                s.threads, s.threads == 1 ? "" : "s"));
   if (s.mass_error && s.momentum_error && s.added_mass) {
-    row("conserved", fmt::format("mass to {:.1e}, momentum to {:.1e}; {:.1f} % mass added at light nodes",
-                                 *s.mass_error, *s.momentum_error, 100 * *s.added_mass));
+    const std::string turn =
+        s.angular_momentum_error ? fmt::format(", angular momentum to {:.1e}", *s.angular_momentum_error) : "";
+    row("conserved", fmt::format("mass to {:.1e}, momentum to {:.1e}{}; {:.1f} % inertia added at light nodes",
+                                 *s.mass_error, *s.momentum_error, turn, 100 * *s.added_mass));
   }
   if (s.external_work) {
     row("external work", fmt::format("{:.6g} J; kinetic energy is {:.1e} of it", *s.external_work,

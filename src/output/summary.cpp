@@ -69,6 +69,7 @@ std::string to_json(const Summary& s) {
                      {"external_work", number(s.external_work)},
                      {"mass_error", number(s.mass_error)},
                      {"momentum_error", number(s.momentum_error)},
+                     {"angular_momentum_error", number(s.angular_momentum_error)},
                      {"added_inertia", number(s.added_mass)},
                      {"slope_angle", number(s.slope_angle)},
                      {"stages", stages},

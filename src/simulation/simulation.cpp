@@ -148,6 +148,7 @@ class Simulation::Impl {
       const auto transfer = model_.phase->control().transfer_errors();
       s.mass_error = transfer.mass;
       s.momentum_error = transfer.momentum;
+      s.angular_momentum_error = transfer.angular_momentum;
       s.added_mass = transfer.added_mass;
     }
     if (recorder_) recorder_->fill(s, t_, *motion_);

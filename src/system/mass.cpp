@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include <Eigen/SparseCore>
@@ -38,7 +39,84 @@ double smallest_scaled_eigenvalue(ConstVec diagonal, const SparseCholesky& facto
 
 }  // namespace
 
-Mass Mass::lumped(std::vector<double> diagonal) {
+// The coupled part of M. Only the degrees of freedom that take part in it are not solved for by the diagonal.
+class Mass::Relative {
+ public:
+  /// diagonal: of M.
+  Relative(const std::vector<RelativeInertia>& terms, ConstVec diagonal) : terms_(terms) {
+    for (const RelativeInertia& term : terms_) {
+      if (term.masters == 0) continue;
+      dofs_.push_back(term.dof);
+      dofs_.insert(dofs_.end(), term.master.begin(), term.master.begin() + term.masters);
+    }
+    std::ranges::sort(dofs_);
+    dofs_.erase(std::ranges::unique(dofs_).begin(), dofs_.end());
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto place = [&](int dof) { return static_cast<int>(std::ranges::lower_bound(dofs_, dof) - dofs_.begin()); };
+    for (const int dof : dofs_) entries.emplace_back(place(dof), place(dof), diagonal[static_cast<std::size_t>(dof)]);
+    for_each_off_diagonal([&](int i, int j, double value) { entries.emplace_back(place(i), place(j), value); });
+    SparseMatrix block(index(dofs_.size()), index(dofs_.size()));
+    block.setFromTriplets(entries.begin(), entries.end());
+    factor_.emplace(block);
+    work_.resize(dofs_.size());
+  }
+
+  /// M_ii += inertia q_i²
+  static void add_to_diagonal(const std::vector<RelativeInertia>& terms, Vec diagonal) {
+    for (const RelativeInertia& term : terms) {
+      diagonal[static_cast<std::size_t>(term.dof)] += term.inertia;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(term.masters); ++k)
+        diagonal[static_cast<std::size_t>(term.master[k])] += term.inertia * term.weight[k] * term.weight[k];
+    }
+  }
+  /// take(i, j, M_ij) for i ≠ j, both triangles; more than once for a pair that several terms couple.
+  template <class Take>
+  void for_each_off_diagonal(const Take& take) const {
+    const auto both = [&](int i, int j, double value) {
+      take(i, j, value);
+      take(j, i, value);
+    };
+    for (const RelativeInertia& term : terms_) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(term.masters); ++k) {
+        both(term.dof, term.master[k], -term.inertia * term.weight[k]);
+        for (std::size_t l = 0; l < k; ++l)
+          both(term.master[k], term.master[l], term.inertia * term.weight[k] * term.weight[l]);
+      }
+    }
+  }
+  /// y += the rest of M x.
+  void add_off_diagonal(ConstVec x, Vec y) const {
+    for_each_off_diagonal(
+        [&](int i, int j, double value) { y[static_cast<std::size_t>(i)] += value * x[static_cast<std::size_t>(j)]; });
+  }
+  void take(ConstVec b) const {
+    for (std::size_t k = 0; k < dofs_.size(); ++k) work_[k] = b[static_cast<std::size_t>(dofs_[k])];
+  }
+  /// x = M⁻¹ of what was taken, at these degrees of freedom.
+  void solve(Vec x) const {
+    factor_->solve(work_, work_);
+    for (std::size_t k = 0; k < dofs_.size(); ++k) x[static_cast<std::size_t>(dofs_[k])] = work_[k];
+  }
+  double energy(ConstVec v) const {
+    double sum = 0;
+    for (const RelativeInertia& term : terms_) {
+      double q = v[static_cast<std::size_t>(term.dof)];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(term.masters); ++k)
+        q -= term.weight[k] * v[static_cast<std::size_t>(term.master[k])];
+      sum += 0.5 * term.inertia * q * q;
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<RelativeInertia> terms_;
+  std::vector<int> dofs_;  // that are coupled, ascending
+  std::optional<SparseCholesky> factor_;
+  mutable std::vector<double> work_;
+};
+
+Mass Mass::lumped(std::vector<double> diagonal, const std::vector<RelativeInertia>& relative) {
+  Relative::add_to_diagonal(relative, diagonal);
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
     if (!(diagonal[i] > 0) || !std::isfinite(diagonal[i])) {
       throw std::invalid_argument(fmt::format(
@@ -48,6 +126,7 @@ Mass Mass::lumped(std::vector<double> diagonal) {
   }
   Mass mass;
   mass.diagonal_ = std::move(diagonal);
+  if (!relative.empty()) mass.relative_ = std::make_shared<const Relative>(relative, mass.diagonal_);
   return mass;
 }
 
@@ -77,12 +156,16 @@ SparseMatrix Mass::matrix() const {
   SparseMatrix diagonal_matrix(index(size()), index(size()));
   diagonal_matrix.setIdentity();
   std::copy(diagonal_.begin(), diagonal_.end(), diagonal_matrix.valuePtr());
+  if (relative_)
+    relative_->for_each_off_diagonal([&](int i, int j, double value) { diagonal_matrix.coeffRef(i, j) += value; });
+  diagonal_matrix.makeCompressed();
   return diagonal_matrix;
 }
 
 void Mass::apply(ConstVec x, Vec y) const {
   if (is_lumped()) {
     for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { y[i] = m[i] * x[i]; });
+    if (relative_) relative_->add_off_diagonal(x, y);
   } else {  // M = Mᵀ: by rows, y_i = Σ_j M_ij x_j, which writes each y_i once
     Map(y.data(), index(y.size())).noalias() = consistent_->matrix.transpose() * ConstMap(x.data(), index(x.size()));
   }
@@ -90,10 +173,14 @@ void Mass::apply(ConstVec x, Vec y) const {
 
 void Mass::solve(ConstVec b, Vec x) const {
   if (is_lumped()) {
+    if (relative_) relative_->take(b);  // before x, which may be b
     for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { x[i] = b[i] / m[i]; });
+    if (relative_) relative_->solve(x);
   } else {
     consistent_->factor.solve(b, x);
   }
 }
+
+double Mass::relative_energy(ConstVec v) const { return relative_ ? relative_->energy(v) : 0; }
 
 }  // namespace stillpoint

@@ -118,7 +118,7 @@ double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u
 
 double RelaxationSystem::kinetic_energy(const Vector& v) {
   system_.mass().apply(v.span(), Q_.span());
-  return 0.5 * dot(v, Q_);
+  return 0.5 * dot(v, Q_) - system_.mass().relative_energy(v.span());
 }
 
 }  // namespace stillpoint

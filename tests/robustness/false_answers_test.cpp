@@ -3,6 +3,7 @@
 
 #include "scenes.hpp"
 #include "simulation/model.hpp"
+#include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using Catch::Contains;
@@ -53,4 +54,24 @@ TEST_CASE("a damping of any size leaves leapfrog the step of the highest frequen
   }
   CHECK_THROWS_WITH(run(scenes::load("block_on_wall", {"damping.c=1e6", "integrator.step=0.01"})),
                     Contains("is past the critical one"));
+}
+
+TEST_CASE("points on grid lines, whose gradients alone reach the nodes across, hold nothing still") {
+  const stillpoint::testing::TemporaryFolder folder;
+  const std::string points = folder.write("points.csv", "x,volume\n1,1\n2,1\n3,1\n").string();
+  // Three points on the lines of a grid, with nothing that holds them.
+  const Scene scene = load_scene(folder.write("scene.toml", R"(dim = 1
+grid = {min = [0], max = [6], cells = [6], basis = "linear"}
+body = {file = ")" + points + R"(", material = "rubber"}
+material.rubber = {law = "linear-elastic", E = 1, nu = 0, rho = 1}
+mass.kind = "lumped"
+body_force.value = [0.01]
+damping.strategy = "none"
+stop = {time = 5, residual = 1e-6}
+)"));
+  Simulation simulation(scene);
+  simulation.run();
+  CHECK(simulation.status() != RunStatus::equilibrium);
+  CHECK(simulation.t() == Approx(5));
+  for (const double u : simulation.field("u")) CHECK(u == Approx(0.01 * 5 * 5 / 2).epsilon(1e-9));
 }

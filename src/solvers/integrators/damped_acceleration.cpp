@@ -45,7 +45,7 @@ AmplificationRadius kick_drift_amplification(DampingTreatment treatment) {
 DampedAcceleration::DampedAcceleration(DampingTreatment treatment, const LinearDamping& C, const Mass& mass)
     : treatment_(treatment), C_(C), mass_(mass) {
   if (C_.identity == 0) return;
-  if (mass_.is_lumped()) {
+  if (mass_.is_diagonal()) {
     factor_.resize(mass_.size());
   } else {
     implicitness(treatment_);  // throws if there is none
@@ -54,7 +54,7 @@ DampedAcceleration::DampedAcceleration(DampingTreatment treatment, const LinearD
 }
 
 void DampedAcceleration::operator()(double h, ConstVec v, Vec Q_to_a) {
-  if (C_.identity == 0 || mass_.is_lumped()) {
+  if (C_.identity == 0 || mass_.is_diagonal()) {
     solve_diagonal(h, v, Q_to_a);
   } else {
     solve_coupled(h, v, Q_to_a);

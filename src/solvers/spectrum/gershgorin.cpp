@@ -80,7 +80,7 @@ FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, doub
   const Mass& mass = system.mass();
   const double G = largest(scaled_row_sums(system.tangents().matrix(Tangent::elastic, t, u), mass.diagonal()));
   if (!std::isfinite(G)) return {0, 0, watch.seconds(), false, "K is not finite"};
-  if (mass.is_lumped()) return {std::sqrt(G), 0, watch.seconds(), true, "ω² ≤ max Σ |K_ij|/√(M_ii M_jj)"};
+  if (mass.is_diagonal()) return {std::sqrt(G), 0, watch.seconds(), true, "ω² ≤ max Σ |K_ij|/√(M_ii M_jj)"};
   const auto [s, factorisations] = lower_bound_of_scaled_mass(mass);
   if (!(s > 0)) return {0, 0, watch.seconds(), false, "no s > 0 was found with M − s diag M positive definite"};
   return {std::sqrt(G / s), 0, watch.seconds(), true,

@@ -59,7 +59,7 @@ std::vector<double> geometric_grid(double a, double b, double ratio, int fewest)
 // M⁻¹ from above until the estimated error is 0.1 %, and 1 % beyond for what the estimate may miss.
 std::pair<double, double> extreme_masses(const Mass& mass) {
   if (mass.size() == 0) return {1, 1};
-  if (mass.is_lumped()) {
+  if (mass.is_diagonal()) {
     const auto [smallest, largest] = std::minmax_element(mass.diagonal().begin(), mass.diagonal().end());
     return {*smallest, *largest};
   }

@@ -38,6 +38,13 @@ struct BSpline {
   static constexpr bool is_value(int) { return true; }
   static int count(const Axis& axis) { return axis.cells() + Degree; }
   static int first(int cell) { return cell; }
+  /// Where a function has its centre, Greville's abscissa: Σ_i N_i(x) x_i = x.
+  static double centre(const Axis& axis, int function) {
+    double sum = 0;
+    for (int q = function - Degree + 1; q <= function; ++q)
+      sum += axis.nodes[static_cast<std::size_t>(std::clamp(q, 0, axis.cells()))];
+    return sum / Degree;
+  }
 
   static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {
     const auto knot = [&](int k) { return axis.nodes[static_cast<std::size_t>(std::clamp(k, 0, axis.cells()))]; };

@@ -1,8 +1,11 @@
-// Keeps account of mass and momentum on their way between material points and grid.
+// Keeps account of mass and momentum: on their way between material points and grid, and of a body that nothing acts on
+// since the run began.
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/parallel_loop.hpp"
@@ -41,10 +44,54 @@ class ConservationCheck {
       momentum_ = std::max(momentum_, std::abs(sum - of_points.sum[i]) / of_points.scale);
     }
   }
+  /// The points' momenta beside those of the first call: of a free body they stay.
+  void compare_with_start(const MaterialPoints<Dim>& points) {
+    const Momentum now = of_points(points);
+    const auto [turn, turn_scale] = angular_momentum(points);
+    if (!start_) start_ = Start{now, turn, turn_scale};
+    if (start_->momentum.scale > 0) {
+      for (int i = 0; i < Dim; ++i)
+        momentum_ = std::max(momentum_, std::abs(now.sum[i] - start_->momentum.sum[i]) / start_->momentum.scale);
+    }
+    if (start_->turn_scale > 0) {
+      angular_momentum_ = std::max(angular_momentum_.value_or(0), std::abs(turn - start_->turn) / start_->turn_scale);
+    }
+  }
   double mass() const { return mass_; }
   double momentum() const { return momentum_; }
+  /// Empty if it was not compared.
+  std::optional<double> angular_momentum() const { return angular_momentum_; }
 
  private:
+  struct Start {
+    Momentum momentum;
+    double turn, turn_scale;
+  };
+  // Σ_p m_p (x_p × v_p + B_p,yx − B_p,xy), and Σ_p m_p |x_p − x_c| |v_p| about the centre x_c of the masses.
+  static std::pair<double, double> angular_momentum(const MaterialPoints<Dim>& points) {
+    if constexpr (Dim == 1) {
+      return {0, 0};
+    } else {
+      const auto mean = [&](const std::vector<double>& x) {
+        return sum_over(points.size(), [&](std::size_t p) { return points.mass[p] * x[p]; }) /
+               sum_over(points.size(), [&](std::size_t p) { return points.mass[p]; });
+      };
+      const double x_c = mean(points.x[0]), y_c = mean(points.x[1]);
+      const auto& v = points.v;
+      const bool affine = !points.B_apic[0].empty();
+      const double turn = sum_over(points.size(), [&](std::size_t p) {
+        const double spin = affine ? points.B_apic[Dim][p] - points.B_apic[1][p] : 0;
+        return points.mass[p] * (points.x[0][p] * v[1][p] - points.x[1][p] * v[0][p] + spin);
+      });
+      const double scale = sum_over(points.size(), [&](std::size_t p) {
+        return points.mass[p] * std::hypot(points.x[0][p] - x_c, points.x[1][p] - y_c) * std::hypot(v[0][p], v[1][p]);
+      });
+      return {turn, scale};
+    }
+  }
+
+  std::optional<Start> start_;
+  std::optional<double> angular_momentum_;
   double mass_ = 0, momentum_ = 0;  // the worst so far, relative
 };
 

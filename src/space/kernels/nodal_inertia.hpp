@@ -1,59 +1,112 @@
 // The inertia of the grid's functions: their mass, scaled if the scene says so.
 //
 // In a body that moves on, points come to lie next to a cell's edge and give nodes across it stiffness but hardly any
-// mass: their frequencies would shorten the step without end, or blow the run up. Such a node gets as much inertia as
-// its stiffness bound G_i needs to keep below the frequency bound of the body as a whole when the run began,
+// mass: their frequencies would shorten the step without end, or blow the run up. Such a node gets inertia beyond its
+// mass m_i until its stiffness bound G_i is no more than `most` times as high as in the body as a whole when the run
+// began,
 //
-//   M_i = max(m_i, G_i/Ω²),   Ω² = Σ G_i/Σ m_i,
+//   M_i = m_i + δ_i,   δ_i = max(0, G_i/(most Ω²) − m_i),   Ω² = Σ G_i/Σ m_i,
 //
-// while its weight and its momentum stay those of its mass m_i. Scaled by Gershgorin, every node has the same bound:
-// M_i = G_i/Ω², whose sum is the body's mass.
+// and δ_i acts against motion relative to what nodes further inside extrapolate, ½ δ_i (v_i − Σ_k w_k v_k)²: rigid
+// motions do not feel it, and linear and angular momentum are those of the masses m_i [selective mass scaling,
+// Olovsson, Simonsson and Unosson 2005]. Where nothing can be extrapolated from, next to supports and walls say, it
+// acts against all motion.
+//
+// Scaled by Gershgorin, every node has the same bound instead: M_i = G_i/Ω², whose sum is the body's mass.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
+#include "space/grid/extrapolation.hpp"
 #include "space/kernels/nodal_sum.hpp"
 
 namespace stillpoint {
 
+/// Inertia of a function beyond its mass, against motion relative to others.
+struct AddedInertia {
+  int function = 0;
+  double inertia = 0;           // δ_i [kg]
+  Extrapolation relative_to{};  // of no functions: against all motion
+};
+
+/// x_i − Σ_k w_k x_k of values over the grid's functions, (functions × 2).
+inline std::array<double, 2> deviation(const std::vector<double>& x, const AddedInertia& added) {
+  const auto at = [&](int function, std::size_t i) { return x[2 * static_cast<std::size_t>(function) + i]; };
+  std::array<double, 2> d{at(added.function, 0), at(added.function, 1)};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(added.relative_to.functions); ++k) {
+    for (std::size_t i = 0; i < 2; ++i) d[i] -= added.relative_to.weight[k] * at(added.relative_to.function[k], i);
+  }
+  return d;
+}
+
 template <AxisBasis B, Kinematics K>
 class NodalInertia {
+  static constexpr int dim = dimensions(K);
+
  public:
   NodalInertia(const MassSpec& spec, bool updated_lagrangian) : spec_(spec), updated_lagrangian_(updated_lagrangian) {}
 
-  /// wave_modulus: λ + 2μ of each material [Pa].
-  void begin_phase(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
-                   const CornerSum& corner_sum, const std::vector<double>& wave_modulus) {
+  /// wave_modulus: λ + 2μ of each material [Pa]. is_free: whether neither support nor wall takes hold of a function,
+  /// (functions).
+  void begin_phase(const Grid<dim>& grid, const MaterialPoints<dim>& points, const PointWeights<B, K>& weights,
+                   const CornerSum& corner_sum, const std::vector<double>& wave_modulus,
+                   const std::vector<char>& is_free) {
     mass_ = nodal_mass(points, weights, corner_sum);
     inertia_ = mass_;
+    added_.clear();
     const bool gershgorin = spec_.scaling == MassScaling::gershgorin;
-    if (updated_lagrangian_ || gershgorin) {
-      const std::vector<double> G = stiffness_bound(points, weights, corner_sum, wave_modulus);
-      const double all_mass = sum_over(mass_.size(), [&](std::size_t f) { return mass_[f]; });
-      if (!(omega_squared_ > 0)) {
-        omega_squared_ = sum_over(G.size(), [&](std::size_t f) { return G[f]; }) / all_mass;
-      }
-      double added = 0;
-      for (std::size_t f = 0; f < inertia_.size(); ++f) {
-        const double needed = G[f] / omega_squared_;
-        added += std::max(0.0, needed - mass_[f]);
-        inertia_[f] = gershgorin ? needed : std::max(mass_[f], needed);
-      }
-      largest_added_share_ = std::max(largest_added_share_, added / all_mass);
+    const std::vector<double> G = stiffness_bound(points, weights, corner_sum, wave_modulus);
+    const double all_mass = sum_over(mass_.size(), [&](std::size_t f) { return mass_[f]; });
+    if (!(omega_squared_ > 0)) {
+      omega_squared_ = sum_over(G.size(), [&](std::size_t f) { return G[f]; }) / all_mass;
     }
+    if (gershgorin) {
+      std::ranges::transform(G, inertia_.begin(), [&](double bound) { return bound / omega_squared_; });
+    } else {
+      find_light(grid, G, is_free);
+    }
+    double added = 0;
+    for (std::size_t f = 0; gershgorin && f < mass_.size(); ++f) added += std::max(0.0, inertia_[f] - mass_[f]);
+    for (const AddedInertia& one : added_) added += one.inertia;
+    largest_added_share_ = std::max(largest_added_share_, added / all_mass);
     for (double& inertia : inertia_) inertia *= spec_.factor;
+    for (AddedInertia& one : added_) one.inertia *= spec_.factor;
   }
 
   const std::vector<double>& mass() const { return mass_; }        // m_i, (functions) [kg]
-  const std::vector<double>& inertia() const { return inertia_; }  // M_i, (functions) [kg]
+  const std::vector<double>& inertia() const { return inertia_; }  // of all motion, (functions) [kg]
+  const std::vector<AddedInertia>& added() const { return added_; }
   /// What nodes were given beyond their mass, uniform scaling apart, as a share of the body's mass; the most so far.
   double largest_added_mass() const { return largest_added_share_; }
 
  private:
+  // In a single phase only what has next to no mass: points on a grid line reach the nodes across a cell by their
+  // gradients alone.
+  void find_light(const Grid<dim>& grid, const std::vector<double>& G, const std::vector<char>& is_free) {
+    constexpr double most = 1.2;       // a tenth above the highest frequency: within the margin of the step
+    constexpr double massless = 1e-9;  // of G/Ω²
+    std::vector<char> is_inside(mass_.size());
+    for (std::size_t f = 0; f < mass_.size(); ++f) {
+      const double needed = G[f] / (most * omega_squared_);
+      const bool is_light = updated_lagrangian_ ? mass_[f] < needed : mass_[f] < massless * needed;
+      is_inside[f] = !is_light && mass_[f] > 0 && is_free[f];
+      if (is_light) added_.push_back({.function = static_cast<int>(f), .inertia = needed - mass_[f]});
+    }
+    if constexpr (B::partition_of_unity) {
+      const Extrapolator<B, dim> extrapolate(grid, is_inside);
+      for (AddedInertia& one : added_) {
+        if (!is_free[static_cast<std::size_t>(one.function)]) continue;
+        one.relative_to = extrapolate(one.function).value_or(Extrapolation{});
+      }
+    }
+  }
+
   MassSpec spec_;
   bool updated_lagrangian_;
   std::vector<double> mass_, inertia_;
+  std::vector<AddedInertia> added_;
   double omega_squared_ = 0;  // Ω², kept from the first phase [1/s²]
   double largest_added_share_ = 0;
 };

@@ -82,14 +82,14 @@ class VelocityTransfer {
     });
   }
 
-  /// Moves velocities to the points at a phase's end. u, v, v_start: over the grid's functions, (functions × dim);
-  /// mass: (functions). Places are still those of the phase's start.
+  /// Moves velocities to the points at a phase's end. u, v, v_start, and the impulse of the forces over the phase: over
+  /// the grid's functions, (functions × dim); mass: (functions). Positions are still those of the phase's start.
   void to_points(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
                  const std::vector<double>& mass, const double* u, const std::vector<double>& v_end,
-                 const std::vector<double>& v_start) {
+                 const std::vector<double>& v_start, const std::vector<double>& impulse) {
     const auto before = ConservationCheck<dim>::of_points(points);
     move(grid, points, weights, corner_sum, mass, u, v_end.data(), v_start.data());
-    check_momentum(before, points, mass, v_end, v_start);
+    check_momentum(before, points, mass, v_start, impulse);
   }
 
  private:
@@ -116,13 +116,14 @@ class VelocityTransfer {
     });
   }
 
-  // Σ_p m_p v_p has changed by Σ_i m_i (v_i − v_i at the start) in flip and xpic, and is Σ_i m_i v_i in pic and apic.
+  // Σ_p m_p v_p has changed by the impulse in flip and xpic; in pic and apic it is Σ_i m_i v_i of the start and that.
   void check_momentum(const typename ConservationCheck<dim>::Momentum& before, const Points& points,
-                      const std::vector<double>& mass, const std::vector<double>& v,
-                      const std::vector<double>& v_start) {
+                      const std::vector<double>& mass, const std::vector<double>& v_start,
+                      const std::vector<double>& impulse) {
     const double share = spec_.transfer == Transfer::flip ? spec_.flip_share : spec_.transfer == Transfer::xpic ? 1 : 0;
-    std::vector<double> expected(v.size());
-    for_each_index(v.size(), [&](std::size_t i) { expected[i] = mass[i / dim] * (v[i] - share * v_start[i]); });
+    std::vector<double> expected(v_start.size());
+    for_each_index(expected.size(),
+                   [&](std::size_t i) { expected[i] = impulse[i] + (1 - share) * mass[i / dim] * v_start[i]; });
     auto change = ConservationCheck<dim>::of_points(points);
     for (int i = 0; i < dim; ++i) change.sum[i] -= share * before.sum[i];
     change.scale = std::max(change.scale, before.scale);
@@ -135,13 +136,7 @@ class VelocityTransfer {
       const auto cell = grid.cell_at(cell_number);
       for (int d = 0; d < dim; ++d) {
         const Axis& axis = grid.axes[d];
-        for (int a = 0; a < per_cell; ++a) {
-          const int i = B::first(cell[d]) + Basis::axis_index(a, d);
-          double sum = 0;
-          for (int q = i - B::degree + 1; q <= i; ++q)
-            sum += axis.nodes[static_cast<std::size_t>(std::clamp(q, 0, axis.cells()))];
-          of_cell[d][a] = sum / B::degree;
-        }
+        for (int a = 0; a < per_cell; ++a) of_cell[d][a] = B::centre(axis, B::first(cell[d]) + Basis::axis_index(a, d));
       }
     }
     return of_cell;

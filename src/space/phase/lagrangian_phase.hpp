@@ -10,6 +10,7 @@
 #include <stillpoint/semi_discrete.hpp>
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -55,11 +56,15 @@ struct PointData {
 /// history as of the last commit.
 enum class PointQuantity { displacement, velocity, strain, stress };
 
-/// How well masses and momenta went from the points to the grid and back, the worst so far.
+/// How well masses and momenta are kept, the worst so far.
 struct TransferErrors {
-  double mass = 0;        // |Σ_i m_i − Σ_p m_p(0)|/Σ_p m_p(0)
-  double momentum = 0;    // of both directions, relative to Σ_p m_p |v_p|
-  double added_mass = 0;  // mass that nodes were given so that none shortens the step, as a share of Σ_p m_p
+  double mass = 0;  // |Σ_i m_i − Σ_p m_p(0)|/Σ_p m_p(0)
+  /// Σ_p m_p v_p beside the grid's, and its change over a phase beside the impulse of the forces; in a body that
+  /// nothing acts on, beside that of the start. Relative to Σ_p m_p |v_p|.
+  double momentum = 0;
+  /// Of such a body, about the origin, relative to Σ_p m_p |x_p − x_c| |v_p|; empty if forces act.
+  std::optional<double> angular_momentum;
+  double added_mass = 0;  // inertia that nodes were given so that none shortens the step, as a share of Σ_p m_p
 };
 
 /// When a phase should end, and how the next one begins.

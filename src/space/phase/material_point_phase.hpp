@@ -104,7 +104,8 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   double progress(double t, ConstVec u) override;
   std::vector<double> begin_next(double t, ConstVec u, ConstVec v) override;
   TransferErrors transfer_errors() const override {
-    return {transfer_.conservation().mass(), transfer_.conservation().momentum(), inertia_.largest_added_mass()};
+    const auto& kept = transfer_.conservation();
+    return {kept.mass(), kept.momentum(), kept.angular_momentum(), inertia_.largest_added_mass()};
   }
 
   static bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
@@ -115,6 +116,8 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   double time_scale() const;
 
   void make_mass();
+  std::vector<char> untouched_functions() const;
+  std::vector<RelativeInertia> relative_inertia() const;
   bool projects() const { return !scene_.initial_u.empty() || !scene_.initial_v.empty(); }
   std::vector<double> project(const std::vector<Expression>& field, const std::vector<double>& held) const;
 
@@ -126,9 +129,13 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   }
 
   std::vector<double> nodal_velocity(double t, ConstVec v) const;
+  bool is_free() const;
+  std::vector<double> impulse(const std::vector<double>& grid_v) const;
+  void keep_spin(const std::vector<double>& grid_v);
   void end_phase(double t, ConstVec u, ConstVec v);
   void check_inside(const Grid<Dim>& next_grid, ConstVec grid_u, double t) const;
 
+  bool is_within_phase(ConstVec u, const double* grid_u) const;
   double largest_motion(ConstVec u) const;
   double largest_strain(const double* grid_u) const;
 

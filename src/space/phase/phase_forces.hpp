@@ -50,6 +50,8 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   std::vector<double>& grid_u = trial.arrays->u;
   spread(t, u, grid_u);
   trial.t = t;
+  trial.evaluated = false;
+  if (!is_within_phase(u, grid_u.data())) return false;
   const double* V = body_.points.volume.data();
   if (history_dependent_) {
     const double dt = t - committed_t_;

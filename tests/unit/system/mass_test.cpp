@@ -1,5 +1,6 @@
 #include <stillpoint/mass.hpp>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -50,6 +51,34 @@ TEST_CASE("a lumped mass that is not positive is refused by the number of its de
       GENERATE(0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
   CHECK_THROWS_WITH(Mass::lumped({1, 1, bad}), Contains("degree of freedom 2 of 3"));
   CHECK_THROWS_AS(Mass::lumped({bad}), std::invalid_argument);
+}
+
+TEST_CASE("relative inertia resists what deviates from the extrapolation, and no linear motion") {
+  // Of the node at x = 0 relative to those at 1 and 2, whose extrapolation is 2 v_1 − v_2; of the last against all.
+  const std::vector<double> m = {0.01, 1, 2, 0.5};
+  const std::vector<stillpoint::RelativeInertia> relative = {
+      {.dof = 0, .inertia = 3, .masters = 2, .master = {1, 2}, .weight = {2, -1}}, {.dof = 3, .inertia = 0.25}};
+  const Mass mass = Mass::lumped(m, relative);
+  const Eigen::Vector4d q(1, -2, 1, 0), last(0, 0, 0, 1);
+  const Eigen::Matrix4d expected = Eigen::Matrix4d(Eigen::Vector4d(0.01, 1, 2, 0.5).asDiagonal()) +
+                                   3 * q * q.transpose() + 0.25 * last * last.transpose();
+  CHECK(mass.is_lumped());
+  CHECK_FALSE(mass.is_diagonal());
+  CHECK((Eigen::MatrixXd(mass.matrix()) - expected).norm() < 1e-14);
+  CHECK((Eigen::Map<const Eigen::VectorXd>(mass.diagonal().data(), 4) - expected.diagonal()).norm() < 1e-14);
+  std::vector<double> x = {1, -2, 3, 5}, y(4), linear = {4, 5, 6, 0};
+  const Eigen::Vector4d v = Eigen::Map<const Eigen::Vector4d>(x.data());
+  mass.apply(x, y);
+  CHECK((Eigen::Map<const Eigen::Vector4d>(y.data()) - expected * v).norm() < 1e-13);
+  CHECK(mass.relative_energy(x) == Approx(0.5 * 3 * std::pow(q.dot(v), 2) + 0.5 * 0.25 * 25));
+  mass.solve(y, y);
+  CHECK((Eigen::Map<const Eigen::Vector4d>(y.data()) - v).norm() < 1e-12);
+  CHECK(mass.relative_energy(linear) == 0);
+  mass.apply(linear, y);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(y[i] == Approx(m[i] * linear[i]).margin(1e-13));  // of 3 · 5
+  // A node that has no mass of its own.
+  CHECK_NOTHROW(Mass::lumped({0, 1, 1, 1}, relative));
+  CHECK_THROWS_AS(Mass::lumped({0, 0, 1, 0}, {relative.front()}), std::invalid_argument);
 }
 
 TEST_CASE("a consistent mass solves what it multiplies, in place as well") {

@@ -71,7 +71,9 @@ class FreeBlock {
   }
   void to_points(VelocityTransfer<B, Kinematics::plane>& by, const std::vector<double>& u, const std::vector<double>& v,
                  const std::vector<double>& v_start) {
-    by.to_points(grid_, points, weights_, corner_sum_, mass, u.data(), v, v_start);
+    std::vector<double> impulse(v.size());
+    for (std::size_t i = 0; i < v.size(); ++i) impulse[i] = mass[i / 2] * (v[i] - v_start[i]);
+    by.to_points(grid_, points, weights_, corner_sum_, mass, u.data(), v, v_start, impulse);
   }
   /// The points move on by u, and the next phase begins.
   void move(const std::vector<double>& u) {

@@ -13,6 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include "free_block.hpp"
+#include "largest.hpp"
 #include "scenes.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/phase/lagrangian_phase.hpp"
@@ -105,12 +106,11 @@ TEST_CASE("linear momentum goes over from each phase to the next, whatever the b
         CHECK(changes >= 6);
         const TransferErrors errors = simulation.phase().control().transfer_errors();
         CHECK(errors.mass < 1e-14);
-        CHECK(errors.momentum < 1e-13);
-        // Within a phase forces move nodes that were given inertia less than their mass says, so that a free body's
-        // momentum is not quite kept: it is off by up to 0.3 % of 0.8 m/s here.
+        CHECK(errors.momentum < 1e-12);
         CHECK(errors.added_mass < 0.15);
-        CHECK(std::abs(before[0] - 0.8 * scale) < 0.005 * 0.8 * scale);
-        CHECK(std::abs(before[1] - 0.025 * scale) < 0.005 * 0.8 * scale);
+        // The sum over the grid's momentum of the start: Σ m_p v_p of the field, whose mean is at the block's middle.
+        CHECK(std::abs(before[0] - 0.8 * scale) < 1e-12 * scale);
+        CHECK(std::abs(before[1] - 0.025 * scale) < 1e-12 * scale);
       }
     }
   }
@@ -155,23 +155,106 @@ TEST_CASE("phases move an elastic block as classical MPM does, ever closer with 
   CHECK(settlement(squash(16, {"phase.max_motion=0.05"})) == Approx(linear).epsilon(0.01));
 }
 
-TEST_CASE("a block falls freely as it should in one phase, and in several slower by no more than the inertia added") {
-  const auto fall = [](const std::string& max_motion) {
-    return run(free_block({"grid={min=[0, 0], max=[2, 4], cells=[8, 16]}", "body={min=[0.5, 2.75], max=[1.5, 3.75]}",
-                           "body_force.value=[0, -9.81]", "stop.time=0.6", "phase.max_motion=" + max_motion,
-                           "probe=[{name='middle', at=[1, 3.25], fields=['u.y']}]"}),
+TEST_CASE("a block falls freely as it should, in one phase as in many, and stays as it is") {
+  const auto fall = [](const std::string& max_motion, const std::string& basis) {
+    return run(free_block({"grid={min=[0, 0], max=[2, 4], cells=[8, 16], basis='" + basis + "'}",
+                           "body={min=[0.55, 2.8], max=[1.5, 3.75]}", "body_force.value=[0, -9.81]", "stop.time=0.6",
+                           "phase.max_motion=" + max_motion,
+                           "probe=[{name='middle', at=[1, 3.25], fields=['u.y', 'stress.yy']}]"}),
                {.threads = 1});
   };
   constexpr double way = -9.81 * 0.6 * 0.6 / 2;
-  CHECK(scenes::probe(fall("none"), "middle", "u.y") == Approx(way).epsilon(1e-12));
+  CHECK(scenes::probe(fall("none", "linear"), "middle", "u.y") == Approx(way).epsilon(1e-12));
   for (const char* max_motion : {"0.1", "0"}) {
-    const Summary s = fall(max_motion);
-    CHECK(s.phases >= 10);
-    // Light nodes weigh what their mass says but move as if they had more. Measured 3 % for 10 % of added inertia.
-    const double lag = 1 - scenes::probe(s, "middle", "u.y") / way;
-    CHECK(lag > -1e-12);
-    CHECK(lag < *s.added_mass);
-    CHECK(lag < 0.05);
+    for (const char* basis : {"linear", "quadratic", "cubic"}) {
+      CAPTURE(max_motion, basis);
+      const Summary s = fall(max_motion, basis);
+      CHECK(s.phases >= 10);
+      CHECK(*s.added_mass > 0.001);  // light nodes there are, but they fall like the rest
+      CHECK(*s.momentum_error < 1e-12);
+      CHECK(scenes::probe(s, "middle", "u.y") == Approx(way).epsilon(1e-9));
+      CHECK(std::abs(scenes::probe(s, "middle", "stress.yy")) < 1e-9 * 1e4);
+    }
+  }
+}
+
+TEST_CASE("a free body keeps its momentum through 200 phases, and with apic its angular momentum") {
+  for (const std::string basis : {"linear", "quadratic", "cubic"}) {
+    for (const std::string transfer : {"flip", "pic", "apic", "xpic"}) {
+      CAPTURE(basis, transfer);
+      // Points that cross the cells of a linear basis shake the block, which apic lets grow: a slower turn there.
+      const std::string v =
+          basis == "linear" ? "['1 - 1*y + 0.1*exp(-2*x)', 'x']" : "['1 - 3*y + 0.5*exp(-2*x)', '3*x']";
+      const Summary s =
+          run(free_block({"grid={min=[-1, -1], max=[2, 1], cells=[24, 16], basis='" + basis + "'}",
+                          "body={min=[-0.52, -0.31], max=[0.23, 0.44]}", "phase.transfer=" + transfer,
+                          "material.stuff={law='neo-hookean', E=1e5, nu=0.3, rho=1000}",
+                          "initial.v=['1 - 3*y + 0.5*exp(-2*x)', '3*x']", "stop.time=0.9", "phase.max_motion=0.025"}),
+              {.threads = 1});
+      REQUIRE(s.status == RunStatus::end_time);
+      CHECK(s.phases >= 200);
+      CHECK(*s.added_mass > 0.01);
+      CHECK(*s.momentum_error < 1e-12);
+      REQUIRE(s.angular_momentum_error);
+      if (transfer == "apic") CHECK(*s.angular_momentum_error < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("a square that spins a turn keeps its energy, and never gains any") {
+  const auto turn = [](const std::string& basis, const std::string& transfer) {
+    const Scene scene = free_block(
+        {"constants.w=6.283185307179586", "grid={min=[-1, -1], max=[1, 1], cells=[24, 24], basis='" + basis + "'}",
+         "body={min=[-0.5, -0.5], max=[0.5, 0.5]}", "phase.transfer=" + transfer,
+         "material.stuff={law='neo-hookean', E=1e6, nu=0.3, rho=1000}", "initial.v=['-w*y', 'w*x']", "stop.time=1"});
+    Simulation simulation(scene, {.threads = 1, .records = false});
+    const auto energy = [&] { return simulation.summary().kinetic_energy; };
+    const double start = energy();
+    double most = 0;
+    for (int k = 1; k <= 20; ++k) {
+      simulation.run_until(0.05 * k);
+      most = std::max(most, energy() / start);
+    }
+    REQUIRE(simulation.status() == RunStatus::end_time);
+    return std::pair{energy() / start, most};
+  };
+  for (const std::string basis : {"linear", "quadratic", "cubic"}) {
+    CAPTURE(basis);
+    const auto [flip_kept, flip_most] = turn(basis, "flip");
+    CHECK(flip_kept > 0.89);  // 0.92, 0.92, 0.90 measured: what its projection to the grid loses at the surface
+    CHECK(flip_most < 1.01);
+    const auto [apic_kept, apic_most] = turn(basis, "apic");
+    CHECK(apic_kept > 0.98);
+    CHECK(apic_most < 1.01);
+  }
+}
+
+TEST_CASE("a step that would move the body half as far again as a phase allows is refused and halved") {
+  // 1 m/s with cells of 0.25 m and the step of a soft body: 0.37 of a cell and more in one step.
+  const std::vector<std::string> fast = {"initial.v=['20', '0']", "grid={min=[0, 0], max=[9, 1], cells=[36, 4]}",
+                                         "stop.time=0.3"};
+  for (const char* phase : {"{max_motion=0.1}", "{max_motion='none', max_strain=0.01}"}) {
+    CAPTURE(phase);
+    std::vector<std::string> overrides = fast;
+    overrides.push_back(std::string("phase=") + phase);
+    overrides.emplace_back(phase[1] == 'm' && phase[12] == '0' ? "initial.v=['20', '0']"
+                                                               : "initial.v=['1 + 4*(x - 1)', '0']");
+    const Scene scene = free_block(overrides);
+    const double most = scene.phase.max_motion ? 1.5 * *scene.phase.max_motion : 1.5 * *scene.phase.max_strain;
+    double furthest = 0;
+    Simulation simulation = advanced(scene, 0.29, [&](const Moment& moment, bool after) {
+      if (after) return;
+      if (scene.phase.max_motion) {
+        furthest = std::max(furthest, largest_magnitude(moment.u) / 0.25);
+      } else {
+        std::vector<double> strain(4 * moment.phase.points());
+        moment.phase.point_strain(moment.t, moment.u, strain);
+        furthest = std::max(furthest, largest_magnitude(strain));
+      }
+    });
+    CHECK(simulation.summary().rejected_steps > 0);
+    CHECK(furthest > 0);
+    CHECK(furthest <= most * (1 + 1e-12));
   }
 }
 

@@ -1,0 +1,130 @@
+// A function's coefficient from those of functions further inside the body, exact for linear fields.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+#include "space/grid/basis.hpp"
+
+namespace stillpoint {
+
+/// u_i = Σ_k weight_k u_k with Σ weight_k = 1, so that a translation goes through unchanged, and if there are several
+/// Σ weight_k x_k = x_i, x the centres of the functions: so does a rotation.
+struct Extrapolation {
+  int functions = 0;
+  std::array<int, 4> function{};
+  std::array<double, 4> weight{};
+};
+
+template <AxisBasis B, int Dim>
+requires(B::partition_of_unity) class Extrapolator {
+  using Basis = TensorBasis<B, Dim>;
+
+ public:
+  /// is_inside: which functions may be taken, (functions). Both outlive this.
+  Extrapolator(const Grid<Dim>& grid, const std::vector<char>& is_inside) : grid_(grid), is_inside_(is_inside) {
+    int stride = 1;
+    for (int d = 0; d < Dim; ++d) {
+      stride_[d] = stride;
+      count_[d] = B::count(grid.axes[d]);
+      stride *= count_[d];
+    }
+  }
+
+  /// From the nearest pair along an axis; at a corner of the body from the nearest four that make a rectangle; where
+  /// the body is too thin for either from the nearest one that shares a cell. None if there is none of these.
+  std::optional<Extrapolation> operator()(int function) const {
+    std::optional<Extrapolation> nearest;
+    int distance = 2 * reach + 1;
+    for (int d = 0; d < Dim; ++d) {
+      for (const int sign : {-1, 1}) {
+        for (int far = 2; far <= reach && far < distance; ++far) {
+          const auto found = from_box(function, d, sign * (far - 1), 0, 0);
+          if (!found) continue;
+          nearest = found;
+          distance = far;
+        }
+      }
+    }
+    if (nearest) return nearest;
+    if constexpr (Dim == 2) nearest = from_rectangle(function);
+    return nearest ? nearest : from_neighbour(function);
+  }
+
+ private:
+  static constexpr int reach = B::degree + 1;
+
+  std::optional<Extrapolation> from_rectangle(int function) const {
+    std::optional<Extrapolation> nearest;
+    int distance = 2 * reach;
+    for (const int sign_x : {-1, 1}) {
+      for (const int sign_y : {-1, 1}) {
+        for (int x = 1; x < reach; ++x) {
+          for (int y = 1; y < reach && x + y < distance; ++y) {
+            const auto found = from_box(function, 0, sign_x * x, 1, sign_y * y);
+            if (!found) continue;
+            nearest = found;
+            distance = x + y;
+          }
+        }
+      }
+    }
+    return nearest;
+  }
+
+  std::optional<Extrapolation> from_neighbour(int function) const {
+    constexpr int span = 2 * B::degree + 1;
+    std::optional<Extrapolation> nearest;
+    int distance = Dim * B::degree + 1;
+    for (int k = 0; k < power(span, Dim); ++k) {
+      int other = function, away = 0;
+      bool exists = true;
+      for (int d = 0; d < Dim; ++d) {
+        const int by = k / power(span, d) % span - B::degree, at = Basis::index_along(grid_, function, d) + by;
+        exists = exists && at >= 0 && at < count_[d];
+        other += by * stride_[d];
+        away += std::abs(by);
+      }
+      if (!exists || away >= distance || !is_inside_[static_cast<std::size_t>(other)]) continue;
+      nearest = Extrapolation{.functions = 1, .function = {other}, .weight = {1}};
+      distance = away;
+    }
+    return nearest;
+  }
+
+  // Of the functions `near` and one more away along axis d, and likewise along e if near_e is not 0.
+  std::optional<Extrapolation> from_box(int function, int d, int near_d, int e, int near_e) const {
+    Extrapolation box{.functions = 1, .function = {function}, .weight = {1}};
+    if (!extend(box, function, d, near_d) || (near_e != 0 && !extend(box, function, e, near_e))) return std::nullopt;
+    for (int k = 0; k < box.functions; ++k) {
+      if (!is_inside_[static_cast<std::size_t>(box.function[k])]) return std::nullopt;
+    }
+    return box;
+  }
+  // w_1 = (x − x_2)/(x_1 − x_2), w_2 = 1 − w_1
+  bool extend(Extrapolation& box, int function, int d, int near) const {
+    const int here = Basis::index_along(grid_, function, d), first = here + near, second = first + (near > 0 ? 1 : -1);
+    if (std::min(first, second) < 0 || std::max(first, second) >= count_[d]) return false;
+    const Axis& axis = grid_.axes[d];
+    const double x = B::centre(axis, here), x_1 = B::centre(axis, first), x_2 = B::centre(axis, second);
+    const double w_1 = (x - x_2) / (x_1 - x_2);
+    for (int k = 0; k < box.functions; ++k) {
+      const int other = box.functions + k;
+      box.function[other] = box.function[k] + (second - here) * stride_[d];
+      box.weight[other] = box.weight[k] * (1 - w_1);
+      box.function[k] += near * stride_[d];
+      box.weight[k] *= w_1;
+    }
+    box.functions *= 2;
+    return true;
+  }
+
+  const Grid<Dim>& grid_;
+  const std::vector<char>& is_inside_;
+  std::array<int, Dim> stride_, count_;
+};
+
+}  // namespace stillpoint
