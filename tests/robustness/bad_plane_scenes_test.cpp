@@ -75,10 +75,9 @@ const std::vector<BadScene> kBadGridsAndBodies = {
     {"no such state", "points_per_cell", "state = \"plane-stress\"\npoints_per_cell", "12:12",
      "law 'drucker-prager' has no state 'plane-stress'; it has plane-strain, axisymmetric"},
     {"two states", "[body]\nmax = [8, 3]\nmaterial = \"sand\"\n",
-     "[[body]]\nmax = [8, 3]\nmaterial = \"sand\"\nstate = \"axisymmetric\"\n[[body]]\nmax = [8, 3]\nmaterial = "
-     "\"sand\"\nstate "
-     "= \"plane-strain\"\n",
-     "17:9", "body[1].state: must be the same in all bodies"},
+     "[[body]]\nmax = [4, 3]\nmaterial = \"sand\"\nstate = \"axisymmetric\"\n[[body]]\nmin = [4, 0]\nmax = [8, 3]\n"
+     "material = \"sand\"\nstate = \"plane-strain\"\n",
+     "18:9", "body[1].state: must be the same in all bodies"},
 };
 
 const std::vector<BadScene> kBadLoads = {
@@ -221,7 +220,8 @@ TEST_CASE("what the parts of a plane scene ask of each other is said at each of 
   REQUIRE(polygon.size() == 1);
   CHECK_THAT(polygon[0], Catch::StartsWith("38: traction[0]: needs a scene with one body that is a box") &&
                              Catch::EndsWith("there is a polygon"));
-  const auto two = messages(broken("[body]", "[[body]]\nmaterial = \"sand\"\nmax = [1, 1]\n[[body]]", pressed));
+  const auto two =
+      messages(broken("[body]", "[[body]]\nmaterial = \"sand\"\nmax = [1, 1]\n[[body]]\nmin = [1, 0]", pressed));
   REQUIRE(two.size() == 1);
   CHECK_THAT(two[0], Catch::EndsWith("there are 2 bodies"));
 }
