@@ -223,8 +223,8 @@ Model make_model(const Scene& scene) {
   model.method = find_method(scene.integrator.method, scene.integrator.treatment);
   model.phase = make_phase(scene);
   const bool chooses_mass = model.relaxation && model.relaxation->chooses_mass;
-  if (chooses_mass) choose_mass(scene, model);
-  std::ranges::move(accuracy_notes(scene, *model.phase), std::back_inserter(model.notes));
+  const bool scaled = chooses_mass && choose_mass(scene, model);
+  std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);
