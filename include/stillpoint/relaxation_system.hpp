@@ -57,6 +57,8 @@ class RelaxationSystem {
   double work_scale(const Vector& u);
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
+  /// Reactions of the supports of the last evaluation [N], as in TrialState.
+  ConstVec last_reactions() const { return trial_->reactions; }
   /// ½ vᵀ M v [J]; v: (n).
   double kinetic_energy(const Vector& v);
 

@@ -216,7 +216,7 @@ class Simulation::Impl {
       model_.relaxing.from = motion_->integrator->carried_over();
       motion_.reset();
       begin_phase(std::vector<double>(v0.size(), 0.0), v0);
-      if (recorder_) recorder_->begin_phase(*motion_);
+      if (recorder_) recorder_->begin_phase(t_, *motion_);
       ++phases_;
       tell_phase_change(true);
     } catch (const PointLost& lost) {

@@ -92,6 +92,8 @@ class LagrangianPhase : public SemiDiscrete {
 
   /// Of the last evaluation.
   virtual std::vector<WallReaction> wall_reactions(double t) const = 0;
+  /// Displacements of the supports since the phase began, in the order of TrialState::reactions [m].
+  virtual std::vector<double> support_displacements(double t) const = 0;
   /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
   /// Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;

@@ -72,6 +72,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   std::vector<double> initial_displacement(double t) const override;
   std::vector<double> initial_velocity(double t) override;
   std::vector<WallReaction> wall_reactions(double t) const override;
+  std::vector<double> support_displacements(double t) const override;
   double stiffening(double t, ConstVec u) const override;
   PhaseControl& control() override { return *this; }
   const PhaseControl& control() const override { return *this; }

@@ -108,6 +108,13 @@ std::vector<WallReaction> MaterialPointPhase<B, K>::wall_reactions(double t) con
 }
 
 template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::support_displacements(double t) const {
+  std::vector<double> moved(held_.prescribed().size());
+  for (std::size_t s = 0; s < moved.size(); ++s) moved[s] = held_.displacement(s, t);
+  return moved;
+}
+
+template <AxisBasis B, Kinematics K>
 Discretisation MaterialPointPhase<B, K>::discretisation() const {
   constexpr double real = sizeof(double);
   std::vector<PointArray> arrays = {
