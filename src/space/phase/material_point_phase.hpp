@@ -18,6 +18,7 @@
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
 #include "space/kernels/velocity_transfer.hpp"
+#include "space/phase/free_parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/points/body.hpp"
 
@@ -73,6 +74,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   std::vector<double> initial_velocity(double t) override;
   std::vector<WallReaction> wall_reactions(double t) const override;
   std::vector<double> support_displacements(double t) const override;
+  std::vector<FreePart> free_parts() const override;
   double stiffening(double t, ConstVec u) const override;
   PhaseControl& control() override { return *this; }
   const PhaseControl& control() const override { return *this; }

@@ -115,6 +115,11 @@ std::vector<double> MaterialPointPhase<B, K>::support_displacements(double t) co
 }
 
 template <AxisBasis B, Kinematics K>
+std::vector<FreePart> MaterialPointPhase<B, K>::free_parts() const {
+  return find_free_parts<B, K>(body_.points, weights_, *dofs_, /*as_one=*/updated_lagrangian());
+}
+
+template <AxisBasis B, Kinematics K>
 Discretisation MaterialPointPhase<B, K>::discretisation() const {
   constexpr double real = sizeof(double);
   std::vector<PointArray> arrays = {
