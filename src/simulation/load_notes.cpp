@@ -90,36 +90,48 @@ bool may_be_borne(const Scene& scene, const LagrangianPhase& phase, int axis, do
   });
 }
 
+// Σ F_k over the unknowns of a part; 0 if it is rounding.
+double resultant(const FreePart& part, ConstVec F) {
+  constexpr double rounding = 1e-9;
+  double sum = 0, scale = 0;
+  for (const std::size_t k : part.unknowns) {
+    sum += F[k];
+    scale += std::abs(F[k]);
+  }
+  return std::abs(sum) > rounding * scale ? sum : 0;
+}
+
 void note_free_parts(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
   const bool varies = loads_vary(scene);
   if (!scene.stop.wants_equilibrium() || (varies && !(scene.stop.time > 0))) return;
-  const std::vector<FreePart> parts = phase.free_parts();
-  if (parts.empty()) return;
   std::vector<double> F(phase.size());
   phase.external_force(varies ? scene.stop.time : 0, u, F);
-  for (const FreePart& part : parts) {
-    double force = 0, scale = 0;
-    for (const std::size_t k : part.unknowns) {
-      force += F[k];
-      scale += std::abs(F[k]);
-    }
-    const char axis = (scene.state == StressState::axisymmetric ? "rz" : "xy")[part.axis];
-    const std::string what =
-        part.is_whole ? "the body" : fmt::format("the part of the body around material point {}", part.point + 1);
-    constexpr double rounding = 1e-9;
-    if (std::abs(force) <= rounding * scale) {
-      if (scene.walls.empty())
-        notes.push_back(
-            fmt::format("nothing holds {} along {}: its loads balance, and where it comes to rest is left "
-                        "to the motion",
-                        what, axis));
+  std::vector<std::string> balanced;
+  for (const FreePart& part : phase.free_parts()) {
+    const std::string along = fmt::format(
+        "{} along {}",
+        part.is_whole ? "the body" : fmt::format("the part of the body around material point {}", part.point + 1),
+        (scene.state == StressState::axisymmetric ? "rz" : "xy")[part.axis]);
+    const double force = resultant(part, F);
+    if (force == 0) {
+      balanced.push_back(along);
     } else if (!may_be_borne(scene, phase, part.axis, force)) {
       throw_scene_error(
           scene, "support",
-          fmt::format("nothing holds {} along {}, where its loads add up to {:.4g} N: it falls freely and is never at "
-                      "rest; expected a support, loads that balance, or stop.residual = 0 and stop.time",
-                      what, axis, force));
+          fmt::format("nothing holds {}, where its loads add up to {:.4g} N: it falls freely and is never at rest; "
+                      "expected a support, loads that balance, or stop.residual = 0 and stop.time",
+                      along, force));
     }
+  }
+  if (!scene.walls.empty()) return;  // that may hold it
+  constexpr std::size_t most_told = 4;
+  for (std::size_t k = 0; k < balanced.size(); ++k) {
+    if (k == most_told) {
+      notes.push_back(fmt::format("nor {} other parts of the body", balanced.size() - k));
+      break;
+    }
+    notes.push_back(fmt::format("nothing holds {}: its loads balance, and where it comes to rest is left to the motion",
+                                balanced[k]));
   }
 }
 
