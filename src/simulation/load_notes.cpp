@@ -49,6 +49,13 @@ std::vector<std::pair<std::string, std::vector<Expression>>> loads_of(const Scen
   return loads;
 }
 
+// Whether no support or wall moves or is displaced, and nothing moves or is deformed at the start.
+bool is_still(const Scene& scene) {
+  const auto stays = [](const auto& held) { return held.motion.constant() && held.motion({}, 0) == 0; };
+  return std::ranges::all_of(scene.supports, stays) && std::ranges::all_of(scene.walls, stays) &&
+         scene.initial_u.empty() && scene.initial_v.empty();
+}
+
 void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
   const std::vector<double> positions = phase.positions();
   bool some_act = false;
@@ -61,6 +68,7 @@ void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, No
                                   scene.stop.time > 0 ? ", all the time" : ""));
     some_act = some_act || !zero;
   }
+  if (!some_act && is_still(scene)) notes.emplace_back("no load acts and nothing moves: the body stays as it is");
   if (!some_act || loads_vary(scene)) return;
   std::vector<double> F(phase.size());
   phase.external_force(0, u, F);

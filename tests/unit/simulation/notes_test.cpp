@@ -107,6 +107,14 @@ TEST_CASE("a load that loads nothing is named") {
   CHECK_FALSE(says(notes_of(block_scene({"body_force.value=[0, '-g*(y > 1.8)*(x > 2.8)']"})), "zero"));
 }
 
+TEST_CASE("a body on which nothing acts is said to stay as it is") {
+  const std::string unloaded = "body_force.value=[0, 0]", still = "the body stays as it is";
+  CHECK(says(notes_of(block_scene({unloaded})), still));
+  CHECK_FALSE(says(notes_of(block_scene({unloaded, "support=[{face='bottom', u=0.1}]"})), still));
+  CHECK_FALSE(says(notes_of(block_scene({unloaded, "initial.v=[0, 1]"})), still));
+  CHECK_FALSE(says(notes_of(block_scene()), still));
+}
+
 TEST_CASE("a support on a face that no material reaches is named") {
   CHECK(says(notes_of(block_scene({"support=[{face='bottom'}, {face='right'}]"})), "support[1] holds nothing"));
   CHECK_FALSE(says(notes_of(block_scene()), "holds nothing"));
