@@ -21,6 +21,11 @@ double output_interval(const Scene& scene, const Model& model) {
   return std::max(1.0, std::round(wanted / step)) * step;
 }
 
+// The forces of (t, u), if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
+void evaluate_at(double t, PhaseMotion& motion) {
+  if (!motion.integrator->force_is_current()) motion.system.residual(t, motion.u());
+}
+
 // A folder that cannot be written is bad input: nothing has run yet.
 template <class Open>
 auto open_output(const std::filesystem::path& out, const Open& open) {
@@ -69,12 +74,12 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
 
 void Recorder::end_phase(double t, PhaseMotion& motion) {
   if (!energy_balance_.watches()) return;
-  motion.residual(t);  // evaluates, if the last evaluation was elsewhere
+  evaluate_at(t, motion);
   energy_balance_.advance(t, motion.system, motion.u());
 }
 void Recorder::begin_phase(double t, PhaseMotion& motion) {
   if (!energy_balance_.watches()) return;
-  motion.residual(t);
+  evaluate_at(t, motion);
   energy_balance_.begin_phase(t, motion.system);
 }
 
