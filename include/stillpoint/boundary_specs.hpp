@@ -13,8 +13,8 @@ namespace stillpoint {
 struct SupportSpec {         // [[support]]: u = motion(t) at a position, or on a face of the grid
   std::vector<double> at;    // [m]; empty: on the face
   std::optional<Face> face;  // of the grid
-  bool roller = false;       // on a face: only the normal component is held, otherwise the tangential one too (at 0)
-  int component = 0;         // at a position; on a face its normal
+  bool roller = false;       // on a face: only `component` is held, otherwise the other one too (at 0)
+  int component = 0;         // that moves; on a face its normal, unless another is named
   Expression motion;         // of t [m]; 0: fixed
 };
 

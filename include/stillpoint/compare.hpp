@@ -36,9 +36,10 @@ struct CompareOptions {
 };
 
 enum class ComparedStatus {
-  converged,   // to the goal, and stayed there
+  converged,   // to the goal, and stayed there; of a transient: at stop.time with an error below 1
   stalled,     // its error fell by less than a half over the last half of its evaluations
   unfinished,  // still on the way at the limit
+  inaccurate,  // a transient at stop.time with an error as large as the displacement
   diverged,    // a state that cannot be evaluated, or an integrator that gave up
   refused,     // the scene does not go with it
   interrupted  // not run

@@ -44,6 +44,9 @@ class Damping {
 /// Every damping, in the order of `stillpoint list dampings`.
 const std::vector<StrategyInfo>& dampings();
 
+/// Whether damping.strategy leaves the motion alone.
+bool is_undamped(std::string_view strategy);
+
 /// Makes a damping by its name; c for viscous and identity, alpha for one-sided, cundall and combined.
 /// Throws std::invalid_argument on an unknown name or a parameter out of range (c < 0, α outside [0, 1)).
 std::unique_ptr<Damping> make_damping(std::string_view name, double c, double alpha);

@@ -55,8 +55,12 @@ class RelaxationSystem {
   double distance(const Vector& u, double omega_1);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);
+  /// Q·v with the Q of the last residual() [W], before kinetic_energy() takes its place; v: (n).
+  double power(const Vector& v) const;
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
+  /// Reactions of the supports of the last evaluation [N], as in TrialState.
+  ConstVec last_reactions() const { return trial_->reactions; }
   /// ½ vᵀ M v [J], without what was added to light nodes; v: (n).
   double kinetic_energy(const Vector& v);
 

@@ -64,7 +64,11 @@ struct Summary {
   // and the inertia that light nodes were given so that none shortens the step, as a share of Σ_p m_p.
   std::optional<double> mass_error, momentum_error, angular_momentum_error, added_mass;
   std::optional<double> external_work;  // [J]
-  std::optional<double> slope_angle;    // at the end, if a probe asks for it [degrees]
+  /// Share of the plastic strain that came about while the out-of-balance force was against the motion, where
+  /// equilibrium is asked for.
+  std::optional<double> plastic_overshoot;
+  std::optional<double> single_phase_strain;  // largest component of ∂u/∂x, if a body that yields has one phase
+  std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;
   std::optional<ExactError> error;
   std::map<std::string, std::vector<double>> probe_positions;  // of each probe's material point at the start [m]

@@ -1,6 +1,8 @@
 #include "base/polygon.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace stillpoint {
 namespace {
@@ -49,6 +51,37 @@ Polygon clipped(const Polygon& polygon, std::size_t axis, double border, double 
   return kept;
 }
 
+/// An edge as a function y(x), from left to right; sign: 1 if the polygon lies below it, −1 above.
+struct EdgeOverX {
+  double x0, y0, x1, y1, sign;
+  double at(double x) const { return y0 + (x - x0) / (x1 - x0) * (y1 - y0); }
+};
+
+std::vector<EdgeOverX> edges_over_x(const Polygon& polygon, const PlanePoint& origin) {
+  const double turn_sign = signed_area(polygon) > 0 ? 1 : -1;
+  std::vector<EdgeOverX> edges;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    if (a[0] == b[0]) continue;
+    const bool rightwards = a[0] < b[0];
+    const PlanePoint &left = rightwards ? a : b, &right = rightwards ? b : a;
+    edges.push_back({left[0] - origin[0], left[1] - origin[1], right[0] - origin[0], right[1] - origin[1],
+                     rightwards ? -turn_sign : turn_sign});
+  }
+  return edges;
+}
+
+/// ∫ min(y_a, y_b) dx over the x that both edges have.
+double area_below_both(const EdgeOverX& a, const EdgeOverX& b) {
+  const double left = std::max(a.x0, b.x0), right = std::min(a.x1, b.x1);
+  if (!(right > left)) return 0;
+  const double a0 = a.at(left), a1 = a.at(right), b0 = b.at(left), b1 = b.at(right);
+  const double width = right - left, d0 = a0 - b0, d1 = a1 - b1;
+  if (!(d0 * d1 < 0)) return width * (d0 + d1 < 0 ? a0 + a1 : b0 + b1) / 2;
+  const double share = d0 / (d0 - d1), crossing = a0 + share * (a1 - a0);
+  return width * (share * (std::min(a0, b0) + crossing) + (1 - share) * (crossing + std::min(a1, b1))) / 2;
+}
+
 }  // namespace
 
 double signed_area(const Polygon& polygon) {
@@ -85,6 +118,30 @@ Polygon clipped_to_unit_square(const Polygon& polygon) {
   Polygon part = polygon;
   for (std::size_t axis = 0; axis < 2; ++axis) part = clipped(clipped(part, axis, 0, 1), axis, 1, -1);
   return part;
+}
+
+// A polygon is the sum of what lies below its edges, of the upper ones positive, of the lower ones negative: so is its
+// characteristic function, and the product of two of them is a sum over pairs of edges.
+double overlap_area(const Polygon& a, const Polygon& b) {
+  const PlanePoint& origin = a.front();
+  const std::vector<EdgeOverX> of_b = edges_over_x(b, origin);
+  double area = 0;
+  for (const EdgeOverX& one : edges_over_x(a, origin)) {
+    for (const EdgeOverX& other : of_b) area += one.sign * other.sign * area_below_both(one, other);
+  }
+  return area;
+}
+
+double distance_to_border(const Polygon& polygon, const PlanePoint& x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    const double along = ((x[0] - a[0]) * dx + (x[1] - a[1]) * dy) / (dx * dx + dy * dy);
+    const double share = std::clamp(along, 0.0, 1.0);
+    nearest = std::min(nearest, std::hypot(x[0] - a[0] - share * dx, x[1] - a[1] - share * dy));
+  }
+  return nearest;
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon& polygon) {

@@ -24,6 +24,12 @@ bool contains(const Polygon& polygon, const PlanePoint& x);
 /// are run through both ways join them: area and centroid are right all the same.
 Polygon clipped_to_unit_square(const Polygon& polygon);
 
+/// Of the part that two simple polygons have in common.
+double overlap_area(const Polygon& a, const Polygon& b);
+
+/// From x to the nearest place on the border.
+double distance_to_border(const Polygon& polygon, const PlanePoint& x);
+
 /// Two edges (k: from corner k to the next) that cross, touch or lie on each other, though no corner joins them or they
 /// fold back at it; empty if the polygon is simple. Corners that repeat their neighbour count as such edges.
 std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon& polygon);

@@ -1,6 +1,7 @@
 // stillpoint check: what would be modelled; nothing runs and nothing is written.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -28,8 +29,9 @@ int check(const SceneArguments& arguments) {
     fmt::print("  body             of {}: {}, {} volumes\n", body.material, scene.materials.at(body.material).law,
                body.volumes == VolumeRule::equal ? "equal" : "consistent");
   }
-  fmt::print("  points           {}, mass {:.6g} kg; they integrate polynomials up to degree {}\n", phase.points(),
-             phase.info().total_mass, phase.discretisation().quadrature.degree);
+  const std::optional<int> degree = phase.discretisation().quadrature.degree;
+  fmt::print("  points           {}, mass {:.6g} kg{}\n", phase.points(), phase.info().total_mass,
+             degree ? fmt::format("; they integrate polynomials up to degree {}", *degree) : "");
   fmt::print("  phases           {}\n",
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),

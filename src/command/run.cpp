@@ -49,8 +49,10 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
                                  *s.mass_error, *s.momentum_error, turn, 100 * *s.added_mass));
   }
   if (s.external_work) {
-    row("external work", fmt::format("{:.6g} J; kinetic energy is {:.1e} of it", *s.external_work,
-                                     s.kinetic_energy / std::abs(*s.external_work)));
+    const double work = *s.external_work;
+    row("external work",
+        fmt::format("{:.6g} J", work) +
+            (work != 0 ? fmt::format("; kinetic energy is {:.1e} of it", s.kinetic_energy / std::abs(work)) : ""));
   }
   for (const auto& [name, fields] : s.probes) {
     std::string values;

@@ -11,6 +11,8 @@
 #include <Eigen/SparseCore>
 #include <suitesparse/cholmod.h>
 
+#include "linalg/one_blas_thread.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -66,6 +68,7 @@ struct SparseCholesky::Impl {
   }
 
   void factorise(const SparseMatrix& A) {
+    const OneBlasThread same_bits;
     n = static_cast<std::size_t>(A.rows());
     cholmod_sparse view = lower_triangle_of(A);
     L = cholmod_analyze(&view, &common);
@@ -78,6 +81,7 @@ struct SparseCholesky::Impl {
   }
 
   void solve(ConstVec b, Vec x) {
+    const OneBlasThread same_bits;
     cholmod_dense B = column(b);
     if (Y && !L->is_super) {  // a simplicial solve asks for Y (4 × n), but leaves the header at (1 × n): allocated anew
                               // if left

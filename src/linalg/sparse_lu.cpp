@@ -13,6 +13,8 @@
 #include <Eigen/SparseCore>
 #include <suitesparse/umfpack.h>
 
+#include "linalg/one_blas_thread.hpp"
+
 namespace stillpoint {
 
 struct SparseLu::Impl {
@@ -26,6 +28,7 @@ struct SparseLu::Impl {
   ~Impl() { umfpack_di_free_numeric(&numeric); }
 
   void factorise() {
+    const OneBlasThread same_bits;
     regular = n == 0;
     if (A.nonZeros() == 0) return;  // an argument that is missing, to UMFPACK
     const int rows = static_cast<int>(n), *begin = A.outerIndexPtr(), *row = A.innerIndexPtr();
@@ -42,6 +45,7 @@ struct SparseLu::Impl {
   }
 
   void solve(ConstVec b, Vec x) {
+    const OneBlasThread same_bits;
     check(umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), solution.data(), b.data(),
                             numeric, control.data(), nullptr, integers.data(), reals.data()),
           "wsolve");

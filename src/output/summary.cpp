@@ -67,6 +67,8 @@ std::string to_json(const Summary& s) {
                      {"distance", number(s.distance)},
                      {"kinetic_energy", number(s.kinetic_energy)},
                      {"external_work", number(s.external_work)},
+                     {"plastic_overshoot", number(s.plastic_overshoot)},
+                     {"single_phase_strain", number(s.single_phase_strain)},
                      {"mass_error", number(s.mass_error)},
                      {"momentum_error", number(s.momentum_error)},
                      {"angular_momentum_error", number(s.angular_momentum_error)},

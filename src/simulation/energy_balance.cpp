@@ -1,8 +1,20 @@
 #include "simulation/energy_balance.hpp"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace stillpoint {
+namespace {
+
+// ½ (f₀ + f₁) · (u₁ − u₀)
+double work_between(ConstVec f0, ConstVec f1, ConstVec u0, ConstVec u1) {
+  double work = 0;
+  for (std::size_t i = 0; i < u1.size(); ++i) work += 0.5 * (f0[i] + f1[i]) * (u1[i] - u0[i]);
+  return work;
+}
+
+}  // namespace
 
 std::vector<std::string> EnergyBalance::columns() const {
   if (!watches_) return {};
@@ -11,28 +23,38 @@ std::vector<std::string> EnergyBalance::columns() const {
 
 std::vector<double> EnergyBalance::values(double kinetic_energy) const {
   if (!watches_) return {};
-  return {work_, kinetic_energy > 0 ? kinetic_energy / std::abs(work_) : 0};
+  const double none = kinetic_energy > 0 ? std::numeric_limits<double>::quiet_NaN() : 0;
+  return {work_, work_ != 0 ? kinetic_energy / std::abs(work_) : none};
 }
 
-void EnergyBalance::advance(double t, ConstVec F, ConstVec u) {
+void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u) {
   if (!watches_) return;
-  if (u_.empty()) {  // the start of the run
-    u_.assign(u.begin(), u.end());
-    F_.assign(F.begin(), F.end());
+  Forces now = forces(t, system, u);
+  if (last_.u.empty()) {  // the start of the run: nothing has moved yet but supports, from where nothing is deformed
+    last_ = now;
+    last_.reactions.assign(now.reactions.size(), 0);
+    last_.support.assign(now.support.size(), 0);
   }
-  for (std::size_t i = 0; i < u_.size(); ++i) work_ += 0.5 * (F_[i] + F[i]) * (u[i] - u_[i]);
+  work_ += work_between(last_.F, now.F, last_.u, now.u);
+  work_ += work_between(last_.reactions, now.reactions, last_.support, now.support);
   const double power = wall_power(t);
   work_ += 0.5 * (power_ + power) * (t - t_);
-  u_.assign(u.begin(), u.end());
-  F_.assign(F.begin(), F.end());
+  last_ = std::move(now);
   power_ = power;
   t_ = t;
 }
 
-void EnergyBalance::begin_phase(ConstVec F) {
+void EnergyBalance::begin_phase(double t, const RelaxationSystem& system) {
   if (!watches_) return;
-  u_.assign(F.size(), 0);
-  F_.assign(F.begin(), F.end());
+  last_ = forces(t, system, std::vector<double>(system.size(), 0.0));
+}
+
+EnergyBalance::Forces EnergyBalance::forces(double t, const RelaxationSystem& system, ConstVec u) const {
+  const ConstVec F = system.last_external_force(), reactions = system.last_reactions();
+  return {{F.begin(), F.end()},
+          {u.begin(), u.end()},
+          {reactions.begin(), reactions.end()},
+          phase_.support_displacements(t)};
 }
 
 double EnergyBalance::wall_power(double t) const {

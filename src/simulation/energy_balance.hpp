@@ -1,6 +1,8 @@
 // Whether a quasi-static answer depends on speed: the kinetic energy beside the work that was done on the body.
 #pragma once
 
+#include <stillpoint/relaxation_system.hpp>
+
 #include <string>
 #include <vector>
 
@@ -8,30 +10,38 @@
 
 namespace stillpoint {
 
-/// W = ∫ F · du + work of the moving walls, by the trapezoidal rule from row to row and phase to phase. In one
-/// dimension nothing is watched.
+/// W = ∫ F · du + ∫ R_s · du_s + work of the moving walls, by the trapezoidal rule from row to row and phase to phase,
+/// R_s the reactions of the supports s. What is done on the free unknowns and stored as strain: without damping, and if
+/// the mass is lumped, W = kinetic energy + strain energy. A support that is displaced from the start did half of
+/// R_s · u_s to get there. In one dimension nothing is watched.
 class EnergyBalance {
  public:
   explicit EnergyBalance(const LagrangianPhase& phase) : phase_(phase), watches_(phase.dim() > 1) {}
 
   bool watches() const { return watches_; }
   std::vector<std::string> columns() const;  // "inertia.<figure>"
-  /// In the order of columns(), for the kinetic energy of now [J].
+  /// In the order of columns(), for the kinetic energy of now [J]; NaN for its ratio to no work.
   std::vector<double> values(double kinetic_energy) const;
   double external_work() const { return work_; }  // [J]
 
-  /// To (t, u) with the external forces F there; u, F: (n).
-  void advance(double t, ConstVec F, ConstVec u);
-  /// A phase has begun, with u = 0; F: (n).
-  void begin_phase(ConstVec F);
+  /// To (t, u), where the system was evaluated last; u: (n).
+  void advance(double t, const RelaxationSystem& system, ConstVec u);
+  /// A phase has begun at t, with u = 0, and was evaluated.
+  void begin_phase(double t, const RelaxationSystem& system);
 
  private:
   double wall_power(double t) const;
 
+  struct Forces {                            // and the displacements of where they act, since the phase began
+    std::vector<double> F, u;                // of the free unknowns
+    std::vector<double> reactions, support;  // of the supports
+  };
+  Forces forces(double t, const RelaxationSystem& system, ConstVec u) const;
+
   const LagrangianPhase& phase_;
   bool watches_;
   double work_ = 0, t_ = 0, power_ = 0;
-  std::vector<double> u_, F_;
+  Forces last_;
 };
 
 }  // namespace stillpoint

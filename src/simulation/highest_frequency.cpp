@@ -48,17 +48,17 @@ double highest_frequency(const Scene& scene, const LagrangianPhase& phase, Const
 // auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
 // body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
 // of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes if the scene leaves the kind open.
-void choose_mass(const Scene& scene, Model& model) {
+bool choose_mass(const Scene& scene, Model& model) {
   const std::vector<double> u = model.phase->initial_displacement(0);
   model.omega_max = quick_highest_frequency(scene, model, *model.phase, u);
   if (!wants_equilibrium_only(scene)) {
     model.notes.push_back(
         "auto keeps the physical mass and halts no motion, as loads or supports depend on t or the transient is asked "
         "for; its c M v holds back a body that flows: take one-sided or cundall there");
-    return;
+    return false;
   }
   const bool kind_is_fixed = scene.where.contains("mass.kind") && scene.mass.kind == MassKind::consistent;
-  if (scene.where.contains("mass.scaling") || kind_is_fixed || scene.grid.basis == BasisKind::hermite) return;
+  if (scene.where.contains("mass.scaling") || kind_is_fixed || scene.grid.basis == BasisKind::hermite) return false;
   Scene scaled = scene;
   scaled.mass.kind = MassKind::lumped;
   scaled.mass.scaling = MassScaling::gershgorin;
@@ -66,11 +66,12 @@ void choose_mass(const Scene& scene, Model& model) {
   const double omega_max = quick_highest_frequency(scene, model, *phase, phase->initial_displacement(0));
   const double gain = model.omega_max * model.omega_max / (omega_max * omega_max);
   constexpr double worthwhile = 1.05;
-  if (gain < worthwhile) return;
+  if (gain < worthwhile) return false;
   model.phase = std::move(phase);
   model.omega_max = omega_max;
   model.notes.push_back(fmt::format(
       "auto scales the mass by Gershgorin's bound: the condition number becomes about {:.3g} times smaller", gain));
+  return true;
 }
 
 }  // namespace stillpoint

@@ -14,8 +14,6 @@
 namespace stillpoint {
 namespace {
 
-bool uses_position(const Expression& formula) { return formula.uses('x') || formula.uses('y') || formula.uses('z'); }
-
 /// Of the positions, (points × dim), some at which the formula has a course in time of its own: those that differ in
 /// eight moments, or 32 of them.
 std::vector<ConstVec> where_it_differs(const Expression& formula, ConstVec positions, std::size_t dim, double end) {

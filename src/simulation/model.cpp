@@ -16,6 +16,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/highest_frequency.hpp"
+#include "simulation/load_notes.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/notes.hpp"
 #include "simulation/stiffening_step.hpp"
@@ -223,12 +224,13 @@ Model make_model(const Scene& scene) {
   model.method = find_method(scene.integrator.method, scene.integrator.treatment);
   model.phase = make_phase(scene);
   const bool chooses_mass = model.relaxation && model.relaxation->chooses_mass;
-  if (chooses_mass) choose_mass(scene, model);
-  std::ranges::move(accuracy_notes(scene, *model.phase), std::back_inserter(model.notes));
+  const bool scaled = chooses_mass && choose_mass(scene, model);
+  std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);
   check_initial_state(scene, *model.phase, model.u);
+  std::ranges::move(load_notes(scene, *model.phase, model.u), std::back_inserter(model.notes));
   if (!chooses_mass) model.omega_max = highest_frequency(scene, *model.phase, model.u);
   const Omega1Needs needs = omega_1_needs(scene, model, takes_c);
   if (needs.any()) find_omega_1(scene, needs, model);

@@ -1,5 +1,7 @@
 #include "simulation/notes.hpp"
 
+#include <stillpoint/damping.hpp>
+
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
@@ -22,27 +24,43 @@ int degree_of(BasisKind basis) {
   throw std::logic_error("a basis without a degree");
 }
 
+// A basis of degree p reaches into a share s of a cell with one function N ~ s^p, N' ~ s^(p−1), that is outside but for
+// that. Its frequency, ω² = ∫N'²/∫N², grows as 1/s; with a lumped mass, ω² = ∫N'²/∫N ~ s^(p−2), as 1/√s for p = 1 and
+// not at all for p > 1. A slope of Hermite's has a lumped mass of its own, and again 1/s.
+bool sliver_shortens_the_step(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
+  if (scene.solve.is_static()) return false;
+  if (!phase.mass().is_lumped()) return true;
+  const bool light_nodes_get_inertia =
+      scaled || phase.info().updated_lagrangian || scene.mass.scaling == MassScaling::gershgorin;
+  return !light_nodes_get_inertia && (scene.grid.basis == BasisKind::linear || scene.grid.basis == BasisKind::hermite);
+}
+
 // A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 [Strang and Fix
 // 1973, 4.3].
-std::vector<std::string> quadrature_notes(const Scene& scene, const QuadratureReport& quadrature) {
+std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
   std::vector<std::string> notes;
+  const QuadratureReport quadrature = phase.discretisation().quadrature;
   if (quadrature.cells_limited_by_sign > 0) {
     notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
                                 quadrature.cells_limited_by_sign));
   }
-  if (quadrature.smallest_share < 0.05) {
+  if (quadrature.smallest_share < 0.05 && sliver_shortens_the_step(scene, phase, scaled)) {
     notes.push_back(
         fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
                     "faces on grid lines",
                     quadrature.smallest_share));
   }
   const int needed = 2 * degree_of(scene.grid.basis) - 2;
-  if (quadrature.degree < needed) {
-    const bool equal =
-        std::ranges::any_of(scene.bodies, [](const BodySpec& body) { return body.volumes == VolumeRule::equal; });
-    notes.push_back(fmt::format("the points integrate degree {}, this basis needs {} for its full order: {}",
-                                quadrature.degree, needed,
-                                equal ? "take consistent volumes" : "take more points per cell or Gauss points"));
+  if (quadrature.degree && *quadrature.degree < needed) {
+    notes.push_back(fmt::format(
+        "the points integrate degree {}, this basis needs {} for its full order: {}", *quadrature.degree, needed,
+        quadrature.equal_volumes ? "take consistent volumes" : "take more points per cell or Gauss points"));
+  }
+  if (quadrature.border_cells > 0 && needed > 0) {
+    notes.push_back(
+        fmt::format("in {} cells that a polygon's border cuts the points share the area equally and integrate degree "
+                    "0, where this basis needs {} for its full order: borders along grid lines cut none",
+                    quadrature.border_cells, needed));
   }
   return notes;
 }
@@ -56,10 +74,9 @@ std::vector<std::string> phase_notes(const Scene& scene, const LagrangianPhase& 
   if (!phase.history_dependent()) {
     notes.emplace_back(
         "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % "
-        "too "
-        "far; a quadratic basis is within 0.3 %");
+        "too far; a quadratic basis is within 0.3 %");
   }
-  if (scene.phase.transfer == Transfer::apic && scene.damping.strategy == "none") {
+  if (scene.phase.transfer == Transfer::apic && is_undamped(scene.damping.strategy)) {
     notes.emplace_back(
         "apic on a linear basis can gain energy without end where nothing damps; a quadratic basis gains none");
   }
@@ -84,8 +101,8 @@ std::vector<std::string> support_notes(const Scene& scene) {
 
 }  // namespace
 
-std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase) {
-  std::vector<std::string> notes = quadrature_notes(scene, phase.discretisation().quadrature);
+std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
+  std::vector<std::string> notes = quadrature_notes(scene, phase, scaled);
   std::ranges::move(support_notes(scene), std::back_inserter(notes));
   std::ranges::move(phase_notes(scene, phase), std::back_inserter(notes));
   return notes;

@@ -10,7 +10,8 @@
 
 namespace stillpoint {
 
-/// A sentence each: on what the points integrate, on supports outside the body, on phases.
-std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase);
+/// A sentence each: on what the points integrate, on supports outside the body, on phases. scaled: whether the mass has
+/// been scaled by Gershgorin's bound though the scene does not say so.
+std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled);
 
 }  // namespace stillpoint

@@ -21,6 +21,11 @@ double output_interval(const Scene& scene, const Model& model) {
   return std::max(1.0, std::round(wanted / step)) * step;
 }
 
+// The forces of (t, u), if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
+void evaluate_at(double t, PhaseMotion& motion) {
+  if (!motion.integrator->force_is_current()) motion.system.residual(t, motion.u());
+}
+
 // A folder that cannot be written is bad input: nothing has run yet.
 template <class Open>
 auto open_output(const std::filesystem::path& out, const Open& open) {
@@ -59,7 +64,7 @@ double Recorder::next_time() const { return std::min(next_row_time(), snapshots_
 
 void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   const double t = row.figures.t;
-  energy_balance_.advance(t, motion.system.last_external_force(), motion.u());
+  energy_balance_.advance(t, motion.system, motion.u());
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   std::ranges::copy(energy_balance_.values(row.figures.kinetic_energy), std::back_inserter(values));
   if (has_distance_) values.push_back(row.distance.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -68,9 +73,15 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
 }
 
 void Recorder::end_phase(double t, PhaseMotion& motion) {
-  energy_balance_.advance(t, motion.system.last_external_force(), motion.u());
+  if (!energy_balance_.watches()) return;
+  evaluate_at(t, motion);
+  energy_balance_.advance(t, motion.system, motion.u());
 }
-void Recorder::begin_phase(PhaseMotion& motion) { energy_balance_.begin_phase(motion.system.last_external_force()); }
+void Recorder::begin_phase(double t, PhaseMotion& motion) {
+  if (!energy_balance_.watches()) return;
+  evaluate_at(t, motion);
+  energy_balance_.begin_phase(t, motion.system);
+}
 
 void Recorder::finish(double t, const PhaseMotion* motion) {
   if (motion) snapshots_.take_last(t, motion->u(), motion->v());

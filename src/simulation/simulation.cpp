@@ -16,8 +16,10 @@
 #include "simulation/load_schedule.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
+#include "simulation/overshoot.hpp"
 #include "simulation/phase_motion.hpp"
 #include "simulation/recorder.hpp"
+#include "simulation/single_phase.hpp"
 #include "simulation/thread_scope.hpp"
 
 namespace stillpoint {
@@ -70,6 +72,7 @@ class Simulation::Impl {
         monitor_(monitor_options(scene_, model_)),
         error_bound_(*model_.phase, model_.omega_1),
         schedule_(scene_, *model_.phase, scene_.stop.time),
+        overshoot_(scene_, model_),
         t_(model_.t) {
     if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance());
     begin_phase(model_.u, model_.v);
@@ -80,6 +83,7 @@ class Simulation::Impl {
     const Stopwatch watch;
     if (!std::exchange(started_, true)) {
       motion_->accept(t_);
+      watch_overshoot();
       sample(true);
     }
     take_step(t_stop);
@@ -138,11 +142,15 @@ class Simulation::Impl {
       s.damping = scene_.damping.strategy;
     }
     s.notes = model_.notes;
+    s.plastic_overshoot = overshoot_.share();
+    if (const std::string note = overshoot_.note(); !note.empty()) s.notes.push_back(note);
     if (!is_readable_) return s;
     s.residual = residual();
     if (scene_.stop.wants_equilibrium()) refresh_distance();
     s.distance = distance_;
     s.kinetic_energy = kinetic_energy_;
+    s.single_phase_strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
+    if (const std::string note = note_on_single_phase(s.single_phase_strain); !note.empty()) s.notes.push_back(note);
     s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
     if (model_.phase->info().updated_lagrangian) {
       const auto transfer = model_.phase->control().transfer_errors();
@@ -166,6 +174,7 @@ class Simulation::Impl {
   Monitor monitor_;
   ErrorBound error_bound_;
   LoadSchedule schedule_;
+  Overshoot overshoot_;
   std::optional<Recorder> recorder_;
 
   std::optional<PhaseMotion> motion_;  // of the present phase
@@ -191,6 +200,7 @@ class Simulation::Impl {
     step_ = report.h;
     measured_ = false;
     motion_->accept(t_);
+    watch_overshoot();
     if (options_.stops) watch();
     sample(done());
     report_progress();
@@ -217,7 +227,7 @@ class Simulation::Impl {
       model_.relaxing.from = motion_->integrator->carried_over();
       motion_.reset();
       begin_phase(std::vector<double>(v0.size(), 0.0), v0);
-      if (recorder_) recorder_->begin_phase(*motion_);
+      if (recorder_) recorder_->begin_phase(t_, *motion_);
       ++phases_;
       tell_phase_change(true);
     } catch (const PointLost& lost) {
@@ -244,6 +254,7 @@ class Simulation::Impl {
     residual_ = motion_->residual(t_);
     distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
     work_scale_ = motion_->system.work_scale(motion_->u_vector);
+    power_ = motion_->system.power(motion_->v_vector);
     kinetic_energy_ = motion_->system.kinetic_energy(motion_->v_vector);
   }
 
@@ -262,6 +273,12 @@ class Simulation::Impl {
     if (const auto c = motion_->integrator->damping_rate(); c && *c > 0) {
       monitor_.set_dwell(scene_.stop.dwell * 4 * std::numbers::pi / *c);
     }
+  }
+
+  void watch_overshoot() {
+    if (!options_.stops || !overshoot_.due(t_)) return;
+    measure();
+    overshoot_.sample(t_, power_);
   }
 
   void watch() {
@@ -302,8 +319,8 @@ class Simulation::Impl {
   long earlier_steps_ = 0, earlier_evaluations_ = 0, earlier_rejected_ = 0;  // of the phases before
   bool started_ = false;
   bool is_readable_ = true;  // false if the points are between two phases, because the second could not begin
-  bool measured_ = false;    // whether the next three are of now
-  double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0;
+  bool measured_ = false;    // whether the next five are of now
+  double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0, power_ = 0;
   std::optional<double> distance_;
   double stepping_s_ = 0, next_progress_ = 0;
   std::vector<double> field_;

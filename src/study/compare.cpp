@@ -34,6 +34,8 @@ std::string to_string(ComparedStatus status) {
       return "stalled";
     case ComparedStatus::unfinished:
       return "unfinished";
+    case ComparedStatus::inaccurate:
+      return "inaccurate";
     case ComparedStatus::diverged:
       return "diverged";
     case ComparedStatus::refused:

@@ -33,7 +33,7 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
     difference += (a[i] - b[i]) * (a[i] - b[i]);
     size += b[i] * b[i];
   }
-  return std::sqrt(difference / size);
+  return difference == 0 ? 0 : std::sqrt(difference / size);
 }
 
 }  // namespace
@@ -75,6 +75,9 @@ void run_transient(const Scene& scene, const TransientReference& reference, cons
   }
   run.error = relative_difference(ended.displacement, reference.displacement);
   run.samples.push_back({run.evaluations, run.error, run.residual, std::nullopt});
+  if (run.error < 1) return;  // false for NaN as well
+  run.status = ComparedStatus::inaccurate;
+  run.reason = fmt::format("error {:.3g} at t = {:.6g}: as large as the displacement", run.error, ended.summary.t);
 }
 
 double time_transient(const Scene& scene, int threads) {

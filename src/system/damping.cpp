@@ -99,7 +99,7 @@ struct Row {
 
 const std::vector<Row>& rows() {
   static const std::vector<Row> all = {
-      {{.name = "none", .equation = "M a = Q", .source = ""},
+      {{.name = "none", .equation = "M a = Q", .source = "", .damps = false},
        [](double, double) -> std::unique_ptr<Damping> { return std::make_unique<None>(); }},
       {{.name = "viscous",
         .equation = "M a = Q - c M v",
@@ -159,6 +159,11 @@ const std::vector<StrategyInfo>& dampings() {
     return infos;
   }();
   return all;
+}
+
+bool is_undamped(std::string_view strategy) {
+  const auto row = std::ranges::find(rows(), strategy, [](const Row& r) { return r.about.name; });
+  return row != rows().end() && !row->about.damps;
 }
 
 std::unique_ptr<Damping> make_damping(std::string_view name, double c, double alpha) {

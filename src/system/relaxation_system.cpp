@@ -116,6 +116,8 @@ double RelaxationSystem::distance(const Vector& u, double omega_1) {
 
 double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
 
+double RelaxationSystem::power(const Vector& v) const { return dot(Q_, v); }
+
 double RelaxationSystem::kinetic_energy(const Vector& v) {
   system_.mass().apply(v.span(), Q_.span());
   return 0.5 * dot(v, Q_) - system_.mass().relative_energy(v.span());

@@ -75,10 +75,9 @@ const std::vector<BadScene> kBadGridsAndBodies = {
     {"no such state", "points_per_cell", "state = \"plane-stress\"\npoints_per_cell", "12:12",
      "law 'drucker-prager' has no state 'plane-stress'; it has plane-strain, axisymmetric"},
     {"two states", "[body]\nmax = [8, 3]\nmaterial = \"sand\"\n",
-     "[[body]]\nmax = [8, 3]\nmaterial = \"sand\"\nstate = \"axisymmetric\"\n[[body]]\nmax = [8, 3]\nmaterial = "
-     "\"sand\"\nstate "
-     "= \"plane-strain\"\n",
-     "17:9", "body[1].state: must be the same in all bodies"},
+     "[[body]]\nmax = [4, 3]\nmaterial = \"sand\"\nstate = \"axisymmetric\"\n[[body]]\nmin = [4, 0]\nmax = [8, 3]\n"
+     "material = \"sand\"\nstate = \"plane-strain\"\n",
+     "18:9", "body[1].state: must be the same in all bodies"},
 };
 
 const std::vector<BadScene> kBadLoads = {
@@ -94,8 +93,13 @@ const std::vector<BadScene> kBadLoads = {
     {"a component too high", "face = \"bottom\"", "at = [0, 0]\ncomponent = 2", "30:13",
      "support[0].component: must be a whole number from 0 to 1, not 2"},
     {"no such component", "face = \"bottom\"", "at = [0, 0]\ncomponent = \"z\"", "30:13",
-     "support[0].component: unknown value 'z'; expected one of x, y"},
-    {"a face's component", "face = \"bottom\"", "face = \"bottom\"\ncomponent = 1", "30:13", "goes with a position"},
+     "support[0].component: r and z are the axes of an axisymmetric scene; expected x or y"},
+    {"a component of none", "face = \"bottom\"", "at = [0, 0]\ncomponent = \"w\"", "30:13",
+     "support[0].component: unknown value 'w'; expected one of x, y"},
+    {"a component of a roller", "kind = \"roller\"", "kind = \"roller\"\ncomponent = 1", "32:8",
+     "goes with a face as a whole; component says what is held"},
+    {"a component twice", "face = \"left\"\nkind = \"roller\"", "face = \"bottom\"\ncomponent = \"y\"", "31:8",
+     "support[0] stands on this face already"},
     {"no such kind", "\"roller\"", "\"rolls\"", "32:8",
      "support[1].kind: unknown value 'rolls'; expected one of fixed, roller"},
     {"a wall of x", "motion = \"0.05*t\"", "motion = \"0.05*x\"", "36:16", "'x' cannot be used here"},
@@ -221,7 +225,8 @@ TEST_CASE("what the parts of a plane scene ask of each other is said at each of 
   REQUIRE(polygon.size() == 1);
   CHECK_THAT(polygon[0], Catch::StartsWith("38: traction[0]: needs a scene with one body that is a box") &&
                              Catch::EndsWith("there is a polygon"));
-  const auto two = messages(broken("[body]", "[[body]]\nmaterial = \"sand\"\nmax = [1, 1]\n[[body]]", pressed));
+  const auto two =
+      messages(broken("[body]", "[[body]]\nmaterial = \"sand\"\nmax = [1, 1]\n[[body]]\nmin = [1, 0]", pressed));
   REQUIRE(two.size() == 1);
   CHECK_THAT(two[0], Catch::EndsWith("there are 2 bodies"));
 }

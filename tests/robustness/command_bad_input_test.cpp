@@ -105,7 +105,7 @@ TEST_CASE("list refuses a topic that it does not know, and a format of what is n
 
 TEST_CASE("the command refuses stop.distance if nothing bounds it, at its place in the file") {
   const std::string scene = broken("residual = 1e-6", "distance = 1e-4");
-  refuses({broken("[[support]]\nat = 0.0\nu = 0.0\n", "", scene), "run SCENE --out OUT"},
+  refuses({broken("[[support]]\nat = 0.0\nu = 0.0\n", "", broken("\"P0\"", "0", scene)), "run SCENE --out OUT"},
           "scene.toml:24:12: a distance is bounded by omega_1");
   refuses({broken("[damping]", "[mass]\nkind = \"lumped\"\n[phase]\nmax_motion = 0.1\n[damping]",
                   broken("linear-elastic", "hencky", scene)),

@@ -225,3 +225,15 @@ TEST_CASE("of an elastic body the overshoot is no more than the error, and of Ne
     CHECK(row(c, label).overshoot.value() == Approx(row(c, label).error).epsilon(1e-3));
   }
 }
+
+TEST_CASE("a transient whose error is as large as its displacement has not converged", "[compare]") {
+  // Past the critical step for a while: it has grown, but is finite at stop.time.
+  const Comparison c = compared("bar", {.strategies = {"viscous"}, .step_fractions = {0.9, 1.03}, .repeats = 0},
+                                {"stop.residual=0", "stop.time=20", "integrator.unstable_reason=to see it grow"});
+  const ComparedRun &stable = row(c, "viscous 0.9"), &grown = row(c, "viscous 1.03");
+  CHECK(stable.status == ComparedStatus::converged);
+  CHECK(stable.error < 1);
+  CHECK(grown.error > 1e2);
+  CHECK(grown.status == ComparedStatus::inaccurate);
+  CHECK_THAT(grown.reason, Contains("as large as the displacement"));
+}

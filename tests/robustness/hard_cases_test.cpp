@@ -43,7 +43,7 @@ TEST_CASE("a free bar under a force in balance finds its shape, though it has no
 }
 
 TEST_CASE("critical damping of a body that is not held is refused at its key") {
-  CHECK_THROWS_WITH(run(scenes::bar({"support=[]", "damping.c=critical"})),
+  CHECK_THROWS_WITH(run(scenes::bar({"support=[]", "force=[]", "damping.c=critical"})),
                     Catch::Contains("damping.c") && Catch::Contains("not held"));
 }
 

@@ -40,6 +40,11 @@ std::vector<std::string> KeyInfo::words_in(int dim) const {
   return names;
 }
 
+Range KeyInfo::numbers_in(Dims in) const {
+  const auto count = std::ranges::count_if(words, [in](const Word& word) { return word.has_number && word.dims & in; });
+  return from(0, static_cast<double>(count) - 1);
+}
+
 std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key) {
   const int dim = value.reading.dim;
   if (key.kind == Kind::whole) {
@@ -47,7 +52,7 @@ std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key) {
     if (const auto number = text ? number_of(text->get(), key, dim) : std::nullopt) return number;
     if (text && names_in(text->get()) == std::vector{text->get()} && !value.reading.constants.contains(text->get()))
       return report_unknown_word(value, key, text->get()), std::nullopt;
-    return read_whole(value, from(0, static_cast<double>(key.words_in(dim).size()) - 1));
+    return read_whole(value, key.numbers_in(dim == 1 ? kLine : kPlane));
   }
   const auto word = read_text(value);
   const auto number = word ? number_of(*word, key, dim) : std::nullopt;

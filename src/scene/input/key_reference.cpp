@@ -30,8 +30,7 @@ std::string told_type(const KeyInfo& key) {
   const bool word_only = key.kind == Kind::text && !key.words.empty();
   if (key.kind == Kind::number) kinds.push_back(told("number", key.range));
   if (key.kind == Kind::whole)
-    kinds.push_back(
-        told("whole number", key.words.empty() ? key.range : from(0, static_cast<double>(key.words.size()) - 1)));
+    kinds.push_back(told("whole number", key.words.empty() ? key.range : key.numbers_in(kAnyDim)));
   if (key.kind == Kind::text && !word_only) kinds.push_back("text");
   if (key.kind == Kind::formula) {
     const std::string x = key.variables.starts_with('x') ? "x, y" : "";

@@ -20,11 +20,12 @@ enum Dims : unsigned { kLine = 1, kPlane = 2, kAnyDim = 3 };
 
 /// A word that a key takes; an option is its word's number in the list.
 struct Word {
-  Word(std::string_view word, Dims in = kAnyDim) : name(word), dims(in) {}
+  Word(std::string_view word, Dims in = kAnyDim, bool by_number = true) : name(word), dims(in), has_number(by_number) {}
   Word(const char* word) : name(word) {}
 
   std::string_view name;
   Dims dims = kAnyDim;
+  bool has_number = true;  // whether its number may be written in its place; the others stand first
 };
 
 /// The names of a catalogue's rows.
@@ -57,6 +58,8 @@ struct KeyInfo {
 
   bool is_in(int dim) const { return (dims & (dim == 1 ? kLine : kPlane)) != 0; }
   std::vector<std::string> words_in(int dim) const;
+  /// The numbers that may be written in the place of words, in scenes of any dimension of these.
+  Range numbers_in(Dims dims) const;
 };
 
 enum class Repeat { once, array, once_or_array, named };

@@ -92,6 +92,8 @@ struct BodyBox {
 bool check_grid(SceneCheck& check);
 /// Bodies and their materials; the box around them if all of them are in order.
 std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid);
+/// That no two bodies, all of them in order, are in the same place.
+void check_overlaps(SceneCheck& check);
 /// The number of material points if the bodies fill whole cells; 0 if that depends on the placement.
 long known_points(SceneCheck& check);
 /// Supports, walls, loads and initial stress.

@@ -59,10 +59,13 @@ void add_boundary(Tables& tables) {
   tables.add({"support", "a prescribed displacement", Repeat::array}, &Scene::supports)
       .key("at", &SupportSpec::at, "position; or face", {.unit = "m"})
       .key("face", &SupportSpec::face, "of the grid; or at", {.words = kFaces})
-      .key("component", &SupportSpec::component, "what is held at a position", {.words = {"x", {"y", kPlane}}})
+      .key("component", &SupportSpec::component, "what is held and moves; r and z if there is an axis of symmetry",
+           {.words = {"x", {"y", kPlane}, {"r", kPlane, false}, {"z", kPlane, false}},
+            .fallback = "0; on a face by kind"})
       .key("kind", &SupportSpec::roller, "on a face: a roller holds the normal component only",
            {.words = {"fixed", "roller"}})
-      .key("u", &SupportSpec::motion, "displacement; on a face along its normal", {.unit = "m", .variables = "t"});
+      .key("u", &SupportSpec::motion, "displacement of the component; on a face by kind along its normal",
+           {.unit = "m", .variables = "t"});
 
   tables.add({"wall", "a rigid wall that pushes and never holds back", Repeat::array}, &Scene::walls)
       .key("name", &WallSpec::name, "for grid.follow and history.csv", {.required = true})

@@ -25,8 +25,21 @@ void complete(SceneCheck& check) {
   scene.state = state != scene.bodies.end() ? *state->state
                 : scene.dim == 1            ? StressState::uniaxial_stress
                                             : StressState::plane_strain;
-  for (SupportSpec& support : scene.supports)
-    if (support.face) support.component = axis_of(*support.face);
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    SupportSpec& support = scene.supports[k];
+    const std::string component = fmt::format("support[{}].component", k);
+    if (support.component >= scene.dim) {  // named r or z
+      if (scene.state != StressState::axisymmetric)
+        check.add(component, "r and z are the axes of an axisymmetric scene; expected x or y");
+      support.component -= scene.dim;
+    }
+    if (!support.face) continue;
+    if (check.written(component)) {
+      support.roller = true;
+    } else {
+      support.component = axis_of(*support.face);
+    }
+  }
 }
 
 void check_mass(SceneCheck& check) {

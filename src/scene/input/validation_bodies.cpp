@@ -204,6 +204,7 @@ std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
   if (grid) check_number_of_points(check, in_order);
 
   if (count == 0 || std::ranges::find(in_order, false) != in_order.end()) return std::nullopt;
+  if (check.problems().empty()) check_overlaps(check);
   BodyBox box{scene.bodies[0].min, scene.bodies[0].max, count == 1 ? "body" : "bodies"};
   for (const BodySpec& body : scene.bodies) {
     for (std::size_t axis = 0; axis < box.min.size(); ++axis) {

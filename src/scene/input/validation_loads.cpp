@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,20 +12,28 @@
 namespace stillpoint {
 namespace {
 
-/// At most one support or wall stands on a face of the grid.
+/// At most one support or wall stands on a face of the grid, or a support for each component that is named.
 void check_faces(SceneCheck& check) {
   const Scene& scene = check.scene();
-  std::map<Face, std::string> owners;
-  const auto take = [&](Face face, const std::string& owner) {
-    const auto [before, free] = owners.emplace(face, owner);
-    if (!free) check.add(owner + ".face", fmt::format("{} stands on this face already", before->second));
+  constexpr int all = -1;  // components
+  std::map<std::pair<Face, int>, std::string> owners;
+  const auto take = [&](Face face, const std::string& owner, int component) {
+    for (int other = all; other < scene.dim; ++other) {
+      const auto before = owners.find({face, other});
+      if (before != owners.end() && (component == all || other == all || component == other))
+        return check.add(owner + ".face", fmt::format("{} stands on this face already", before->second));
+    }
+    owners.emplace(std::pair{face, component}, owner);
   };
-  for (std::size_t k = 0; k < scene.supports.size(); ++k)
-    if (scene.supports[k].face) take(*scene.supports[k].face, fmt::format("support[{}]", k));
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    const SupportSpec& support = scene.supports[k];
+    const std::string name = fmt::format("support[{}]", k);
+    if (support.face) take(*support.face, name, check.written(name + ".component") ? support.component : all);
+  }
   for (std::size_t k = 0; k < scene.walls.size(); ++k)
     if (const std::string wall = fmt::format("wall[{}]", k);
         check.written(wall + ".face") && check.sound(wall + ".face"))
-      take(scene.walls[k].face, wall);
+      take(scene.walls[k].face, wall, all);
 }
 
 void check_supports(SceneCheck& check, bool grid) {
@@ -32,11 +41,12 @@ void check_supports(SceneCheck& check, bool grid) {
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     SupportSpec& support = scene.supports[k];
     const std::string name = fmt::format("support[{}]", k);
-    const bool at = check.written(name + ".at"), face = check.written(name + ".face");
+    const bool whole_face = check.written(name + ".face") && !check.written(name + ".component");
     check.one_of(name, "at", "face", "give either at or face, not both",
                  "give at, a position, or face, a side of the grid");
-    if (!face) check.refuse(name, {"kind"}, "goes with a face; at a position, component says what is held");
-    if (!at) check.refuse(name, {"component"}, "goes with a position; on a face, u is the motion along its normal");
+    if (!whole_face)
+      check.refuse(name, {"kind"},
+                   "goes with a face as a whole; component says what is held otherwise, or at a position");
     if (!grid || support.at.empty()) continue;
     check.inside(support.at, scene.grid.min, scene.grid.max, "grid", name + ".at");
     for (std::size_t before = 0; before < k; ++before)

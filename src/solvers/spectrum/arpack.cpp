@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "linalg/one_blas_thread.hpp"
 #include "linalg/power_iteration.hpp"
 #include "solvers/spectrum/stiffness.hpp"
 
@@ -42,6 +43,7 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
   if (mass.size() == 1) return single_eigenvalue(solve, mass, sigma);
   static std::mutex arpack_state;
   const std::lock_guard lock(arpack_state);
+  const OneBlasThread same_bits;
 
   const std::size_t n = mass.size();  // Lanczos vectors: twenty, if the system and max_iterations have room for them
   const std::size_t vectors = std::min(n, static_cast<std::size_t>(std::clamp(options.max_iterations, 2, 20)));

@@ -64,8 +64,9 @@ class Supports final : public BoundaryCondition<B, K> {
       if (!reached[static_cast<std::size_t>(function)]) continue;
       for (int component = 0; component < dim; ++component) {
         const int unknown = dim * function + component;
-        if ((component != axis && support.roller) || held.is_prescribed(unknown)) continue;
-        const bool moves = component == axis && std::ranges::binary_search(values, function);
+        const bool named = component == support.component;
+        if ((!named && support.roller) || held.is_prescribed(unknown)) continue;
+        const bool moves = named && std::ranges::binary_search(values, function);
         held.prescribe(unknown, moves ? motions_[s] : rest_);
       }
     }

@@ -67,6 +67,15 @@ struct TransferErrors {
   double added_mass = 0;  // inertia that nodes were given so that none shortens the step, as a share of Σ_p m_p
 };
 
+/// A part of the body, which shares no function of the grid with the others, and an axis along which no support holds
+/// it. Bodies that move on from phase to phase may meet, and count as one part.
+struct FreePart {
+  int axis = 0;
+  bool is_whole = false;              // whether it is all of the body
+  std::size_t point = 0;              // the number of one of its material points
+  std::vector<std::size_t> unknowns;  // degrees of freedom that are 1 if it moves by 1, those of the values
+};
+
 /// When a phase should end, and how the next one begins.
 class PhaseControl {
  public:
@@ -97,6 +106,9 @@ class LagrangianPhase : public SemiDiscrete {
 
   /// Of the last evaluation.
   virtual std::vector<WallReaction> wall_reactions(double t) const = 0;
+  /// Displacements of the supports since the phase began, in the order of TrialState::reactions [m].
+  virtual std::vector<double> support_displacements(double t) const = 0;
+  virtual std::vector<FreePart> free_parts() const = 0;
   /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
   /// Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;

@@ -2,6 +2,8 @@
 // phase_forces.hpp, phase_points.hpp and phase_change.hpp.
 #pragma once
 
+#include <stillpoint/damping.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,6 +20,7 @@
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
 #include "space/kernels/velocity_transfer.hpp"
+#include "space/phase/free_parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/points/body.hpp"
 
@@ -72,6 +75,8 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   std::vector<double> initial_displacement(double t) const override;
   std::vector<double> initial_velocity(double t) override;
   std::vector<WallReaction> wall_reactions(double t) const override;
+  std::vector<double> support_displacements(double t) const override;
+  std::vector<FreePart> free_parts() const override;
   double stiffening(double t, ConstVec u) const override;
   PhaseControl& control() override { return *this; }
   const PhaseControl& control() const override { return *this; }

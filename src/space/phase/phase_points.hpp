@@ -108,6 +108,18 @@ std::vector<WallReaction> MaterialPointPhase<B, K>::wall_reactions(double t) con
 }
 
 template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::support_displacements(double t) const {
+  std::vector<double> moved(held_.prescribed().size());
+  for (std::size_t s = 0; s < moved.size(); ++s) moved[s] = held_.displacement(s, t);
+  return moved;
+}
+
+template <AxisBasis B, Kinematics K>
+std::vector<FreePart> MaterialPointPhase<B, K>::free_parts() const {
+  return find_free_parts<B, K>(body_.points, weights_, *dofs_, /*as_one=*/updated_lagrangian());
+}
+
+template <AxisBasis B, Kinematics K>
 Discretisation MaterialPointPhase<B, K>::discretisation() const {
   constexpr double real = sizeof(double);
   std::vector<PointArray> arrays = {

@@ -38,15 +38,12 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
   constexpr int dim = dimensions(K);
   Body<K> body;
   MaterialPoints<dim>& points = body.points;
-  body.quadrature.degree = std::numeric_limits<int>::max();
   std::map<std::string, std::vector<std::pair<MaterialPoints<dim>, int>>> by_material;  // with each first number
   int number = 0;
   for (const BodySpec& spec : scene.bodies) {
     PlacedBody<dim> placed =
         place_body<dim>(spec, grid, scene.materials.at(spec.material).parameters.at("rho"), scene.state);
-    body.quadrature.degree = std::min(body.quadrature.degree, placed.quadrature.degree);
-    body.quadrature.smallest_share = std::min(body.quadrature.smallest_share, placed.quadrature.smallest_share);
-    body.quadrature.cells_limited_by_sign += placed.quadrature.cells_limited_by_sign;
+    body.quadrature.add(placed.quadrature);
     const int count = static_cast<int>(placed.points.size());
     by_material[spec.material].emplace_back(std::move(placed.points), number);
     number += count;

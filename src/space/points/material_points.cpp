@@ -71,9 +71,7 @@ template <int Dim>
 class Filling {
  public:
   Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points)
-      : body_(body), grid_(grid), points_(points), positions_(body) {
-    quadrature_.degree = std::numeric_limits<int>::max();
-  }
+      : body_(body), grid_(grid), points_(points), positions_(body) {}
 
   QuadratureReport run() {
     for (int number = 0; number < grid_.cells(); ++number) {
@@ -116,8 +114,10 @@ class Filling {
     const Eigen::MatrixXd& xi = positions_.next();
     if (fit_.weights.size() == 0 || positions_.vary())
       fit_ = body_.volumes == VolumeRule::consistent ? fit_moments(xi) : equal_weights(xi);
-    note_cell(fit_.degree, smallest_share(part, cell));
-    quadrature_.cells_limited_by_sign += fit_.limited_by_sign ? 1 : 0;
+    quadrature_.add({.degree = fit_.degree,
+                     .equal_volumes = body_.volumes == VolumeRule::equal,
+                     .smallest_share = smallest_share(part, cell),
+                     .cells_limited_by_sign = fit_.limited_by_sign ? 1 : 0});
     points_.begin_cell(number);
     for (Eigen::Index p = 0; p < xi.cols(); ++p) points_.add(part.position(xi, p), fit_.weights(p) * part.size());
   }
@@ -142,7 +142,7 @@ class Filling {
       const Eigen::Vector2d at(2 * std::clamp(c[0], 0.0, 1.0) - 1, 2 * std::clamp(c[1], 0.0, 1.0) - 1);
       inside.push_back(cell.position(at, 0));
     }
-    note_cell(0, extent_of(part));
+    quadrature_.add({.degree = {}, .border_cells = 1, .smallest_share = extent_of(part)});
     points_.begin_cell(number);
     for (const auto& x : inside) points_.add(x, share * cell.size() / static_cast<double>(inside.size()));
   }
@@ -155,11 +155,6 @@ class Filling {
       smallest = std::min(smallest, (*high)[d] - (*low)[d]);
     }
     return smallest;
-  }
-
-  void note_cell(int degree, double share) {
-    quadrature_.degree = std::min(quadrature_.degree, degree);
-    quadrature_.smallest_share = std::min(quadrature_.smallest_share, share);
   }
 
   const BodySpec& body_;
@@ -202,6 +197,16 @@ void take_from_file(const std::filesystem::path& file, const Grid<Dim>& grid, Po
 }
 
 }  // namespace
+
+void QuadratureReport::add(const QuadratureReport& other) {
+  if (other.degree && (!degree || *other.degree < *degree)) {
+    degree = other.degree;
+    equal_volumes = other.equal_volumes;
+  }
+  border_cells += other.border_cells;
+  smallest_share = std::min(smallest_share, other.smallest_share);
+  cells_limited_by_sign += other.cells_limited_by_sign;
+}
 
 template <int Dim>
 PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state) {

@@ -4,6 +4,7 @@
 #include <stillpoint/scene.hpp>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "space/grid/grid.hpp"
@@ -44,11 +45,17 @@ struct MaterialPoints {
   }
 };
 
-/// What the volumes of a body can integrate, the worst over its cells.
+/// What the volumes of bodies can integrate, the worst over their cells.
 struct QuadratureReport {
-  int degree = 0;                 // polynomials up to this power in each coordinate are integrated exactly over areas
+  /// Polynomials up to this power in each coordinate are integrated exactly over areas, where a cell has its whole
+  /// pattern of points; empty: no cell has one, or it is not known, as of points from a file.
+  std::optional<int> degree;
+  bool equal_volumes = false;     // whether the body that has this degree takes equal volumes
+  int border_cells = 0;           // cut by a polygon's border: the volumes share the area, and integrate degree 0
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
+
+  void add(const QuadratureReport& other);
 };
 
 template <int Dim>

@@ -92,3 +92,42 @@ TEST_CASE("edges that cross, touch or fold back are found, and straight corners 
   CHECK(crossing_edges({{0, 0}, {4, 0}, {4, 0}, {2, 3}}) == Edges{0, 1});                  // repeats a corner
   CHECK(crossing_edges({{0, 0}, {2, 1}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}) == Edges{0, 3});  // meets in a corner
 }
+
+TEST_CASE("the area that two polygons have in common is that of one clipped to the other") {
+  Polygon star;
+  for (int k = 0; k < 14; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 14 + 0.1, r = k % 2 == 0 ? 2.9 : 1.1;
+    star.push_back({3.03 + r * std::cos(angle), 2.96 + r * std::sin(angle)});
+  }
+  for (const Polygon& polygon : {kTriangle, kHorseshoe, star, reversed(star)}) {
+    for (const double x : {-0.5, 0.0, 1.0, 1.3, 2.7}) {
+      const double y = 0.7 * x, h = 1.9;
+      const Polygon square = {{x, y}, {x + h, y}, {x + h, y + h}, {x, y + h}};
+      const double clipped = std::abs(signed_area(clipped_to_unit_square(seen_from(polygon, x, y, h)))) * h * h;
+      for (const Polygon& other : {square, reversed(square)}) {
+        CHECK(overlap_area(polygon, other) == Approx(clipped).margin(1e-12));
+        CHECK(overlap_area(other, polygon) == Approx(clipped).margin(1e-12));
+      }
+    }
+    CHECK(overlap_area(polygon, polygon) == Approx(std::abs(signed_area(polygon))));
+    CHECK(overlap_area(polygon, reversed(polygon)) == Approx(std::abs(signed_area(polygon))));
+  }
+}
+
+TEST_CASE("polygons side by side have nothing in common, wherever they lie") {
+  const Polygon gap = {{1, 1}, {3, 1}, {3, 2}, {1, 2}};
+  CHECK(std::abs(overlap_area(kHorseshoe, gap)) < 1e-15);
+  const auto moved = [](Polygon polygon, double by) {
+    for (PlanePoint& corner : polygon) corner = {corner[0] + by, corner[1] - by};
+    return polygon;
+  };
+  CHECK(std::abs(overlap_area(moved(kHorseshoe, 1e6), moved(gap, 1e6))) < 1e-9);
+  CHECK(overlap_area(kTriangle, moved(kTriangle, 5)) == 0);
+}
+
+TEST_CASE("the distance to a border is that to its nearest edge or corner") {
+  CHECK(distance_to_border(kHorseshoe, {0.5, 1.5}) == Approx(0.5));
+  CHECK(distance_to_border(kHorseshoe, {2, 1.5}) == Approx(0.5));
+  CHECK(distance_to_border(kHorseshoe, {4, 0}) == Approx(1));
+  CHECK(distance_to_border(kTriangle, {-3, -4}) == Approx(5));
+}

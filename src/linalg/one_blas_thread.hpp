@@ -1,0 +1,38 @@
+// BLAS on one thread: a product that is divided among threads is summed in another order for another number of them,
+// and results are to be the same bits for any.
+#pragma once
+
+#include <omp.h>
+
+extern "C" {
+// Of OpenBLAS, if that is the BLAS which the program has found.
+[[gnu::weak]] int openblas_get_parallel();  // 0: sequential, 1: threads of its own, 2: OpenMP's
+[[gnu::weak]] int openblas_get_num_threads();
+[[gnu::weak]] void openblas_set_num_threads(int threads);
+}
+
+namespace stillpoint {
+
+/// While it lives, BLAS takes one thread; afterwards as many as before.
+class OneBlasThread {
+ public:
+  OneBlasThread() : of_openmp_(omp_get_max_threads()) {
+    omp_set_num_threads(1);
+    constexpr int threads_of_its_own = 1;
+    if (openblas_get_parallel && openblas_get_parallel() == threads_of_its_own && openblas_get_num_threads() > 1) {
+      of_openblas_ = openblas_get_num_threads();
+      openblas_set_num_threads(1);
+    }
+  }
+  ~OneBlasThread() {
+    omp_set_num_threads(of_openmp_);
+    if (of_openblas_ > 0) openblas_set_num_threads(of_openblas_);
+  }
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int of_openmp_, of_openblas_ = 0;  // threads before; 0: not ours to set
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,156 @@
+#include "simulation/load_notes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/throw_scene_error.hpp"
+#include "simulation/load_schedule.hpp"
+
+namespace stillpoint {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+// Whether a load is zero wherever there are points, until stop.time; empty: not known, as that would take too long to
+// see or the load has no end.
+std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const std::vector<double>& positions) {
+  const auto dim = static_cast<std::size_t>(scene.dim);
+  const bool varies = formula.uses('t');
+  if (varies && !(scene.stop.time > 0)) return std::nullopt;
+  const std::size_t places = uses_position(formula) ? positions.size() / dim : 1;
+  constexpr std::size_t most = 2'000'000, most_moments = 20'000, fewest_moments = 200;
+  const std::size_t moments = varies ? std::min(most_moments, most / places) : 1;
+  const bool thoroughly = !varies || moments >= fewest_moments;
+  for (std::size_t p = 0; p < places; ++p) {
+    const ConstVec x = ConstVec(positions).subspan(dim * p, dim);
+    for (std::size_t k = 0; k < std::max<std::size_t>(1, moments); ++k) {
+      const double t = varies ? scene.stop.time * static_cast<double>(k + 1) / static_cast<double>(moments + 1) : 0;
+      if (formula(x, t) != 0) return false;
+    }
+  }
+  return thoroughly ? std::optional(true) : std::nullopt;
+}
+
+// The loads of a scene by their keys, each with the formulas of its components.
+std::vector<std::pair<std::string, std::vector<Expression>>> loads_of(const Scene& scene) {
+  std::vector<std::pair<std::string, std::vector<Expression>>> loads;
+  for (std::size_t k = 0; k < scene.forces.size(); ++k)
+    loads.emplace_back(fmt::format("force[{}]", k), scene.forces[k].value);
+  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
+    const TractionSpec& traction = scene.tractions[k];
+    loads.emplace_back(fmt::format("traction[{}]", k),
+                       traction.pressure ? std::vector{*traction.pressure} : traction.value);
+  }
+  if (!scene.body_force.empty()) loads.emplace_back("body_force", scene.body_force);
+  return loads;
+}
+
+// Whether no support or wall moves or is displaced, and nothing moves or is deformed at the start.
+bool is_still(const Scene& scene) {
+  const auto stays = [](const auto& held) { return held.motion.constant() && held.motion({}, 0) == 0; };
+  return std::ranges::all_of(scene.supports, stays) && std::ranges::all_of(scene.walls, stays) &&
+         scene.initial_u.empty() && scene.initial_v.empty();
+}
+
+void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
+  const std::vector<double> positions = phase.positions();
+  bool some_act = false;
+  for (const auto& [key, components] : loads_of(scene)) {
+    bool zero = true;
+    for (const Expression& component : components) zero = zero && is_zero(scene, component, positions).value_or(false);
+    if (zero)
+      notes.push_back(fmt::format("{} is zero{}{}: it loads nothing", key,
+                                  key == "body_force" ? " at every material point" : "",
+                                  scene.stop.time > 0 ? ", all the time" : ""));
+    some_act = some_act || !zero;
+  }
+  if (!some_act && is_still(scene)) notes.emplace_back("no load acts and nothing moves: the body stays as it is");
+  if (!some_act || loads_vary(scene)) return;
+  std::vector<double> F(phase.size());
+  phase.external_force(0, u, F);
+  if (std::ranges::all_of(F, [](double force) { return force == 0; }))
+    notes.emplace_back("all loads act where supports hold the body: nothing is deformed by them");
+}
+
+void note_supports(const Scene& scene, Notes& notes) {
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    if (!scene.supports[k].face) continue;
+    const Face face = *scene.supports[k].face;
+    const auto axis = static_cast<std::size_t>(axis_of(face));
+    const double h = (scene.grid.max[axis] - scene.grid.min[axis]) / scene.grid.cells[axis];
+    const bool reached = std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
+      return is_upper(face) ? body.max[axis] > scene.grid.max[axis] - h : body.min[axis] < scene.grid.min[axis] + h;
+    });
+    if (!reached) notes.push_back(fmt::format("support[{}] holds nothing: no material is in the cells at its face", k));
+  }
+}
+
+// Whether a wall may stand against a force along an axis, or rub against it; or the body moves on to a support.
+bool may_be_borne(const Scene& scene, const LagrangianPhase& phase, int axis, double force) {
+  const auto supports = [&](const SupportSpec& support) { return support.component == axis || !support.roller; };
+  if (phase.info().updated_lagrangian && std::ranges::any_of(scene.supports, supports)) return true;
+  return std::ranges::any_of(scene.walls, [&](const WallSpec& wall) {
+    return axis_of(wall.face) == axis ? is_upper(wall.face) == (force > 0) : wall.friction > 0;
+  });
+}
+
+// Σ F_k over the unknowns of a part; 0 if it is rounding.
+double resultant(const FreePart& part, ConstVec F) {
+  constexpr double rounding = 1e-9;
+  double sum = 0, scale = 0;
+  for (const std::size_t k : part.unknowns) {
+    sum += F[k];
+    scale += std::abs(F[k]);
+  }
+  return std::abs(sum) > rounding * scale ? sum : 0;
+}
+
+void note_free_parts(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
+  const bool varies = loads_vary(scene);
+  if (!scene.stop.wants_equilibrium() || (varies && !(scene.stop.time > 0))) return;
+  std::vector<double> F(phase.size());
+  phase.external_force(varies ? scene.stop.time : 0, u, F);
+  std::vector<std::string> balanced;
+  for (const FreePart& part : phase.free_parts()) {
+    const std::string along = fmt::format(
+        "{} along {}",
+        part.is_whole ? "the body" : fmt::format("the part of the body around material point {}", part.point + 1),
+        (scene.state == StressState::axisymmetric ? "rz" : "xy")[part.axis]);
+    const double force = resultant(part, F);
+    if (force == 0) {
+      balanced.push_back(along);
+    } else if (!may_be_borne(scene, phase, part.axis, force)) {
+      throw_scene_error(
+          scene, "support",
+          fmt::format("nothing holds {}, where its loads add up to {:.4g} N: it falls freely and is never at rest; "
+                      "expected a support, loads that balance, or stop.residual = 0 and stop.time",
+                      along, force));
+    }
+  }
+  if (!scene.walls.empty()) return;  // that may hold it
+  constexpr std::size_t most_told = 4;
+  for (std::size_t k = 0; k < balanced.size(); ++k) {
+    if (k == most_told) {
+      notes.push_back(fmt::format("nor {} other parts of the body", balanced.size() - k));
+      break;
+    }
+    notes.push_back(fmt::format("nothing holds {}: its loads balance, and where it comes to rest is left to the motion",
+                                balanced[k]));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> load_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
+  Notes notes;
+  note_loads(scene, phase, u, notes);
+  note_supports(scene, notes);
+  note_free_parts(scene, phase, u, notes);
+  return notes;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,20 @@
+// How far a body that yields has gone in a single phase, whose grid and weights are those of its start.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// The largest component of ∂u/∂x at the points at (t, u); empty if the points move on, or nothing remembers its path:
+/// a hyperelastic body is computed rightly at any strain in one phase.
+///
+/// Beyond the limit load of a body that yields no equilibrium is left, and the residual ends at the share of the load
+/// that it does not bear; but the frozen grid stiffens as it is squeezed, and bears any load in the end.
+std::optional<double> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u);
+/// What to say of it; empty: nothing.
+std::string note_on_single_phase(std::optional<double> strain);
+
+}  // namespace stillpoint

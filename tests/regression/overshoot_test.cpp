@@ -1,0 +1,99 @@
+// What yields because the motion goes too far is told by a number, and what a squeezed grid bears as well.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+bool says(const Summary& s, const std::string& part) {
+  return std::ranges::any_of(s.notes, [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+const std::string overshot = "inertia carried the body on", squeezed = "in a single phase";
+
+Summary footing(const std::vector<std::string>& set) {
+  Summary s = run(scenes::load("footing", set));
+  CAPTURE(set, s.reason);
+  CHECK(s.status == RunStatus::equilibrium);
+  return s;
+}
+double settlement(const Summary& s) { return scenes::probe(s, "block", "u.y"); }
+
+const std::vector<std::string> ramp = {"body_force.value=['0', '-g*(y > 4)*min(t/5, 1)']", "stop.time=60"};
+
+}  // namespace
+
+TEST_CASE("the share of plastic strain by overshoot grows with what a footing settles too much") {
+  const Summary slow = footing(ramp);
+  double last_share = -1, last_excess = -1;
+  // Settlements 0, 3, 18, 29 and 58 % larger than the slow one.
+  for (const char* damping :
+       {"damping.c=critical", "damping.c=30", "damping={strategy='cundall'}", "damping.c=10", "damping.c=2"}) {
+    const Summary s = footing({damping});
+    CAPTURE(damping);
+    REQUIRE(s.plastic_overshoot);
+    const double excess = settlement(s) / settlement(slow) - 1;
+    CHECK(excess > last_excess);
+    CHECK(*s.plastic_overshoot > last_share);
+    CHECK(*s.plastic_overshoot <= 1);
+    CHECK(says(s, overshot) == (excess > 0.02));
+    last_share = *s.plastic_overshoot;
+    last_excess = excess;
+  }
+  CHECK(last_excess > 0.5);
+  CHECK(last_share > 0.5);
+}
+
+TEST_CASE("a slow ramp, critical damping and auto overshoot by less than one part in fifty, and say nothing") {
+  for (const auto& set : {ramp, {"damping.c=critical"}, {"damping={strategy='auto'}"}}) {
+    const Summary s = footing(set);
+    REQUIRE(s.plastic_overshoot);
+    CHECK(*s.plastic_overshoot < 0.02);
+    CHECK_FALSE(says(s, overshot));
+  }
+}
+
+TEST_CASE("a body that does not yield has no share of plastic strain, however it swings") {
+  const Summary elastic = run(scenes::load("column", {"damping.c=1", "stop.steps=2000"}));
+  CHECK_FALSE(elastic.plastic_overshoot);
+  const Summary strong = run(scenes::load("footing", {"damping.c=2", "material.ground.c=1e7", "stop.steps=500"}));
+  CHECK_FALSE(strong.plastic_overshoot);
+  CHECK_FALSE(says(strong, overshot));
+}
+
+TEST_CASE("the overshoot of a column that yields is told whatever rows are asked for") {
+  const std::vector<std::string> column = {
+      "material.soil={law='drucker-prager', E=2e7, nu=0.2, rho=2000, phi=20, c=1000}", "grid.cells=[1, 8]",
+      "phase.max_motion=none", "stop.residual=1e-6"};
+  const auto share = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), column.begin(), column.end());
+    const Summary s = run(scenes::load("column", more));
+    CHECK(s.status == RunStatus::equilibrium);
+    return s.plastic_overshoot.value_or(-1);
+  };
+  const double swung = share({"damping.c=3"});
+  CHECK(swung > 0.3);
+  CHECK(swung < 0.6);
+  CHECK(share({"damping.c=3", "output.every=100"}) == Approx(swung).epsilon(0.05));
+  CHECK(share({"damping.c=critical"}) == Approx(0).margin(0.02));
+}
+
+TEST_CASE("what a yielding material bears because one phase squeezes the grid is said, with the strain") {
+  const Summary small = footing({"damping={strategy='auto'}"});
+  REQUIRE(small.single_phase_strain);
+  CHECK(*small.single_phase_strain > 1e-3);
+  CHECK(*small.single_phase_strain < 0.1);
+  CHECK_FALSE(says(small, squeezed));
+  for (const char* load : {"200e3", "592e3"}) {  // 1.35 and 4 times what Prandtl's ground carries
+    const Summary s = footing({"damping={strategy='auto'}", std::string("constants.q=") + load});
+    CAPTURE(load);
+    CHECK(*s.single_phase_strain > 0.1);
+    CHECK(says(s, squeezed));
+  }
+  CHECK_FALSE(run(scenes::load("neo_hookean_bar")).single_phase_strain);
+}

@@ -1,0 +1,63 @@
+// Results are the same bits for any number of threads.
+#include <catch2/catch.hpp>
+
+#include "files.hpp"
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using stillpoint::testing::TemporaryFolder;
+
+namespace {
+
+struct Case {
+  const char* scene;
+  std::vector<std::string> set;
+};
+
+// What a run leaves behind, but for its times on the clock.
+std::string left_by(const Scene& scene, int threads) {
+  const TemporaryFolder folder;
+  const Summary s = run(scene, {.out = folder.path(), .threads = threads});
+  return fmt::format("{}\n{:a} {:a} {:a} {:a} {:a}\n{}", to_string(s.status), s.omega_1.value_or(0), s.omega_max,
+                     s.c.value_or(0), s.residual, s.distance.value_or(0),
+                     test::contents(folder.path() / "history.csv"));
+}
+
+void check_threads(const Case& one, std::initializer_list<int> numbers) {
+  const Scene scene = scenes::load(one.scene, one.set);
+  const std::string alone = left_by(scene, 1);
+  for (const int threads : numbers) {
+    CAPTURE(one.scene, one.set, threads);
+    CHECK((left_by(scene, threads) == alone));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("every problem has the same history and the same frequencies for 1, 2, 3 and 8 threads") {
+  const std::vector<Case> cases = {
+      {"bar", {}},
+      {"chain", {"stop.steps=200"}},
+      {"block", {}},
+      {"block_on_wall", {"stop.steps=200"}},
+      {"cantilever", {"stop.steps=100"}},
+      {"column", {}},
+      {"cylinder", {"stop.steps=200"}},
+      {"footing", {"stop.steps=200"}},
+      {"inclusion", {"stop.steps=200"}},
+      {"incompressible", {"stop.steps=200"}},
+      {"level_ground", {"stop.steps=20"}},
+      {"mms_bar", {"stop.steps=200"}},
+      {"neo_hookean_bar", {"stop.steps=200"}},
+      {"slope", {"grid.cells=[80, 32]", "stop.steps=20"}},  // 9600 points: loops are threaded
+  };
+  for (const Case& one : cases) check_threads(one, {2, 3, 8});
+}
+
+TEST_CASE("factors that are large enough for a threaded BLAS are the same bits for any number of threads") {
+  const std::string large = "grid.cells=[60, 48]";
+  check_threads({"incompressible", {large, "stop.steps=20"}}, {2, 3});
+  check_threads({"incompressible", {large, "solve.method=newton", "damping={}"}}, {2, 3});
+  check_threads({"footing", {"solve.method=newton", "damping={}"}}, {2, 3});  // unsymmetric: UMFPACK
+}

@@ -1,0 +1,157 @@
+// What is said of a scene before it runs: only what is so.
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+#include "simulation/model.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using Catch::Contains;
+using stillpoint::testing::TemporaryFolder;
+
+namespace {
+
+std::vector<std::string> notes_of(const Scene& scene) { return make_model(scene).notes; }
+
+bool says(const std::vector<std::string>& notes, const std::string& part) {
+  return std::ranges::any_of(notes, [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+// A block, 3 × 2, on its base, in a grid of 4 × 2.
+std::vector<std::string> block(std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"grid={min=[0, 0], max=[4, 2], cells=[8, 4]}", "probe=[]",
+                             "body={max=[3, 2], material='soil', points_per_cell=4}", "support=[{face='bottom'}]"});
+  return more;
+}
+Scene block_scene(const std::vector<std::string>& more = {}) { return scenes::load("column", block(more)); }
+
+}  // namespace
+
+TEST_CASE("a sliver of a cell is said to shorten the critical step for the bases and masses whose step it shortens") {
+  for (const char* basis : {"linear", "quadratic", "cubic", "hermite"}) {
+    for (const char* kind : {"lumped", "consistent"}) {
+      const auto model_of = [&](const char* length) {
+        return make_model(scenes::bar({std::string("grid.basis=") + basis, std::string("mass.kind=") + kind,
+                                       "grid.cells=10", std::string("body.max=") + length, "body.points_per_cell=4",
+                                       "force=[]", "body_force.value=-1e-4", "probe=[]", "damping={strategy='none'}"}));
+      };
+      CAPTURE(basis, kind);
+      const Model whole = model_of("10.0"), sliver = model_of("9.01");
+      const bool shortens = sliver.omega_max > 1.5 * whole.omega_max;
+      CHECK(sliver.omega_max > 0);
+      CHECK(says(sliver.notes, "shortens the critical step") == shortens);
+      CHECK_FALSE(says(whole.notes, "shortens the critical step"));
+    }
+  }
+}
+
+TEST_CASE("a sliver is not said to shorten the step where light nodes are given inertia, or nothing steps") {
+  const std::string sliver = "body.max=[3.005, 2]";
+  CHECK(says(notes_of(block_scene({sliver})), "shortens the critical step"));
+  CHECK_FALSE(says(notes_of(block_scene({sliver, "mass.scaling=gershgorin"})), "shortens the critical step"));
+  CHECK_FALSE(says(notes_of(block_scene({sliver, "damping={strategy='auto'}"})), "shortens the critical step"));
+  CHECK_FALSE(says(notes_of(block_scene({sliver, "solve.method=newton", "damping={}", "integrator={}"})),
+                   "shortens the critical step"));
+}
+
+TEST_CASE("what the points of a polygon integrate is said by where its border cuts cells, not by its volumes") {
+  const std::vector<std::string> quadratic = {"grid.basis=quadratic", "body.volumes=consistent",
+                                              "body.points_per_cell=9"};
+  const auto of_polygon = [&](const char* corners, std::vector<std::string> more) {
+    more.insert(more.begin(), quadratic.begin(), quadratic.end());
+    more.push_back("body.max=[4, 2]");
+    std::vector<std::string> set = block(more);
+    std::erase_if(set, [](const std::string& one) { return one.starts_with("body={") || one.starts_with("body.max"); });
+    set.insert(set.begin(),
+               std::string("body={polygon=") + corners + ", material='soil', points_per_cell=9, volumes='consistent'}");
+    return notes_of(scenes::load("column", set));
+  };
+  const auto slanted = of_polygon("[[0, 0], [3, 0], [2, 2], [0, 2]]", {});
+  CHECK(says(slanted, "that a polygon's border cuts"));
+  CHECK_FALSE(says(slanted, "take consistent volumes"));
+  CHECK_FALSE(says(slanted, "the points integrate degree"));
+  const auto on_lines = of_polygon("[[0, 0], [3, 0], [3, 2], [0, 2]]", {});
+  CHECK_FALSE(says(on_lines, "border"));
+  CHECK_FALSE(says(on_lines, "integrate"));
+  CHECK_FALSE(says(of_polygon("[[0, 0], [3, 0], [2, 2], [0, 2]]", {"grid.basis=linear"}), "border"));
+}
+
+TEST_CASE("equal volumes are blamed where they integrate too little, and only there") {
+  const std::vector<std::string> equal = {"grid.basis=quadratic", "body.volumes=equal", "body.points_per_cell=9"};
+  CHECK(says(notes_of(block_scene(equal)), "take consistent volumes"));
+  CHECK(says(notes_of(block_scene({"grid.basis=quadratic", "body.points_per_cell=1", "damping.c=1"})),
+             "more points per cell"));
+}
+
+TEST_CASE("what points from a file integrate is not told, since it is not known") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("points.csv", "x,y,volume\n0.3,0.3,0.2\n0.6,0.3,0.2\n0.3,0.6,0.2\n0.6,0.6,0.2\n");
+  const auto notes = notes_of(scenes::load(
+      "column", {"grid={min=[0, 0], max=[1, 1], cells=[1, 1], basis='quadratic'}", "probe=[]", "damping.c=1",
+                 "body=[{file='" + file.string() + "', material='soil'}]", "support=[{face='bottom'}]"}));
+  CHECK_FALSE(says(notes, "integrate"));
+}
+
+TEST_CASE("a load that loads nothing is named") {
+  CHECK(says(notes_of(block_scene({"body_force.value=[0, '-g*(y > 4)']"})),
+             "body_force is zero at every material point"));
+  CHECK(says(notes_of(block_scene({"body_force.value=[0, 0]", "stop.time=1"})), "all the time"));
+  CHECK(says(notes_of(block_scene({"force=[{at=[1, 2], value=[0, 0]}]"})), "force[0] is zero"));
+  CHECK(says(notes_of(block_scene({"traction=[{face='top', pressure='0*t'}]", "stop.time=1"})), "traction[0] is zero"));
+  CHECK(says(notes_of(block_scene({"body_force.value=[0, 0]", "force=[{at=[1, 0], value=[0, -1]}]"})),
+             "act where supports hold"));
+  CHECK_FALSE(says(notes_of(block_scene({"body_force.value=[0, '-g*(t > 0.5)*(t < 0.501)']", "stop.time=1"})), "zero"));
+  CHECK_FALSE(says(notes_of(block_scene({"body_force.value=[0, '-g*(y > 1.8)*(x > 2.8)']"})), "zero"));
+}
+
+TEST_CASE("a body on which nothing acts is said to stay as it is") {
+  const std::string unloaded = "body_force.value=[0, 0]", still = "the body stays as it is";
+  CHECK(says(notes_of(block_scene({unloaded})), still));
+  CHECK_FALSE(says(notes_of(block_scene({unloaded, "support=[{face='bottom', u=0.1}]"})), still));
+  CHECK_FALSE(says(notes_of(block_scene({unloaded, "initial.v=[0, 1]"})), still));
+  CHECK_FALSE(says(notes_of(block_scene()), still));
+}
+
+TEST_CASE("a support on a face that no material reaches is named") {
+  CHECK(says(notes_of(block_scene({"support=[{face='bottom'}, {face='right'}]"})), "support[1] holds nothing"));
+  CHECK_FALSE(says(notes_of(block_scene()), "holds nothing"));
+}
+
+TEST_CASE("a body that falls freely is refused at once, by whatever strategy, if equilibrium is asked for") {
+  for (const char* damping : {"damping={strategy='none'}", "damping={strategy='viscous', c=1.0}",
+                              "damping={strategy='kinetic'}", "damping={strategy='cundall'}"}) {
+    CAPTURE(damping);
+    CHECK_THROWS_WITH(make_model(block_scene({"support=[]", damping})),
+                      Contains("nothing holds the body along y") && Contains("falls freely"));
+    CHECK_THROWS_WITH(make_model(block_scene({"support=[{face='bottom', component='x'}]", damping})),
+                      Contains("nothing holds the body along y"));
+  }
+  CHECK_NOTHROW(make_model(block_scene({"support=[]", "damping={strategy='none'}", "stop.residual=0", "stop.time=1"})));
+}
+
+TEST_CASE("a part of the body that hangs in the air is named by one of its points") {
+  const std::string two =
+      "body=[{max=[1, 2], material='soil', state='plane-strain'},"
+      "{min=[2, 1], max=[3, 2], material='soil'}]";
+  std::vector<std::string> set = block({"damping={strategy='none'}"});
+  std::erase_if(set, [](const std::string& one) { return one.starts_with("body="); });
+  set.insert(set.begin(), two);
+  CHECK_THROWS_WITH(make_model(scenes::load("column", set)),
+                    Contains("the part of the body around material point") && Contains("along y"));
+}
+
+TEST_CASE("a free body whose loads balance, and one that leans on a wall, are no free fall") {
+  const std::string pulled = "traction=[{face='top', value=[0, 1]}, {face='bottom', value=[0, -1]}]";
+  const auto notes =
+      notes_of(block_scene({"support=[]", "body_force.value=[0, 0]", pulled, "damping={strategy='none'}"}));
+  CHECK(says(notes, "nothing holds the body along x"));
+  CHECK(says(notes, "nothing holds the body along y"));
+  CHECK_NOTHROW(
+      make_model(block_scene({"support=[]", "wall=[{name='floor', face='bottom'}]", "damping={strategy='none'}"})));
+  CHECK_THROWS_WITH(make_model(block_scene({"support=[]", "wall=[{name='floor', face='bottom'}]",
+                                            "body_force.value=[0, 'g']", "damping={strategy='none'}"})),
+                    Contains("falls freely"));
+}
