@@ -13,4 +13,8 @@ namespace stillpoint {
 /// A sentence each: on what the points integrate, on supports outside the body, on phases.
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase);
 
+/// Whether the lowest mode x moves the material, (n), or only functions that hardly reach the body.
+std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec x,
+                                           double omega_1);
+
 }  // namespace stillpoint

@@ -20,6 +20,8 @@ struct Body {
   QuadratureReport quadrature;
   std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
   std::vector<std::string> material_names;
+  /// Share of each cell that a [[body]] takes, (bodies × cells); empty if that of one is not known.
+  std::vector<std::vector<double>> covered;
 };
 
 namespace detail {
@@ -48,6 +50,7 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
     body.quadrature.smallest_share = std::min(body.quadrature.smallest_share, placed.quadrature.smallest_share);
     body.quadrature.cells_limited_by_sign += placed.quadrature.cells_limited_by_sign;
     const int count = static_cast<int>(placed.points.size());
+    if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
     by_material[spec.material].emplace_back(std::move(placed.points), number);
     number += count;
   }
@@ -65,6 +68,7 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
     body.material_names.push_back(name);
   }
   points.material_begin.push_back(static_cast<int>(points.size()));
+  if (body.covered.size() < scene.bodies.size()) body.covered.clear();
   if (updated_lagrangian) {
     for (auto& v : points.v) v.assign(points.size(), 0);
     if (scene.phase.transfer == Transfer::apic) {

@@ -70,8 +70,9 @@ struct Box {
 template <int Dim>
 class Filling {
  public:
-  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points)
-      : body_(body), grid_(grid), points_(points), positions_(body) {
+  /// covered: (cells), set where there are points.
+  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points, std::vector<double>& covered)
+      : body_(body), grid_(grid), points_(points), covered_(covered), positions_(body) {
     quadrature_.degree = std::numeric_limits<int>::max();
   }
 
@@ -116,7 +117,7 @@ class Filling {
     const Eigen::MatrixXd& xi = positions_.next();
     if (fit_.weights.size() == 0 || positions_.vary())
       fit_ = body_.volumes == VolumeRule::consistent ? fit_moments(xi) : equal_weights(xi);
-    note_cell(fit_.degree, smallest_share(part, cell));
+    note_cell(number, fit_.degree, smallest_share(part, cell), part.size() / cell.size());
     quadrature_.cells_limited_by_sign += fit_.limited_by_sign ? 1 : 0;
     points_.begin_cell(number);
     for (Eigen::Index p = 0; p < xi.cols(); ++p) points_.add(part.position(xi, p), fit_.weights(p) * part.size());
@@ -142,7 +143,7 @@ class Filling {
       const Eigen::Vector2d at(2 * std::clamp(c[0], 0.0, 1.0) - 1, 2 * std::clamp(c[1], 0.0, 1.0) - 1);
       inside.push_back(cell.position(at, 0));
     }
-    note_cell(0, extent_of(part));
+    note_cell(number, 0, extent_of(part), share);
     points_.begin_cell(number);
     for (const auto& x : inside) points_.add(x, share * cell.size() / static_cast<double>(inside.size()));
   }
@@ -157,14 +158,16 @@ class Filling {
     return smallest;
   }
 
-  void note_cell(int degree, double share) {
+  void note_cell(int number, int degree, double length_share, double area_share) {
     quadrature_.degree = std::min(quadrature_.degree, degree);
-    quadrature_.smallest_share = std::min(quadrature_.smallest_share, share);
+    quadrature_.smallest_share = std::min(quadrature_.smallest_share, length_share);
+    covered_[static_cast<std::size_t>(number)] = area_share;
   }
 
   const BodySpec& body_;
   const Grid<Dim>& grid_;
   PointCollector<Dim>& points_;
+  std::vector<double>& covered_;
   CellPositions<Dim> positions_;
   MomentFit fit_;
   QuadratureReport quadrature_;
@@ -208,7 +211,8 @@ PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double d
   PlacedBody<Dim> placed;
   PointCollector<Dim> points(body.area, density, state);
   if (body.file.empty()) {
-    placed.quadrature = Filling<Dim>(body, grid, points).run();
+    placed.covered.assign(static_cast<std::size_t>(grid.cells()), 0);
+    placed.quadrature = Filling<Dim>(body, grid, points, placed.covered).run();
   } else {
     take_from_file(body.file, grid, points);
   }

@@ -49,12 +49,14 @@ struct QuadratureReport {
   int degree = 0;                 // polynomials up to this power in each coordinate are integrated exactly over areas
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
+  int slivers = 0, joined = 0;    // cells that the body hardly reaches, and those of them that have a host
 };
 
 template <int Dim>
 struct PlacedBody {
   MaterialPoints<Dim> points;
   QuadratureReport quadrature;
+  std::vector<double> covered;  // share of each cell of the grid that the body takes, (cells); empty: not known
 };
 
 /// The material points of a body, cell by cell.
