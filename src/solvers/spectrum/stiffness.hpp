@@ -11,6 +11,9 @@
 
 namespace stillpoint {
 
+/// max |K_ii|/M_ii, at most ω_max² and of its size.
+double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass);
+
 /// A symmetric K, assembled and factorised. Throws std::runtime_error if CHOLMOD itself fails.
 class FactorisedStiffness {
  public:
@@ -28,7 +31,7 @@ class FactorisedStiffness {
   const Mass& mass_;
   SparseMatrix K_;
   SparseCholesky factor_;
-  double scale_;  // max K_ii/M_ii, at most ω_max² and of its size
+  double scale_;  // largest_diagonal_ratio()
 };
 
 }  // namespace stillpoint

@@ -1,0 +1,34 @@
+#include "solvers/spectrum/lowest_mode.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/SparseCore>
+
+#include "linalg/sparse_cholesky.hpp"
+#include "solvers/spectrum/nearest_eigenvalue.hpp"
+#include "solvers/spectrum/stiffness.hpp"
+
+namespace stillpoint {
+
+LowestMode lowest_mode(const SparseMatrix& K, const Mass& mass) {
+  const double scale = largest_diagonal_ratio(K, mass);
+  LowestMode lowest{.rounding = 64 * std::numeric_limits<double>::epsilon() * scale};
+  if (!std::isfinite(scale)) return lowest;
+  const SparseMatrix M = mass.matrix();
+  lowest.positive_definite = SparseCholesky(SparseMatrix(K - lowest.rounding * M)).positive_definite();
+  if (lowest.positive_definite) return lowest;
+  for (double sigma = 1e-10 * scale; sigma <= 1e4 * scale; sigma *= 10) {
+    const SparseCholesky factor(SparseMatrix(K + sigma * M));
+    if (!factor.positive_definite()) continue;
+    const LinearMap solve = [&](ConstVec b, Vec x) { factor.solve(b, x); };
+    const NearestEigenvalue nearest = nearest_eigenvalue(solve, mass, -sigma);
+    lowest.found = nearest.converged;
+    lowest.omega_squared = nearest.lambda;
+    lowest.x = nearest.mode;
+    break;
+  }
+  return lowest;
+}
+
+}  // namespace stillpoint
