@@ -91,6 +91,34 @@ TEST_CASE("the buckled shape that a lateral force leads to is stable") {
   CHECK(std::abs(scenes::probe(s, "end", "u.y")) > 5);
 }
 
+TEST_CASE("a column under a load that turns with it stays stable far beyond Euler's, up to Beck's 20.05 E I/L²") {
+  // The load's tangent is unsymmetric: its symmetric part alone has a negative eigenvalue long before.
+  for (const double load : {2.6, 7.9, 19.0}) {
+    const Summary s =
+        run(column(1, "solve.method=newton",
+                   {fmt::format("constants.load={}", load), "traction=[{face='right', pressure='P/h'}]"}));
+    CAPTURE(load, s.reason);
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.stability == "stable");
+  }
+  const Summary beyond =
+      run(column(1, "solve.method=newton", {"constants.load=21.5", "traction=[{face='right', pressure='P/h'}]"}));
+  CHECK(beyond.stability != "stable");  // it flutters: the lowest eigenvalues are a complex pair
+}
+
+TEST_CASE("an unstable equilibrium is found where the loads' tangent is unsymmetric as well") {
+  const auto pushed = [](double share) {
+    return run(
+        column(share, "solve.method=newton",
+               {"traction=[{face='right', value=['-P/h', 0.0]}, {face='top', pressure='0.3*P/h'}, {face='bottom', "
+                "pressure='0.3*P/h'}]"}));
+  };
+  CHECK(pushed(0.9).stability == "stable");
+  const Summary s = pushed(1.2);
+  CHECK(s.status == RunStatus::unstable_equilibrium);
+  CHECK_THAT(s.reason, Contains("omega^2 = -"));
+}
+
 TEST_CASE("the mode of an unstable equilibrium is written with the points' positions, and gone after a stable run") {
   const TemporaryFolder folder;
   const Summary s = run(column(3.2, "solve.method=newton"), {.out = folder.path()});
