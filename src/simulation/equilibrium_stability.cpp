@@ -139,7 +139,7 @@ std::string description(const EquilibriumStability& stability) {
   if (stability.kind == EquilibriumStability::Kind::neutral) {
     return fmt::format(
         "the equilibrium is neutral, K(u) has the eigenvalue omega^2 = {:.2g}: nothing holds the body against a motion "
-        "that is largest at {}",
+        "that is largest at {}; there is no support for it, or too few material points for the basis",
         stability.omega_squared, where);
   }
   return fmt::format(
