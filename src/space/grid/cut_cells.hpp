@@ -11,23 +11,28 @@
 // weighted extended B-splines; Badia, Verdugo, Martín 2018, aggregated finite elements].
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "space/grid/grid.hpp"
 
 namespace stillpoint {
 
+/// How much of a cell something takes, by the cell's number, ascending; cells that are not listed are empty.
+using CellShares = std::vector<std::pair<int, double>>;
+
 template <int Dim>
 class CutCells {
  public:
-  /// covered: share of each cell that a part of the body takes, (parts × cells). degree: of the basis.
-  CutCells(const Grid<Dim>& grid, const std::vector<std::vector<double>>& covered, int degree)
+  /// covered: by each part of the body. degree: of the basis.
+  CutCells(const Grid<Dim>& grid, const std::vector<CellShares>& covered, int degree)
       : grid_(grid), covered_(covered), enough_(degree < 3 ? 0.25 : 0.5) {
     together_.assign(static_cast<std::size_t>(grid.cells()), 0);
-    for (const auto& part : covered) {
-      for (std::size_t c = 0; c < part.size(); ++c) together_[c] += part[c];
+    for (const CellShares& part : covered) {
+      for (const auto& [cell, share] : part) together_[static_cast<std::size_t>(cell)] += share;
     }
     for (int c = 0; c < grid.cells(); ++c) {
       if (is_sliver(c)) slivers_.push_back(c);
@@ -86,9 +91,13 @@ class CutCells {
     return false;
   }
 
+  static double share_of(const CellShares& part, int cell) {
+    const auto found = std::ranges::lower_bound(part, cell, {}, &CellShares::value_type::first);
+    return found != part.end() && found->first == cell ? found->second : 0;
+  }
   double in_common(int a, int b) const {
     double sum = 0;
-    for (const auto& part : covered_) sum += part[static_cast<std::size_t>(a)] * part[static_cast<std::size_t>(b)];
+    for (const CellShares& part : covered_) sum += share_of(part, a) * share_of(part, b);
     return sum;
   }
 
@@ -106,7 +115,7 @@ class CutCells {
   }
 
   const Grid<Dim>& grid_;
-  const std::vector<std::vector<double>>& covered_;
+  const std::vector<CellShares>& covered_;
   double enough_;  // a cell is a sliver if less of it is covered
   std::vector<double> together_;
   std::vector<int> slivers_;

@@ -13,7 +13,7 @@ namespace stillpoint {
 // Where the body does not move on: in later phases nobody knows where in a cell it ends.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::join_slivers() {
-  const std::vector<std::vector<double>> covered = std::move(body_.covered);
+  const std::vector<CellShares> covered = std::move(body_.covered);
   const CutCells<Dim> cut(grid_, covered, B::degree);
   body_.quadrature.slivers = static_cast<int>(cut.slivers().size());
   if (cut.slivers().empty() || updated_lagrangian()) return;

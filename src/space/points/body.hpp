@@ -20,8 +20,7 @@ struct Body {
   QuadratureReport quadrature;
   std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
   std::vector<std::string> material_names;
-  /// Share of each cell that a [[body]] takes, (bodies × cells); empty if that of one is not known.
-  std::vector<std::vector<double>> covered;
+  std::vector<CellShares> covered;  // by each [[body]]; empty if that of one is not known
 };
 
 namespace detail {

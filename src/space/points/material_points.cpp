@@ -70,8 +70,7 @@ struct Box {
 template <int Dim>
 class Filling {
  public:
-  /// covered: (cells), set where there are points.
-  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points, std::vector<double>& covered)
+  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points, CellShares& covered)
       : body_(body), grid_(grid), points_(points), covered_(covered), positions_(body) {
     quadrature_.degree = std::numeric_limits<int>::max();
   }
@@ -161,13 +160,13 @@ class Filling {
   void note_cell(int number, int degree, double length_share, double area_share) {
     quadrature_.degree = std::min(quadrature_.degree, degree);
     quadrature_.smallest_share = std::min(quadrature_.smallest_share, length_share);
-    covered_[static_cast<std::size_t>(number)] = area_share;
+    covered_.emplace_back(number, area_share);
   }
 
   const BodySpec& body_;
   const Grid<Dim>& grid_;
   PointCollector<Dim>& points_;
-  std::vector<double>& covered_;
+  CellShares& covered_;
   CellPositions<Dim> positions_;
   MomentFit fit_;
   QuadratureReport quadrature_;
@@ -211,7 +210,6 @@ PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double d
   PlacedBody<Dim> placed;
   PointCollector<Dim> points(body.area, density, state);
   if (body.file.empty()) {
-    placed.covered.assign(static_cast<std::size_t>(grid.cells()), 0);
     placed.quadrature = Filling<Dim>(body, grid, points, placed.covered).run();
   } else {
     take_from_file(body.file, grid, points);

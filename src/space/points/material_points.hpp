@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "space/grid/cut_cells.hpp"
 #include "space/grid/grid.hpp"
 
 namespace stillpoint {
@@ -56,7 +57,7 @@ template <int Dim>
 struct PlacedBody {
   MaterialPoints<Dim> points;
   QuadratureReport quadrature;
-  std::vector<double> covered;  // share of each cell of the grid that the body takes, (cells); empty: not known
+  CellShares covered;  // by the body; empty: not known
 };
 
 /// The material points of a body, cell by cell.

@@ -13,12 +13,20 @@ const Grid<1> line{{Axis::uniform(0, 5, 5)}};
 const Grid<2> plane{{Axis::uniform(0, 4, 4), Axis::uniform(0, 3, 3)}};
 const auto any = [](int, int) { return true; };
 
-using Shares = std::vector<std::vector<double>>;  // (parts × cells)
+using Shares = std::vector<CellShares>;
+
+CellShares of(const std::vector<double>& cells) {
+  CellShares shares;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c] > 0) shares.emplace_back(static_cast<int>(c), cells[c]);
+  }
+  return shares;
+}
 
 }  // namespace
 
 TEST_CASE("a sliver takes the functions of the cell next to it that has its part of the body") {
-  for (const auto& [shares, host] : {std::pair{Shares{{1, 1, 0.1, 0, 0}}, 1}, {Shares{{0, 0, 0.1, 1, 1}}, 3}}) {
+  for (const auto& [shares, host] : {std::pair{Shares{of({1, 1, 0.1, 0, 0})}, 1}, {Shares{of({0, 0, 0.1, 1, 1})}, 3}}) {
     const CutCells<1> cut(line, shares, 1);
     CHECK(cut.slivers() == std::vector<int>{2});
     CHECK(cut.host_of(2, any) == host);
@@ -26,19 +34,20 @@ TEST_CASE("a sliver takes the functions of the cell next to it that has its part
 }
 
 TEST_CASE("cells that parts of the body fill together are no slivers") {
-  CHECK(CutCells<1>(line, {{1, 1, 0.1, 0, 0}, {0, 0, 0.9, 1, 1}}, 3).slivers().empty());
-  CHECK(CutCells<1>(line, {}, 3).slivers().empty());
+  const Shares none;
+  CHECK(CutCells<1>(line, Shares{of({1, 1, 0.1, 0, 0}), of({0, 0, 0.9, 1, 1})}, 3).slivers().empty());
+  CHECK(CutCells<1>(line, none, 3).slivers().empty());
 }
 
 TEST_CASE("a sliver that joins two parts of a body stays a bridge between them, however long") {
-  const Shares bridge = {{1, 1, 0.1, 1, 1}}, bridges = {{1, 0.1, 0.2, 0.1, 1}};
+  const Shares bridge = {of({1, 1, 0.1, 1, 1})}, bridges = {of({1, 0.1, 0.2, 0.1, 1})};
   CHECK(CutCells<1>(line, bridge, 1).host_of(2, any) == 2);
   const CutCells<1> longer(line, bridges, 1);
   for (const int sliver : longer.slivers()) CHECK(longer.host_of(sliver, any) == sliver);
 }
 
 TEST_CASE("a tip that is thin in two cells takes the functions of the last good one in both") {
-  const Shares shares = {{1, 1, 0.2, 0.1, 0}};
+  const Shares shares = {of({1, 1, 0.2, 0.1, 0})};
   const CutCells<1> tip(line, shares, 1);
   CHECK(tip.slivers() == std::vector<int>{2, 3});
   CHECK(tip.host_of(2, any) == 1);
@@ -47,9 +56,9 @@ TEST_CASE("a tip that is thin in two cells takes the functions of the last good 
 
 TEST_CASE("slivers along two faces of a block take the cell behind their face, and the corner the one behind it") {
   const double e = 0.01;
-  const Shares shares = {{1, 1, e, 0,  //
-                          1, 1, e, 0,  //
-                          e, e, e * e, 0}};
+  const Shares shares = {of({1, 1, e, 0,  //
+                             1, 1, e, 0,  //
+                             e, e, e * e, 0})};
   const CutCells<2> cut(plane, shares, 2);
   CHECK(cut.slivers() == std::vector<int>{2, 6, 8, 9, 10});
   CHECK(cut.host_of(2, any) == 1);
@@ -60,13 +69,13 @@ TEST_CASE("slivers along two faces of a block take the cell behind their face, a
 }
 
 TEST_CASE("a sliver keeps its own functions where nothing may host it") {
-  const Shares shares = {{1, 1, 0.1, 0, 0}}, thin = {{0.1, 0.1, 0.1, 0, 0}};
+  const Shares shares = {of({1, 1, 0.1, 0, 0})}, thin = {of({0.1, 0.1, 0.1, 0, 0})};
   CHECK(CutCells<1>(line, shares, 1).host_of(2, [](int, int) { return false; }) == 2);
   CHECK(CutCells<1>(line, thin, 1).host_of(1, any) == 1);
 }
 
 TEST_CASE("the functions of a basis of degree 3 need more of a cell than those of 1 and 2") {
-  const Shares shares = {{1, 1, 0.4, 0, 0}};
+  const Shares shares = {of({1, 1, 0.4, 0, 0})};
   CHECK(CutCells<1>(line, shares, 1).slivers().empty());
   CHECK(CutCells<1>(line, shares, 2).slivers().empty());
   CHECK(CutCells<1>(line, shares, 3).slivers() == std::vector<int>{2});
