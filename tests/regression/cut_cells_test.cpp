@@ -218,6 +218,24 @@ TEST_CASE("a block that cuts cells has the omega_1 of one that does not") {
   }
 }
 
+TEST_CASE("a lumped mass whose lowest mode hardly moves the material is told of, with what to change") {
+  const auto told = [](const std::vector<std::string>& overrides) {
+    const Model model = make_model(block(overrides));
+    return fmt::format("{}", fmt::join(model.notes, "\n")).find("functions which hardly reach the body") !=
+           std::string::npos;
+  };
+  const double right = omega_1(*make_phase(block({"mass.kind=consistent", "grid.cells=[40, 40]"})));
+  REQUIRE(told({"grid.basis=cubic"}));  // a mode of the body's corner, which lies within the grid
+  CHECK(omega_1(*make_phase(block({"grid.basis=cubic"}))) < 0.6 * right);
+  for (const std::vector<std::string>& change : std::vector<std::vector<std::string>>{
+           {"grid.max=[1.0, 1.0]", "grid.cells=[8, 8]"}, {"grid.basis=quadratic"}, {"mass.kind=consistent"}}) {
+    CAPTURE(change.front());
+    const std::vector<std::string> changed = with({"grid.basis=cubic"}, change);
+    CHECK_FALSE(told(changed));
+    CHECK(omega_1(*make_phase(block(changed))) == Approx(right).epsilon(0.02));
+  }
+}
+
 TEST_CASE("Cook's membrane has its omega_1, or the scene is told that what was found is none") {
   const double fine = omega_1(*make_phase(cook({"grid.basis=quadratic", "grid.cells=[46, 57]"})));
   int told = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace stillpoint {
+namespace {
 
 double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass) {
   const Eigen::VectorXd diagonal = K.diagonal();
@@ -14,6 +15,8 @@ double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass) {
   }
   return largest;
 }
+
+}  // namespace
 
 FactorisedStiffness::FactorisedStiffness(const Mass& mass, const SparseMatrix& K)
     : mass_(mass), K_(K), factor_(K_), scale_(largest_diagonal_ratio(K_, mass_)) {}

@@ -11,9 +11,6 @@
 
 namespace stillpoint {
 
-/// max |K_ii|/M_ii, at most ω_max² and of its size.
-double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass);
-
 /// A symmetric K, assembled and factorised. Throws std::runtime_error if CHOLMOD itself fails.
 class FactorisedStiffness {
  public:
@@ -31,7 +28,7 @@ class FactorisedStiffness {
   const Mass& mass_;
   SparseMatrix K_;
   SparseCholesky factor_;
-  double scale_;  // largest_diagonal_ratio()
+  double scale_;  // max K_ii/M_ii, at most ω_max² and of its size
 };
 
 }  // namespace stillpoint
