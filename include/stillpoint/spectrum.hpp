@@ -4,6 +4,7 @@
 #include <stillpoint/semi_discrete.hpp>
 
 #include <string>
+#include <vector>
 
 namespace stillpoint {
 
@@ -21,6 +22,8 @@ struct FrequencyEstimate {
   double wall_s = 0;
   bool converged = false;
   std::string status;  // the inequality that ended it, or why there is no answer
+  /// x of the lowest one by inverse iteration, (n), of any length; otherwise empty.
+  std::vector<double> mode{};
 };
 
 /// ω_max from below: x ← M⁻¹ K x, Rayleigh quotient xᵀKx/xᵀMx, matrix-free. K at (t, u).
@@ -30,7 +33,8 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
 FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, double t, ConstVec u);
 /// ω_max to about a per cent, mostly from above, for a few applications of K: Lanczos with the residual added.
 FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications = 12);
-/// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K. Not converged, ω = 0, if K is singular: the body is not held.
+/// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K, and ARPACK with that factor if rounding keeps it from converging. Not
+/// converged, ω = 0, if K is singular: the body is not held.
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
                                                const SpectrumOptions& = {});
 /// The same for the tangent that is consistent with what the body does at u, yielding included: of its symmetric part.

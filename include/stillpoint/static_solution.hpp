@@ -10,7 +10,7 @@
 namespace stillpoint {
 
 /// How K du = Q is solved. automatic: by CHOLMOD if K is symmetric and positive definite, by UMFPACK otherwise, and
-/// an equilibrium whose K is symmetric but indefinite is refused as unstable.
+/// an equilibrium whose K is symmetric but indefinite is refused as unstable, unless accept_unstable.
 /// cholesky: with the symmetric part of K.
 enum class LinearSolver { automatic, cholesky, lu, conjugate_gradients };
 
@@ -23,6 +23,7 @@ struct NewtonOptions {
   double symmetry = 1e-12;      // K is symmetric if ‖K − Kᵀ‖ ≤ this ‖K‖ (Frobenius)
   int max_cg_iterations = 0;    // in a Newton iteration; 0: n
   LinearSolver solver = LinearSolver::automatic;
+  bool accept_unstable = false;  // if there is no stable equilibrium on the way that load steps follow
   /// Says what is wrong, or nothing.
   std::string validate() const;
 };

@@ -13,12 +13,13 @@ namespace stillpoint {
 enum class RunStatus {
   running,
   equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, for the dwell
-  end_time,     // t = stop.time
-  step_limit,   // stop.steps taken
-  time_limit,   // stop.wall_time spent
-  interrupted,  // by the user
-  diverged,     // a state that is not finite, or a trial that cannot be evaluated
-  failed        // the integrator or the static solver gave up
+  unstable_equilibrium,  // the same, but K(u) has a negative eigenvalue: the least disturbance ends it
+  end_time,              // t = stop.time
+  step_limit,            // stop.steps taken
+  time_limit,            // stop.wall_time spent
+  interrupted,           // by the user
+  diverged,              // a state that is not finite, or a trial that cannot be evaluated
+  failed                 // the integrator or the static solver gave up
 };
 
 /// "equilibrium", "end-time", ...
@@ -51,6 +52,9 @@ struct Summary {
   double bytes_per_point = 0;
   double residual = 0, kinetic_energy = 0;
   std::optional<double> distance;  // from equilibrium, the error bound, relative; of one phase with a known omega_1
+  /// Of an equilibrium whose K(u) was tested: "stable", "neutral" or "unstable"; otherwise empty.
+  std::string stability;
+  std::optional<double> unstable_omega_squared;  // K(u)'s lowest eigenvalue, < 0 [1/s²]
   std::optional<double> omega_1;
   double omega_max = 0;
   std::optional<double> c;

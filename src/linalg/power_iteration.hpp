@@ -13,10 +13,12 @@ struct PowerIterationResult {
   double relative_error = 0;  // estimate of (λ − ρ)/ρ
   int iterations = 0;         // applications of B⁻¹A
   bool converged = false;     // relative_error ≤ tolerance
+  std::vector<double> x{};    // xᵀBx = 1, (n)
 };
 
 /// x ← B⁻¹A x from start_vector(n), until the error estimate is at most tolerance three times running.
-/// A, B symmetric, B positive definite. Stops with a NaN eigenvalue if a value is not finite.
+/// A, B symmetric, B positive definite. Stops with a NaN eigenvalue if a value is not finite, and without convergence
+/// where rounding outweighs what is left to gain.
 PowerIterationResult power_iteration(std::size_t n, const LinearMap& apply_A, const LinearMap& solve_B,
                                      double tolerance, int max_iterations);
 

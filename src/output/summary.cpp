@@ -10,6 +10,8 @@ std::string to_string(RunStatus status) {
       return "running";
     case RunStatus::equilibrium:
       return "equilibrium";
+    case RunStatus::unstable_equilibrium:
+      return "unstable-equilibrium";
     case RunStatus::end_time:
       return "end-time";
     case RunStatus::step_limit:
@@ -78,6 +80,8 @@ std::string to_json(const Summary& s) {
                      {"method", s.method},
                      {"integrator", text(s.integrator)},
                      {"damping", text(s.damping)},
+                     {"stability", text(s.stability)},
+                     {"unstable_omega_squared", number(s.unstable_omega_squared)},
                      {"omega_1", number(s.omega_1)},
                      {"omega_max", number(s.omega_max)},
                      {"c", number(s.c)},

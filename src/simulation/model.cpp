@@ -158,6 +158,10 @@ void find_omega_1(const Scene& scene, const Omega1Needs& needs, Model& model) {
   const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
   if (lowest.converged) {
     model.omega_1 = lowest.omega;
+    const bool physical_mass = !(model.relaxation && model.relaxation->chooses_mass);
+    if (physical_mass && scene.mass.scaling == MassScaling::uniform)
+      std::ranges::move(lowest_mode_notes(scene, *model.phase, lowest.mode, lowest.omega),
+                        std::back_inserter(model.notes));
     return;
   }
   if (needs.distance) {

@@ -44,7 +44,13 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
     notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
                                 quadrature.cells_limited_by_sign));
   }
-  if (quadrature.smallest_share < 0.05 && sliver_shortens_the_step(scene, phase, scaled)) {
+  if (quadrature.joined > 0) {
+    notes.push_back(fmt::format(
+        "{} cells that the body hardly reaches take the functions of their neighbours, for the frequencies' sake",
+        quadrature.joined));
+  }
+  if (quadrature.smallest_share < 0.05 && quadrature.slivers > quadrature.joined &&
+      sliver_shortens_the_step(scene, phase, scaled)) {
     notes.push_back(
         fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
                     "faces on grid lines",
@@ -100,6 +106,32 @@ std::vector<std::string> support_notes(const Scene& scene) {
 }
 
 }  // namespace
+
+// ½ Σ_p m_p |x(x_p)|² beside ½ xᵀMx. A lumped mass gives a function that is steep in a sliver more inertia than the
+// material that it moves has; a cubic one or Hermite's also in a corner of the body.
+std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec x,
+                                           double omega_1) {
+  if (!phase.mass().is_lumped() || x.empty()) return {};
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  const std::vector<double> nothing(x.size(), 0.0), mass = phase.point_data().masses;
+  std::vector<double> of_points(dim * phase.points()), of_supports(of_points.size()), Mx(x.size());
+  phase.point_velocity(0, x, of_points);
+  phase.point_velocity(0, nothing, of_supports);
+  double material = 0, nodes = 0;
+  for (std::size_t i = 0; i < of_points.size(); ++i) {
+    const double v = of_points[i] - of_supports[i];
+    material += scene.mass.factor * mass[i / dim] * v * v;
+  }
+  phase.mass().apply(x, Mx);
+  for (std::size_t i = 0; i < x.size(); ++i) nodes += x[i] * Mx[i];
+  constexpr double little = 0.1;
+  if (material > little * nodes) return {};
+  return {fmt::format(
+      "omega_1 = {:.6g} is that of functions which hardly reach the body, with {:.1g} of their kinetic energy in it: "
+      "critical damping is too weak by as much; expected a grid that ends with the body, a finer one, a quadratic "
+      "basis or mass.kind = \"consistent\"",
+      omega_1, material / nodes)};
+}
 
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
   std::vector<std::string> notes = quadrature_notes(scene, phase, scaled);

@@ -14,4 +14,8 @@ namespace stillpoint {
 /// been scaled by Gershgorin's bound though the scene does not say so.
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled);
 
+/// Whether the lowest mode x moves the material, (n), or only functions that hardly reach the body.
+std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec x,
+                                           double omega_1);
+
 }  // namespace stillpoint

@@ -12,6 +12,7 @@
 #include "base/stopwatch.hpp"
 #include "output/exact_error.hpp"
 #include "output/point_fields.hpp"
+#include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/model.hpp"
@@ -131,6 +132,8 @@ class Simulation::Impl {
     }
     s.bytes_per_point = model_.phase->bytes_per_point();
     s.residual = s.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
+    s.stability = to_string(stability_.kind);
+    if (stability_.kind == EquilibriumStability::Kind::unstable) s.unstable_omega_squared = stability_.omega_squared;
     s.omega_1 = model_.omega_1;
     s.omega_max = model_.omega_max;
     s.c = model_.c ? model_.c : motion_->integrator->damping_rate();
@@ -311,8 +314,22 @@ class Simulation::Impl {
     options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
   }
 
+  // What claims to be an equilibrium may be one that the least disturbance ends.
+  void test_stability() {
+    const bool writes = recorder_ && !options_.out.empty();
+    if (writes) remove_mode(options_.out);
+    if (status_ != RunStatus::equilibrium) return;
+    stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
+    if (stability_.kind == EquilibriumStability::Kind::neutral) model_.notes.push_back(description(stability_));
+    if (stability_.kind != EquilibriumStability::Kind::unstable) return;
+    status_ = RunStatus::unstable_equilibrium;
+    reason_ = fmt::format("{}; {}", reason_, description(stability_));
+    if (writes) write_mode(stability_, *model_.phase, t_, motion_->u(), options_.out);
+  }
+
   void finish() {
     if (is_readable_) motion_->finish(t_);
+    test_stability();
     if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
   }
 
@@ -322,6 +339,7 @@ class Simulation::Impl {
   bool measured_ = false;    // whether the next five are of now
   double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0, power_ = 0;
   std::optional<double> distance_;
+  EquilibriumStability stability_;
   double stepping_s_ = 0, next_progress_ = 0;
   std::vector<double> field_;
 };

@@ -54,6 +54,8 @@ TEST_CASE("a run writes its summary and history whole, with every key of the con
                           "ns_per_point_step",
                           "residual",
                           "distance",
+                          "stability",
+                          "unstable_omega_squared",
                           "kinetic_energy",
                           "omega_1",
                           "omega_max",

@@ -16,27 +16,22 @@
 #include "base/stopwatch.hpp"
 #include "linalg/one_blas_thread.hpp"
 #include "linalg/power_iteration.hpp"
+#include "solvers/spectrum/nearest_eigenvalue.hpp"
 #include "solvers/spectrum/stiffness.hpp"
 
 namespace stillpoint {
 namespace {
-
-struct NearestEigenvalue {
-  double lambda = 0;
-  int applications = 0;  // of OP
-  bool converged = false;
-  std::string status;
-};
 
 // λ = xᵀKx/xᵀMx if n = 1: Lanczos needs at least two dimensions.
 NearestEigenvalue single_eigenvalue(const LinearMap& solve, const Mass& mass, double sigma) {
   const std::array<double, 1> m = {mass.diagonal()[0]};
   std::array<double, 1> theta{};
   solve(m, theta);  // (K − σM)⁻¹ M
-  return {sigma + 1 / theta[0], 1, true, "one degree of freedom: ω² = K/M, without ARPACK"};
+  return {sigma + 1 / theta[0], 1, true, "one degree of freedom: ω² = K/M, without ARPACK", {1 / std::sqrt(m[0])}};
 }
 
-// The λ of K x = λ M x nearest to σ; solve: x = (K − σM)⁻¹ b.
+}  // namespace
+
 NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, double sigma,
                                      const SpectrumOptions& options) {
   if (const std::string wrong = options.validate(); !wrong.empty()) throw std::invalid_argument(wrong);
@@ -82,23 +77,22 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
     return result;
   }
   std::vector<a_int> select(vectors);
-  dseupd_c(0, "A", select.data(), &result.lambda, basis.data(), size, sigma, "G", size, "LM", nev, options.tolerance,
+  dseupd_c(1, "A", select.data(), &result.lambda, basis.data(), size, sigma, "G", size, "LM", nev, options.tolerance,
            residual.data(), ncv, basis.data(), size, iparam.data(), ipntr.data(), workd.data(), workl.data(), lworkl,
            &info);
   result.converged = info == 0;
+  result.mode.assign(basis.begin(), basis.begin() + static_cast<std::ptrdiff_t>(n));
   result.status = info == 0 ? fmt::format("ARPACK: error of the Ritz value ≤ tolerance {:.1e}", options.tolerance)
                             : fmt::format("ARPACK: dseupd failed with info = {}", info);
   return result;
 }
-
-}  // namespace
 
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
   const Stopwatch watch;
   const FactorisedStiffness K(system.mass(), system.tangents().matrix(Tangent::elastic, t, u));
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
   const LinearMap solve = [&](ConstVec b, Vec x) { K.solve(b, x); };
-  const auto [lambda, applications, converged, status] = nearest_eigenvalue(solve, system.mass(), 0, options);
+  const auto [lambda, applications, converged, status, mode] = nearest_eigenvalue(solve, system.mass(), 0, options);
   if (!converged) return {0, applications, watch.seconds(), false, status};
   if (const std::string refusal = K.refusal(lambda); !refusal.empty()) {
     return {0, applications, watch.seconds(), false, refusal};
@@ -121,7 +115,7 @@ FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, Cons
     factor.solve(b, x);
     for (double& value : x) value = -value;
   };
-  const auto [lambda, applications, converged, status] = nearest_eigenvalue(solve, system.mass(), sigma, options);
+  const auto [lambda, applications, converged, status, mode] = nearest_eigenvalue(solve, system.mass(), sigma, options);
   if (converged && lambda < 0) return {0, applications, watch.seconds(), false, "K is negative definite"};
   return {converged ? std::sqrt(lambda) : 0, applications, watch.seconds(), converged, status};
 }

@@ -42,7 +42,7 @@ std::vector<double> scaled_row_sums(const SparseMatrix& A, ConstVec D) {
 // max, or NaN if one is NaN.
 double largest(const std::vector<double>& values) {
   double result = 0;
-  for (double value : values) result = value <= result ? result : value;
+  for (double value : values) result = std::isnan(result) || value <= result ? result : value;
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include <stillpoint/static_solution.hpp>
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
@@ -44,11 +46,15 @@ class Newton {
         std::ranges::copy(u, u_.begin());
         report_.load_factor = step.to;
         if (system_.history_dependent()) system_.commit(balance_.trial());
+        refused_ = false;
         constexpr std::size_t easy = 9;
         if (step.residuals.size() <= easy) size = std::min(2 * size, options_.max_load_step);
       } else {
         size = (step.to - s) / 2;
-        if (size < options_.min_load_step) {
+        if (size < options_.min_load_step && refused_ && options_.accept_unstable) {
+          size = std::min(1.0 / options_.load_steps, options_.max_load_step);
+          accepts_ = std::exchange(refused_, false);
+        } else if (size < options_.min_load_step) {
           report_.reason = fmt::format("no equilibrium beyond the load factor {:.4g}: {}; load step {:.3g} < {:.3g}", s,
                                        report_.reason, size, options_.min_load_step);
           return finished();
@@ -100,7 +106,8 @@ class Newton {
       residual = balance_.residual();
       step.residuals.push_back(residual);
     }
-    if (indefinite_) {
+    if (indefinite_ && !accepts_) {
+      refused_ = true;
       report_.reason = "the equilibrium found is unstable: K is indefinite";
       return false;
     }
@@ -196,6 +203,8 @@ class Newton {
   bool full_steps_ = false;  // whatever ‖Q‖ does
   int short_steps_ = 0;      // one after the other
   bool indefinite_ = false;  // K of the last iteration, if symmetric
+  bool refused_ = false;     // an equilibrium since the last that was taken
+  bool accepts_ = false;     // what is indefinite
   StaticReport report_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/statics/static_methods.hpp"
 
 namespace stillpoint {
@@ -54,6 +55,8 @@ std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, Rela
   NewtonOptions newton_options;
   newton_options.tolerance = options.tolerance;
   newton_options.solver = linear_solver_of(options.name);
+  // The run tests its end itself, and says what is wrong with it.
+  newton_options.accept_unstable = !system.system().history_dependent() && system.size() <= direct_solver_limit;
   return std::make_unique<NewtonStep>(newton_options, system);
 }
 

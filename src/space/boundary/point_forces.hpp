@@ -60,7 +60,7 @@ class PointForces final : public BoundaryCondition<B, K> {
                                                  const std::string& key) const {
     Point<dim> x;
     std::copy_n(at.begin(), dim, x.begin());
-    const auto cell = phase.grid.cell_of(x);
+    const auto cell = phase.grid.host_of(x);
     const auto values = Basis::evaluate(phase.grid, cell, x);
     const auto offset = Basis::offsets(phase.grid);
     std::vector<std::pair<int, double>> weights;

@@ -130,7 +130,7 @@ class Tractions final : public BoundaryCondition<B, K> {
       const double h = nodes[static_cast<std::size_t>(here[d]) + 1] - nodes[static_cast<std::size_t>(here[d])];
       inside[d] -= inwards * h * (piece.vector[d] > 0 ? 1 : piece.vector[d] < 0 ? -1 : 0);
     }
-    const auto cell = grid.cell_of(inside);
+    const auto cell = grid.host_of(inside);
     piece.values = Basis::evaluate(grid, cell, piece.x);
     const auto offset = Basis::offsets(grid);
     double reached = 0;

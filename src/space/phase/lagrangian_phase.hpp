@@ -48,6 +48,7 @@ struct PointData {
   std::vector<double> positions;          // when the phase began, (P × dim) [m]
   std::vector<double> initial_positions;  // when the run began, likewise
   std::vector<double> volumes;            // V_p when the phase began, (P) [m³]
+  std::vector<double> masses;             // m_p, (P) [kg]
   std::vector<int> materials;             // number of each point's material, by name, (P)
 };
 

@@ -1,5 +1,5 @@
 // Lagrangian phases for one basis and one kind of kinematics: what they are made of. What they do is in
-// phase_forces.hpp, phase_points.hpp and phase_change.hpp.
+// phase_forces.hpp, phase_points.hpp, phase_change.hpp and phase_cut_cells.hpp.
 #pragma once
 
 #include <stillpoint/damping.hpp>
@@ -48,6 +48,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
       if (found && contact_) throw std::logic_error("two kinds of boundary conditions have contact");
       if (found) contact_ = found;
     }
+    join_slivers();
     origin_ = point_positions();
     if (scene_.geostatic) set_geostatic_stress();
     if (updated_lagrangian()) set_initial_point_velocity();
@@ -116,6 +117,8 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   static bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
   bool updated_lagrangian() const { return info_.updated_lagrangian; }
   void describe();
+  void join_slivers();
+  bool is_held(const HeldUnknowns& held, int cell, int component) const;
   void begin_phase(double t);
   std::vector<char> active_functions() const;
   double time_scale() const;

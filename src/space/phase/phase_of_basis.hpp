@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "space/phase/phase_change.hpp"
+#include "space/phase/phase_cut_cells.hpp"
 #include "space/phase/phase_factory.hpp"
 #include "space/phase/phase_forces.hpp"
 #include "space/phase/phase_points.hpp"

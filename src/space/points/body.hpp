@@ -20,6 +20,7 @@ struct Body {
   QuadratureReport quadrature;
   std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
   std::vector<std::string> material_names;
+  std::vector<CellShares> covered;  // by each [[body]]; empty if that of one is not known
 };
 
 namespace detail {
@@ -45,6 +46,7 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
         place_body<dim>(spec, grid, scene.materials.at(spec.material).parameters.at("rho"), scene.state);
     body.quadrature.add(placed.quadrature);
     const int count = static_cast<int>(placed.points.size());
+    if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
     by_material[spec.material].emplace_back(std::move(placed.points), number);
     number += count;
   }
@@ -62,6 +64,7 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
     body.material_names.push_back(name);
   }
   points.material_begin.push_back(static_cast<int>(points.size()));
+  if (body.covered.size() < scene.bodies.size()) body.covered.clear();
   if (updated_lagrangian) {
     for (auto& v : points.v) v.assign(points.size(), 0);
     if (scene.phase.transfer == Transfer::apic) {

@@ -70,8 +70,8 @@ struct Box {
 template <int Dim>
 class Filling {
  public:
-  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points)
-      : body_(body), grid_(grid), points_(points), positions_(body) {}
+  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points, CellShares& covered)
+      : body_(body), grid_(grid), points_(points), covered_(covered), positions_(body) {}
 
   QuadratureReport run() {
     for (int number = 0; number < grid_.cells(); ++number) {
@@ -118,6 +118,7 @@ class Filling {
                      .equal_volumes = body_.volumes == VolumeRule::equal,
                      .smallest_share = smallest_share(part, cell),
                      .cells_limited_by_sign = fit_.limited_by_sign ? 1 : 0});
+    covered_.emplace_back(number, part.size() / cell.size());
     points_.begin_cell(number);
     for (Eigen::Index p = 0; p < xi.cols(); ++p) points_.add(part.position(xi, p), fit_.weights(p) * part.size());
   }
@@ -143,6 +144,7 @@ class Filling {
       inside.push_back(cell.position(at, 0));
     }
     quadrature_.add({.degree = {}, .border_cells = 1, .smallest_share = extent_of(part)});
+    covered_.emplace_back(number, share);
     points_.begin_cell(number);
     for (const auto& x : inside) points_.add(x, share * cell.size() / static_cast<double>(inside.size()));
   }
@@ -160,6 +162,7 @@ class Filling {
   const BodySpec& body_;
   const Grid<Dim>& grid_;
   PointCollector<Dim>& points_;
+  CellShares& covered_;
   CellPositions<Dim> positions_;
   MomentFit fit_;
   QuadratureReport quadrature_;
@@ -213,7 +216,7 @@ PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double d
   PlacedBody<Dim> placed;
   PointCollector<Dim> points(body.area, density, state);
   if (body.file.empty()) {
-    placed.quadrature = Filling<Dim>(body, grid, points).run();
+    placed.quadrature = Filling<Dim>(body, grid, points, placed.covered).run();
   } else {
     take_from_file(body.file, grid, points);
   }

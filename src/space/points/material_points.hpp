@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "space/grid/cut_cells.hpp"
 #include "space/grid/grid.hpp"
 
 namespace stillpoint {
@@ -54,6 +55,7 @@ struct QuadratureReport {
   int border_cells = 0;           // cut by a polygon's border: the volumes share the area, and integrate degree 0
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
+  int slivers = 0, joined = 0;    // cells that the body hardly reaches, and those of them that have a host
 
   void add(const QuadratureReport& other);
 };
@@ -62,6 +64,7 @@ template <int Dim>
 struct PlacedBody {
   MaterialPoints<Dim> points;
   QuadratureReport quadrature;
+  CellShares covered;  // by the body; empty: not known
 };
 
 /// The material points of a body, cell by cell.

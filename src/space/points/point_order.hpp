@@ -26,7 +26,8 @@ class PointOrder {
   /// Longest list of points that counts as one cell; a fuller one is listed in parts.
   static constexpr int most_points = 128;
 
-  /// Sorts the points and lists the cells that hold some. order(): which point each one was.
+  /// Sorts the points and lists the cells that hold some, or whose functions hold at some. order(): which point each
+  /// one was.
   void sort(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
     const std::size_t n = points.size();
     cell_.resize(n);
@@ -39,6 +40,7 @@ class PointOrder {
       std::array<int, Dim> cell;
       for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], cells_per_length[d]);
       cell_[p] = grid.cell_number(cell);
+      if (!grid.host.empty()) cell_[p] = grid.host[static_cast<std::size_t>(cell_[p])];
     });
     order_.resize(n);
     points.cell.clear();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -217,6 +218,44 @@ TEST_CASE("a body that softens is told from one that is not held") {
   const std::vector<double> u = {0.3, 0.3, 0.3, 0.3, 0.3};
   for (const auto method : {omega_1_by_inverse_iteration, omega_1_by_arpack}) {
     CHECK_THAT(method(chain, 0, u, SpectrumOptions{}).status, Contains("indefinite"));
+  }
+}
+
+TEST_CASE("omega_1 is found where rounding moves the Rayleigh quotient by more than the tolerance") {
+  // A beam on two supports, K = T² with T = tridiag(−1, 2, −1): ω_k = 4 sin²(kπ/(2n + 2)), κ = 6e9.
+  constexpr int n = 400;
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    T(i, i) = 2;
+    if (i > 0) T(i, i - 1) = T(i - 1, i) = -1;
+  }
+  const PlainSystem beam(T * T, Eigen::MatrixXd::Identity(n, n));
+  const double exact = 4 * std::pow(std::sin(std::numbers::pi / (2 * (n + 1))), 2);
+  for (const auto method : {omega_1_by_inverse_iteration, omega_1_by_arpack}) {
+    const FrequencyEstimate estimate = method(beam, 0, std::vector<double>(n, 0.0), SpectrumOptions{});
+    INFO(estimate.status);
+    REQUIRE(estimate.converged);
+    CHECK(estimate.omega == Approx(exact).epsilon(1e-5));
+    CHECK(estimate.iterations < 200);
+  }
+}
+
+TEST_CASE("omega_1 is found beside a second mode of nearly the same frequency") {
+  const PlainSystem pair(Eigen::Vector4d(1, 1 + 1e-5, 5, 7).asDiagonal().toDenseMatrix(), Eigen::Matrix4d::Identity());
+  const FrequencyEstimate estimate = omega_1_by_inverse_iteration(pair, 0, std::vector<double>(4, 0.0));
+  INFO(estimate.status);
+  REQUIRE(estimate.converged);
+  CHECK(estimate.omega == near(1));
+}
+
+TEST_CASE("inverse iteration shows its mode, that of the lowest frequency") {
+  const Chain chain({.n = 30});
+  const std::vector<double> mode = omega_1_by_inverse_iteration(chain, 0, at_rest(chain)).mode;
+  REQUIRE(mode.size() == chain.size());
+  for (std::size_t i = 0; i < mode.size(); ++i) {
+    const double angle = std::numbers::pi / 2 * static_cast<double>(i + 1) / (static_cast<double>(mode.size()) + 0.5);
+    CHECK(std::abs(mode[i] / mode.back()) ==
+          Approx(std::sin(angle) / std::sin(std::numbers::pi / 2 * 30 / 30.5)).margin(1e-3));
   }
 }
 

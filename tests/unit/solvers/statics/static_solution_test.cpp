@@ -289,6 +289,19 @@ TEST_CASE("load steps find the limit of a spring that softens, and take no unsta
   CHECK(end - end * end * end == Approx(above.load_factor * 2 * limit).epsilon(1e-9));  // the last equilibrium
 }
 
+TEST_CASE("an unstable equilibrium is taken by those alone who say that they will look at it") {
+  for (const bool accepts : {false, true}) {
+    test::Chain chain({.n = 1, .cubic = -1, .load = 0.2});
+    std::vector<double> u = {0.9};  // past the limit at √(1/3), where e − e³ falls
+    const StaticReport report = newton(chain, 0, u, {.accept_unstable = accepts});
+    INFO(shown(report));
+    CHECK(report.converged == accepts);
+    if (!accepts) CHECK_THAT(report.reason, Contains("unstable"));
+    if (accepts) CHECK(u[0] - u[0] * u[0] * u[0] == Approx(0.2).epsilon(1e-8));
+    if (accepts) CHECK(u[0] > std::sqrt(1.0 / 3));
+  }
+}
+
 TEST_CASE("a body that is not held has no static solution, and its K no factor") {
   const Solved s = solve(column({"support=[]"}));
   CHECK_FALSE(s.report.converged);

@@ -1,0 +1,171 @@
+#include "simulation/equilibrium_stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include <Eigen/SparseCore>
+#include <fmt/format.h>
+
+#include "base/atomic_file.hpp"
+#include "linalg/sparse_lu.hpp"
+#include "output/point_fields.hpp"
+#include "solvers/spectrum/direct_solver_limit.hpp"
+#include "solvers/spectrum/lowest_mode.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr const char* mode_file = "unstable_mode.csv";
+
+// What x alone makes of a quantity at the points, supports left out.
+std::vector<double> of_mode(const LagrangianPhase& phase, PointQuantity quantity, std::size_t width, double t,
+                            ConstVec x) {
+  const std::vector<double> nothing(x.size(), 0.0);
+  std::vector<double> values(width * phase.points()), rest(values.size());
+  phase.point_field(quantity, t, x, values);
+  phase.point_field(quantity, t, nothing, rest);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= rest[i];
+  return values;
+}
+
+// Σ_p V_p |σ_p| |∇x_p|², a bound of the stresses' part of xᵀKx: what is out of balance changes it by such a share.
+double stress_part(const LagrangianPhase& phase, double t, ConstVec u, ConstVec x) {
+  const auto gradients = static_cast<std::size_t>(phase.info().gradient_components);
+  const auto stresses = static_cast<std::size_t>(phase.info().stress_components);
+  const std::vector<double> gradient = of_mode(phase, PointQuantity::strain, gradients, t, x);
+  const std::vector<double> volume = phase.point_data().volumes;
+  std::vector<double> stress(stresses * phase.points());
+  phase.point_stress(t, u, stress);
+  const auto square = [](const std::vector<double>& values, std::size_t width, std::size_t p) {
+    double sum = 0;
+    for (std::size_t i = 0; i < width; ++i) sum += values[width * p + i] * values[width * p + i];
+    return sum;
+  };
+  double sum = 0;
+  for (std::size_t p = 0; p < phase.points(); ++p)
+    sum += volume[p] * std::sqrt(square(stress, stresses, p)) * square(gradient, gradients, p);
+  return sum;
+}
+
+// The lowest real λ of K x = λ M x with an unsymmetric K, from the one of its symmetric part, which is lower: by
+// inverse iteration from below. False if there is no real one there.
+bool find_real_mode(const SparseMatrix& K, const Mass& mass, LowestMode& lowest) {
+  constexpr int most_iterations = 200;
+  constexpr double accuracy = 1e-6;
+  const double sigma = -2 * std::min(lowest.omega_squared, -lowest.rounding);
+  const SparseLu factor(SparseMatrix(K + sigma * mass.matrix()));
+  if (!factor.regular()) return false;
+  const auto n = static_cast<Eigen::Index>(mass.size());
+  Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(lowest.x.data(), n), Mx(n), y(n), My(n);
+  const auto apply_M = [&](const Eigen::VectorXd& from, Eigen::VectorXd& to) {
+    mass.apply({from.data(), mass.size()}, {to.data(), mass.size()});
+  };
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    apply_M(x, Mx);
+    factor.solve({Mx.data(), mass.size()}, {y.data(), mass.size()});
+    apply_M(y, My);
+    const double theta = x.dot(My), length = std::sqrt(y.dot(My));
+    lowest.omega_squared = 1 / theta - sigma;
+    const bool converged = length * length - theta * theta <= accuracy * accuracy * length * length;
+    x = y / length;
+    if (!converged) continue;
+    lowest.x.assign(x.data(), x.data() + n);
+    return true;
+  }
+  return false;
+}
+
+void describe_mode(const LagrangianPhase& phase, double t, ConstVec u, ConstVec x, EquilibriumStability& stability) {
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  stability.mode = of_mode(phase, PointQuantity::displacement, dim, t, x);
+  double most = 0;
+  std::size_t at = 0;
+  for (std::size_t p = 0; p < phase.points(); ++p) {
+    double square = 0;
+    for (std::size_t i = 0; i < dim; ++i) square += stability.mode[dim * p + i] * stability.mode[dim * p + i];
+    if (square > most) most = square, at = p;
+  }
+  if (most > 0) {
+    for (double& value : stability.mode) value /= std::sqrt(most);
+  }
+  const std::vector<double> positions = current_positions(phase, t, u);
+  const auto first = positions.begin() + static_cast<std::ptrdiff_t>(dim * at);
+  stability.largest.assign(first, first + static_cast<std::ptrdiff_t>(dim));
+}
+
+}  // namespace
+
+EquilibriumStability stability_of(const LagrangianPhase& phase, double t, ConstVec u, double residual) {
+  using Kind = EquilibriumStability::Kind;
+  const bool can_change = phase.info().nonlinear && !phase.history_dependent() && !phase.contact();
+  if (!can_change || phase.size() == 0 || phase.size() > direct_solver_limit) return {};
+  const SparseMatrix K = phase.tangents().matrix(Tangent::consistent, t, u) - phase.tangents().of_loads(t, u);
+  const SparseMatrix transposed = K.transpose();
+  // With an unsymmetric K no mode grows in one direction if the symmetric part is positive definite.
+  LowestMode lowest = lowest_mode(0.5 * (K + transposed), phase.mass());
+  if (lowest.positive_definite) return {.kind = Kind::stable, .mode = {}, .largest = {}};
+  if (!lowest.found) return {};
+  constexpr double rounding = 1e-10;
+  const bool symmetric = (K - transposed).norm() <= rounding * K.norm();
+  if (!symmetric && !find_real_mode(K, phase.mass(), lowest)) return {};
+
+  constexpr double margin = 10;
+  const double unsure = std::max(lowest.rounding, margin * residual * stress_part(phase, t, u, lowest.x));
+  EquilibriumStability stability{.omega_squared = lowest.omega_squared, .mode = {}, .largest = {}};
+  stability.kind = lowest.omega_squared < -unsure  ? Kind::unstable
+                   : lowest.omega_squared > unsure ? Kind::stable
+                                                   : Kind::neutral;
+  if (stability.kind != Kind::stable) describe_mode(phase, t, u, lowest.x, stability);
+  return stability;
+}
+
+std::string to_string(EquilibriumStability::Kind kind) {
+  switch (kind) {
+    case EquilibriumStability::Kind::not_tested:
+      return "";
+    case EquilibriumStability::Kind::stable:
+      return "stable";
+    case EquilibriumStability::Kind::neutral:
+      return "neutral";
+    case EquilibriumStability::Kind::unstable:
+      return "unstable";
+  }
+  return "";
+}
+
+std::string description(const EquilibriumStability& stability) {
+  const std::string where = fmt::format("({:.6g})", fmt::join(stability.largest, ", "));
+  if (stability.kind == EquilibriumStability::Kind::neutral) {
+    return fmt::format(
+        "the equilibrium is neutral, K(u) has the eigenvalue omega^2 = {:.2g}: nothing holds the body against a motion "
+        "that is largest at {}; there is no support for it, or too few material points for the basis",
+        stability.omega_squared, where);
+  }
+  return fmt::format(
+      "the equilibrium is unstable, K(u) has the eigenvalue omega^2 = {:.6g} < 0: a disturbance grows e-fold in {:.3g} "
+      "s, most of all at {}; a small force or initial.u along that mode leads to another equilibrium",
+      stability.omega_squared, 1 / std::sqrt(-stability.omega_squared), where);
+}
+
+void write_mode(const EquilibriumStability& stability, const LagrangianPhase& phase, double t, ConstVec u,
+                const std::filesystem::path& folder) {
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  const std::vector<double> position = current_positions(phase, t, u);
+  std::string text = dim == 1 ? "point,x,mode\n" : "point,x,y,mode.x,mode.y\n";
+  for (std::size_t p = 0; p < phase.points(); ++p) {
+    const auto row = [&](const std::vector<double>& values) { return ConstVec(values).subspan(dim * p, dim); };
+    text +=
+        fmt::format("{},{:.17g},{:.17g}\n", p + 1, fmt::join(row(position), ","), fmt::join(row(stability.mode), ","));
+  }
+  AtomicFile file(folder / mode_file);
+  file.write(text);
+  file.finish();
+}
+
+void remove_mode(const std::filesystem::path& folder) {
+  std::error_code none;  // there may be no such file
+  std::filesystem::remove(folder / mode_file, none);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,124 @@
+// Cells that a body hardly reaches, and the cells whose functions hold there instead.
+//
+// Of the functions that lie in a sliver of width ε h alone, that of degree p is (x/h)^p, so that
+//
+//   K_i ∝ ε^(2p−1),   M_i ∝ ε^(p+1) lumped, ε^(2p+1) consistent,   ω_i² = K_i/M_i ∝ ε^(p−2) or ε^−2:
+//
+// with a lumped mass a cubic function becomes as slow as you like, in a corner of the plane a quadratic one too, and
+// the body's ω₁ is theirs; linear functions, and all with a consistent mass, become as fast. Either way the functions
+// add nothing to the answer. So they are left out: in a sliver hold the functions of a neighbour cell, each continued
+// as the polynomial that it is there, which keeps every polynomial that the basis has [Höllig, Reif, Wipper 2001,
+// weighted extended B-splines; Badia, Verdugo, Martín 2018, aggregated finite elements].
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "space/grid/grid.hpp"
+
+namespace stillpoint {
+
+/// How much of a cell something takes, by the cell's number, ascending; cells that are not listed are empty.
+using CellShares = std::vector<std::pair<int, double>>;
+
+template <int Dim>
+class CutCells {
+ public:
+  /// covered: by each part of the body. degree: of the basis.
+  CutCells(const Grid<Dim>& grid, const std::vector<CellShares>& covered, int degree)
+      : grid_(grid), covered_(covered), enough_(degree < 3 ? 0.25 : 0.5) {
+    together_.assign(static_cast<std::size_t>(grid.cells()), 0);
+    for (const CellShares& part : covered) {
+      for (const auto& [cell, share] : part) together_[static_cast<std::size_t>(cell)] += share;
+    }
+    for (int c = 0; c < grid.cells(); ++c) {
+      if (is_sliver(c)) slivers_.push_back(c);
+    }
+  }
+
+  /// In ascending order.
+  const std::vector<int>& slivers() const { return slivers_; }
+
+  /// The host of a sliver: the nearest of the cells next to it, or next but one, that is no sliver and may be one, and
+  /// of equally near ones that with most of the same parts. The sliver itself if there is none.
+  /// may_host(sliver, cell)
+  template <class MayHost>
+  int host_of(int sliver, const MayHost& may_host) const {
+    int host = sliver, nearest = std::numeric_limits<int>::max();
+    double most = 0;
+    const auto at = grid_.cell_at(sliver);
+    std::array<int, Dim> offset;
+    offset.fill(-reach);
+    do {
+      int distance = 0;
+      for (const int o : offset) distance += o * o;
+      const auto candidate = moved(at, offset);
+      if (distance == 0 || distance > nearest || !is_inside(candidate)) continue;
+      const int number = grid_.cell_number(candidate);
+      const double common = in_common(sliver, number);
+      if (share(number) < enough_ || common == 0 || (distance == nearest && common <= most)) continue;
+      if (!ends_here(at, offset) || !may_host(sliver, number)) continue;
+      host = number;
+      nearest = distance;
+      most = common;
+    } while (next(offset));
+    return host;
+  }
+
+ private:
+  static constexpr int reach = 2;
+
+  double share(int cell) const { return together_[static_cast<std::size_t>(cell)]; }
+  bool is_sliver(int cell) const { return share(cell) > 0 && share(cell) < enough_; }
+  bool is_inside(const std::array<int, Dim>& cell) const {
+    for (int d = 0; d < Dim; ++d) {
+      if (cell[d] < 0 || cell[d] >= grid_.axes[d].cells()) return false;
+    }
+    return true;
+  }
+  static std::array<int, Dim> moved(std::array<int, Dim> cell, const std::array<int, Dim>& by) {
+    for (int d = 0; d < Dim; ++d) cell[d] += by[d];
+    return cell;
+  }
+  static bool next(std::array<int, Dim>& offset) {
+    for (int& o : offset) {
+      if (++o <= reach) return true;
+      o = -reach;
+    }
+    return false;
+  }
+
+  static double share_of(const CellShares& part, int cell) {
+    const auto found = std::ranges::lower_bound(part, cell, {}, &CellShares::value_type::first);
+    return found != part.end() && found->first == cell ? found->second : 0;
+  }
+  double in_common(int a, int b) const {
+    double sum = 0;
+    for (const CellShares& part : covered_) sum += share_of(part, a) * share_of(part, b);
+    return sum;
+  }
+
+  // Whether the body ends in the sliver or in slivers behind it, seen from the host: a thin bridge stays one.
+  bool ends_here(const std::array<int, Dim>& sliver, const std::array<int, Dim>& to_host) const {
+    for (int d = 0; d < Dim; ++d) {
+      if (to_host[d] == 0) continue;
+      auto behind = sliver;
+      do {
+        behind[d] -= to_host[d] > 0 ? 1 : -1;
+      } while (is_inside(behind) && is_sliver(grid_.cell_number(behind)));
+      if (is_inside(behind) && share(grid_.cell_number(behind)) > 0) return false;
+    }
+    return true;
+  }
+
+  const Grid<Dim>& grid_;
+  const std::vector<CellShares>& covered_;
+  double enough_;  // a cell is a sliver if less of it is covered
+  std::vector<double> together_;
+  std::vector<int> slivers_;
+};
+
+}  // namespace stillpoint
