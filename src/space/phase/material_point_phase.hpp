@@ -18,6 +18,7 @@
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
 #include "space/kernels/velocity_transfer.hpp"
+#include "space/phase/grid_faces.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/points/body.hpp"
 
@@ -127,7 +128,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
 
   std::vector<double> nodal_velocity(double t, ConstVec v) const;
   void end_phase(double t, ConstVec u, ConstVec v);
-  void check_inside(const Grid<Dim>& next_grid, ConstVec grid_u, double t) const;
+  bool check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u, double t) const;
 
   double largest_motion(ConstVec u) const;
   double largest_strain(const double* grid_u) const;
