@@ -151,8 +151,6 @@ const std::vector<BadScene> kBadPhasesAndOutput = {
     {"order 0", "transfer = \"flip\"\nflip_share = 0.99", "transfer = \"xpic\"\nxpic_order = 0", "27:14",
      "from 1 to 20, not 0"},
     {"hermite", "\"quadratic\"", "\"hermite\"", "8:9", "grid.basis: 'hermite' has no lumped mass to carry velocities"},
-    {"a point force", "[output]", "[[force]]\nat = [8, 3]\nvalue = [0, -1]\n[output]", "44:6",
-     "force[0].at: the material leaves this position from phase to phase"},
     {"a pin that moves", "[output]", "[[support]]\nat = [8, 0]\nu = \"0.1*t\"\n[output]", "45:5",
      "support[2].u: the material that moves with this support leaves its node from phase to phase; let it rest"},
     {"a support that moves", "kind = \"roller\"", "kind = \"roller\"\nu = \"0.1*t\"", "33:5",

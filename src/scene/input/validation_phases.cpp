@@ -103,10 +103,6 @@ void check_phases(SceneCheck& check) {
         fmt::format("velocities are carried from phase to phase by a lumped mass; take mass.kind = \"lumped\", {}",
                     one_phase));
   }
-  for (std::size_t k = 0; k < scene.forces.size(); ++k)
-    check.add(fmt::format("force[{}].at", k),
-              fmt::format("the material leaves this position from phase to phase; take a traction or a body force, {}",
-                          one_phase));
   if (!scene.exact_u.empty())
     check.add("exact.u",
               fmt::format("is a function of undeformed positions, which later phases do not know; leave it out, {}",
