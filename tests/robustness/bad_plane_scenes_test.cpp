@@ -155,8 +155,11 @@ const std::vector<BadScene> kBadPhasesAndOutput = {
     {"order 0", "transfer = \"flip\"\nflip_share = 0.99", "transfer = \"xpic\"\nxpic_order = 0", "27:14",
      "from 1 to 20, not 0"},
     {"hermite", "\"quadratic\"", "\"hermite\"", "8:9", "grid.basis: 'hermite' has no lumped mass to carry velocities"},
-    {"a point force", "[output]", "[[force]]\nat = [8, 3]\nvalue = [0, -1]\n[output]", "44:6",
-     "force[0].at: the material leaves this position from phase to phase"},
+    {"a pin that moves", "[output]", "[[support]]\nat = [8, 0]\nu = \"0.1*t\"\n[output]", "45:5",
+     "support[2].u: the material that moves with this support leaves its node from phase to phase; let it rest"},
+    {"a support that moves", "kind = \"roller\"", "kind = \"roller\"\nu = \"0.1*t\"", "33:5",
+     "support[1].u: the material that moves with this support leaves its face of the grid from phase to phase; take a "
+     "[[wall]]"},
     {"an exact answer", "[output]", "[exact]\nu = [\"x\", \"y\"]\n[output]", "44:5",
      "exact.u: is a function of undeformed positions, which later phases do not know"},
     {"backwards", "1.5", "4.5", "44:19", "output.stages[2]: must be later than the time before it, 4.5, not 3.5"},

@@ -57,7 +57,7 @@ std::string hint(const auto* row, const char* is, const char* key) {
 
 void add_boundary(Tables& tables) {
   tables.add({"support", "a prescribed displacement", Repeat::array}, &Scene::supports)
-      .key("at", &SupportSpec::at, "position; or face", {.unit = "m"})
+      .key("at", &SupportSpec::at, "position, of a node that stays in place; or face", {.unit = "m"})
       .key("face", &SupportSpec::face, "of the grid; or at", {.words = kFaces})
       .key("component", &SupportSpec::component, "what is held and moves; r and z if there is an axis of symmetry",
            {.words = {"x", {"y", kPlane}, {"r", kPlane, false}, {"z", kPlane, false}},
@@ -74,11 +74,13 @@ void add_boundary(Tables& tables) {
       .key("friction", &WallSpec::friction, "Coulomb's coefficient; rough: no slip",
            {.range = kNotNegative, .words = {"rough"}}, [](WallSpec& wall) { wall.friction = kInfinity; });
 
-  tables.add({"force", "a force at a position", Repeat::array}, &Scene::forces)
+  tables.add({"force", "a force at a position of the material, with which it moves", Repeat::array}, &Scene::forces)
       .key("at", &PointForceSpec::at, "position", {.unit = "m", .required = true})
       .key("value", &PointForceSpec::value, "components", {.unit = "N", .variables = "t", .required = true});
 
-  tables.add({"traction", "a load on a face of a body that is one box", Repeat::array}, &Scene::tractions)
+  tables
+      .add({"traction", "a load on a face of a body that is one box, with which it moves", Repeat::array},
+           &Scene::tractions)
       .key("face", &TractionSpec::face, "of the body's box", {.words = kFaces, .required = true})
       .key("value", &TractionSpec::value, "per undeformed area; keeps its direction", {.unit = "Pa", .variables = "t"})
       .key("pressure", &TractionSpec::pressure, "or: per deformed area, along the normal",

@@ -40,6 +40,20 @@ void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
   }
 }
 
+/// A support holds what is at its node or at its face of the grid: what moves with it leaves them.
+void check_moving_supports(SceneCheck& check, const std::string& one_phase) {
+  const Scene& scene = check.scene();
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    const SupportSpec& support = scene.supports[k];
+    if (!support.motion.uses('t') && support.motion({}, 0) == 0) continue;
+    check.add(
+        fmt::format("support[{}].u", k),
+        fmt::format("the material that moves with this support leaves its {} from phase to phase; {}, {}",
+                    support.face ? "face of the grid" : "node",
+                    support.face ? "take a [[wall]] with a motion that the grid follows" : "let it rest", one_phase));
+  }
+}
+
 }  // namespace
 
 void check_phases(SceneCheck& check) {
@@ -89,10 +103,6 @@ void check_phases(SceneCheck& check) {
         fmt::format("velocities are carried from phase to phase by a lumped mass; take mass.kind = \"lumped\", {}",
                     one_phase));
   }
-  for (std::size_t k = 0; k < scene.forces.size(); ++k)
-    check.add(fmt::format("force[{}].at", k),
-              fmt::format("the material leaves this position from phase to phase; take a traction or a body force, {}",
-                          one_phase));
   if (!scene.exact_u.empty())
     check.add("exact.u",
               fmt::format("is a function of undeformed positions, which later phases do not know; leave it out, {}",
@@ -101,6 +111,7 @@ void check_phases(SceneCheck& check) {
     check.add("stop.distance", fmt::format("is certified for one set of unknowns, not from phase to phase; take "
                                            "stop.residual, {}",
                                            one_phase));
+  check_moving_supports(check, one_phase);
   check_moving_walls(check, one_phase);
 }
 

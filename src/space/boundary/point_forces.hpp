@@ -1,4 +1,4 @@
-// Forces at points of the body: F_i = N_i(x) P(t).
+// Forces at points of the body, with which they move: F_i = w_i P(t), see carried_point.hpp.
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -13,25 +13,27 @@
 
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
+#include "space/boundary/carried_point.hpp"
 
 namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
 class PointForces final : public BoundaryCondition<B, K> {
   static constexpr int dim = dimensions(K);
-  using Basis = TensorBasis<B, dim>;
   using typename BoundaryCondition<B, K>::Parts;
 
  public:
-  explicit PointForces(const Scene& scene) : scene_(scene) {}
+  explicit PointForces(const Scene& scene) : scene_(scene) {
+    for (const PointForceSpec& force : scene.forces) std::copy_n(force.at.begin(), dim, at_.emplace_back().x.begin());
+  }
 
   void begin_phase(const Parts& phase, Vec F) override {
+    find(phase);
     varying_.clear();
-    for (std::size_t f = 0; f < scene_.forces.size(); ++f) {
-      const auto& force = scene_.forces[f];
+    for (std::size_t f = 0; f < at_.size(); ++f) {
       for (int i = 0; i < dim; ++i) {
-        const Expression& value = force.value[static_cast<std::size_t>(i)];
-        Varying load{&value, weights_at(force.at, i, phase, fmt::format("force[{}].at", f))};
+        const Expression& value = scene_.forces[f].value[static_cast<std::size_t>(i)];
+        Varying load{&value, weights_of(at_[f], i, phase.dofs)};
         if (value.uses('t')) {
           varying_.push_back(std::move(load));
         } else {
@@ -43,11 +45,14 @@ class PointForces final : public BoundaryCondition<B, K> {
   void add_load(const Parts&, double t, Vec F) const override {
     for (const Varying& load : varying_) add(load, t, F);
   }
+  void end_phase(const double* u) override {
+    for (auto& at : at_) at.move(u);
+  }
 
  private:
   struct Varying {
     const Expression* value;
-    std::vector<std::pair<int, double>> weights;  // (free degree of freedom, N_i)
+    std::vector<std::pair<int, double>> weights;  // (free degree of freedom, w_i)
   };
 
   static void add(const Varying& load, double t, Vec F) {
@@ -55,27 +60,33 @@ class PointForces final : public BoundaryCondition<B, K> {
     for (const auto& [dof, weight] : load.weights) F[static_cast<std::size_t>(dof)] += weight * force;
   }
 
-  // N_i of the free degrees of freedom at a point.
-  std::vector<std::pair<int, double>> weights_at(const std::vector<double>& at, int component, const Parts& phase,
-                                                 const std::string& key) const {
-    Point<dim> x;
-    std::copy_n(at.begin(), dim, x.begin());
-    const auto cell = phase.grid.host_of(x);
-    const auto values = Basis::evaluate(phase.grid, cell, x);
-    const auto offset = Basis::offsets(phase.grid);
-    std::vector<std::pair<int, double>> weights;
-    for (int a = 0; a < Basis::per_cell; ++a) {
-      const int unknown = dim * (Basis::first(phase.grid, cell) + offset[a]) + component;
-      const int dof = phase.dofs.number[static_cast<std::size_t>(unknown)];
-      if (dof < 0 && std::abs(values.N[a]) > 1e-12)
-        throw_scene_error(scene_, key, "there is no material at this place");
-      if (phase.dofs.is_free(dof) && values.N[a] != 0) weights.emplace_back(dof, values.N[a]);
+  void find(const Parts& phase) {
+    for (std::size_t f = 0; f < at_.size() && !has_begun_; ++f) {
+      at_[f].freeze(phase.grid.host_of(at_[f].x), phase);
+      for (std::size_t a = 0; a < at_[f].w.size(); ++a) {
+        if (at_[f].function[a] < 0 && std::abs(at_[f].w[a]) > 1e-12)
+          throw_scene_error(scene_, fmt::format("force[{}].at", f), "there is no material at this place");
+      }
     }
+    has_begun_ = true;
+    if (!has_phases(scene_)) return;
+    const NearestPoint<dim> nearest(phase.points, phase.grid);
+    for (auto& at : at_) at.freeze(nearest.to(at.x), phase);
+  }
+
+  static std::vector<std::pair<int, double>> weights_of(const CarriedPoint<B, K>& at, int component,
+                                                        const DegreesOfFreedom& dofs) {
+    std::vector<std::pair<int, double>> weights;
+    at.for_free(dofs, [&](int a, int i, int dof) {
+      if (i == component && at.w[a] != 0) weights.emplace_back(dof, at.w[a]);
+    });
     return weights;
   }
 
   const Scene& scene_;
-  std::vector<Varying> varying_;  // of the present phase
+  std::vector<CarriedPoint<B, K>> at_;  // of each force
+  bool has_begun_ = false;              // the first phase
+  std::vector<Varying> varying_;        // of the present phase
 };
 
 }  // namespace stillpoint

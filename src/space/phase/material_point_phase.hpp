@@ -21,6 +21,7 @@
 #include "space/kernels/nodal_inertia.hpp"
 #include "space/kernels/velocity_transfer.hpp"
 #include "space/phase/free_parts.hpp"
+#include "space/phase/grid_faces.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/points/body.hpp"
 
@@ -141,7 +142,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   std::vector<double> impulse(const std::vector<double>& grid_v) const;
   void keep_spin(const std::vector<double>& grid_v);
   void end_phase(double t, ConstVec u, ConstVec v);
-  void check_inside(const Grid<Dim>& next_grid, ConstVec grid_u, double t) const;
+  bool check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u, double t) const;
 
   bool is_within_phase(ConstVec u, const double* grid_u) const;
   double largest_motion(ConstVec u) const;

@@ -1,6 +1,7 @@
 // How a phase begins and ends.
 #pragma once
 
+#include "space/phase/grid_faces.hpp"
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
@@ -38,8 +39,11 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   const auto followed = std::ranges::find(walls, scene_.grid.follow, &WallReaction::name);
   Grid<Dim> next_grid = grid_at<Dim>(scene_, followed == walls.end() ? 0 : followed->displacement);
   spread(t, u, grid_u_);
-  check_inside(next_grid, grid_u_, t);  // before anything changes: a run that ends here shows the state it had
+  // Before anything changes: a run that ends here shows the state it had.
+  const GridFaces<Dim> faces(scene_, next_grid);
+  const bool some_past_a_face = check_inside(next_grid, faces, grid_u_, t);
   end_phase(t, u, v);
+  if (some_past_a_face) faces.put_back(body_.points);
   ++phase_;
   grid_ = std::move(next_grid);
   order_.sort(body_.points, grid_);
@@ -289,15 +293,18 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
 }
 
+// Throws PointLost if u takes a point out of the next grid. Whether one has to be put back onto a face.
 template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, ConstVec grid_u, double t) const {
+bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u,
+                                            double t) const {
   const auto where_to = [&](std::size_t k, std::size_t p) {
     Point<Dim> x = body_.points.position(p);
     const auto u_p = weights_.value(grid_u.data(), k, p);
     for (int d = 0; d < Dim; ++d) x[d] += u_p[d];
     return x;
   };
-  std::size_t lost_cell = body_.points.cells();
+  const std::size_t none = body_.points.cells();
+  std::size_t first_outside = none;  // the first cell with such a point
   for_each_block(body_.points.cells(), [&](std::size_t k) {
     for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
       const Point<Dim> x = where_to(k, p);
@@ -306,21 +313,23 @@ void MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, ConstVec
         inside = inside && x[d] >= next_grid.axes[d].min() && x[d] <= next_grid.axes[d].max();
       if (inside) continue;
 #pragma omp critical(stillpoint_lost_point)
-      lost_cell = std::min(lost_cell, k);
+      first_outside = std::min(first_outside, k);
     }
   });
-  if (lost_cell == body_.points.cells()) return;
-  for (std::size_t p = body_.points.begin(lost_cell); p < body_.points.end(lost_cell); ++p) {
-    const Point<Dim> x = where_to(lost_cell, p);
-    for (int d = 0; d < Dim; ++d) {
-      const Axis& axis = next_grid.axes[d];
-      if (x[d] >= axis.min() && x[d] <= axis.max()) continue;
-      throw PointLost(fmt::format(
-          "at t = {:.6g} s material point {} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected "
-          "a larger grid, a support or a wall",
-          t, body_.points.number[p] + 1, "xyz"[d], x[d], axis.min(), axis.max()));
+  for (std::size_t k = first_outside; k < none; ++k) {
+    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+      const Point<Dim> x = where_to(k, p);
+      for (int d = 0; d < Dim; ++d) {
+        const Axis& axis = next_grid.axes[d];
+        if (faces.keeps(d, x[d])) continue;
+        throw PointLost(fmt::format(
+            "at t = {:.6g} s material point {} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected "
+            "a larger grid, a support or a wall",
+            t, body_.points.number[p] + 1, "xyz"[d], x[d], axis.min(), axis.max()));
+      }
     }
   }
+  return first_outside < none;
 }
 
 // Largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.

@@ -59,7 +59,7 @@ face = "bottom"
 [[support]]
 face = "left"
 kind = "roller"
-u = "0.1*t"
+u = 0
 [[support]]
 at = [6, 4]
 component = 1
@@ -154,7 +154,7 @@ TEST_CASE("a plane scene loads with every key that it says") {
   CHECK(scene.supports.at(1).face == Face::left);
   CHECK(scene.supports.at(1).roller);
   CHECK(scene.supports.at(1).component == 0);
-  CHECK(scene.supports.at(1).motion({}, 2) == Approx(0.2));
+  CHECK(load_block("[[support]]\nface = \"left\"\nu = \"0.1*t\"\n").supports.at(0).motion({}, 2) == Approx(0.2));
   CHECK_FALSE(scene.supports.at(2).face);
   CHECK(scene.supports.at(2).at == std::vector{6.0, 4.0});
   CHECK(scene.supports.at(2).component == 1);

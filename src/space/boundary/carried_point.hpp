@@ -1,0 +1,129 @@
+// A position of a body that a load acts at: it moves with the body from phase to phase.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "space/boundary/boundary_condition.hpp"
+#include "space/points/nearest_point.hpp"
+
+namespace stillpoint {
+
+/// Whether there will be more phases than one.
+inline bool has_phases(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
+
+/// A force f there loads functions by w_a f, and the position follows x += Σ_a w_a u_a: by the same weights, so that
+/// the force does the work of its own displacement.
+///
+/// - In a body of a single phase they are w_a = N_a(x).
+/// - In one that moves on, surface and points part company in the cells that the body's edge cuts: there N_a(x) loads
+///   functions that no point resists as it should, or the cell of x holds no point at all. So the material point
+///   nearest to x carries it. Its volume reaches from x, at x_p + d, to the mirror image x_p − d, and over that, by the
+///   midpoint rule by which it has its part of the internal force,
+///
+///     w_a = N_a(x_p − d) + 2 d·∇N_ap = N_a(x) + O(d³),
+///
+///   a force inside the body and a dipole that the point's stress resists. Since Σ N_a = 1 and Σ N_a ξ_a = x (ξ_a the
+///   Greville abscissae), Σ w_a f = f and Σ w_a ξ_a × f = x × f: neither the force nor its moment depends on which
+///   point that is.
+template <AxisBasis B, Kinematics K>
+struct CarriedPoint {
+  static constexpr int dim = dimensions(K);
+  using Basis = TensorBasis<B, dim>;
+  static constexpr int per_cell = Basis::per_cell;
+  static constexpr int entries = 2 * per_cell;  // functions of two cells, which may be the same one
+
+  Point<dim> x;                                     // when the phase begins [m]
+  std::array<int, entries> function;                // −1: nothing
+  std::array<double, entries> w;                    // weights
+  std::array<std::array<double, entries>, dim> dN;  // of the displacement's gradient there, [j][a] [1/m]
+
+  /// By the functions of a cell. Σ_a w_a of those that material reaches.
+  double freeze(const std::array<int, dim>& cell, const PhaseParts<B, K>& phase) {
+    clear();
+    const auto values = Basis::evaluate(phase.grid, cell, x);
+    const double reached = take_functions(0, cell, values.N, phase);
+    for (int j = 0; j < dim; ++j) std::ranges::copy(values.dN[j], dN[j].begin());
+    return reached;
+  }
+  /// By a material point. A position further than a cell's width away has lost its surface, and is brought back to
+  /// there.
+  void freeze(const PointInCell& carrier, const PhaseParts<B, K>& phase) {
+    clear();
+    const auto [k, p] = carrier;
+    const Point<dim> x_p = phase.points.position(p);
+    const auto at = phase.grid.cell_at(phase.points.cell[k]);
+    Point<dim> d, mirror;
+    for (int j = 0; j < dim; ++j) {
+      const auto& nodes = phase.grid.axes[j].nodes;
+      const double width = nodes[static_cast<std::size_t>(at[j]) + 1] - nodes[static_cast<std::size_t>(at[j])];
+      x[j] = std::clamp(x[j], x_p[j] - width, x_p[j] + width);
+      d[j] = x[j] - x_p[j];
+      mirror[j] = x_p[j] - d[j];
+    }
+    const auto gradients = phase.weights.dN(k, p);
+    for (int a = 0; a < per_cell; ++a) {
+      function[a] = phase.weights.function(k, a);
+      for (int j = 0; j < dim; ++j) {
+        dN[j][a] = gradients[per_cell * j + a];
+        w[a] += 2 * d[j] * dN[j][a];
+      }
+    }
+    const auto cell = phase.grid.cell_of(mirror);
+    const double reached = take_functions(per_cell, cell, Basis::evaluate(phase.grid, cell, mirror).N, phase);
+    if (reached > 1 - 1e-13) return;
+    // There is no material at the mirror image: to first order.
+    const auto N = phase.weights.N(k, p);
+    for (int a = 0; a < per_cell; ++a) {
+      function[per_cell + a] = -1;
+      w[a] = N[a] + w[a] / 2;
+    }
+  }
+
+  /// The phase ends with u.
+  void move(const double* u) {
+    for (int i = 0; i < dim; ++i) {
+      for (int a = 0; a < entries; ++a) {
+        if (function[a] >= 0) x[i] += w[a] * u[dim * function[a] + i];
+      }
+    }
+  }
+
+  /// visit(entry, component, free degree of freedom)
+  template <class Visit>
+  void for_free(const DegreesOfFreedom& dofs, const Visit& visit) const {
+    for (int a = 0; a < entries; ++a) {
+      if (function[a] < 0) continue;
+      for (int i = 0; i < dim; ++i) {
+        const int dof = dofs.number[static_cast<std::size_t>(dim * function[a] + i)];
+        if (dofs.is_free(dof)) visit(a, i, dof);
+      }
+    }
+  }
+
+ private:
+  void clear() {
+    function.fill(-1);
+    w.fill(0);
+    for (auto& along : dN) along.fill(0);
+  }
+  // The functions of a cell that material reaches, with weights N, from an entry on. Σ N of these.
+  double take_functions(int first, const std::array<int, dim>& cell, const std::array<double, per_cell>& N,
+                        const PhaseParts<B, K>& phase) {
+    const auto offset = Basis::offsets(phase.grid);
+    double reached = 0;
+    for (int a = 0; a < per_cell; ++a) {
+      const int number = Basis::first(phase.grid, cell) + offset[a];
+      w[first + a] = N[a];
+      if (phase.dofs.number[static_cast<std::size_t>(dim * number)] < 0) continue;
+      function[first + a] = number;
+      reached += N[a];
+    }
+    return reached;
+  }
+};
+
+}  // namespace stillpoint

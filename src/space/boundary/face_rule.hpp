@@ -1,0 +1,34 @@
+// Where the pieces of a face lie in each cell's part of it.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "space/points/cell_positions.hpp"
+#include "space/points/moment_fit.hpp"
+
+namespace stillpoint {
+
+/// ξ in [−1, 1] and its weight; the weights' sum is 2.
+struct FacePoint {
+  double xi, weight;
+};
+
+/// Three Gauss points, exact to degree 5. If material points are to carry them, one to each of the points that lie
+/// along the face, as wide as it is.
+inline std::vector<FacePoint> face_rule(const BodySpec& body, std::size_t along, bool carried) {
+  if (!carried) return {{-std::sqrt(0.6), 5.0 / 9}, {0.0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}};
+  const Placement placement = body.placement == Placement::gauss ? Placement::gauss : Placement::uniform;
+  const std::vector<double> xi = line_positions(placement, body.points_per_cell[along]);
+  const Eigen::MatrixXd row = Eigen::Map<const Eigen::RowVectorXd>(xi.data(), static_cast<Eigen::Index>(xi.size()));
+  const MomentFit fit = body.volumes == VolumeRule::consistent ? fit_moments(row) : equal_weights(row);
+  std::vector<FacePoint> rule;
+  for (std::size_t k = 0; k < xi.size(); ++k) rule.push_back({xi[k], 2 * fit.weights(static_cast<Eigen::Index>(k))});
+  return rule;
+}
+
+}  // namespace stillpoint

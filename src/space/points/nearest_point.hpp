@@ -1,0 +1,92 @@
+// The material point nearest to a position, found among the cells around it.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "space/points/material_points.hpp"
+
+namespace stillpoint {
+
+/// A material point and the occupied cell that lists it.
+struct PointInCell {
+  std::size_t k = 0, p = 0;
+};
+
+template <int Dim>
+class NearestPoint {
+ public:
+  /// Both outlive it. There is at least one point.
+  NearestPoint(const MaterialPoints<Dim>& points, const Grid<Dim>& grid)
+      : points_(points), grid_(grid), lists_(static_cast<std::size_t>(grid.cells()) + 1, 0), list_(points.cells()) {
+    for (const int cell : points.cell) ++lists_[static_cast<std::size_t>(cell) + 1];
+    for (std::size_t c = 1; c < lists_.size(); ++c) lists_[c] += lists_[c - 1];
+    std::vector<int> next = lists_;
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      list_[static_cast<std::size_t>(next[static_cast<std::size_t>(points.cell[k])]++)] = k;
+    }
+    narrowest_ = std::numeric_limits<double>::infinity();
+    for (const Axis& axis : grid.axes) {
+      for (int c = 0; c < axis.cells(); ++c) narrowest_ = std::min(narrowest_, axis.nodes[c + 1] - axis.nodes[c]);
+      most_cells_ = std::max(most_cells_, axis.cells());
+    }
+  }
+
+  /// Of several as near as each other, one of those that the grid lists first.
+  PointInCell to(const Point<Dim>& x) const {
+    const std::array<int, Dim> here = grid_.cell_of(x);
+    PointInCell found;
+    double least = std::numeric_limits<double>::infinity();
+    // What lies beyond a ring of cells is at least as many cells away as the ring, less the cell of x.
+    for (int ring = 0; ring < most_cells_ && !(least <= square((ring - 1) * narrowest_) && ring > 0); ++ring) {
+      visit_ring(here, ring, [&](int cell) {
+        for (int l = lists_[static_cast<std::size_t>(cell)]; l < lists_[static_cast<std::size_t>(cell) + 1]; ++l) {
+          const std::size_t k = list_[static_cast<std::size_t>(l)];
+          for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
+            double distance = 0;
+            for (int d = 0; d < Dim; ++d) distance += square(points_.x[d][p] - x[d]);
+            if (distance >= least) continue;
+            least = distance;
+            found = {k, p};
+          }
+        }
+      });
+    }
+    return found;
+  }
+
+ private:
+  static double square(double a) { return a * a; }
+
+  /// visit(cell) those of the grid that are `ring` cells away along some axis, and no further along any.
+  template <class Visit>
+  void visit_ring(const std::array<int, Dim>& here, int ring, const Visit& visit) const {
+    std::array<int, Dim> low, high;
+    for (int d = 0; d < Dim; ++d) {
+      low[d] = std::max(here[d] - ring, 0);
+      high[d] = std::min(here[d] + ring, grid_.axes[d].cells() - 1);
+    }
+    std::array<int, Dim> cell = low;
+    while (cell[Dim - 1] <= high[Dim - 1]) {
+      int away = 0;
+      for (int d = 0; d < Dim; ++d) away = std::max(away, std::abs(cell[d] - here[d]));
+      if (away == ring) visit(grid_.cell_number(cell));
+      int d = 0;
+      while (++cell[d] > high[d] && d < Dim - 1) {
+        cell[d] = low[d];
+        ++d;
+      }
+    }
+  }
+
+  const MaterialPoints<Dim>& points_;
+  const Grid<Dim>& grid_;
+  std::vector<int> lists_;         // where the lists of each cell begin in list_, (cells + 1)
+  std::vector<std::size_t> list_;  // occupied cells by their grid number, (occupied cells)
+  double narrowest_ = 0;           // of the cells [m]
+  int most_cells_ = 0;             // along an axis
+};
+
+}  // namespace stillpoint
