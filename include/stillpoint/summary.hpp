@@ -62,6 +62,8 @@ struct Summary {
   // Of an updated Lagrangian body, the worst so far: |Σ_i m_i − Σ_p m_p|/Σ_p m_p, the same of momenta between points
   // and grid, and mass that nodes were given so that none shortens the step, as a share of Σ_p m_p.
   std::optional<double> mass_error, momentum_error, added_mass;
+  // Of the points' stresses when it ends: the share that no function of its grid feels.
+  std::optional<double> null_space_stress;
   std::optional<double> external_work;  // [J]
   std::optional<double> slope_angle;    // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;

@@ -70,6 +70,7 @@ std::string to_json(const Summary& s) {
                      {"mass_error", number(s.mass_error)},
                      {"momentum_error", number(s.momentum_error)},
                      {"added_inertia", number(s.added_mass)},
+                     {"null_space_stress", number(s.null_space_stress)},
                      {"slope_angle", number(s.slope_angle)},
                      {"stages", stages},
                      {"method", s.method},

@@ -3,6 +3,7 @@
 
 #include <stillpoint/scene.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,8 @@ namespace stillpoint {
 
 /// A sentence each: on what the points integrate, on supports outside the body, on phases.
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase);
+
+/// After a run of elastic bodies in phases, if much of the points' stresses is more than the grid's functions feel.
+std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress);
 
 }  // namespace stillpoint

@@ -16,6 +16,7 @@
 #include "simulation/load_schedule.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
+#include "simulation/notes.hpp"
 #include "simulation/phase_motion.hpp"
 #include "simulation/recorder.hpp"
 #include "simulation/thread_scope.hpp"
@@ -149,6 +150,8 @@ class Simulation::Impl {
       s.mass_error = transfer.mass;
       s.momentum_error = transfer.momentum;
       s.added_mass = transfer.added_mass;
+      s.null_space_stress = model_.phase->null_space_stress(t_, motion_->u());
+      if (const auto note = null_space_note(scene_, *model_.phase, *s.null_space_stress)) s.notes.push_back(*note);
     }
     if (recorder_) recorder_->fill(s, t_, *motion_);
     return s;

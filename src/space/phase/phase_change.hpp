@@ -28,6 +28,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   Grid<Dim> next_grid = grid_at<Dim>(scene_, followed == walls.end() ? 0 : followed->displacement);
   spread(t, u, grid_u_);
   check_inside(next_grid, grid_u_, t);  // before anything changes: a run that ends here shows the state it had
+  motion_since_deformation_ += largest_motion(u);
   end_phase(t, u, v);
   ++phase_;
   grid_ = std::move(next_grid);
@@ -49,6 +50,7 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   held_ = HeldUnknowns(Dim * functions, t);
   for (const auto& condition : boundary_) condition->hold(grid_, reached, held_);
   dofs_.emplace(reached, Dim, held_.prescribed());
+  take_deformation_from_positions();
   grid_u_.assign(Dim * functions, 0);
   grid_du_.assign(Dim * functions, 0);
   committed_u_.assign(Dim * functions, 0);
@@ -57,6 +59,19 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   make_mass();
   constant_force_.assign(size(), 0);
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
+}
+
+// Not after every phase if they are short: what the grid does not feel grows with the way of the points.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::take_deformation_from_positions() {
+  constexpr double cells_between = 0.1;
+  if (!updated_lagrangian() || scene_.phase.deformation != DeformationRule::positions) return;
+  if (!DeformationFromPositions<B, K>::applies(body_)) return;
+  share_of_motion_ = deformation_.share_of_motion(body_, weights_, static_cast<std::size_t>(Basis::count(grid_)));
+  if (phase_ == 0) return deformation_.begin(body_, weights_, held_, static_cast<std::size_t>(Basis::count(grid_)));
+  if (motion_since_deformation_ < cells_between) return;
+  motion_since_deformation_ = 0;
+  deformation_.apply(grid_, body_, weights_, nodal_force_.corner_sum(), held_, origin_);
 }
 
 // Every function that a point gives mass to; if nodes get inertia anyhow, every one of a cell with material.
@@ -231,6 +246,12 @@ double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
   std::array<double, Dim> h;
   for (std::size_t d = 0; d < Dim; ++d) h[d] = (scene_.grid.max[d] - scene_.grid.min[d]) / scene_.grid.cells[d];
   const int* number = dofs_->free.data();
+  if (!share_of_motion_.empty()) {
+    return reduce(
+        u.size(), 0.0,
+        [&](std::size_t k) { return std::abs(u[k]) / h[number[k] % Dim] * share_of_motion_[number[k] / Dim]; },
+        [](double a, double b) { return a > b ? a : b; });
+  }
   return reduce(
       u.size(), 0.0, [&](std::size_t k) { return std::abs(u[k]) / h[number[k] % Dim]; },
       [](double a, double b) { return a > b ? a : b; });
