@@ -83,7 +83,7 @@ std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhas
 
 // Where points yield or part, stresses vary as fast as they like.
 std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress) {
-  constexpr double much = 0.1;
+  constexpr double much = 0.05;
   if (phase.history_dependent() || null_space_stress <= much) return std::nullopt;
   const char* remedy = scene.grid.basis == BasisKind::linear ? "take a quadratic basis"
                        : scene.phase.deformation == DeformationRule::accumulated
