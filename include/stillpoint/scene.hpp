@@ -94,6 +94,7 @@ struct PhaseSpec {  // [phase]: when the points move on and the grid starts agai
   Transfer transfer = Transfer::flip;
   double flip_share = 1;  // of "flip": 1 takes increments of the nodal velocity, 0 the velocity itself
   int xpic_order = 5;     // of "xpic": m
+  DeformationRule deformation = DeformationRule::positions;
 };
 
 struct MassSpec {  // [mass]

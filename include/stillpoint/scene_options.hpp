@@ -16,6 +16,11 @@ enum class VolumeRule { equal, consistent };
 enum class MassKind { consistent, lumped };
 enum class MassScaling { uniform, gershgorin };
 enum class Transfer { flip, pic, apic, xpic };
+/// Where the deformation of an elastic point comes from when a phase begins.
+enum class DeformationRule {
+  positions,   // F = (∂X/∂x)⁻¹ of the undeformed positions X fitted over the present ones
+  accumulated  // F = f F, from phase to phase
+};
 /// A face of a box, named for a picture with x to the right and y upwards.
 enum class Face { left, right, bottom, top };
 constexpr int axis_of(Face face) { return face == Face::left || face == Face::right ? 0 : 1; }

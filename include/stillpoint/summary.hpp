@@ -67,6 +67,8 @@ struct Summary {
   // impulse of the forces, and if nothing acts on the body, momentum and angular momentum beside those of the start;
   // and the inertia that light nodes were given so that none shortens the step, as a share of Σ_p m_p.
   std::optional<double> mass_error, momentum_error, angular_momentum_error, added_mass;
+  // Of the points' stresses when it ends: the share that no function of its grid feels.
+  std::optional<double> null_space_stress;
   std::optional<double> external_work;  // [J]
   /// Share of the plastic strain that came about while the out-of-balance force was against the motion, where
   /// equilibrium is asked for.

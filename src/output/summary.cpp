@@ -75,6 +75,7 @@ std::string to_json(const Summary& s) {
                      {"momentum_error", number(s.momentum_error)},
                      {"angular_momentum_error", number(s.angular_momentum_error)},
                      {"added_inertia", number(s.added_mass)},
+                     {"null_space_stress", number(s.null_space_stress)},
                      {"slope_angle", number(s.slope_angle)},
                      {"stages", stages},
                      {"method", s.method},

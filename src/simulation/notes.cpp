@@ -140,4 +140,16 @@ std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhas
   return notes;
 }
 
+// Where points yield or part, stresses vary as fast as they like.
+std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress) {
+  constexpr double much = 0.05;
+  if (phase.history_dependent() || null_space_stress <= much) return std::nullopt;
+  const char* remedy = scene.grid.basis == BasisKind::linear ? "take a quadratic basis"
+                       : scene.phase.deformation == DeformationRule::accumulated
+                           ? "take phase.deformation = \"positions\""
+                           : "take more points per cell or smaller cells";
+  return fmt::format("{:.2g} of the points' stresses varies faster than the grid's functions, which do not feel it: {}",
+                     null_space_stress, remedy);
+}
+
 }  // namespace stillpoint

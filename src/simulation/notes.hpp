@@ -3,6 +3,7 @@
 
 #include <stillpoint/scene.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,8 @@ std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhas
 /// Whether the lowest mode x moves the material, (n), or only functions that hardly reach the body.
 std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec x,
                                            double omega_1);
+
+/// After a run of elastic bodies in phases, if much of the points' stresses is more than the grid's functions feel.
+std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress);
 
 }  // namespace stillpoint

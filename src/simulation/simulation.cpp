@@ -17,6 +17,7 @@
 #include "simulation/load_schedule.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
+#include "simulation/notes.hpp"
 #include "simulation/overshoot.hpp"
 #include "simulation/phase_motion.hpp"
 #include "simulation/recorder.hpp"
@@ -161,6 +162,8 @@ class Simulation::Impl {
       s.momentum_error = transfer.momentum;
       s.angular_momentum_error = transfer.angular_momentum;
       s.added_mass = transfer.added_mass;
+      s.null_space_stress = model_.phase->null_space_stress(t_, motion_->u());
+      if (const auto note = null_space_note(scene_, *model_.phase, *s.null_space_stress)) s.notes.push_back(*note);
     }
     if (recorder_) recorder_->fill(s, t_, *motion_);
     return s;

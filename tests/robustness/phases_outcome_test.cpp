@@ -121,7 +121,7 @@ TEST_CASE("a point alone in a cell, next to its edge or on it, neither shortens 
       const Scene scene = drucker_prager ? free_soil(overrides) : free_block(overrides);
       const Model model = make_model(scene);
       if (from_edge < 0) regular_step = *model.critical_step;
-      CHECK(*model.critical_step == Approx(regular_step).epsilon(0.05));
+      CHECK(*model.critical_step == Approx(regular_step).epsilon(0.1));  // √1.2, what light nodes are let
       const Summary s = run(scene, {.threads = 1});
       REQUIRE(s.status == RunStatus::end_time);
       CHECK(s.phases > 20);

@@ -246,7 +246,10 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
            {.words = {"flip", "pic", "apic", "xpic"}})
       .key("flip_share", &PhaseSpec::flip_share,
            "of flip: 1 takes increments of the nodal velocity, 0 the velocity itself", {.range = from(0, 1)})
-      .key("xpic_order", &PhaseSpec::xpic_order, "of xpic", {.range = from(1, 20)});
+      .key("xpic_order", &PhaseSpec::xpic_order, "of xpic", {.range = from(1, 20)})
+      .key("deformation", &PhaseSpec::deformation,
+           "of elastic points when a phase begins: from where they are, or multiplied up from phase to phase",
+           {.words = {"positions", "accumulated"}, .fallback = "positions; accumulated on a linear basis"});
   add_boundary(tables);
   add_states(tables);
   add_method(tables, catalogue);

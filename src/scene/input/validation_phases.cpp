@@ -64,6 +64,8 @@ void check_phases(SceneCheck& check) {
     check.refuse("phase", {"flip_share"}, "goes with transfer = \"flip\" only");
   if (known && phase.transfer != Transfer::xpic)
     check.refuse("phase", {"xpic_order"}, "goes with transfer = \"xpic\" only");
+  if (!check.written("phase.deformation") && scene.grid.basis == BasisKind::linear)
+    phase.deformation = DeformationRule::accumulated;  // a strain that jumps at grid lines would feed the motion
   if (scene.solve.is_static()) {
     const std::string why = fmt::format("'{}' is a static solver, which needs a single phase: ", scene.solve.method);
     if (phase.max_motion) check.add("phase.max_motion", why + "take \"none\"");
@@ -79,7 +81,11 @@ void check_phases(SceneCheck& check) {
   if (!check.written("phase.max_motion") &&
       std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; }))
     phase.max_motion = usual_motion;
-  if (!phase.max_motion && !phase.max_strain) return;
+  if (!phase.max_motion && !phase.max_strain)
+    return check.refuse("phase", {"deformation"}, "goes with phases only: give phase.max_motion");
+  if (std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; }))
+    check.refuse("phase", {"deformation"},
+                 "goes with laws without history only, whose stress follows from the deformation");
 
   const std::string one_phase =
       fmt::format("or {}{}{} for a single phase", phase.max_motion ? "phase.max_motion = \"none\"" : "",

@@ -49,4 +49,17 @@ double determinant(const TensorOf<K>& A) {
     return (A[0] * A[3] - A[1] * A[2]) * A[4];
 }
 
+/// A⁻¹
+template <Kinematics K>
+TensorOf<K> inverse(const TensorOf<K>& A) {
+  if constexpr (K == Kinematics::line) {
+    return {1 / A[0]};
+  } else {
+    const double in_plane = A[0] * A[3] - A[1] * A[2];
+    TensorOf<K> B{A[3] / in_plane, -A[1] / in_plane, -A[2] / in_plane, A[0] / in_plane};
+    if constexpr (K == Kinematics::axisymmetric) B[4] = 1 / A[4];
+    return B;
+  }
+}
+
 }  // namespace stillpoint

@@ -140,6 +140,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
       for (std::size_t c = 0; c < components; ++c) F0_[count_ * c + p - begin_] = F[c];
     }
   }
+  Vec deformation() override { return F0_; }
   void reorder(const std::vector<int>& order, std::vector<double>&) override {
     if (!moved()) return;
     std::vector<double> sorted(F0_.size());

@@ -101,6 +101,10 @@ class LagrangianPhase : public SemiDiscrete {
   /// One of info().history_names, (P); 0 if a point's law does not remember it.
   virtual void point_history(const std::string& name, Vec out) const = 0;
 
+  /// What no function of the grid feels of the points' Cauchy stresses: their difference to their least-squares fit by
+  /// the grid's functions, body by body, √(Σ V_p |σ_p − σ(x_p)|²/Σ V_p |σ_p|²).
+  virtual double null_space_stress(double t, ConstVec u) const = 0;
+
   /// u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
   virtual std::vector<double> initial_displacement(double t) const = 0;
   virtual std::vector<double> initial_velocity(double t) = 0;

@@ -20,6 +20,7 @@
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
 #include "space/kernels/velocity_transfer.hpp"
+#include "space/phase/deformation_from_positions.hpp"
 #include "space/phase/free_parts.hpp"
 #include "space/phase/grid_faces.hpp"
 #include "space/phase/lagrangian_phase.hpp"
@@ -74,6 +75,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   PointData point_data() const override;
   void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const override;
   void point_history(const std::string& name, Vec out) const override;
+  double null_space_stress(double t, ConstVec u) const override;
   std::vector<double> initial_displacement(double t) const override;
   std::vector<double> initial_velocity(double t) override;
   std::vector<WallReaction> wall_reactions(double t) const override;
@@ -122,6 +124,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   bool is_held(const HeldUnknowns& held, int cell, int component) const;
   void begin_phase(double t);
   std::vector<char> active_functions() const;
+  void take_deformation_from_positions();
   double time_scale() const;
 
   void make_mass();
@@ -195,6 +198,9 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   PointOrder<Dim> order_;
   std::vector<double> origin_;  // positions at the start of the run, in the points' order of then, (P × Dim)
   long looks_ = 0;              // of progress() at the strain
+  DeformationFromPositions<B, K> deformation_;
+  double motion_since_deformation_ = 0;  // was taken from the positions, at most [cells]
+  std::vector<double> share_of_motion_;  // of each function in that of the points, (functions) or empty: 1
 
   // Of the present phase:
   long phase_ = 0;

@@ -42,6 +42,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   // Before anything changes: a run that ends here shows the state it had.
   const GridFaces<Dim> faces(scene_, next_grid);
   const bool some_past_a_face = check_inside(next_grid, faces, grid_u_, t);
+  motion_since_deformation_ += largest_motion(u);
   end_phase(t, u, v);
   if (some_past_a_face) faces.put_back(body_.points);
   ++phase_;
@@ -64,6 +65,7 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   held_ = HeldUnknowns(Dim * functions, t);
   for (const auto& condition : boundary_) condition->hold(grid_, reached, held_);
   dofs_.emplace(reached, Dim, held_.prescribed());
+  take_deformation_from_positions();
   grid_u_.assign(Dim * functions, 0);
   grid_du_.assign(Dim * functions, 0);
   committed_u_.assign(Dim * functions, 0);
@@ -72,6 +74,19 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   make_mass();
   constant_force_.assign(size(), 0);
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
+}
+
+// Not after every phase if they are short: what the grid does not feel grows with the way of the points.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::take_deformation_from_positions() {
+  constexpr double cells_between = 0.1;
+  if (!updated_lagrangian() || scene_.phase.deformation != DeformationRule::positions) return;
+  if (!DeformationFromPositions<B, K>::applies(body_)) return;
+  share_of_motion_ = deformation_.share_of_motion(body_, weights_, static_cast<std::size_t>(Basis::count(grid_)));
+  if (phase_ == 0) return deformation_.begin(body_, weights_, held_, static_cast<std::size_t>(Basis::count(grid_)));
+  if (motion_since_deformation_ < cells_between) return;
+  motion_since_deformation_ = 0;
+  deformation_.apply(grid_, body_, weights_, nodal_force_.corner_sum(), held_, origin_);
 }
 
 // Every function that a point gives mass or stiffness to: on a grid line the gradients of those across the next cell.
@@ -229,7 +244,8 @@ bool MaterialPointPhase<B, K>::is_free() const {
 }
 
 // What the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim): by the inertia that
-// they moved, not by the mass that the points have. Scaled by Gershgorin the inertia is no mass at all.
+// they moved, not by the mass that the points have. What supports and walls give is not known apart from what added
+// inertia takes there, so that the mass counts; scaled by Gershgorin the inertia is no mass at all.
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>& grid_v) const {
   std::vector<double> gain(grid_v.size());
@@ -240,7 +256,10 @@ std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>&
   const auto grid_number = [&](std::size_t k) { return static_cast<std::size_t>(dofs_->free[k]); };
   for (std::size_t k = 0; k < dv.size(); ++k) dv[k] = grid_v[grid_number(k)] - start_velocity_[grid_number(k)];
   mass_->apply(dv, M_dv);
-  for (std::size_t k = 0; k < dv.size(); ++k) gain[grid_number(k)] = M_dv[k] / scene_.mass.factor;
+  const std::vector<char> untouched = untouched_functions();
+  for (std::size_t k = 0; k < dv.size(); ++k) {
+    if (untouched[grid_number(k) / Dim]) gain[grid_number(k)] = M_dv[k] / scene_.mass.factor;
+  }
   return gain;
 }
 
@@ -338,6 +357,12 @@ double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
   std::array<double, Dim> h;
   for (std::size_t d = 0; d < Dim; ++d) h[d] = (scene_.grid.max[d] - scene_.grid.min[d]) / scene_.grid.cells[d];
   const int* number = dofs_->free.data();
+  if (!share_of_motion_.empty()) {
+    return reduce(
+        u.size(), 0.0,
+        [&](std::size_t k) { return std::abs(u[k]) / h[number[k] % Dim] * share_of_motion_[number[k] / Dim]; },
+        [](double a, double b) { return a > b ? a : b; });
+  }
   return reduce(
       u.size(), 0.0, [&](std::size_t k) { return std::abs(u[k]) / h[number[k] % Dim]; },
       [](double a, double b) { return a > b ? a : b; });

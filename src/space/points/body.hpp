@@ -21,6 +21,7 @@ struct Body {
   std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
   std::vector<std::string> material_names;
   std::vector<CellShares> covered;  // by each [[body]]; empty if that of one is not known
+  std::vector<int> first_number;    // of the points of each [[body]], and how many there are: (bodies + 1)
 };
 
 namespace detail {
@@ -48,8 +49,10 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
     const int count = static_cast<int>(placed.points.size());
     if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
     by_material[spec.material].emplace_back(std::move(placed.points), number);
+    body.first_number.push_back(number);
     number += count;
   }
+  body.first_number.push_back(number);
   for (const auto& [name, parts] : by_material) {
     points.material_begin.push_back(static_cast<int>(points.size()));
     for (const auto& [part, first_number] : parts) {

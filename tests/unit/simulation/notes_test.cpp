@@ -49,7 +49,7 @@ TEST_CASE("a sliver of a cell is said to shorten the critical step for the bases
 }
 
 TEST_CASE("a sliver is not said to shorten the step where light nodes are given inertia, or nothing steps") {
-  const std::string sliver = "body.max=[3.005, 2]";
+  const std::string sliver = "body.max=[0.005, 2]";  // of cells that have no neighbour to take functions from
   CHECK(says(notes_of(block_scene({sliver})), "shortens the critical step"));
   CHECK_FALSE(says(notes_of(block_scene({sliver, "mass.scaling=gershgorin"})), "shortens the critical step"));
   CHECK_FALSE(says(notes_of(block_scene({sliver, "damping={strategy='auto'}"})), "shortens the critical step"));
