@@ -141,7 +141,7 @@ void check_bends_alike(const std::string& load) {
   CAPTURE(load, many.reason, many.phases);
   REQUIRE(one.status == RunStatus::equilibrium);
   CHECK(many.status == RunStatus::end_time);
-  CHECK(many.phases > 100);
+  CHECK(many.phases > 20);
   const double size = std::abs(scenes::probe(one, "end", "u.y"));
   CHECK(size > 2.5);
   CHECK(many.kinetic_energy < 1e-6 * size);

@@ -24,8 +24,9 @@ requires(B::partition_of_unity) class Extrapolator {
   using Basis = TensorBasis<B, Dim>;
 
  public:
-  /// is_inside: which functions may be taken, (functions). Both outlive this.
-  Extrapolator(const Grid<Dim>& grid, const std::vector<char>& is_inside) : grid_(grid), is_inside_(is_inside) {
+  /// share: how much of what it should have a function has, (functions): those with 1 and more may be taken, with 0
+  /// none. Both outlive this.
+  Extrapolator(const Grid<Dim>& grid, const std::vector<double>& share) : grid_(grid), share_(share) {
     int stride = 1;
     for (int d = 0; d < Dim; ++d) {
       stride_[d] = stride;
@@ -35,7 +36,8 @@ requires(B::partition_of_unity) class Extrapolator {
   }
 
   /// From the nearest pair along an axis; at a corner of the body from the nearest four that make a rectangle; where
-  /// the body is too thin for either from the nearest one that shares a cell. None if there is none of these.
+  /// the body is too thin for either from the nearest one that shares a cell, or if none has its share from the one
+  /// that has most of it. None if that is the function itself.
   std::optional<Extrapolation> operator()(int function) const {
     std::optional<Extrapolation> nearest;
     int distance = 2 * reach + 1;
@@ -78,7 +80,8 @@ requires(B::partition_of_unity) class Extrapolator {
   std::optional<Extrapolation> from_neighbour(int function) const {
     constexpr int span = 2 * B::degree + 1;
     std::optional<Extrapolation> nearest;
-    int distance = Dim * B::degree + 1;
+    int distance = 0;
+    double best = share_[static_cast<std::size_t>(function)];
     for (int k = 0; k < power(span, Dim); ++k) {
       int other = function, away = 0;
       bool exists = true;
@@ -88,8 +91,10 @@ requires(B::partition_of_unity) class Extrapolator {
         other += by * stride_[d];
         away += std::abs(by);
       }
-      if (!exists || away >= distance || !is_inside_[static_cast<std::size_t>(other)]) continue;
+      const double share = exists ? std::min(share_[static_cast<std::size_t>(other)], 1.0) : 0;
+      if (!(share > best || (nearest && share == best && away < distance))) continue;
       nearest = Extrapolation{.functions = 1, .function = {other}, .weight = {1}};
+      best = share;
       distance = away;
     }
     return nearest;
@@ -100,7 +105,7 @@ requires(B::partition_of_unity) class Extrapolator {
     Extrapolation box{.functions = 1, .function = {function}, .weight = {1}};
     if (!extend(box, function, d, near_d) || (near_e != 0 && !extend(box, function, e, near_e))) return std::nullopt;
     for (int k = 0; k < box.functions; ++k) {
-      if (!is_inside_[static_cast<std::size_t>(box.function[k])]) return std::nullopt;
+      if (!(share_[static_cast<std::size_t>(box.function[k])] >= 1)) return std::nullopt;
     }
     return box;
   }
@@ -123,7 +128,7 @@ requires(B::partition_of_unity) class Extrapolator {
   }
 
   const Grid<Dim>& grid_;
-  const std::vector<char>& is_inside_;
+  const std::vector<double>& share_;
   std::array<int, Dim> stride_, count_;
 };
 

@@ -87,19 +87,24 @@ class NodalInertia {
   void find_light(const Grid<dim>& grid, const std::vector<double>& G, const std::vector<char>& is_free) {
     constexpr double most = 1.2;       // a tenth above the highest frequency: within the margin of the step
     constexpr double massless = 1e-9;  // of G/Ω²
-    std::vector<char> is_inside(mass_.size());
+    std::vector<double> share(mass_.size());
     for (std::size_t f = 0; f < mass_.size(); ++f) {
       const double needed = G[f] / (most * omega_squared_);
-      const bool is_light = updated_lagrangian_ ? mass_[f] < needed : mass_[f] < massless * needed;
-      is_inside[f] = !is_light && mass_[f] > 0 && is_free[f];
-      if (is_light) added_.push_back({.function = static_cast<int>(f), .inertia = needed - mass_[f]});
+      const double enough = updated_lagrangian_ ? needed : massless * needed;
+      if (is_free[f] && needed > 0) share[f] = mass_[f] / enough;
+      if (mass_[f] < enough) added_.push_back({.function = static_cast<int>(f), .inertia = needed - mass_[f]});
     }
     if constexpr (B::partition_of_unity) {
-      const Extrapolator<B, dim> extrapolate(grid, is_inside);
+      const Extrapolator<B, dim> extrapolate(grid, share);
       for (AddedInertia& one : added_) {
         if (!is_free[static_cast<std::size_t>(one.function)]) continue;
         one.relative_to = extrapolate(one.function).value_or(Extrapolation{});
       }
+      // A point on its own: the function that it is nearest to moves as it does.
+      constexpr double most_of_it = 0.5;
+      std::erase_if(added_, [&](const AddedInertia& one) {
+        return one.relative_to.functions == 0 && share[static_cast<std::size_t>(one.function)] > most_of_it;
+      });
     }
   }
 
