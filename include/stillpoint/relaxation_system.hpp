@@ -53,6 +53,9 @@ class RelaxationSystem {
   /// ‖M⁻¹Q‖_M/(ω₁² ‖u‖_M) with Q of the last residual(): in a linear system no less than ‖u − u*‖_M/‖u‖_M, since
   /// u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁². Infinite if u = 0 is no equilibrium. u: (n).
   double distance(const Vector& u, double omega_1);
+  /// ‖M⁻¹Q‖_M/ω₁², the bound itself, and ‖u‖_M [m √kg].
+  double error_norm(double omega_1);
+  double mass_norm(const Vector& u);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);
   /// Q·v with the Q of the last residual() [W], before kinetic_energy() takes its place; v: (n).

@@ -2,14 +2,21 @@
 
 #include <stillpoint/spectrum.hpp>
 
+#include <algorithm>
+
 namespace stillpoint {
 
 ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1)
     : phase_(phase), omega_1_(phase.info().updated_lagrangian ? std::nullopt : omega_1) {}
 
-std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u) const {
+std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u) {
+  beside_largest_.reset();
   if (!omega_1_) return std::nullopt;
-  return relaxation.distance(u, *omega_1_);
+  const double error = relaxation.error_norm(*omega_1_), size = relaxation.mass_norm(u);
+  largest_ = std::max(largest_, size);
+  const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
+  beside_largest_ = beside(largest_);
+  return beside(size);
 }
 
 bool ErrorBound::refresh(double t, ConstVec u, double residual) {

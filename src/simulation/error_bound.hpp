@@ -17,14 +17,17 @@ class ErrorBound {
   /// omega_1: of the beginning; empty if there is none, and then there is no distance.
   ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1);
 
-  std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u) const;
+  std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u);
+  /// The last one beside the largest ‖u‖_M so far instead, which a body that is unloaded to nothing leaves behind.
+  std::optional<double> beside_largest() const { return beside_largest_; }
   /// Looks at the tangent at (t, u), if that may have changed since it last did with a larger residual. Where the
   /// tangent is not positive definite there is no distance any more. False if nothing was done.
   bool refresh(double t, ConstVec u, double residual);
 
  private:
   const LagrangianPhase& phase_;
-  std::optional<double> omega_1_;
+  std::optional<double> omega_1_, beside_largest_;
+  double largest_ = 0;                                             // ‖u‖_M so far
   double refreshed_at_ = std::numeric_limits<double>::infinity();  // the residual then
 };
 

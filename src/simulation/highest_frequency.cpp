@@ -28,7 +28,8 @@ double quick_highest_frequency(const Scene& scene, Model& model, const Lagrangia
 
 bool wants_equilibrium_only(const Scene& scene) { return scene.stop.wants_equilibrium() && !loads_vary(scene); }
 
-// Power iteration underestimates: if it has not converged, a margin or the guaranteed bound.
+// Power iteration underestimates: if it has not converged, by ARPACK; with a margin, or the guaranteed bound, if that
+// has not either.
 double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
   constexpr int applications = 30;
@@ -41,6 +42,10 @@ double highest_frequency(const Scene& scene, const LagrangianPhase& phase, Const
         fmt::format("the initial state has no highest frequency ({}); expected a stable state", estimate.status));
   }
   if (estimate.converged) return estimate.omega;
+  if (phase.size() <= direct_solver_limit) {
+    const FrequencyEstimate by_arpack = omega_max_by_arpack(phase, 0, u, options);
+    if (by_arpack.converged) return by_arpack.omega;
+  }
   constexpr double margin = 1.02;  // after 300 iterations an underestimate of 0.1 % is usual
   return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
 }

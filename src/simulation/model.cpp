@@ -192,12 +192,21 @@ double dwell_of(const Scene& scene, const Model& model) {
   return scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
 }
 
+// The error bound that equilibrium takes: what the scene asks for; beside its residual one by default, which a residual
+// that is small only beside the stiffest part's forces does not pass.
+double distance_goal_of(const Scene& scene, const Model& model) {
+  constexpr double usual = 1e-3;
+  const bool is_known = model.omega_1 && !model.phase->info().updated_lagrangian;
+  const bool is_newton = model.static_method && model.static_method->is_newton;  // quadratic: the residual is enough
+  const bool by_default = scene.stop.residual > 0 && is_known && !is_newton && !scene.where.contains("stop.distance");
+  return by_default ? usual : scene.stop.distance;
+}
+
 // Whether ‖u − u*‖ ≤ ‖M⁻¹Q‖/ω₁² holds at every moment, as in a linear body under steady loads: with the kinetic energy
-// small as well, no later moment can be further off. Only auto makes use of it so far.
+// small as well, no later moment can be further off.
 bool residual_bounds_error(const Scene& scene, const Model& model) {
   const PhaseInfo& info = model.phase->info();
-  return model.relaxation && model.relaxation->chooses_mass && model.omega_1 && !info.nonlinear &&
-         !info.updated_lagrangian && !loads_vary(scene) && !model.phase->contact();
+  return model.omega_1 && !info.nonlinear && !info.updated_lagrangian && !loads_vary(scene) && !model.phase->contact();
 }
 
 // How the way to rest is gone: the damping and what steps it.
@@ -245,6 +254,7 @@ Model make_model(const Scene& scene) {
   }
   if (model.static_method && model.static_method->takes_end_of_loads) model.t = scene.stop.time;
   model.dwell = dwell_of(scene, model);
+  model.distance_goal = distance_goal_of(scene, model);
   model.equilibrium_must_last = !model.static_method && !residual_bounds_error(scene, model);
   choose_strategy(scene, takes_c, model);
   if (!model.static_method) set_tolerances(scene, model);

@@ -33,6 +33,7 @@ struct Model {
   RelaxationOptions relaxing;
   double dwell = 0;                   // how long equilibrium has to last [s]
   bool equilibrium_must_last = true;  // false if the residual bounds the error at every moment
+  double distance_goal = 0;           // the error bound that equilibrium takes, relative; 0: no test of it
   // stiffening() at the beginning, if the step is to follow it: it was not asked for as such.
   std::optional<double> initial_stiffening;
   std::vector<std::string> notes;  // what a user should know of this scene's accuracy, a sentence each

@@ -19,7 +19,7 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   }
   if (options_.residual <= 0 && options_.distance <= 0) return RunStatus::running;
 
-  const bool near = options_.distance <= 0 || (distance && *distance <= options_.distance);
+  const bool near = options_.distance <= 0 || (distance ? *distance <= options_.distance : !options_.distance_is_asked);
   const bool balanced = settled && near && (options_.residual <= 0 || residual <= options_.residual);
   constexpr double rounding = 1e-20;  // of an energy: velocities to ten digits
   const bool small = kinetic_energy <= options_.kinetic_energy * peak_kinetic_energy_;
@@ -32,7 +32,8 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   if (options_.must_last && t - balanced_since_ < options_.dwell * (1 - 1e-12)) return RunStatus::running;
   std::vector<std::string> tests;
   if (options_.residual > 0) tests.push_back(fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual));
-  if (options_.distance > 0) tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
+  if (options_.distance > 0 && distance)
+    tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
   if (options_.kinetic_energy > 0) {
     if (!small) {
       tests.push_back(fmt::format("kinetic energy {:.3g} of the work, which is rounding", kinetic_energy / work_scale));

@@ -9,10 +9,11 @@
 namespace stillpoint {
 
 struct MonitorOptions {
-  double residual = 0;        // ‖F − R‖/‖F‖; 0: no test of it
-  double distance = 0;        // the error bound, relative; 0: no test of it. Without either there is no equilibrium
-  double kinetic_energy = 0;  // share of the largest kinetic energy so far; 0: only the others count
-  double dwell = 0;           // all held for this long [s]: a kinetic energy alone is small at every turning point
+  double residual = 0;            // ‖F − R‖/‖F‖; 0: no test of it
+  double distance = 0;            // the error bound, relative; 0: no test of it. Without either there is no equilibrium
+  bool distance_is_asked = true;  // whether one that is not known counts as far
+  double kinetic_energy = 0;      // share of the largest kinetic energy so far; 0: only the others count
+  double dwell = 0;               // all held for this long [s]: a kinetic energy alone is small at every turning point
   /// Whether it has to last. If the residual bounds the error at every moment the dwell only says how often to test.
   bool must_last = true;
   double end_time = 0;   // [s]; 0: none

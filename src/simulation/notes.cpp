@@ -152,4 +152,11 @@ std::optional<std::string> null_space_note(const Scene& scene, const LagrangianP
                      null_space_stress, remedy);
 }
 
+std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance) {
+  constexpr double large = 0.01;
+  if (status != RunStatus::equilibrium || !distance || *distance <= large) return std::nullopt;
+  return fmt::format("the displacement may be off by {:.2g} of itself, by the lowest frequency: expected stop.distance",
+                     *distance);
+}
+
 }  // namespace stillpoint

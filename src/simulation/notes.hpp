@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/scene.hpp>
+#include <stillpoint/summary.hpp>
 
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhas
 /// Whether the lowest mode x moves the material, (n), or only functions that hardly reach the body.
 std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec x,
                                            double omega_1);
+
+/// After a run that ended in equilibrium, if its error bound is large, as where the scene asks for none.
+std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance);
 
 /// After a run of elastic bodies in phases, if much of the points' stresses is more than the grid's functions feel.
 std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress);

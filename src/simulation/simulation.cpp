@@ -29,7 +29,8 @@ namespace {
 
 MonitorOptions monitor_options(const Scene& scene, const Model& model) {
   return {.residual = scene.stop.residual,
-          .distance = scene.stop.distance,
+          .distance = model.distance_goal,
+          .distance_is_asked = scene.stop.distance > 0,
           .kinetic_energy = scene.stop.kinetic_energy,
           .dwell = model.dwell,
           .must_last = model.equilibrium_must_last,
@@ -152,6 +153,7 @@ class Simulation::Impl {
     s.residual = residual();
     if (scene_.stop.wants_equilibrium()) refresh_distance();
     s.distance = distance_;
+    if (const auto note = distance_note(status_, distance_to_go())) s.notes.push_back(*note);
     s.kinetic_energy = kinetic_energy_;
     s.single_phase_strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
     if (const std::string note = note_on_single_phase(s.single_phase_strain); !note.empty()) s.notes.push_back(note);
@@ -265,6 +267,10 @@ class Simulation::Impl {
   }
 
   bool has_distance() const { return model_.omega_1 && !model_.phase->info().updated_lagrangian; }
+  // A scene that asks for a distance gets that of the displacement at the end.
+  std::optional<double> distance_to_go() const {
+    return scene_.stop.distance > 0 ? distance_ : error_bound_.beside_largest();
+  }
   // The distance by the stiffness that the body has now.
   void refresh_distance() {
     if (error_bound_.refresh(t_, motion_->u(), residual_)) {
@@ -291,8 +297,10 @@ class Simulation::Impl {
     if (monitor_.due(t_)) {
       follow_period();
       measure();
-      if (distance_ && *distance_ <= scene_.stop.distance) refresh_distance();
-      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_);
+      const bool may_be_over = scene_.stop.residual <= 0 || residual_ <= scene_.stop.residual;
+      if (may_be_over && distance_to_go().value_or(std::numeric_limits<double>::infinity()) <= model_.distance_goal)
+        refresh_distance();
+      status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
     }
     if (!done()) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
     reason_ = monitor_.reason();

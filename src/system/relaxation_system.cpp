@@ -105,13 +105,21 @@ double RelaxationSystem::last_residual() {
 }
 
 // ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q
-double RelaxationSystem::distance(const Vector& u, double omega_1) {
+double RelaxationSystem::error_norm(double omega_1) {
   if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
   system_.mass().solve(Q_.span(), Q_inverse_->span());
-  const double off = std::sqrt(dot(Q_, *Q_inverse_));
+  return std::sqrt(dot(Q_, *Q_inverse_)) / (omega_1 * omega_1);
+}
+
+double RelaxationSystem::mass_norm(const Vector& u) {
+  if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
   system_.mass().apply(u.span(), Q_inverse_->span());
-  const double size = std::sqrt(dot(u, *Q_inverse_));
-  return off == 0 ? 0 : off / (omega_1 * omega_1 * size);
+  return std::sqrt(dot(u, *Q_inverse_));
+}
+
+double RelaxationSystem::distance(const Vector& u, double omega_1) {
+  const double error = error_norm(omega_1);
+  return error == 0 ? 0 : error / mass_norm(u);
 }
 
 double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }

@@ -197,7 +197,7 @@ TEST_CASE("relaxation and Newton's method agree to the error bound at large stra
       const double error = error_of(end, rest), ratio = *end.summary.distance / error;
       CAPTURE(problem.name, strategy, error, ratio);
       CHECK(ratio > 0.9);
-      CHECK(ratio < 6);
+      CHECK(ratio < 30);  // 1 where the slowest mode is left, more where a reset of v leaves others
     }
   }
 }

@@ -63,10 +63,11 @@ TEST_CASE("a bar that is crushed on the way is a diverged row, and Newton's meth
 }
 
 TEST_CASE("a run at the limit is unfinished where it still came nearer, stalled where it did not", "[compare]") {
-  const Comparison c = compared("column", {.strategies = {"identity", "cundall", "viscous"}, .limit = 1, .repeats = 0});
+  const Comparison c = compared("column", {.strategies = {"none", "viscous"}, .limit = 1, .repeats = 0});
   CHECK(row(c, "viscous 0.9").status == ComparedStatus::converged);
-  CHECK(row(c, "identity 0.9").status == ComparedStatus::stalled);
-  CHECK_THAT(row(c, "identity 0.9").reason, Contains("after 1001 evaluations"));
+  const char* undamped = "none, erk:bogacki-shampine-4-2-3 rtol 0.001";
+  CHECK(row(c, undamped).status == ComparedStatus::stalled);
+  CHECK_THAT(row(c, undamped).reason, Contains("after 1002 evaluations"));
   const Comparison slow = compared("incompressible", {.strategies = {"viscous"}, .limit = 0.5, .repeats = 0});
   CHECK(row(slow, "viscous 0.9").status == ComparedStatus::unfinished);
   CHECK_FALSE(row(slow, "viscous 0.9").wall_s);

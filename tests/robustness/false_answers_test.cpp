@@ -75,3 +75,63 @@ stop = {time = 5, residual = 0}
   CHECK(simulation.t() == Approx(5));
   for (const double u : simulation.field("u")) CHECK(u == Approx(0.01 * 5 * 5 / 2).epsilon(1e-9));
 }
+
+TEST_CASE("a residual that is small beside the stiff part's forces alone is no equilibrium of the soft part") {
+  // E = 1 on [0, 5] and 1e7 on [5, 10], pushed at 6 and pulled back at 9, and by 1e-6 at the end: that alone stretches
+  // the soft part.
+  const auto soft_and_stiff = [](const std::string& way, const std::vector<std::string>& more = {}) {
+    const stillpoint::testing::TemporaryFolder folder;
+    std::vector<std::string> set = {way};
+    set.insert(set.end(), more.begin(), more.end());
+    return run(load_scene(folder.write("scene.toml", R"(dim = 1
+grid = {min = [0], max = [10], cells = [20], basis = "linear"}
+material.soft = {law = "linear-elastic", E = 1, nu = 0, rho = 1}
+material.stiff = {law = "linear-elastic", E = 1e7, nu = 0, rho = 1e7}
+mass.kind = "lumped"
+stop.residual = 1e-6
+[[body]]
+min = [0]
+max = [5]
+material = "soft"
+points_per_cell = 2
+[[body]]
+min = [5]
+max = [10]
+material = "stiff"
+points_per_cell = 2
+[[support]]
+at = 0
+[[force]]
+at = [6]
+value = [1]
+[[force]]
+at = [9]
+value = [-1]
+[[force]]
+at = [10]
+value = [1e-6]
+[[probe]]
+name = "end"
+at = [10]
+fields = ["u"]
+)"),
+                          set),
+               {.threads = 1});
+  };
+  // 5 · 1e-6/1 − 3 · 1/1e7 + 5 · 1e-6/1e7
+  constexpr double u_end = 5e-6 - 3e-7 + 5e-13;
+  for (const std::string way : {"solve.method=cg", "solve.method=lbfgs", "damping.strategy=viscous",
+                                "damping.strategy=kinetic", "damping.strategy=auto"}) {
+    CAPTURE(way);
+    const Summary s = soft_and_stiff(way);
+    CAPTURE(s.reason);
+    CHECK(s.status == RunStatus::equilibrium);
+    REQUIRE(s.distance);
+    CHECK(*s.distance <= 1e-3);
+    CHECK(scenes::probe(s, "end", "u") == Approx(u_end).epsilon(1.1e-3));
+  }
+  // Cundall's damping holds back every node by its own force, the soft part by that of the stiff one.
+  CHECK(soft_and_stiff("damping.strategy=cundall", {"stop.steps=20000"}).status == RunStatus::step_limit);
+  // Told not to look, cg takes the residual for an equilibrium.
+  CHECK(*soft_and_stiff("solve.method=cg", {"stop.distance=0"}).distance > 1);
+}
