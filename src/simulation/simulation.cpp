@@ -12,6 +12,7 @@
 #include "base/stopwatch.hpp"
 #include "output/exact_error.hpp"
 #include "output/point_fields.hpp"
+#include "simulation/chatter.hpp"
 #include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
 #include "simulation/load_schedule.hpp"
@@ -37,6 +38,13 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
           .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
           .steps = scene.stop.steps,
           .wall_time = scene.stop.wall_time};
+}
+
+double largest_cell(const Scene& scene) {
+  double h = 0;
+  for (std::size_t d = 0; d < scene.grid.cells.size(); ++d)
+    h = std::max(h, (scene.grid.max[d] - scene.grid.min[d]) / scene.grid.cells[d]);
+  return h;
 }
 
 int exit_status_of(RunStatus status, const Scene& scene) {
@@ -182,6 +190,7 @@ class Simulation::Impl {
   Monitor monitor_;
   ErrorBound error_bound_;
   LoadSchedule schedule_;
+  Chatter chatter_;
   Overshoot overshoot_;
   std::optional<Recorder> recorder_;
 
@@ -212,7 +221,22 @@ class Simulation::Impl {
     if (options_.stops) watch();
     sample(done());
     report_progress();
-    if (!done() && model_.phase->control().progress(t_, motion_->u()) >= 1) next_phase();
+    if (const double share = done() ? 0 : model_.phase->control().progress(t_, motion_->u()); share >= 1) {
+      const double residual = watches_chatter() ? motion_->residual(t_) : 0;
+      next_phase();
+      if (!done() && watches_chatter()) watch_chatter(share, residual);
+    }
+  }
+
+  bool watches_chatter() const {
+    return options_.stops && scene_.stop.wants_equilibrium() && scene_.phase.max_motion && schedule_.settled(t_);
+  }
+  void watch_chatter(double share, double residual) {
+    const auto said = chatter_.observe(*model_.phase, share * *scene_.phase.max_motion, residual, largest_cell(scene_));
+    if (!said) return;
+    status_ = RunStatus::step_limit;
+    reason_ = *said;
+    sample(true);
   }
 
   // Where a step has to land. Without records and an end: so far away that steps are what the method takes by itself.
