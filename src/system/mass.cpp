@@ -50,7 +50,7 @@ class Mass::Relative {
       dofs_.insert(dofs_.end(), term.master.begin(), term.master.begin() + term.masters);
     }
     std::ranges::sort(dofs_);
-    dofs_.erase(std::ranges::unique(dofs_).begin(), dofs_.end());
+    dofs_.erase(std::unique(dofs_.begin(), dofs_.end()), dofs_.end());  // clang 14 takes no ranges::unique
     std::vector<Eigen::Triplet<double>> entries;
     const auto place = [&](int dof) { return static_cast<int>(std::ranges::lower_bound(dofs_, dof) - dofs_.begin()); };
     for (const int dof : dofs_) entries.emplace_back(place(dof), place(dof), diagonal[static_cast<std::size_t>(dof)]);
