@@ -105,7 +105,8 @@ void choose_step(const Scene& scene, Model& model) {
   if (model.method.amplification) {
     const DampedSpectrum spectrum =
         damped_spectrum(model.omega_1.value_or(0), model.omega_max, *model.damping, model.phase->mass());
-    model.critical_step = critical_step(model.method.amplification, spectrum);
+    constexpr double longest = 1e3;  // of 1/omega_max: a step is never without a limit, though the method may have none
+    model.critical_step = std::min(critical_step(model.method.amplification, spectrum), longest / model.omega_max);
   }
   if (spec.step) {
     model.integrator.max_step = *spec.step;

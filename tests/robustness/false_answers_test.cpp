@@ -52,6 +52,11 @@ TEST_CASE("a damping of any size leaves leapfrog the step of the highest frequen
     REQUIRE(model.critical_step);
     CHECK(*model.critical_step * model.omega_max == Approx(2).epsilon(1e-3));
   }
+  // With the damping taken exactly the limit, 2 c/omega_max², lies beyond any step that makes sense: one is taken.
+  const Model exact =
+      make_model(scenes::load("block_on_wall", {"damping.c=1e6", "integrator.method=symplectic-euler"}));
+  REQUIRE(exact.critical_step);
+  CHECK(*exact.critical_step * exact.omega_max <= 1e3 * (1 + 1e-12));
   CHECK_THROWS_WITH(run(scenes::load("block_on_wall", {"damping.c=1e6", "integrator.step=0.01"})),
                     Contains("is past the critical one"));
 }
