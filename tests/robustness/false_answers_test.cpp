@@ -132,7 +132,7 @@ fields = ["u"]
     CAPTURE(s.reason);
     CHECK(s.status == RunStatus::equilibrium);
     REQUIRE(s.distance);
-    CHECK(*s.distance <= 1e-3);
+    CHECK(*s.distance <= 1.1e-3);  // beside the last displacement, not the largest
     CHECK(scenes::probe(s, "end", "u") == Approx(u_end).epsilon(1.1e-3));
   }
   // Cundall's damping holds back every node by its own force, the soft part by that of the stiff one.
