@@ -50,11 +50,10 @@ class RelaxationSystem {
   double residual(double t, ConstVec u);
   /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
   double last_residual();
-  /// ‖M⁻¹Q‖_M/(ω₁² ‖u‖_M) with Q of the last residual(): in a linear system no less than ‖u − u*‖_M/‖u‖_M, since
-  /// u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁². Infinite if u = 0 is no equilibrium. u: (n).
-  double distance(const Vector& u, double omega_1);
-  /// ‖M⁻¹Q‖_M/ω₁², the bound itself, and ‖u‖_M [m √kg].
+  /// ‖M⁻¹Q‖_M/ω₁² with Q of the last residual() [m √kg]: in a linear system no less than ‖u − u*‖_M, since
+  /// u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁².
   double error_norm(double omega_1);
+  /// ‖u‖_M [m √kg]; u: (n).
   double mass_norm(const Vector& u);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);

@@ -117,11 +117,6 @@ double RelaxationSystem::mass_norm(const Vector& u) {
   return std::sqrt(dot(u, *Q_inverse_));
 }
 
-double RelaxationSystem::distance(const Vector& u, double omega_1) {
-  const double error = error_norm(omega_1);
-  return error == 0 ? 0 : error / mass_norm(u);
-}
-
 double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
 
 double RelaxationSystem::power(const Vector& v) const { return dot(Q_, v); }

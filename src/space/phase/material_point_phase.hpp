@@ -1,5 +1,5 @@
 // Lagrangian phases for one basis and one kind of kinematics: what they are made of. What they do is in
-// phase_forces.hpp, phase_points.hpp, phase_change.hpp and phase_cut_cells.hpp.
+// phase_forces.hpp, phase_points.hpp, phase_inertia.hpp, phase_change.hpp and phase_cut_cells.hpp.
 #pragma once
 
 #include <stillpoint/damping.hpp>

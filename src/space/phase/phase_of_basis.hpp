@@ -8,6 +8,7 @@
 #include "space/phase/phase_cut_cells.hpp"
 #include "space/phase/phase_factory.hpp"
 #include "space/phase/phase_forces.hpp"
+#include "space/phase/phase_inertia.hpp"
 #include "space/phase/phase_points.hpp"
 
 namespace stillpoint {

@@ -1,0 +1,148 @@
+// The inertia of a phase, and what becomes of the points' momentum when it ends.
+#pragma once
+
+#include "space/phase/material_point_phase.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::make_mass() {
+  std::vector<double> wave_modulus;
+  for (const auto& material : body_.materials) wave_modulus.push_back(material->info().wave_modulus);
+  inertia_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), wave_modulus, untouched_functions());
+  const bool is_consistent = scene_.mass.kind == MassKind::consistent;
+  if (is_consistent || (projects() && !updated_lagrangian())) {
+    consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);
+    // Initial values are fitted with the consistent mass, whatever the motion has.
+    if (!is_consistent && !SparseCholesky(consistent_->free).positive_definite()) {
+      throw_scene_error(
+          scene_, "initial",
+          "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
+    }
+  }
+  try {
+    if (is_consistent) {
+      mass_.emplace(Mass::consistent(consistent_->free));
+    } else {
+      std::vector<double> diagonal(size());
+      for (std::size_t k = 0; k < diagonal.size(); ++k) {
+        diagonal[k] = inertia_.inertia()[static_cast<std::size_t>(dofs_->free[k] / Dim)];
+      }
+      mass_.emplace(Mass::lumped(std::move(diagonal), relative_inertia()));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw_scene_error(scene_, "mass.kind", error.what());
+  }
+}
+
+// Whether neither a support nor a wall takes hold of a function in any component, (functions).
+template <AxisBasis B, Kinematics K>
+std::vector<char> MaterialPointPhase<B, K>::untouched_functions() const {
+  std::vector<char> untouched(static_cast<std::size_t>(Basis::count(grid_)), 1);
+  for (std::size_t f = 0; f < untouched.size(); ++f) {
+    for (int i = 0; i < Dim; ++i) {
+      const int unknown = Dim * static_cast<int>(f) + i;
+      if (held_.is_prescribed(unknown) || held_.is_guided(unknown)) untouched[f] = 0;
+    }
+  }
+  return untouched;
+}
+
+// The inertia that light functions were given, at the degrees of freedom.
+template <AxisBasis B, Kinematics K>
+std::vector<RelativeInertia> MaterialPointPhase<B, K>::relative_inertia() const {
+  std::vector<RelativeInertia> terms;
+  const auto dof_of = [&](int function, int i) { return dofs_->number[static_cast<std::size_t>(Dim * function + i)]; };
+  for (const AddedInertia& added : inertia_.added()) {
+    const Extrapolation& from = added.relative_to;
+    for (int i = 0; i < Dim; ++i) {
+      RelativeInertia term{.dof = dof_of(added.function, i), .inertia = added.inertia, .masters = from.functions};
+      if (!dofs_->is_free(term.dof)) continue;
+      for (int k = 0; k < from.functions; ++k) {
+        term.master[k] = dof_of(from.function[k], i);
+        term.weight[k] = from.weight[k];
+      }
+      terms.push_back(term);
+    }
+  }
+  return terms;
+}
+
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
+  transfer_.conservation().compare_mass(info_.total_mass, inertia_.mass());
+  if (is_free()) transfer_.conservation().compare_with_start(body_.points);
+  const std::vector<double> grid_v =
+      transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
+  std::vector<double> v(size());
+  for (std::size_t k = 0; k < v.size(); ++k) v[k] = grid_v[static_cast<std::size_t>(dofs_->free[k])];
+  begin_motion(t, v);
+  start_velocity_ = nodal_velocity(t, v);
+  return v;
+}
+
+// v over the grid's functions.
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec v) const {
+  std::vector<double> grid_v(grid_u_.size(), 0.0);
+  for (std::size_t k = 0; k < v.size(); ++k) grid_v[static_cast<std::size_t>(dofs_->free[k])] = v[k];
+  for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
+    grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.motion(s).velocity(t);
+  }
+  return grid_v;
+}
+
+// Whether nothing acts on the body from outside.
+template <AxisBasis B, Kinematics K>
+bool MaterialPointPhase<B, K>::is_free() const {
+  return scene_.supports.empty() && scene_.walls.empty() && scene_.forces.empty() && scene_.tractions.empty() &&
+         scene_.body_force.empty() && is_undamped(scene_.damping.strategy);
+}
+
+// What the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim): by the inertia that
+// they moved, not by the mass that the points have. What supports and walls give is not known apart from what added
+// inertia takes there, so that the mass counts; scaled by Gershgorin the inertia is no mass at all.
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>& grid_v) const {
+  std::vector<double> gain(grid_v.size());
+  for_each_index(gain.size(),
+                 [&](std::size_t i) { gain[i] = inertia_.mass()[i / Dim] * (grid_v[i] - start_velocity_[i]); });
+  if (!mass_->is_lumped() || scene_.mass.scaling == MassScaling::gershgorin) return gain;
+  std::vector<double> dv(size()), M_dv(size());
+  const auto grid_number = [&](std::size_t k) { return static_cast<std::size_t>(dofs_->free[k]); };
+  for (std::size_t k = 0; k < dv.size(); ++k) dv[k] = grid_v[grid_number(k)] - start_velocity_[grid_number(k)];
+  mass_->apply(dv, M_dv);
+  const std::vector<char> untouched = untouched_functions();
+  for (std::size_t k = 0; k < dv.size(); ++k) {
+    if (untouched[grid_number(k) / Dim]) gain[grid_number(k)] = M_dv[k] / scene_.mass.factor;
+  }
+  return gain;
+}
+
+// The relative inertia δ_i has turned by Σ δ_i d_i × ḋ_i, d_i = u_i − Σ_k w_k u_k, when the phase ends: apic's points
+// take that over as spin, so that none of the angular momentum is lost.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
+  if constexpr (Dim == 2) {
+    if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
+    std::vector<double> spin(inertia_.mass().size());  // δ_i (d_i × ḋ_i)/m_i
+    for (const AddedInertia& added : inertia_.added()) {
+      const auto i = static_cast<std::size_t>(added.function);
+      if (added.relative_to.functions == 0 || !(inertia_.mass()[i] > 0)) continue;
+      const auto d = deviation(grid_u_, added), d_dot = deviation(grid_v, added);
+      const double delta = added.inertia / scene_.mass.factor;
+      spin[i] = delta * (d[0] * d_dot[1] - d[1] * d_dot[0]) / inertia_.mass()[i];
+    }
+    for_each_block(body_.points.cells(), [&](std::size_t k) {
+      for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+        const auto N = weights_.N(k, p);
+        double of_point = 0;
+        for (int a = 0; a < per_cell; ++a) of_point += N[a] * spin[static_cast<std::size_t>(weights_.function(k, a))];
+        body_.points.B_apic[Dim][p] += of_point / 2;
+        body_.points.B_apic[1][p] -= of_point / 2;
+      }
+    });
+  }
+}
+
+}  // namespace stillpoint
