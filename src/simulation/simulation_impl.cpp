@@ -1,0 +1,256 @@
+#include "simulation/simulation_impl.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "output/point_fields.hpp"
+
+namespace stillpoint {
+namespace {
+
+MonitorOptions monitor_options(const Scene& scene, const Model& model) {
+  return {.residual = scene.stop.residual,
+          .distance = model.distance_goal,
+          .distance_is_asked = scene.stop.distance > 0,
+          .kinetic_energy = scene.stop.kinetic_energy,
+          .dwell = model.dwell,
+          .must_last = model.equilibrium_must_last,
+          .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
+          .steps = scene.stop.steps,
+          .wall_time = scene.stop.wall_time};
+}
+
+double largest_cell(const Scene& scene) {
+  double h = 0;
+  for (std::size_t d = 0; d < scene.grid.cells.size(); ++d)
+    h = std::max(h, (scene.grid.max[d] - scene.grid.min[d]) / scene.grid.cells[d]);
+  return h;
+}
+
+RunStatus status_of(StepReport::Status status) {
+  switch (status) {
+    case StepReport::Status::ok:
+      return RunStatus::running;
+    case StepReport::Status::failed:
+      return RunStatus::failed;
+    default:
+      return RunStatus::diverged;
+  }
+}
+
+}  // namespace
+
+Simulation::Impl::Impl(Scene scene, SimulationOptions options)
+    : scene_(std::move(scene)),
+      options_(std::move(options)),
+      model_(make_model(scene_)),
+      monitor_(monitor_options(scene_, model_)),
+      error_bound_(*model_.phase, model_.omega_1),
+      schedule_(scene_, *model_.phase, scene_.stop.time),
+      overshoot_(scene_, model_),
+      t_(model_.t) {
+  if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance());
+  begin_phase(model_.u, model_.v);
+}
+
+// What a phase begins with, the first like any other: the step that follows the stiffness is asked here.
+void Simulation::Impl::begin_phase(ConstVec u0, ConstVec v0) { motion_.emplace(model_, scene_, vectors_, t_, u0, v0); }
+
+RunStatus Simulation::Impl::step(double t_stop) {
+  if (done()) return status_;
+  const Stopwatch watch;
+  if (!std::exchange(started_, true)) {
+    motion_->accept(t_);
+    watch_overshoot();
+    sample(true);
+  }
+  take_step(t_stop);
+  stepping_s_ += watch.seconds();
+  if (done()) finish();
+  return status_;
+}
+
+void Simulation::Impl::take_step(double t_stop) {
+  const StepReport report = motion_->integrator->step(landing_time(t_stop));
+  t_ = report.t;
+  if (report.status != StepReport::Status::ok) {
+    if (report.status == StepReport::Status::inadmissible && try_next_phase()) return;
+    status_ = status_of(report.status);
+    reason_ = report.message;
+    sample(true);  // the last good state
+    return;
+  }
+  step_ = report.h;
+  measured_ = false;
+  motion_->accept(t_);
+  watch_overshoot();
+  if (options_.stops) watch();
+  sample(done());
+  report_progress();
+  if (const double share = done() ? 0 : model_.phase->control().progress(t_, motion_->u()); share >= 1) {
+    const double residual = watches_chatter() ? motion_->residual(t_) : 0;
+    next_phase();
+    if (!done() && watches_chatter()) watch_chatter(share, residual);
+  }
+}
+
+// Where a step has to land. Without records and an end: so far away that steps are what the method takes by itself.
+double Simulation::Impl::landing_time(double t_stop) const {
+  const double horizon = 1e9 * model_.integrator.max_step;
+  double landing = std::min(t_stop, recorder_ ? recorder_->next_time() : std::max(horizon, 2 * t_));
+  if (options_.stops && scene_.stop.time > 0) landing = std::min(landing, scene_.stop.time);
+  return landing;
+}
+
+void Simulation::Impl::next_phase() {
+  motion_->finish(t_);
+  if (recorder_) recorder_->end_phase(t_, *motion_);
+  tell_phase_change(false);
+  try {
+    const std::vector<double> v0 = model_.phase->control().begin_next(t_, motion_->u(), motion_->v());
+    earlier_steps_ = steps();
+    earlier_evaluations_ = evaluations();
+    earlier_rejected_ += motion_->integrator->rejected_steps();
+    model_.relaxing.from = motion_->integrator->carried_over();
+    motion_.reset();
+    begin_phase(std::vector<double>(v0.size(), 0.0), v0);
+    if (recorder_) recorder_->begin_phase(t_, *motion_);
+    ++phases_;
+    tell_phase_change(true);
+  } catch (const PointLost& lost) {
+    status_ = RunStatus::failed;
+    reason_ = lost.what();
+  } catch (const SceneError& error) {  // no bad input: that was looked at before the run
+    status_ = RunStatus::failed;
+    reason_ = fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what());
+    is_readable_ = false;
+  }
+}
+
+// A cell that is about to turn inside out is good again in the next phase.
+bool Simulation::Impl::try_next_phase() {
+  if (!model_.phase->info().updated_lagrangian || motion_->integrator->steps() == 0) return false;
+  next_phase();
+  return !done();
+}
+
+void Simulation::Impl::tell_phase_change(bool begun) const {
+  if (options_.at_phase_change) options_.at_phase_change(begun);
+}
+
+// --- what a run looks at after its steps ---
+
+void Simulation::Impl::measure() {
+  if (std::exchange(measured_, true)) return;
+  residual_ = motion_->residual(t_);
+  distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
+  work_scale_ = motion_->system.work_scale(motion_->u_vector);
+  power_ = motion_->system.power(motion_->v_vector);
+  kinetic_energy_ = motion_->system.kinetic_energy(motion_->v_vector);
+}
+
+// A scene that asks for a distance gets that of the displacement at the end.
+std::optional<double> Simulation::Impl::distance_to_go() const {
+  return scene_.stop.distance > 0 ? distance_ : error_bound_.beside_largest();
+}
+
+// The distance by the stiffness that the body has now.
+void Simulation::Impl::refresh_distance() {
+  if (error_bound_.refresh(t_, motion_->u(), residual_)) {
+    motion_->system.residual(t_, motion_->u());
+    distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
+  }
+}
+
+// If omega_1 is not known before, the damping that is found on the way is 2 omega_1, nearly.
+void Simulation::Impl::follow_period() {
+  if (model_.omega_1 || motion_->integrator->static_iteration()) return;
+  if (const auto c = motion_->integrator->damping_rate(); c && *c > 0) {
+    monitor_.set_dwell(scene_.stop.dwell * 4 * std::numbers::pi / *c);
+  }
+}
+
+void Simulation::Impl::watch() {
+  if (monitor_.due(t_)) {
+    follow_period();
+    measure();
+    const bool may_be_over = scene_.stop.residual <= 0 || residual_ <= scene_.stop.residual;
+    if (may_be_over && distance_to_go().value_or(std::numeric_limits<double>::infinity()) <= model_.distance_goal)
+      refresh_distance();
+    status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
+  }
+  if (!done()) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
+  reason_ = monitor_.reason();
+  if (!done() && options_.interrupted && options_.interrupted()) {
+    status_ = RunStatus::interrupted;
+    reason_ = "interrupted by the user; the step was finished";
+  }
+}
+
+void Simulation::Impl::watch_overshoot() {
+  if (!options_.stops || !overshoot_.due(t_)) return;
+  measure();
+  overshoot_.sample(t_, power_);
+}
+
+bool Simulation::Impl::watches_chatter() const {
+  return options_.stops && scene_.stop.wants_equilibrium() && scene_.phase.max_motion && schedule_.settled(t_);
+}
+
+void Simulation::Impl::watch_chatter(double share, double residual) {
+  const auto said = chatter_.observe(*model_.phase, share * *scene_.phase.max_motion, residual, largest_cell(scene_));
+  if (!said) return;
+  status_ = RunStatus::step_limit;
+  reason_ = *said;
+  sample(true);
+}
+
+// --- what it leaves behind ---
+
+ConstVec Simulation::Impl::field(std::string_view name) {
+  if (!is_readable_) throw std::logic_error("there are no fields between two phases: " + reason_);
+  field_ = name == "position" ? current_positions(*model_.phase, t_, motion_->u())
+                              : point_field(*model_.phase, std::string(name), t_, motion_->u(), motion_->v());
+  return field_;
+}
+
+void Simulation::Impl::sample(bool last) {
+  if (!recorder_) return;
+  recorder_->sample(t_, *motion_, last, [&]() -> Recorder::Row {
+    measure();
+    return {{t_, steps(), evaluations(), residual_, kinetic_energy_}, distance_};
+  });
+}
+
+void Simulation::Impl::report_progress() {
+  constexpr double seconds_between = 0.2;
+  if (!options_.progress || wall_.seconds() < next_progress_) return;
+  next_progress_ = wall_.seconds() + seconds_between;
+  options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
+}
+
+// What claims to be an equilibrium may be one that the least disturbance ends.
+void Simulation::Impl::test_stability() {
+  const bool writes = recorder_ && !options_.out.empty();
+  if (writes) remove_mode(options_.out);
+  if (status_ != RunStatus::equilibrium) return;
+  stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
+  if (stability_.kind == EquilibriumStability::Kind::neutral) model_.notes.push_back(description(stability_));
+  if (stability_.kind != EquilibriumStability::Kind::unstable) return;
+  status_ = RunStatus::unstable_equilibrium;
+  reason_ = fmt::format("{}; {}", reason_, description(stability_));
+  if (writes) write_mode(stability_, *model_.phase, t_, motion_->u(), options_.out);
+}
+
+void Simulation::Impl::finish() {
+  if (is_readable_) motion_->finish(t_);
+  test_stability();
+  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,100 @@
+// One simulation: its parts, and the state of its loop.
+#pragma once
+
+#include <stillpoint/simulation.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/stopwatch.hpp"
+#include "simulation/chatter.hpp"
+#include "simulation/equilibrium_stability.hpp"
+#include "simulation/error_bound.hpp"
+#include "simulation/load_schedule.hpp"
+#include "simulation/model.hpp"
+#include "simulation/monitor.hpp"
+#include "simulation/overshoot.hpp"
+#include "simulation/phase_motion.hpp"
+#include "simulation/recorder.hpp"
+
+namespace stillpoint {
+
+class Simulation::Impl {
+ public:
+  Impl(Scene scene, SimulationOptions options);
+
+  RunStatus step(double t_stop);
+  bool done() const { return status_ != RunStatus::running; }
+  double residual() {
+    measure();
+    return residual_;
+  }
+  std::optional<double> distance() {
+    measure();
+    return distance_;
+  }
+  ConstVec field(std::string_view name);
+  Summary summary();  // simulation_summary.cpp
+  long steps() const { return earlier_steps_ + motion_->integrator->steps(); }
+  long evaluations() const { return earlier_evaluations_ + motion_->system.evaluations(); }
+
+  Scene scene_;
+  SimulationOptions options_;
+  Stopwatch wall_;
+  VectorSpace vectors_;
+  Model model_;
+  Monitor monitor_;
+  ErrorBound error_bound_;
+  LoadSchedule schedule_;
+  Chatter chatter_;
+  Overshoot overshoot_;
+  std::optional<Recorder> recorder_;
+
+  std::optional<PhaseMotion> motion_;  // of the present phase
+  int phases_ = 1;
+  double t_, step_ = 0;
+  RunStatus status_ = RunStatus::running;
+  std::string reason_;
+
+ private:
+  void begin_phase(ConstVec u0, ConstVec v0);
+  void take_step(double t_stop);
+  double landing_time(double t_stop) const;
+  void next_phase();
+  bool try_next_phase();
+  void tell_phase_change(bool begun) const;
+
+  bool watches_chatter() const;
+  void watch_chatter(double share, double residual);
+  void watch_overshoot();
+  void watch();
+  void follow_period();
+
+  void measure();
+  bool has_distance() const { return model_.omega_1 && !model_.phase->info().updated_lagrangian; }
+  std::optional<double> distance_to_go() const;
+  void refresh_distance();
+
+  void sample(bool last);
+  void report_progress();
+  void test_stability();
+  void finish();
+
+  void fill_effort(Summary& s) const;
+  void fill_model(Summary& s) const;
+  void fill_state(Summary& s);
+
+  long earlier_steps_ = 0, earlier_evaluations_ = 0, earlier_rejected_ = 0;  // of the phases before
+  bool started_ = false;
+  bool is_readable_ = true;  // false if the points are between two phases, because the second could not begin
+  bool measured_ = false;    // whether the next five are of now
+  double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0, power_ = 0;
+  std::optional<double> distance_;
+  EquilibriumStability stability_;
+  double stepping_s_ = 0, next_progress_ = 0;
+  std::vector<double> field_;
+};
+
+}  // namespace stillpoint
