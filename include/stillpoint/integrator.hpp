@@ -8,6 +8,7 @@
 #include <stillpoint/catalogue.hpp>
 #include <stillpoint/relaxation_system.hpp>
 #include <stillpoint/stability.hpp>
+#include <stillpoint/state_archive.hpp>
 
 #include <functional>
 #include <memory>
@@ -74,6 +75,9 @@ class Integrator {
   virtual CarriedOver carried_over() const { return {}; }
   /// Whether steps are iterates of a static solver: laws of the material remember the last one only.
   virtual bool static_iteration() const { return false; }
+  /// Saves what the next steps depend on beside (t, y) and the system, or restores it after a start() at the (t, y) of
+  /// then: unless Method::begins_anew, the same steps follow.
+  virtual void archive(const StateArchive& state) = 0;
   virtual long steps() const = 0;           // accepted
   virtual long rejected_steps() const = 0;  // tried and refused by the error control or as inadmissible
 };
@@ -84,6 +88,7 @@ struct Method : MethodInfo {
   int evaluations_per_step = 0;       // right-hand sides a fixed step costs when implemented right; 0: not fixed
   bool remembers_force = false;       // knows Q of the last accepted step, as Damping::uses_last_force() needs
   bool hosts_relaxations = false;     // relaxations are iterations in the place of its step
+  bool begins_anew = false;           // when restored: its library keeps what it remembers of steps to itself
   AmplificationRadius amplification;  // empty if it has none (multistep)
 };
 

@@ -4,6 +4,7 @@
 
 #include <stillpoint/damping.hpp>
 #include <stillpoint/semi_discrete.hpp>
+#include <stillpoint/state_archive.hpp>
 #include <stillpoint/vector.hpp>
 
 #include <memory>
@@ -65,6 +66,9 @@ class RelaxationSystem {
   ConstVec last_reactions() const { return trial_->reactions; }
   /// ½ vᵀ M v [J], without what was added to light nodes; v: (n).
   double kinetic_energy(const Vector& v);
+
+  /// Saves what is kept of earlier evaluations, or restores it.
+  void archive(const StateArchive& state);
 
   /// Force evaluations made by integrators (not by residual()).
   long evaluations() const { return evaluations_; }

@@ -87,6 +87,13 @@ struct OutputSpec {               // [output]
   double fields_every = 0;        // or the time between them [s]; 0: at the stages only
 };
 
+struct CheckpointSpec {  // [checkpoint]: when the state is saved, so that the run can be resumed
+  double every = 0;      // time on the clock [s]; 0: not by it
+  long every_steps = 0;  // 0: not by them
+
+  bool wanted() const { return every > 0 || every_steps > 0; }
+};
+
 struct PhaseSpec {  // [phase]: when the points move on and the grid starts again
   /// A phase ends once some point has moved by this share of a cell; 0: after every step (classical MPM); empty: never.
   std::optional<double> max_motion;
@@ -130,6 +137,8 @@ struct Scene : BoundarySpecs {
   std::string name;  // the file's stem
   std::string title;
   std::filesystem::path file;
+  std::string text;                    // of the file
+  std::vector<std::string> overrides;  // laid over it
   int dim = 1;
   Constants constants;
   GridSpec grid;
@@ -147,6 +156,7 @@ struct Scene : BoundarySpecs {
   IntegratorSpec integrator;
   StopSpec stop;
   OutputSpec output;
+  CheckpointSpec checkpoint;
   std::vector<ProbeSpec> probes;
   std::vector<VariantSpec> variants;
   std::map<std::string, Location> where;  // of each key written ("support[0].at"), for what is found wrong later
@@ -161,5 +171,8 @@ bool loads_vary(const Scene& scene);
 /// Reads, checks and completes a scene; overrides are "dotted.key=value" with a TOML value (a bare word is a string).
 /// Throws SceneError with every problem.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// The same of a text that was read from the file before.
+Scene load_scene(const std::filesystem::path& file, const std::string& text,
+                 const std::vector<std::string>& overrides);
 
 }  // namespace stillpoint

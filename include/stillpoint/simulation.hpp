@@ -35,7 +35,9 @@ struct Progress {
 };
 
 struct SimulationOptions {
-  std::filesystem::path out{};  // folder for history.csv and the fields; empty: no files
+  std::filesystem::path out{};  // folder for history.csv, the fields and checkpoints; empty: no files
+  /// A checkpoint of the same scene to go on from, with the files in `out`; empty: from the start.
+  std::filesystem::path resume{};
   int threads = 0;              // 0: as many as OpenMP would take
   /// Whether steps land on the times of rows and snapshots, and these are taken.
   bool records = true;
@@ -47,10 +49,14 @@ struct SimulationOptions {
   std::function<void(bool begun)> at_phase_change{};
 };
 
+/// The scene of a checkpoint, from its text. Throws StateError, or SceneError if what the text refers to has changed.
+Scene load_scene_of(const std::filesystem::path& checkpoint);
+
 class Simulation {
  public:
   /// Sets the scene up at its start. Throws SceneError if it cannot be, or if out cannot be written; nothing is written
   /// then.
+  /// StateError if the checkpoint cannot be gone on from: it is damaged, or of another scene, body or version.
   explicit Simulation(Scene scene, SimulationOptions options = {});
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -78,6 +84,10 @@ class Simulation {
   /// A field at the material points, row by row: "position", "u", "v" (P × dim), "strain", "stress" (P × components),
   /// "plastic_strain" … (P); valid until the next call. Throws std::invalid_argument for another name.
   ConstVec field(std::string_view name);
+
+  /// Saves the state between two steps, to go on from with options.resume: the same steps follow, bit for bit, but where
+  /// Method::begins_anew. Throws std::filesystem::filesystem_error.
+  void save(const std::filesystem::path& checkpoint);
 
   /// Figures of now; complete once done().
   Summary summary();

@@ -1,7 +1,14 @@
 #include "base/atomic_file.hpp"
 
+#include <stillpoint/state_archive.hpp>
+
 #include <cerrno>
+#include <string>
 #include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/checksum.hpp"
 
 namespace stillpoint {
 namespace {
@@ -20,9 +27,30 @@ AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), par
   if (!stream_) fail("cannot write", partial_);
 }
 
+AtomicFile::AtomicFile(std::filesystem::path file, const FileContents& contents)
+    : file_(std::move(file)), partial_(partial_name(file_)) {
+  if (!std::filesystem::exists(partial_) && std::filesystem::exists(file_)) std::filesystem::copy_file(file_, partial_);
+  std::ifstream earlier(partial_, std::ios::binary);
+  std::string text(contents.size, '\0');
+  earlier.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!earlier) throw StateError(fmt::format("{}: is not what was written so far", partial_.string()));
+  count(text);
+  if (contents_.crc != contents.crc)
+    throw StateError(fmt::format("{}: was altered since it was written", partial_.string()));
+  std::filesystem::resize_file(partial_, contents.size);
+  stream_.open(partial_, std::ios::app | std::ios::binary);
+  if (!stream_) fail("cannot write", partial_);
+}
+
+void AtomicFile::count(std::string_view text) {
+  contents_.size += text.size();
+  contents_.crc = checksum(contents_.crc, text.data(), text.size());
+}
+
 void AtomicFile::write(std::string_view text) {
   stream_ << text << std::flush;
   if (!stream_) fail("cannot write", partial_);
+  count(text);
 }
 
 void AtomicFile::finish() {

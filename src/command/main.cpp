@@ -1,5 +1,6 @@
 // stillpoint: the command. Exit status: 0 as asked, 2 bad input, 3 not in equilibrium within the limits, 4 failed.
 #include <stillpoint/scene.hpp>
+#include <stillpoint/state_archive.hpp>
 
 #include <cstdio>
 #include <cstdlib>
@@ -17,13 +18,14 @@ constexpr int bad_input = 2, failed = 4;
 
 using namespace stillpoint::command;
 
-void add_scene(CLI::App& app, SceneArguments& arguments) {
-  app.add_option("SCENE", arguments.file, "scene file (TOML)")->required();
+CLI::Option& add_scene(CLI::App& app, SceneArguments& arguments) {
+  CLI::Option& scene = *app.add_option("SCENE", arguments.file, "scene file (TOML)")->required();
   app.add_option("--set", arguments.overrides,
                  "change a key of the scene, e.g. --set damping.c=0.45 (a bare word is a string)")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return scene;
 }
 
 CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
@@ -76,8 +78,15 @@ int dispatch(int argc, char** argv) {
 
   RunArguments run_arguments;
   CLI::App& run_app = *app.add_subcommand("run", "relax a scene; writes summary.json and history.csv");
-  add_scene(run_app, run_arguments.scene);
-  run_app.add_option("--out", run_arguments.out, "folder to write into (default: out/<scene>)")->type_name("DIR");
+  CLI::Option& scene = add_scene(run_app, run_arguments.scene);
+  CLI::Option& out =
+      *run_app.add_option("--out", run_arguments.out, "folder to write into (default: out/<scene>)")->type_name("DIR");
+  CLI::Option& resume = *run_app
+                             .add_option("--resume", run_arguments.resume,
+                                         "go on with a run that was ended, from the checkpoint in its folder")
+                             ->type_name("DIR");
+  scene.required(false)->excludes(&resume);
+  resume.excludes(&out)->excludes(run_app.get_option("--set"));
   run_app.add_option("--threads", run_arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
   run_app.add_flag("--quiet", run_arguments.quiet, "print nothing but errors");
 
@@ -110,6 +119,10 @@ int dispatch(int argc, char** argv) {
     fmt::print(stderr, "{}", app.help());
     return bad_input;
   }
+  if (run_app.parsed() && run_arguments.scene.file.empty() && run_arguments.resume.empty()) {
+    fmt::print(stderr, "run: expected a SCENE, or --resume DIR\n");
+    return bad_input;
+  }
   if (run_app.parsed()) {
     wait_briefly(argv, run_arguments.threads);
     return run(run_arguments);
@@ -133,6 +146,9 @@ int main(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
   } catch (const stillpoint::SceneError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return bad_input;
+  } catch (const stillpoint::StateError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
   } catch (const std::exception& error) {

@@ -65,14 +65,24 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   row("written", fmt::format("{}", out.string()));
 }
 
+std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file) {
+  if (!std::filesystem::is_directory(folder_or_file)) return folder_or_file;
+  return folder_or_file / "checkpoint.h5";
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
-  const Scene scene = load_scene(arguments.scene.file, arguments.scene.overrides);
-  const std::filesystem::path out = arguments.out.empty() ? std::filesystem::path("out") / scene.name : arguments.out;
+  const bool resumes = !arguments.resume.empty();
+  const std::filesystem::path checkpoint = resumes ? checkpoint_of(arguments.resume) : std::filesystem::path();
+  const Scene scene =
+      resumes ? load_scene_of(checkpoint) : load_scene(arguments.scene.file, arguments.scene.overrides);
+  const std::filesystem::path out = resumes                 ? checkpoint.parent_path()
+                                    : arguments.out.empty() ? std::filesystem::path("out") / scene.name
+                                                            : arguments.out;
   watch_for_interrupt();
   ProgressLine line;
-  SimulationOptions options{.out = out, .threads = arguments.threads, .interrupted = interrupted};
+  SimulationOptions options{.out = out, .resume = checkpoint, .threads = arguments.threads, .interrupted = interrupted};
   if (!arguments.quiet) options.progress = [&line](const Progress& progress) { line.show(progress); };
   const Summary summary = stillpoint::run(scene, options);
   line.finish();

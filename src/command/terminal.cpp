@@ -32,7 +32,9 @@ std::optional<double> share_done(const Progress& p, double start_residual) {
 }  // namespace
 
 bool interrupted() { return interrupt_count > 0; }
-void watch_for_interrupt() { std::signal(SIGINT, on_interrupt); }
+void watch_for_interrupt() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, on_interrupt);
+}
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 

@@ -21,7 +21,8 @@ class ProgressLine {
   double start_residual_ = 0;
 };
 
-/// Whether Ctrl-C was pressed since watch_for_interrupt(); a second one ends the process at once.
+/// Whether Ctrl-C was pressed since watch_for_interrupt(), or the process asked to end by SIGTERM or SIGHUP; the same
+/// once more ends it at once.
 bool interrupted();
 void watch_for_interrupt();
 

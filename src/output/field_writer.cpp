@@ -1,6 +1,10 @@
 #include "output/field_writer.hpp"
 
+#include <stillpoint/state_archive.hpp>
+
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -15,6 +19,8 @@
 
 namespace stillpoint {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::array plane_tensor = {"xx", "yy", "zz", "xy"};
 
@@ -87,120 +93,139 @@ class GridText {
   std::string group_, rows_, text_;
 };
 
-// Removed at the end, unless it got its final name.
-class Temporary {
- public:
-  explicit Temporary(std::filesystem::path path) : path_(std::move(path)) {}
-  ~Temporary() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  void keep() { path_.clear(); }
+std::string frame_name(std::size_t k) { return fmt::format("frame_{:04}", k); }
 
- private:
-  std::filesystem::path path_;
-};
+// 0 … points − 1. ParaView's readers of XDMF 3 show no points without it.
+std::string write_vertices(std::size_t points, Hdf5File& file) {
+  std::string name = fmt::format("/vertex/{}", points);
+  std::vector<int> numbers(points);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  file.make_group("/vertex");
+  file.write(name, numbers);
+  return name;
+}
+
+// A stress becomes scalars. As a Tensor6 its components would have the right names in ParaView's reader of XDMF 2,
+// and one another's in those of XDMF 3: these take xx, xy, xz, yy, yz, zz for xx, yy, zz, xy, yz, xz.
+void write(const PointField& field, const std::string& group, Hdf5File& file, GridText& grid) {
+  const auto width = static_cast<std::size_t>(field.components);
+  const auto in_group = [&](const std::string& name) { return fmt::format("{}/{}", group, name); };
+  if (width == 1) {
+    file.write(in_group(field.name), field.values, {1, 0, 1, 1});
+    grid.add_scalar(field.name);
+  } else if (width <= 3) {
+    file.write(in_group(field.name), field.values, {width, 0, width, 3});
+    grid.add_vector(field.name);
+  } else {
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::string name = fmt::format("{}_{}", field.name, plane_tensor[k]);
+      file.write(in_group(name), field.values, {width, k, 1, 1});
+      grid.add_scalar(name);
+    }
+  }
+}
+
+// Its text in fields.xdmf.
+std::string write(const FieldFrame& frame, const std::string& group, Hdf5File& file) {
+  file.make_group(group);
+  file.write_attribute(group, "t", frame.t);
+  file.write_attribute(group, "dim", frame.dim);
+  GridText grid(group, frame.t, frame.points, write_vertices(frame.points, file));
+  const auto dim = static_cast<std::size_t>(frame.dim);
+  file.write(group + "/place", frame.position, {dim, 0, dim, 3});
+  for (const PointField& field : frame.fields) write(field, group, file, grid);
+  if (!frame.material.empty()) {
+    file.write(group + "/material", frame.material);
+    grid.add_scalar("material", int32);
+  }
+  return grid.text();
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw fs::filesystem_error("cannot read", path, std::make_error_code(std::errc::io_error));
+  return text;
+}
+
+void remove_quietly(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
 
 }  // namespace
 
-// The temporaries stand before the files, which are closed before those are removed.
+// Each frame has a file of its own, with its text for ParaView beside it, which is not touched again before all of them
+// are joined: whatever happens then, they are there.
 class FieldWriter::Files {
  public:
-  explicit Files(const std::filesystem::path& folder)
-      : hdf5_name_(folder / "fields.h5"),
-        xdmf_partial_(partial_name(folder / "fields.xdmf")),
-        xdmf_(folder / "fields.xdmf"),  // before the other: what is wrong with the folder shows here
-        hdf5_partial_(partial_name(hdf5_name_)),
-        hdf5_(hdf5_partial_.path()) {
-    hdf5_.make_group("/vertex");
-    xdmf_.write(head);
+  Files(const fs::path& folder, std::size_t frames) : folder_(folder), frames_(frames) {
+    if (frames == 0) fs::remove_all(parts());
+    fs::create_directories(parts());
+    if (frames > 0 && !fs::exists(part(frames - 1)))
+      throw StateError(fmt::format("{}: is not there; expected the {} frames of the run so far", part(frames - 1).string(), frames));
   }
 
-  // A frame is there as a whole or not at all.
   void add(const FieldFrame& frame) {
-    const std::string group = fmt::format("/frame_{:04}", frames_);
+    const fs::path partial = partial_name(part(frames_));
     try {
-      xdmf_.write(write(frame, group));
+      Hdf5File file(partial);
+      const std::string text = write(frame, "/" + frame_name(frames_), file);
+      file.close();
+      AtomicFile xdmf(part(frames_).replace_extension(".xdmf"));
+      xdmf.write(text);
+      xdmf.finish();
     } catch (...) {
-      hdf5_.remove(group);
-      if (!counted_.contains(frame.points)) hdf5_.remove(vertices_name(frame.points));
+      remove_quietly(partial);
       throw;
     }
+    fs::rename(partial, part(frames_));
     ++frames_;
   }
 
-  void finish() {
-    xdmf_.write(foot);
-    hdf5_.close();
-    std::filesystem::rename(hdf5_partial_.path(), hdf5_name_);  // before the other, which refers to it
-    hdf5_partial_.keep();
-    xdmf_.finish();
-    xdmf_partial_.keep();
+  void finish(bool goes_on) {
+    const fs::path whole = folder_ / "fields.h5";
+    try {
+      join(partial_name(whole));
+      AtomicFile xdmf(folder_ / "fields.xdmf");
+      xdmf.write(head);
+      for (std::size_t k = 0; k < frames_; ++k) xdmf.write(text_of(part(k).replace_extension(".xdmf")));
+      xdmf.write(foot);
+      fs::rename(partial_name(whole), whole);  // before the other, which refers to it
+      xdmf.finish();
+    } catch (...) {
+      remove_quietly(partial_name(whole));
+      throw;
+    }
+    if (!goes_on) remove_quietly(parts());
   }
+
+  std::size_t frames() const { return frames_; }
 
  private:
-  std::string write(const FieldFrame& frame, const std::string& group) {
-    hdf5_.make_group(group);
-    hdf5_.write_attribute(group, "t", frame.t);
-    hdf5_.write_attribute(group, "dim", frame.dim);
-    GridText grid(group, frame.t, frame.points, vertices(frame.points));
-    const auto dim = static_cast<std::size_t>(frame.dim);
-    hdf5_.write(group + "/place", frame.position, {dim, 0, dim, 3});
-    for (const PointField& field : frame.fields) write(field, group, grid);
-    if (!frame.material.empty()) {
-      hdf5_.write(group + "/material", frame.material);
-      grid.add_scalar("material", int32);
-    }
-    hdf5_.flush();
-    return grid.text();
-  }
+  fs::path parts() const { return folder_ / "fields.partial"; }
+  fs::path part(std::size_t k) const { return parts() / (frame_name(k) + ".h5"); }
 
-  // A stress becomes scalars. As a Tensor6 its components would have the right names in ParaView's reader of XDMF 2,
-  // and one another's in those of XDMF 3: these take xx, xy, xz, yy, yz, zz for xx, yy, zz, xy, yz, xz.
-  void write(const PointField& field, const std::string& group, GridText& grid) {
-    const auto width = static_cast<std::size_t>(field.components);
-    const auto in_group = [&](const std::string& name) { return fmt::format("{}/{}", group, name); };
-    if (width == 1) {
-      hdf5_.write(in_group(field.name), field.values, {1, 0, 1, 1});
-      grid.add_scalar(field.name);
-    } else if (width <= 3) {
-      hdf5_.write(in_group(field.name), field.values, {width, 0, width, 3});
-      grid.add_vector(field.name);
-    } else {
-      for (std::size_t k = 0; k < width; ++k) {
-        const std::string name = fmt::format("{}_{}", field.name, plane_tensor[k]);
-        hdf5_.write(in_group(name), field.values, {width, k, 1, 1});
-        grid.add_scalar(name);
+  void join(const fs::path& name) const {
+    Hdf5File whole(name);
+    whole.make_group("/vertex");
+    std::set<std::string> vertices;
+    for (std::size_t k = 0; k < frames_; ++k) {
+      const Hdf5File of_frame(Hdf5File::Existing{part(k)});
+      whole.copy(of_frame, "/" + frame_name(k));
+      for (const std::string& points : of_frame.names_in("/vertex")) {
+        if (vertices.insert(points).second) whole.copy(of_frame, "/vertex/" + points);
       }
     }
+    whole.close();
   }
 
-  // 0 … points − 1. ParaView's readers of XDMF 3 show no points without it.
-  static std::string vertices_name(std::size_t points) { return fmt::format("/vertex/{}", points); }
-  std::string vertices(std::size_t points) {
-    std::string name = vertices_name(points);
-    if (!counted_.contains(points)) {
-      std::vector<int> numbers(points);
-      std::iota(numbers.begin(), numbers.end(), 0);
-      hdf5_.write(name, numbers);
-      counted_.insert(points);
-    }
-    return name;
-  }
-
-  std::filesystem::path hdf5_name_;
-  Temporary xdmf_partial_;
-  AtomicFile xdmf_;
-  Temporary hdf5_partial_;
-  Hdf5File hdf5_;
-  std::size_t frames_ = 0;
-  std::set<std::size_t> counted_;  // the numbers of points that /vertex has
+  fs::path folder_;
+  std::size_t frames_;
 };
 
-FieldWriter::FieldWriter(const std::filesystem::path& folder) : files_(std::make_unique<Files>(folder)) {}
+FieldWriter::FieldWriter(const std::filesystem::path& folder, std::size_t frames)
+    : files_(std::make_unique<Files>(folder, frames)) {}
 
 FieldWriter::~FieldWriter() = default;
 
@@ -210,9 +235,11 @@ void FieldWriter::add(const FieldFrame& frame) {
   files_->add(frame);
 }
 
-void FieldWriter::finish() {
+std::size_t FieldWriter::frames() const { return files_ ? files_->frames() : 0; }
+
+void FieldWriter::finish(bool goes_on) {
   if (!files_) return;
-  files_->finish();
+  files_->finish(goes_on);
   files_.reset();
 }
 

@@ -31,21 +31,24 @@ struct FieldFrame {
 /// every vector in 3 columns (0 beyond dim), scalars in one; /vertex/P counts 0 … P − 1 for frames of P points.
 /// fields.xdmf makes each dataset an attribute of the same name. Equal frames give equal bytes.
 ///
-/// Both files are written as NAME.partial. finish() gives them their names; without it the destructor removes them.
-/// After each frame they are flushed, so that a killed process leaves all its frames in fields.h5.partial. The
-/// constructor creates the folder if need be. It, add() and finish() throw std::filesystem::filesystem_error if a
-/// file cannot be written, in HDF5's words if it is HDF5 that cannot.
+/// Until finish() each frame is a file of its own below fields.partial/, whole or not there, so that a killed process
+/// or a full disk leaves all frames before. The constructor creates the folder if need be. It, add() and finish() throw
+/// std::filesystem::filesystem_error if a file cannot be written, in HDF5's words if it is HDF5 that cannot.
 class FieldWriter {
  public:
-  explicit FieldWriter(const std::filesystem::path& folder);
+  /// frames: those of a run that goes on, which are there; what comes after them is written anew. StateError if they
+  /// are not.
+  explicit FieldWriter(const std::filesystem::path& folder, std::size_t frames = 0);
   ~FieldWriter();
   FieldWriter(const FieldWriter&) = delete;
   FieldWriter& operator=(const FieldWriter&) = delete;
 
   /// Throws std::invalid_argument for a frame whose parts are not of the shapes above; nothing is written then.
   void add(const FieldFrame& frame);
-  /// To be called at the end of every run, and of one that went wrong, too: what was added is kept.
-  void finish();
+  std::size_t frames() const;
+  /// Joins the frames. To be called at the end of every run, and of one that went wrong, too. goes_on: the run may be
+  /// resumed, and its frames stay below fields.partial/ as well.
+  void finish(bool goes_on = false);
 
  private:
   class Files;

@@ -5,72 +5,22 @@
 #include <cassert>
 #include <cerrno>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
-#include <hdf5.h>
+
+#include "output/hdf5_handle.hpp"
 
 namespace stillpoint {
-namespace {
 
-static_assert(std::is_same_v<hid_t, std::int64_t>);
-
-// The innermost entry of the library's error stack says most: "…, errno = 28, error message = 'No space left on
-// device'".
-std::string error_text() {
-  std::string text = "HDF5 gives no reason";
-  const auto keep_first = [](unsigned number, const H5E_error2_t* entry, void* kept) -> herr_t {
-    if (number == 0 && entry->desc) *static_cast<std::string*>(kept) = entry->desc;
-    return 0;
-  };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &text);
-  return text;
-}
-
-// While one lives, the library prints nothing of its own, and an errno is one of this time.
-class Quiet {
- public:
-  Quiet() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    errno = 0;
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
-// An identifier that is given back at the end.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*give_back)(hid_t)) : id_(id), give_back_(give_back) {}
-  ~Handle() {
-    if (id_ >= 0) give_back_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-  // Gives it back now: that a last chunk cannot be written shows only here.
-  [[nodiscard]] herr_t close() { return give_back_(std::exchange(id_, H5I_INVALID_HID)); }
-
- private:
-  hid_t id_;
-  herr_t (*give_back_)(hid_t);
-};
-
-}  // namespace
+using hdf5::Handle, hdf5::Quiet;
 
 // Every return code of the library comes here: a negative one is its failure.
 template <class Code>
-Code Hdf5File::check(Code code) const {
+Code Hdf5File::check(Code code, const char* failed) const {
   if (code >= 0) return code;
   const int number = errno != 0 ? errno : EIO;
-  throw std::filesystem::filesystem_error(fmt::format("cannot write: {}", error_text()), path_,
+  throw std::filesystem::filesystem_error(fmt::format("{}: {}", failed, hdf5::error_text()), path_,
                                           std::error_code(number, std::generic_category()));
 }
 
@@ -80,6 +30,11 @@ Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), file_(H
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));  // closed is closed, even after a failure
   can_deflate_ = check(H5Zfilter_avail(H5Z_FILTER_DEFLATE)) > 0;
   file_ = check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+}
+
+Hdf5File::Hdf5File(Existing existing) : path_(std::move(existing.path)), file_(H5I_INVALID_HID) {
+  const Quiet quiet;
+  file_ = check(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "cannot read");
 }
 
 Hdf5File::~Hdf5File() {
@@ -93,9 +48,20 @@ void Hdf5File::make_group(const std::string& name) {
   check(group.close());
 }
 
-void Hdf5File::remove(const std::string& name) noexcept {
+void Hdf5File::copy(const Hdf5File& from, const std::string& name) {
   const Quiet quiet;
-  H5Ldelete(file_, name.c_str(), H5P_DEFAULT);
+  check(H5Ocopy(from.file_, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
+}
+
+std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
+  const Quiet quiet;
+  std::vector<std::string> names;
+  const auto keep = [](hid_t, const char* name, const H5L_info_t*, void* kept) -> herr_t {
+    static_cast<std::vector<std::string>*>(kept)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, keep, &names, H5P_DEFAULT));
+  return names;
 }
 
 void Hdf5File::write_attribute(const std::string& group, const std::string& name, double value) {
@@ -159,11 +125,6 @@ void Hdf5File::write(const std::string& name, hid_t type, hid_t native_type, con
     check(H5Dwrite(dataset, native_type, memory, space, H5P_DEFAULT, block.data()));
   }
   check(dataset.close());
-}
-
-void Hdf5File::flush() {
-  const Quiet quiet;
-  check(H5Fflush(file_, H5F_SCOPE_LOCAL));
 }
 
 void Hdf5File::close() {

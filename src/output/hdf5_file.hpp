@@ -1,10 +1,11 @@
-// The one boundary to HDF5: a file that is written, dataset by dataset.
+// A file of HDF5 that is written, dataset by dataset, or copied from.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stillpoint {
@@ -21,27 +22,31 @@ class Hdf5File {
  public:
   /// Replaces a file that is there.
   explicit Hdf5File(std::filesystem::path path);
+  /// Opens one that is there, to read.
+  struct Existing {
+    std::filesystem::path path;
+  };
+  explicit Hdf5File(Existing existing);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
   void make_group(const std::string& name);
-  /// Takes a group or a dataset out again, if it is there and that is possible.
-  void remove(const std::string& name) noexcept;
+  /// A group or a dataset of another file, with all below it, as it is stored there.
+  void copy(const Hdf5File& from, const std::string& name);
+  std::vector<std::string> names_in(const std::string& group) const;
   void write_attribute(const std::string& group, const std::string& name, double value);
   void write_attribute(const std::string& group, const std::string& name, int value);
   /// At least one row. Chunked, and compressed if the library can, a chunk at a time.
   void write(const std::string& name, const std::vector<double>& values, const Columns& columns);
   void write(const std::string& name, const std::vector<int>& values);
 
-  /// From here on the file holds what was written even if the process is killed.
-  void flush();
   /// Whatever could not be written throws here at the latest.
   void close();
 
  private:
   template <class Code>
-  Code check(Code code) const;
+  Code check(Code code, const char* failed = "cannot write") const;
   void write_attribute(const std::string& group, const std::string& name, std::int64_t type, std::int64_t native_type,
                        const void* value);
   template <class Number>

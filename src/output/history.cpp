@@ -70,9 +70,11 @@ std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
   return values;
 }
 
-History::History(const std::filesystem::path& folder, const std::vector<std::string>& probe_columns) {
+History::History(const std::filesystem::path& folder, const std::vector<std::string>& probe_columns, bool resumed) {
   if (folder.empty()) return;
-  file_.emplace(folder / "history.csv");
+  path_ = folder / "history.csv";
+  if (resumed) return;
+  file_.emplace(path_);
   std::string header = "t,steps,rhs_evaluations,residual,kinetic_energy";
   for (const std::string& column : probe_columns) header += "," + column;
   file_->write(header + "\n");
@@ -85,6 +87,14 @@ void History::add(const HistoryRow& row, const std::vector<double>& probes) {
                                  row.kinetic_energy);
   for (const double value : probes) line += fmt::format(",{:.17g}", value);
   file_->write(line + "\n");
+}
+
+void History::archive(const StateArchive& state) {
+  if (path_.empty()) return;
+  FileContents written = file_ ? file_->contents() : FileContents();
+  state("bytes", written.size);
+  state("crc", written.crc);
+  if (state.restores()) file_.emplace(path_, written);
 }
 
 void History::finish() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/scene.hpp>
+#include <stillpoint/state_archive.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -51,12 +52,15 @@ class Probes {
 
 class History {
  public:
-  /// An empty folder: rows are not written.
-  History(const std::filesystem::path& folder, const std::vector<std::string>& probe_columns);
+  /// An empty folder: rows are not written. resumed: archive() opens the file, which is there.
+  History(const std::filesystem::path& folder, const std::vector<std::string>& probe_columns, bool resumed = false);
+  /// Restoring takes away what rows came after.
+  void archive(const StateArchive& state);
   void add(const HistoryRow& row, const std::vector<double>& probes);
   void finish();
 
  private:
+  std::filesystem::path path_;
   std::optional<AtomicFile> file_;
 };
 

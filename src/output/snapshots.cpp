@@ -16,10 +16,31 @@ double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t
   return slope_angle(free_surface(current_positions(phase, t, u), column), base);
 }
 
-Snapshots::Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder)
+Snapshots::Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder,
+                     bool resumed)
     : scene_(scene), phase_(phase) {
   const bool asked = !scene.output.snapshots.empty() || scene.output.fields_every > 0;
-  if (asked && !folder.empty()) writer_.emplace(folder);
+  if (asked) folder_ = folder;
+  if (!folder_.empty() && !resumed) writer_.emplace(folder_);
+}
+
+void Snapshots::archive(const StateArchive& state) {
+  std::size_t frames = writer_ ? writer_->frames() : 0;
+  state("frames", frames);
+  state("next_stage", next_snapshot_);
+  state("next_regular", next_regular_);
+  std::vector<double> times, angles;
+  for (const Snapshot& one : taken_) {
+    times.push_back(one.t);
+    angles.push_back(one.slope_angle);
+  }
+  state("times", times);
+  state("slope_angles", angles);
+  if (!state.restores()) return;
+  if (times.size() != angles.size()) throw StateError("the times of its stages and their angles differ in number");
+  taken_.clear();
+  for (std::size_t k = 0; k < times.size(); ++k) taken_.push_back({times[k], angles[k]});
+  if (!folder_.empty()) writer_.emplace(folder_, frames);
 }
 
 double Snapshots::next_time() const {
@@ -45,8 +66,8 @@ void Snapshots::take_last(double t, ConstVec u, ConstVec v) {
   if (writer_ && (taken_.empty() || taken_.back().t < t)) take(t, u, v);
 }
 
-void Snapshots::finish() {
-  if (writer_) writer_->finish();
+void Snapshots::finish(bool goes_on) {
+  if (writer_) writer_->finish(goes_on);
 }
 
 void Snapshots::take(double t, ConstVec u, ConstVec v) {

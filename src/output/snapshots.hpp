@@ -17,7 +17,10 @@ namespace stillpoint {
 class Snapshots {
  public:
   /// Nothing is written if the scene asks for no fields or the folder is empty; angles are taken all the same.
-  Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder);
+  /// resumed: archive() opens the files, which are there.
+  Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder,
+            bool resumed = false);
+  void archive(const StateArchive& state);
 
   /// The next moment that a step must not pass; infinite if there is none.
   double next_time() const;
@@ -25,8 +28,8 @@ class Snapshots {
   void sample(double t, ConstVec u, ConstVec v);
   /// The state in which the run ends, if the scene asks for fields.
   void take_last(double t, ConstVec u, ConstVec v);
-  /// Closes the files.
-  void finish();
+  /// Closes the files. goes_on: the run may be resumed.
+  void finish(bool goes_on = false);
 
   const std::vector<Snapshot>& taken() const { return taken_; }
 
@@ -35,6 +38,7 @@ class Snapshots {
 
   const Scene& scene_;
   const LagrangianPhase& phase_;
+  std::filesystem::path folder_;  // empty: nothing is written
   std::optional<FieldWriter> writer_;
   std::size_t next_snapshot_ = 0;
   long next_regular_ = 0;

@@ -17,6 +17,13 @@ class Chatter {
   /// the largest side of the grid's cells [m].
   std::optional<std::string> observe(const LagrangianPhase& phase, double way, double residual, double cell);
 
+  void archive(const StateArchive& state) {
+    state("way", way_);
+    state("residual", residual_);
+    state("position", position_);
+    state("phases", phases_);
+  }
+
  private:
   double way_ = 0;                // since then [cells]
   double residual_ = 0;           // then

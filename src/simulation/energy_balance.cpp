@@ -57,6 +57,16 @@ EnergyBalance::Forces EnergyBalance::forces(double t, const RelaxationSystem& sy
           phase_.support_displacements(t)};
 }
 
+void EnergyBalance::archive(const StateArchive& state) {
+  state("work", work_);
+  state("t", t_);
+  state("power", power_);
+  state("F", last_.F);
+  state("u", last_.u);
+  state("reactions", last_.reactions);
+  state("support", last_.support);
+}
+
 double EnergyBalance::wall_power(double t) const {
   double power = 0;
   for (const WallReaction& wall : phase_.wall_reactions(t)) power += wall.power;

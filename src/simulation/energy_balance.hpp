@@ -29,6 +29,8 @@ class EnergyBalance {
   /// A phase has begun at t, with u = 0, and was evaluated.
   void begin_phase(double t, const RelaxationSystem& system);
 
+  void archive(const StateArchive& state);
+
  private:
   double wall_power(double t) const;
 

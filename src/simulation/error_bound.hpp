@@ -24,6 +24,13 @@ class ErrorBound {
   /// tangent is not positive definite there is no distance any more. False if nothing was done.
   bool refresh(double t, ConstVec u, double residual);
 
+  void archive(const StateArchive& state) {
+    state("omega_1", omega_1_);
+    state("beside_largest", beside_largest_);
+    state("largest", largest_);
+    state("refreshed_at", refreshed_at_);
+  }
+
  private:
   const LagrangianPhase& phase_;
   std::optional<double> omega_1_, beside_largest_;

@@ -10,4 +10,9 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   return read_scene(file, overrides, catalogue());
 }
 
+Scene load_scene(const std::filesystem::path& file, const std::string& text,
+                 const std::vector<std::string>& overrides) {
+  return read_scene(file, text, overrides, catalogue());
+}
+
 }  // namespace stillpoint

@@ -49,7 +49,7 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   return RunStatus::equilibrium;
 }
 
-RunStatus Monitor::check_limits(double t, long steps, double wall_time) {
+RunStatus Monitor::check_limits(double t, long steps) {
   if (options_.end_time > 0 && t >= options_.end_time) {
     reason_ = fmt::format("t = {:.6g} reached stop.time", t);
     return RunStatus::end_time;
@@ -58,6 +58,10 @@ RunStatus Monitor::check_limits(double t, long steps, double wall_time) {
     reason_ = fmt::format("{} steps reached stop.steps", steps);
     return RunStatus::step_limit;
   }
+  return RunStatus::running;
+}
+
+RunStatus Monitor::check_wall_time(double wall_time) {
   if (options_.wall_time > 0 && wall_time >= options_.wall_time) {
     reason_ = fmt::format("{:.3g} s of wall time reached stop.wall_time", wall_time);
     return RunStatus::time_limit;

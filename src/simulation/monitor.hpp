@@ -1,6 +1,7 @@
 // Decides when a relaxation is over: at rest and in balance for a whole period, at an end, or gone wrong.
 #pragma once
 
+#include <stillpoint/state_archive.hpp>
 #include <stillpoint/summary.hpp>
 
 #include <optional>
@@ -36,11 +37,18 @@ class Monitor {
   RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true,
                     std::optional<double> distance = std::nullopt);
   /// The limits that do not need the state; call after every step.
-  RunStatus check_limits(double t, long steps, double wall_time);
+  RunStatus check_limits(double t, long steps);
+  RunStatus check_wall_time(double wall_time);
 
   /// The inequality that ended the run.
   const std::string& reason() const { return reason_; }
   double peak_kinetic_energy() const { return peak_kinetic_energy_; }
+  void archive(const StateArchive& state) {
+    state("dwell", options_.dwell);
+    state("next_check", next_check_);
+    state("balanced_since", balanced_since_);
+    state("peak_kinetic_energy", peak_kinetic_energy_);
+  }
 
  private:
   static constexpr int checks_a_dwell = 16;

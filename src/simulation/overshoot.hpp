@@ -35,6 +35,15 @@ class Overshoot {
   /// What to say of it; empty: nothing.
   std::string note() const;
 
+  void archive(const StateArchive& state) {
+    state("next", next_);
+    state("power", power_);
+    state("first", first_);
+    state("last", last_);
+    state("against", against_);
+    state("begun", begun_);
+  }
+
  private:
   double plastic_strain();
 

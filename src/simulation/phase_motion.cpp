@@ -46,6 +46,13 @@ void PhaseMotion::finish(double t) {
   if (integrator->static_iteration()) system.accept(t, y.span(), true);
 }
 
+void PhaseMotion::archive(const StateArchive& state) {
+  state("y", y.span());
+  integrator->archive(state.part("integrator"));
+  system.archive(state.part("system"));
+  if (stiffening_) stiffening_->archive(state.part("stiffening"));
+}
+
 void PhaseMotion::follow_stiffness(double t) {
   if (stiffening_) integrator->set_max_step(stiffening_->longest(t, u(), v()));
 }

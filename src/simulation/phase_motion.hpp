@@ -26,6 +26,8 @@ class PhaseMotion {
   void accept(double t);
   /// When the phase is over.
   void finish(double t);
+  /// Saves it, or restores one that begins at the (t, u, v) of then.
+  void archive(const StateArchive& state);
   /// ‖F − R‖/‖F‖ at t.
   double residual(double t) {
     return integrator->force_is_current() ? system.last_residual() : system.residual(t, u());

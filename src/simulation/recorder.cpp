@@ -38,13 +38,14 @@ auto open_output(const std::filesystem::path& out, const Open& open) {
 
 }  // namespace
 
-Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance)
+Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance,
+                   bool resumed)
     : scene_(scene),
       has_distance_(has_distance),
       probes_(scene, *model.phase),
       energy_balance_(*model.phase),
-      history_(open_output(folder, [&] { return History(folder, columns()); })),
-      snapshots_(open_output(folder, [&] { return Snapshots(scene, *model.phase, folder); })),
+      history_(open_output(folder, [&] { return History(folder, columns(), resumed); })),
+      snapshots_(open_output(folder, [&] { return Snapshots(scene, *model.phase, folder, resumed); })),
       interval_(output_interval(scene, model)) {}
 
 std::vector<std::string> Recorder::columns() const {
@@ -69,6 +70,7 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   std::ranges::copy(energy_balance_.values(row.figures.kinetic_energy), std::back_inserter(values));
   if (has_distance_) values.push_back(row.distance.value_or(std::numeric_limits<double>::quiet_NaN()));
   history_.add(row.figures, values);
+  last_row_ = t;
   while (static_cast<double>(rows_) * interval_ <= t) ++rows_;
 }
 
@@ -83,9 +85,17 @@ void Recorder::begin_phase(double t, PhaseMotion& motion) {
   energy_balance_.begin_phase(t, motion.system);
 }
 
-void Recorder::finish(double t, const PhaseMotion* motion) {
+void Recorder::archive(const StateArchive& state) {
+  state("rows", rows_);
+  state("last_row", last_row_);
+  energy_balance_.archive(state.part("energy"));
+  history_.archive(state.part("history"));
+  snapshots_.archive(state.part("snapshots"));
+}
+
+void Recorder::finish(double t, const PhaseMotion* motion, bool goes_on) {
   if (motion) snapshots_.take_last(t, motion->u(), motion->v());
-  snapshots_.finish();
+  snapshots_.finish(goes_on);
   history_.finish();
 }
 

@@ -19,8 +19,11 @@ namespace stillpoint {
 class Recorder {
  public:
   /// has_distance: whether rows have a column for the error bound. Throws SceneError if the folder cannot be written;
-  /// an empty one: no files. The scene and the model outlive this.
-  Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance);
+  /// an empty one: no files. resumed: the run goes on with files that are there, which archive() opens. The scene and
+  /// the model outlive this.
+  Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance,
+           bool resumed);
+  void archive(const StateArchive& state);
 
   /// The next time that a step must not pass [s].
   double next_time() const;
@@ -28,7 +31,7 @@ class Recorder {
   /// row but for its probes.
   template <class Evaluate>
   void sample(double t, PhaseMotion& motion, bool last, const Evaluate& evaluate) {
-    if (last || t >= next_row_time()) add_row(evaluate(), motion);
+    if ((last && t != last_row_) || t >= next_row_time()) add_row(evaluate(), motion);
     snapshots_.sample(t, motion.u(), motion.v());
   }
   /// A row of now.
@@ -41,8 +44,8 @@ class Recorder {
   /// Before a phase ends, and when the next has begun.
   void end_phase(double t, PhaseMotion& motion);
   void begin_phase(double t, PhaseMotion& motion);
-  /// Closes the files; a run that ends writes its last state as well, if it can be read.
-  void finish(double t, const PhaseMotion* motion);
+  /// Closes the files; a run that ends writes its last state as well, if it can be read. goes_on: it may be resumed.
+  void finish(double t, const PhaseMotion* motion, bool goes_on);
   void fill(Summary& summary, double t, PhaseMotion& motion);
 
  private:
@@ -57,6 +60,7 @@ class Recorder {
   Snapshots snapshots_;
   double interval_;  // between rows [s]
   long rows_ = 0;    // number of the next row: it is due at rows_ · interval_
+  double last_row_ = -1;  // [s]
 };
 
 }  // namespace stillpoint

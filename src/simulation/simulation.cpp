@@ -36,6 +36,7 @@ int Simulation::phases() const { return impl_->phases_; }
 std::size_t Simulation::points() const { return impl_->model_.phase->points(); }
 double Simulation::residual() { return impl_->residual(); }
 ConstVec Simulation::field(std::string_view name) { return impl_->field(name); }
+void Simulation::save(const std::filesystem::path& checkpoint) { impl_->save(checkpoint); }
 Summary Simulation::summary() {
   const ThreadScope threads(impl_->options_.threads);
   return impl_->summary();

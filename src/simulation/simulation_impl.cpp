@@ -54,8 +54,13 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
       schedule_(scene_, *model_.phase, scene_.stop.time),
       overshoot_(scene_, model_),
       t_(model_.t) {
-  if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance());
-  begin_phase(model_.u, model_.v);
+  const bool resumes = !options_.resume.empty();
+  if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance(), resumes);
+  if (resumes) {
+    resume(options_.resume);
+  } else {
+    begin_phase(model_.u, model_.v);
+  }
 }
 
 // What a phase begins with, the first like any other: the step that follows the stiffness is asked here.
@@ -68,6 +73,7 @@ RunStatus Simulation::Impl::step(double t_stop) {
     motion_->accept(t_);
     watch_overshoot();
     sample(true);
+    if (leaves_checkpoints()) leave_checkpoint();
   }
   take_step(t_stop);
   stepping_s_ += watch.seconds();
@@ -97,6 +103,10 @@ void Simulation::Impl::take_step(double t_stop) {
     next_phase();
     if (!done() && watches_chatter()) watch_chatter(share, residual);
   }
+  if (done()) return;
+  const bool ends = is_to_end();
+  if (leaves_checkpoints() && (checkpoint_is_due() || ends)) leave_checkpoint();
+  if (ends) sample(true);
 }
 
 // Where a step has to land. Without records and an end: so far away that steps are what the method takes by itself.
@@ -184,12 +194,8 @@ void Simulation::Impl::watch() {
       refresh_distance();
     status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
   }
-  if (!done()) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
+  if (!done()) status_ = monitor_.check_limits(t_, steps());
   reason_ = monitor_.reason();
-  if (!done() && options_.interrupted && options_.interrupted()) {
-    status_ = RunStatus::interrupted;
-    reason_ = "interrupted by the user; the step was finished";
-  }
 }
 
 void Simulation::Impl::watch_overshoot() {
@@ -250,7 +256,8 @@ void Simulation::Impl::test_stability() {
 void Simulation::Impl::finish() {
   if (is_readable_) motion_->finish(t_);
   test_stability();
-  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
+  const bool goes_on = status_ == RunStatus::interrupted || status_ == RunStatus::time_limit;
+  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr, goes_on && leaves_checkpoints());
 }
 
 }  // namespace stillpoint

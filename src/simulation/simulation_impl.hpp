@@ -36,7 +36,8 @@ class Simulation::Impl {
     return distance_;
   }
   ConstVec field(std::string_view name);
-  Summary summary();  // simulation_summary.cpp
+  Summary summary();                           // simulation_summary.cpp
+  void save(const std::filesystem::path& to);  // simulation_state.cpp
   long steps() const { return earlier_steps_ + motion_->integrator->steps(); }
   long evaluations() const { return earlier_evaluations_ + motion_->system.evaluations(); }
 
@@ -77,6 +78,14 @@ class Simulation::Impl {
   std::optional<double> distance_to_go() const;
   void refresh_distance();
 
+  bool leaves_checkpoints() const { return recorder_ && !options_.out.empty() && scene_.checkpoint.wanted(); }
+  bool checkpoint_is_due();
+  void leave_checkpoint();
+  bool is_to_end();
+  void archive(const StateArchive& state);
+  void archive_motion(const StateArchive& state);
+  void resume(const std::filesystem::path& from);
+
   void sample(bool last);
   void report_progress();
   void test_stability();
@@ -93,7 +102,9 @@ class Simulation::Impl {
   double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0, power_ = 0;
   std::optional<double> distance_;
   EquilibriumStability stability_;
-  double stepping_s_ = 0, next_progress_ = 0;
+  double stepping_s_ = 0, earlier_wall_s_ = 0, next_progress_ = 0;
+  long last_checkpoint_ = 0;      // [steps]
+  double next_checkpoint_s_ = 0;  // on wall_
   std::vector<double> field_;
 };
 

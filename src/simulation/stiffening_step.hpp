@@ -44,6 +44,12 @@ class StiffeningStep {
     return step();
   }
 
+  void archive(const StateArchive& state) {
+    state("notches", notches_);
+    state("way", way_);
+    state("steps_until_look", steps_until_look_);
+  }
+
  private:
   double step() const { return full_step_ * std::pow(notch, -notches_); }
   double stiffening_ahead(double t, ConstVec u, ConstVec v, int steps) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/semi_discrete.hpp>
+#include <stillpoint/state_archive.hpp>
 #include <stillpoint/vector.hpp>
 
 #include <algorithm>
@@ -20,6 +21,11 @@ class ForceScale {
     if (force_ > 0) return loads > 0 ? loads : force_;
     internal_ = std::max(internal_, norm(R));
     return internal_;
+  }
+
+  void archive(const StateArchive& state) {
+    state("force_scale", force_);
+    state("internal_force_scale", internal_);
   }
 
  private:

@@ -117,6 +117,19 @@ double RelaxationSystem::mass_norm(const Vector& u) {
   return std::sqrt(dot(u, *Q_inverse_));
 }
 
+void RelaxationSystem::archive(const StateArchive& state) {
+  state("rate", linear_.mass);
+  state("F", F_.span());
+  state("R", R_.span());
+  state("Q", Q_.span());
+  state("reactions", Vec(trial_->reactions));
+  state("t", last_t_);
+  state("force_remembered", force_remembered_);
+  if (Q_last_) state("last_Q", Q_last_->span());
+  state("evaluations", evaluations_);
+  force_scale_->archive(state);
+}
+
 double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
 
 double RelaxationSystem::power(const Vector& v) const { return dot(Q_, v); }

@@ -69,6 +69,8 @@ class SceneText {
     Scene scene;
     scene.file = file_;
     scene.name = file_.stem().string();
+    scene.text = text_;
+    scene.overrides = overrides;
     auto root = parse_toml(text_, file_.string(), problems);
     if (!root) return scene;
     for (const std::string& text : overrides) {
@@ -119,7 +121,13 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   std::vector<Problem> problems;
   auto text = read_file(file, problems);
   if (!text) throw SceneError(std::move(problems));
-  const SceneText scene_text(file, std::move(*text), catalogue);
+  return read_scene(file, std::move(*text), overrides, catalogue);
+}
+
+Scene read_scene(const std::filesystem::path& file, std::string text, const std::vector<std::string>& overrides,
+                 const Catalogue& catalogue) {
+  std::vector<Problem> problems;
+  const SceneText scene_text(file, std::move(text), catalogue);
   Scene scene = scene_text.read(overrides, problems);
   scene_text.check_variants(scene, problems);
   if (problems.empty()) return scene;

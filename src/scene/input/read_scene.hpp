@@ -14,5 +14,8 @@ namespace stillpoint {
 /// SceneError with every problem.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  const Catalogue& catalogue);
+/// The same of a text, which stands for that of the file.
+Scene read_scene(const std::filesystem::path& file, std::string text, const std::vector<std::string>& overrides,
+                 const Catalogue& catalogue);
 
 }  // namespace stillpoint

@@ -172,6 +172,12 @@ void add_output(Tables& tables) {
       .key("stages", &OutputSpec::snapshots, "times of the fields of all points", {.unit = "s", .list = true})
       .key("fields_every", &OutputSpec::fields_every, "or the time between them", {.range = kNotNegative, .unit = "s"});
 
+  tables.add({"checkpoint", "saves the state, for run --resume"}, &Scene::checkpoint)
+      .key("every", &CheckpointSpec::every, "time on the clock between them; 0: not by the clock",
+           {.range = kNotNegative, .unit = "s"})
+      .key("every_steps", &CheckpointSpec::every_steps, "steps between them; 0: not by steps",
+           {.range = kNotNegative});
+
   tables.add({"probe", "figures in each row of the history", Repeat::array}, &Scene::probes)
       .key("name", &ProbeSpec::name, "of its columns in history.csv", {.required = true})
       .key("kind", &ProbeSpec::kind, "a material point, or the angle of the free surface",

@@ -295,6 +295,7 @@ std::vector<Method> erk_methods() {
   std::vector<Method> methods;
   for (const auto& [table, source] : all_tables()) {
     Method method;
+    method.begins_anew = true;
     method.name = "erk:" + table.name;
     method.description = fmt::format("explicit Runge-Kutta, {} stages, order {}", table.stages, table.order);
     if (table.embedded_order > 0) method.description += fmt::format("({})", table.embedded_order);

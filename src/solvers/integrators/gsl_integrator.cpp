@@ -226,6 +226,7 @@ std::vector<Method> gsl_methods() {
   std::vector<Method> methods;
   for (const StepperInfo& stepper : steppers()) {
     Method method;
+    method.begins_anew = true;
     method.name = stepper.name;
     method.description = stepper.description;
     method.adaptive = true;

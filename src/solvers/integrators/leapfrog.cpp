@@ -77,6 +77,8 @@ class Leapfrog final : public SteppingIntegrator {
     force_is_current_ = true;
   }
 
+  void archive_memory(const StateArchive& state) override { state("a", a_.span()); }
+
   // M a = Q + D(v, Q) − C (v + θ h a),  Q = F(t) − R(u)
   bool evaluate(double t, ConstVec y, DampedAcceleration& acceleration, double h, Vec a) {
     const ConstVec u = first_half(y), v = second_half(y);

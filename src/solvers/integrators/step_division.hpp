@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <stillpoint/state_archive.hpp>
+
 namespace stillpoint {
 
 class StepDivision {
@@ -26,6 +28,13 @@ class StepDivision {
     }
     --remaining_;
     return t_ = remaining_ < 1 ? t_stop_ : t_stop_ - remaining_ * h_;
+  }
+
+  void archive(const StateArchive& state) {
+    state("h", h_);
+    state("t", t_);
+    state("t_stop", t_stop_);
+    state("remaining", remaining_);
   }
 
  private:

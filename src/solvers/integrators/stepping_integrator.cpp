@@ -53,6 +53,16 @@ void SteppingIntegrator::set_max_step(double h) {
   max_step_changed();
 }
 
+void SteppingIntegrator::archive(const StateArchive& state) {
+  double max_step = options_.max_step;
+  state("max_step", max_step);
+  if (state.restores()) set_max_step(max_step);
+  division_.archive(state);
+  state("steps", steps_);
+  state("rejected", rejected_);
+  archive_memory(state);
+}
+
 StepReport SteppingIntegrator::accept(const Attempt& attempt) {
   copy(*trial_, *y_);
   accepted();

@@ -19,6 +19,7 @@ class SteppingIntegrator : public Integrator {
   StepReport step(double t_stop) final;
   void set_max_step(double h) final;
   void velocity_changed() final { restart(t_, *y_); }
+  void archive(const StateArchive& state) final;
   long steps() const final { return steps_; }
   long rejected_steps() const final { return rejected_; }
 
@@ -45,6 +46,8 @@ class SteppingIntegrator : public Integrator {
   virtual void refused() {}
   /// options().max_step is another one.
   virtual void max_step_changed() {}
+  /// What it remembers itself of earlier steps, after a begin() at the same (t, y).
+  virtual void archive_memory(const StateArchive& /*state*/) {}
   void count_rejected(long rejected) { rejected_ += rejected; }
 
   RelaxationSystem& system() { return system_; }

@@ -66,6 +66,8 @@ class SymplecticEuler final : public SteppingIntegrator {
     force_is_current_ = true;
   }
 
+  void archive_memory(const StateArchive& state) override { state("Q", Q_.span()); }
+
   DampedAcceleration acceleration_;
   Vector Q_, next_Q_;  // (n) at t_n and at the trial's time
   Vector a_;           // (n)

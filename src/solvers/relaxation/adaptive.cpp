@@ -36,6 +36,8 @@ class Adaptive final : public StaggeredIteration {
     set_rate(c_);
   }
 
+  void archive_strategy(const StateArchive& state) override { state("c", c_); }
+
   Quotient quotient_;
   double c_;  // [1/s]
 };

@@ -66,6 +66,18 @@ class Auto final : public StaggeredIteration {
     return true;
   }
 
+  void archive_strategy(const StateArchive& state) override {
+    state("c", c_);
+    state("share", share_);
+    state("kinetic", kinetic_);
+    state("least", least_);
+    state("steps_taken", steps_);
+    state("halted_at", halted_at_);
+    state("watched_from", watched_from_);
+    state("goal", goal_);
+    state("slowest", slowest_);
+  }
+
   void watch(double quotient, double h, double unbalanced) {
     if (!(unbalanced > goal_)) begin_watch(unbalanced);
     if (quotient > 0) slowest_ = std::min(slowest_, quotient);

@@ -49,6 +49,11 @@ class Chebyshev final : public StaggeredIteration {
     ++k_;
   }
 
+  void archive_strategy(const StateArchive& state) override {
+    state("alpha", alpha_);
+    state("k", k_);
+  }
+
   double omega_1_;                     // [rad/s]
   double alpha_ = 0, next_alpha_ = 0;  // α_{k−1} and α_k [s²]
   long k_ = 0;                         // steps since the polynomial began

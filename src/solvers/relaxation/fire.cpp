@@ -74,6 +74,14 @@ class Fire final : public StaggeredIteration {
     }
   }
 
+  void archive_strategy(const StateArchive& state) override {
+    state("share", share_);
+    state("theta", theta_);
+    state("downhill", downhill_);
+    state("steps_taken", steps_);
+    state("uphill", uphill_);
+  }
+
   FireConstants constants_;
   double share_ = first, theta_ = 0;  // h/step and ϑ
   long downhill_ = 0, steps_ = 0;

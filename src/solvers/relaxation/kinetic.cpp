@@ -53,6 +53,8 @@ class Kinetic final : public StaggeredIteration {
     }
   }
 
+  void archive_strategy(const StateArchive& state) override { peak_.archive(state); }
+
   PeakOfEnergy peak_;
   double trial_energy_ = 0;
   bool falls_ = false;

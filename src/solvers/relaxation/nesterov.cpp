@@ -51,6 +51,11 @@ class Nesterov final : public StaggeredIteration {
     theta_ = next_theta_;
   }
 
+  void archive_strategy(const StateArchive& state) override {
+    state("x", x_.span());
+    state("theta", theta_);
+  }
+
   Vector x_, next_x_;  // x_k and x_{k+1}, (n)
   double theta_ = 1, next_theta_ = 1;
 };

@@ -57,6 +57,12 @@ class Papadrakakis final : public StaggeredIteration {
 
   void forget() { size_ = ratio_ = 0; }
 
+  void archive_strategy(const StateArchive& state) override {
+    state("rate", rate_);
+    state("size", size_);
+    state("ratio", ratio_);
+  }
+
   Coefficients now_{.beta = 0, .gamma = 0.5};
   std::optional<double> rate_;   // c [1/s]; none: β = 0
   double size_ = 0, ratio_ = 0;  // of the last step; 0: not known

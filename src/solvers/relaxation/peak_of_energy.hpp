@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/scene_options.hpp>
+#include <stillpoint/state_archive.hpp>
 
 #include <algorithm>
 
@@ -27,6 +28,11 @@ class PeakOfEnergy {
     if (place_ == Peak::half_step) return 0.5;
     const double curvature = before_ - 2 * now_ + next;  // < 0, as next < now and before ≤ now
     return 0.5 - std::clamp(0.5 * (before_ - next) / curvature, -0.5, 0.5);
+  }
+
+  void archive(const StateArchive& state) {
+    state("energy_before", before_);
+    state("energy", now_);
   }
 
  private:

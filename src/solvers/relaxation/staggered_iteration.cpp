@@ -59,6 +59,13 @@ void StaggeredIteration::accepted() {
   moved(trial_step_);
 }
 
+void StaggeredIteration::archive_memory(const StateArchive& state) {
+  state("Q", Q_.span());
+  state("a", a_.span());
+  state("last_step", last_step_);
+  archive_strategy(state);
+}
+
 void StaggeredIteration::kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new) const {
   const ConstVec u = u_->span(), v = v_->span(), a = a_.span();
   for_each_index(u.size(), [=, beta = coefficients.beta, kick = coefficients.gamma * k](std::size_t i) {

@@ -41,6 +41,9 @@ class StaggeredIteration : public SteppingIntegrator {
   /// Begins afresh from the state, or from one of which a contact has changed v.
   virtual void on_restart() {}
 
+  /// What the strategy remembers itself.
+  virtual void archive_strategy(const StateArchive& /*state*/) {}
+
   /// The share of the step given that is taken, if the strategy chooses one; 0: if it does not.
   virtual double step_share() const { return 0; }
 
@@ -73,6 +76,7 @@ class StaggeredIteration : public SteppingIntegrator {
   void restart(double t, const Vector& y) final;
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
+  void archive_memory(const StateArchive& state) final;
 
   RelaxationOptions relaxation_;
   std::optional<Vector> u_, v_;  // the halves of y, in place

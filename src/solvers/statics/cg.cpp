@@ -44,6 +44,13 @@ class ConjugateGradients final : public StaticIteration {
     Q_dot_last_z_ = dot(last_Q(), z());  // Q⁺·M⁻¹Q = Q·M⁻¹Q⁺
   }
 
+  void archive_method(const StateArchive& state) override {
+    state("alpha", alpha_);
+    state("slope", slope_);
+    state("last_Q_dot_z", last_Q_dot_z_);
+    state("Q_dot_last_z", Q_dot_last_z_);
+  }
+
   double alpha_ = 0;
   double slope_ = 0;  // Q·p of the step before; 0: there was none
   double last_Q_dot_z_ = 0, Q_dot_last_z_ = 0;

@@ -9,6 +9,8 @@
 #include <array>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/parallel_loop.hpp"
 #include "solvers/statics/static_iteration.hpp"
 #include "solvers/statics/static_methods.hpp"
@@ -75,6 +77,17 @@ class LimitedMemoryBfgs final : public StaticIteration {
     scale_ = sy_[k] / yMy;
     newest_ = k;
     kept_ = std::min(kept_ + 1, memory);
+  }
+
+  void archive_method(const StateArchive& state) override {
+    for (std::size_t k = 0; k < memory; ++k) {
+      state(fmt::format("s_{}", k), s_[k].span());
+      state(fmt::format("y_{}", k), y_[k].span());
+    }
+    state("sy", sy_);
+    state("scale", scale_);
+    state("newest", newest_);
+    state("kept", kept_);
   }
 
   std::size_t slot(std::size_t age) const { return (newest_ + memory - age) % memory; }

@@ -38,6 +38,7 @@ class NewtonStep final : public Integrator {
   void set_max_step(double /*h*/) override {}
   void velocity_changed() override {}
   bool static_iteration() const override { return true; }
+  void archive(const StateArchive& state) override { state("iterations", iterations_); }
   long steps() const override { return iterations_; }
   long rejected_steps() const override { return 0; }
 

@@ -44,6 +44,13 @@ SteppingIntegrator::Attempt StaticIteration::attempt(double t, Vector& y, double
           .message = "the line search finds no state that is more in balance"};
 }
 
+void StaticIteration::archive_memory(const StateArchive& state) {
+  state("Q", Q_.span());
+  state("z", z_.span());
+  state("p", p_.span());
+  archive_method(state);
+}
+
 bool StaticIteration::search(double t, Vec u_new) {
   constexpr int most_trials = 25;
   double first = direction(p_.span());

@@ -27,6 +27,9 @@ class StaticIteration : public SteppingIntegrator {
   /// The step α p was taken: the force is Q(), the one before last_Q().
   virtual void moved(double alpha) = 0;
 
+  /// What the method remembers itself.
+  virtual void archive_method(const StateArchive& state) = 0;
+
   const Vector& Q() const { return Q_; }
   const Vector& z() const { return z_; }            // M⁻¹Q
   const Vector& last_Q() const { return next_Q_; }  // in moved() only
@@ -38,6 +41,7 @@ class StaticIteration : public SteppingIntegrator {
   void begin(double t, const Vector& y) final;
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
+  void archive_memory(const StateArchive& state) final;
   bool search(double t, Vec u_new);
 
   LineSearch::Accuracy sigma_;

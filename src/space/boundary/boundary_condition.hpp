@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/semi_discrete.hpp>
+#include <stillpoint/state_archive.hpp>
 
 #include <vector>
 
@@ -37,6 +38,7 @@ class HeldUnknowns {
   /// In the order in which they were prescribed, and how each moves.
   const std::vector<int>& prescribed() const { return prescribed_; }
   const PrescribedMotion& motion(std::size_t s) const { return *motions_[s]; }
+  double start() const { return start_; }  // when the phase begins [s]
   /// Since the phase began; in the first one, from the undeformed body.
   double displacement(std::size_t s, double t) const {
     return motion(s).displacement(t) - (start_ > 0 ? motion(s).displacement(start_) : 0);
@@ -95,6 +97,10 @@ class BoundaryCondition {
 
   /// The phase ends with u.
   virtual void end_phase(const double* /*u*/) {}
+
+  /// Saves what it remembers of earlier phases and steps, or restores it: once before the phase of then begins anew,
+  /// and once more after.
+  virtual void archive(const StateArchive& /*state*/) {}
 
   /// Null if nothing opens and closes; one kind alone may have one.
   virtual Contact* contact() { return nullptr; }

@@ -137,6 +137,18 @@ WallReaction WallContact::reaction(double t) const {
   return sum;
 }
 
+void WallContact::archive(const StateArchive& state) {
+  state("closed", closed_);
+  state("tangential", tangential_);
+  state("started", started_);
+  state("displacement_at_start", start_);
+  state("accepted_t", accepted_t_);
+  state("step", step_);
+  state("held", held_);
+  state("normal_force", normal_force_);
+  state("shear_force", shear_force_);
+}
+
 double WallContact::square_of_forces() const {
   double sum = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <stillpoint/damping.hpp>
+#include <stillpoint/state_archive.hpp>
 #include <stillpoint/types.hpp>
 
 #include <string>
@@ -47,6 +48,7 @@ class WallContact {
   bool update(double t, ConstVec u, Vec v);
   /// What the body does to it, of the last add_force(), and where it is at t.
   WallReaction reaction(double t) const;
+  void archive(const StateArchive& state);
   /// Σ F² over the nodes, of the same.
   double square_of_forces() const;
 

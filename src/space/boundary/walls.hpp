@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/wall_contact.hpp"
 
@@ -46,6 +48,12 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
             {free_dof(dim * function + normal), dim == 1 || phase.held.is_guided(along) ? -1 : free_dof(along)});
       }
       wall.contact.begin_phase(t, phase.mass.diagonal(), std::move(nodes), v);
+    }
+  }
+
+  void archive(const StateArchive& state) override {
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      walls_[w].contact.archive(state.part(fmt::format("wall_{}", w)));
     }
   }
 

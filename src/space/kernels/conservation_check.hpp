@@ -2,6 +2,8 @@
 // since the run began.
 #pragma once
 
+#include <stillpoint/state_archive.hpp>
+
 #include <array>
 #include <cmath>
 #include <optional>
@@ -57,6 +59,20 @@ class ConservationCheck {
       angular_momentum_ = std::max(angular_momentum_.value_or(0), std::abs(turn - start_->turn) / start_->turn_scale);
     }
   }
+  void archive(const StateArchive& state) {
+    bool compares = start_.has_value();
+    state("compares_with_start", compares);
+    if (compares) {
+      if (!start_) start_.emplace();
+      state("momentum_at_start", start_->momentum.sum);
+      state("momentum_scale", start_->momentum.scale);
+      state("turn_at_start", start_->turn);
+      state("turn_scale", start_->turn_scale);
+    }
+    state("mass_error", mass_);
+    state("momentum_error", momentum_);
+    state("angular_momentum_error", angular_momentum_);
+  }
   double mass() const { return mass_; }
   double momentum() const { return momentum_; }
   /// Empty if it was not compared.
@@ -65,7 +81,7 @@ class ConservationCheck {
  private:
   struct Start {
     Momentum momentum;
-    double turn, turn_scale;
+    double turn = 0, turn_scale = 0;
   };
   // Σ_p m_p (x_p × v_p + B_p,yx − B_p,xy), and Σ_p m_p |x_p − x_c| |v_p| about the centre x_c of the masses.
   static std::pair<double, double> angular_momentum(const MaterialPoints<Dim>& points) {

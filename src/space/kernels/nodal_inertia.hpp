@@ -15,6 +15,8 @@
 // Scaled by Gershgorin, every node has the same bound instead: M_i = G_i/Ω², whose sum is the body's mass.
 #pragma once
 
+#include <stillpoint/state_archive.hpp>
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -80,6 +82,7 @@ class NodalInertia {
   const std::vector<AddedInertia>& added() const { return added_; }
   /// What nodes were given beyond their mass, uniform scaling apart, as a share of the body's mass; the most so far.
   double largest_added_mass() const { return largest_added_share_; }
+  void archive(const StateArchive& state) { state("added_mass", largest_added_share_); }
 
  private:
   // In a single phase only what has next to no mass: points on a grid line reach the nodes across a cell by their

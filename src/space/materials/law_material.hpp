@@ -140,7 +140,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
       for (std::size_t c = 0; c < components; ++c) F0_[count_ * c + p - begin_] = F[c];
     }
   }
-  Vec deformation() override { return F0_; }
+  Vec memory() override { return F0_; }
   void reorder(const std::vector<int>& order, std::vector<double>&) override {
     if (!moved()) return;
     std::vector<double> sorted(F0_.size());
@@ -235,6 +235,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
 
   void end_phase(const Block&) override {}
+  Vec memory() override { return committed_; }
   void reorder(const std::vector<int>& order, std::vector<double>& work) override {
     for (std::size_t h = 0; h < Law::history; ++h) {
       const double* from = committed_.data() + count_ * h;

@@ -94,9 +94,10 @@ class PointMaterial {
 
   /// The phase ends with the deformation in block.H: it becomes part of what the next phase starts from.
   virtual void end_phase(const PointBlock<K>& block) = 0;
-  /// The deformation gradients with which the phase began, component c of the material's q-th point at [points c + q];
-  /// empty unless the law knows the deformation alone, and the body moves on.
-  virtual Vec deformation() { return {}; }
+  /// What the points remember, entry h of the material's q-th point at [points h + q]: of a law that knows the
+  /// deformation alone the gradient with which the phase began, if the body moves on; of one with history what was last
+  /// committed.
+  virtual Vec memory() = 0;
   /// Points are sorted anew: the one that was number order[k] becomes number begin + k. work: (history_size).
   virtual void reorder(const std::vector<int>& order, std::vector<double>& work) = 0;
   /// Points start under these Cauchy stresses, (points × stress components).

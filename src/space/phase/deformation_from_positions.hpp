@@ -41,7 +41,7 @@ class DeformationFromPositions {
   /// Whether some body's law knows the deformation alone, and its stress depends on nothing else; no other material may
   /// remember what the phases of these bodies do.
   static bool applies(Body<K>& body) {
-    return std::ranges::any_of(body.materials, [](const auto& material) { return !material->deformation().empty(); }) &&
+    return std::ranges::any_of(body.materials, [](const auto& material) { return !material->memory().empty(); }) &&
            std::ranges::none_of(body.materials,
                                 [](const auto& material) { return material->info().history_dependent; });
   }
@@ -109,7 +109,7 @@ class DeformationFromPositions {
   class PointDeformations {
    public:
     explicit PointDeformations(Body<K>& body) : points_(body.points) {
-      for (const auto& material : body.materials) of_material_.push_back(material->deformation());
+      for (const auto& material : body.materials) of_material_.push_back(material->memory());
     }
     bool has(std::size_t k) const { return !of_material_[material(k)].empty(); }
     TensorOf<K> at(std::size_t k, std::size_t p) const {

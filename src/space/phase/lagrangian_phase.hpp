@@ -7,6 +7,7 @@
 #pragma once
 
 #include <stillpoint/scene.hpp>
+#include <stillpoint/state_archive.hpp>
 #include <stillpoint/semi_discrete.hpp>
 
 #include <memory>
@@ -88,6 +89,8 @@ class PhaseControl {
   /// initial_velocity() has not begun the first.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
+  /// Saves the phase as it is between two steps, or restores it: its unknowns become those of then.
+  virtual void archive(const StateArchive& state) = 0;
 };
 
 /// The semi-discrete system of one phase, with what a user wants to see of its points.

@@ -117,13 +117,22 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
     return {kept.mass(), kept.momentum(), kept.angular_momentum(), inertia_.largest_added_mass()};
   }
 
+  void archive(const StateArchive& state) override;  // phase_archive.hpp
+
   static bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
   bool updated_lagrangian() const { return info_.updated_lagrangian; }
   void describe();
   void join_slivers();
   bool is_held(const HeldUnknowns& held, int cell, int component) const;
   void begin_phase(double t);
+  void place_functions(double t);
+  void make_forces(double t);
+  void archive_points(const StateArchive& state);
+  void archive_conditions(const StateArchive& state);
+  void resume_phase(double t);
   std::vector<char> active_functions() const;
+  bool follows_positions();
+  std::vector<double> share_of_motion() const;
   void take_deformation_from_positions();
   double time_scale() const;
 
@@ -189,6 +198,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
 
   const Scene scene_;
   bool history_dependent_ = false;
+  double grid_moved_ = 0;  // by the wall that it follows [m]
   Grid<Dim> grid_;
   Body<K> body_;
   VelocityTransfer<B, K> transfer_;

@@ -37,7 +37,8 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
     throw std::logic_error("no phase ends in a scene of a single one, nor before initial_velocity()");
   const std::vector<WallReaction> walls = wall_reactions(t);
   const auto followed = std::ranges::find(walls, scene_.grid.follow, &WallReaction::name);
-  Grid<Dim> next_grid = grid_at<Dim>(scene_, followed == walls.end() ? 0 : followed->displacement);
+  const double grid_moves_to = followed == walls.end() ? 0 : followed->displacement;
+  Grid<Dim> next_grid = grid_at<Dim>(scene_, grid_moves_to);
   spread(t, u, grid_u_);
   // Before anything changes: a run that ends here shows the state it had.
   const GridFaces<Dim> faces(scene_, next_grid);
@@ -46,6 +47,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   end_phase(t, u, v);
   if (some_past_a_face) faces.put_back(body_.points);
   ++phase_;
+  grid_moved_ = grid_moves_to;
   grid_ = std::move(next_grid);
   order_.sort(body_.points, grid_);
   if (!spare_) make_trial();  // the trials of the phase are dead, and their arrays are free
@@ -58,6 +60,13 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::begin_phase(double t) {
+  place_functions(t);
+  take_deformation_from_positions();
+  make_forces(t);
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::place_functions(double t) {
   weights_.rebuild(grid_, body_.points);
   const std::size_t functions = static_cast<std::size_t>(Basis::count(grid_));
   nodal_force_.rebuild(body_.points, weights_, functions);
@@ -65,10 +74,14 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   held_ = HeldUnknowns(Dim * functions, t);
   for (const auto& condition : boundary_) condition->hold(grid_, reached, held_);
   dofs_.emplace(reached, Dim, held_.prescribed());
-  take_deformation_from_positions();
-  grid_u_.assign(Dim * functions, 0);
-  grid_du_.assign(Dim * functions, 0);
-  committed_u_.assign(Dim * functions, 0);
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::make_forces(double t) {
+  const std::size_t unknowns = Dim * static_cast<std::size_t>(Basis::count(grid_));
+  grid_u_.assign(unknowns, 0);
+  grid_du_.assign(unknowns, 0);
+  committed_u_.assign(unknowns, 0);
   spread_prescribed(t, committed_u_);
   committed_t_ = t;
   make_mass();
@@ -76,13 +89,23 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
 }
 
+template <AxisBasis B, Kinematics K>
+bool MaterialPointPhase<B, K>::follows_positions() {
+  return updated_lagrangian() && scene_.phase.deformation == DeformationRule::positions &&
+         DeformationFromPositions<B, K>::applies(body_);
+}
+
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::share_of_motion() const {
+  return deformation_.share_of_motion(body_, weights_, static_cast<std::size_t>(Basis::count(grid_)));
+}
+
 // Not after every phase if they are short: what the grid does not feel grows with the way of the points.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_deformation_from_positions() {
   constexpr double cells_between = 0.1;
-  if (!updated_lagrangian() || scene_.phase.deformation != DeformationRule::positions) return;
-  if (!DeformationFromPositions<B, K>::applies(body_)) return;
-  share_of_motion_ = deformation_.share_of_motion(body_, weights_, static_cast<std::size_t>(Basis::count(grid_)));
+  if (!follows_positions()) return;
+  share_of_motion_ = share_of_motion();
   if (phase_ == 0) return deformation_.begin(body_, weights_, held_, static_cast<std::size_t>(Basis::count(grid_)));
   if (motion_since_deformation_ < cells_between) return;
   motion_since_deformation_ = 0;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "space/phase/null_space_stress.hpp"
+#include "space/phase/phase_archive.hpp"
 #include "space/phase/phase_change.hpp"
 #include "space/phase/phase_cut_cells.hpp"
 #include "space/phase/phase_factory.hpp"

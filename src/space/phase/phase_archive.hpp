@@ -1,0 +1,66 @@
+// What a phase is saved as: what its points are, and what accepted steps have left. The rest follows from these.
+#pragma once
+
+#include <stillpoint/state_archive.hpp>
+
+#include <fmt/format.h>
+
+#include "space/phase/material_point_phase.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
+  double t = held_.start();
+  state("began_at", t);
+  state("phase", phase_);
+  state("grid_moved", grid_moved_);
+  for (std::size_t m = 0; m < body_.materials.size(); ++m)
+    state(fmt::format("material_{}", m), body_.materials[m]->memory());
+  if (updated_lagrangian()) archive_points(state);
+  archive_conditions(state);
+  if (state.restores() && updated_lagrangian()) {
+    grid_ = grid_at<Dim>(scene_, grid_moved_);
+    resume_phase(t);
+    archive_conditions(state);  // what they remember, in place of what a phase begins with
+  }
+  state("committed_u", committed_u_);
+  state("committed_t", committed_t_);
+  state("start_velocity", start_velocity_);
+  state("looks", looks_);
+  state("motion_since_deformation", motion_since_deformation_);
+  inertia_.archive(state);
+  transfer_.conservation().archive(state);
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::archive_points(const StateArchive& state) {
+  MaterialPoints<Dim>& points = body_.points;
+  for (int d = 0; d < Dim; ++d) {
+    state(fmt::format("x_{}", d), Vec(points.x[d]));
+    state(fmt::format("v_{}", d), Vec(points.v[d]));
+  }
+  for (std::size_t ij = 0; ij < points.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), Vec(points.B_apic[ij]));
+  state("volume", Vec(points.volume));
+  state("mass", Vec(points.mass));
+  state("number", points.number);
+  state("cell", points.cell);
+  state("cell_begin", points.cell_begin);
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::archive_conditions(const StateArchive& state) {
+  for (std::size_t k = 0; k < boundary_.size(); ++k) boundary_[k]->archive(state.part(fmt::format("condition_{}", k)));
+}
+
+// The phase that began at t, with the points as they were then.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::resume_phase(double t) {
+  place_functions(t);
+  if (follows_positions()) share_of_motion_ = share_of_motion();
+  make_forces(t);
+  std::vector<double> v(size());
+  begin_motion(t, v);
+}
+
+}  // namespace stillpoint
