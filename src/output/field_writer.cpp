@@ -2,6 +2,7 @@
 
 #include <stillpoint/state_archive.hpp>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -64,22 +65,25 @@ constexpr std::string_view foot = R"(    </Grid>
 constexpr std::string_view float64 = R"(NumberType="Float" Precision="8")";
 constexpr std::string_view int32 = R"(NumberType="Int" Precision="4")";
 
+std::string grid_begin(std::string_view frame) { return fmt::format(R"(      <Grid Name="{}")", frame); }
+constexpr std::string_view grid_end = "      </Grid>\n";
+
 // A frame's grid: single points, and their attributes.
 class GridText {
  public:
   GridText(std::string group, double t, std::size_t points, const std::string& vertices)
       : group_(std::move(group)), rows_(fmt::format("{}", points)) {
-    text_ = fmt::format(R"(      <Grid Name="{}" GridType="Uniform">
+    text_ = fmt::format(R"({} GridType="Uniform">
         <Time Value="{:.17g}"/>
         <Topology TopologyType="Polyvertex" NumberOfElements="{}" NodesPerElement="1">{}</Topology>
         <Geometry GeometryType="XYZ">{}</Geometry>
 )",
-                        group_.substr(1), t, rows_, data_item(rows_, int32, vertices),
+                        grid_begin(group_.substr(1)), t, rows_, data_item(rows_, int32, vertices),
                         data_item(rows_ + " 3", float64, group_ + "/place"));
   }
   void add_scalar(const std::string& name, std::string_view number = float64) { add(name, "Scalar", rows_, number); }
   void add_vector(const std::string& name) { add(name, "Vector", rows_ + " 3", float64); }
-  std::string text() const { return text_ + "      </Grid>\n"; }
+  std::string text() const { return text_ + std::string(grid_end); }
 
  private:
   static std::string data_item(const std::string& size, std::string_view number, const std::string& dataset) {
@@ -162,8 +166,9 @@ class FieldWriter::Files {
   Files(const fs::path& folder, std::size_t frames) : folder_(folder), frames_(frames) {
     if (frames == 0) fs::remove_all(parts());
     fs::create_directories(parts());
-    if (frames > 0 && !fs::exists(part(frames - 1)))
-      throw StateError(fmt::format("{}: is not there; expected the {} frames of the run so far", part(frames - 1).string(), frames));
+    for (std::size_t k = 0; k < frames; ++k) {
+      if (!fs::exists(part(k))) split(k);
+    }
   }
 
   void add(const FieldFrame& frame) {
@@ -183,7 +188,7 @@ class FieldWriter::Files {
     ++frames_;
   }
 
-  void finish(bool goes_on) {
+  void finish() {
     const fs::path whole = folder_ / "fields.h5";
     try {
       join(partial_name(whole));
@@ -197,7 +202,7 @@ class FieldWriter::Files {
       remove_quietly(partial_name(whole));
       throw;
     }
-    if (!goes_on) remove_quietly(parts());
+    remove_quietly(parts());
   }
 
   std::size_t frames() const { return frames_; }
@@ -220,6 +225,25 @@ class FieldWriter::Files {
     whole.close();
   }
 
+  // A run that has joined its frames and goes on all the same.
+  void split(std::size_t k) const {
+    const std::string begin = grid_begin(frame_name(k)), xdmf = text_of(folder_ / "fields.xdmf");
+    const std::size_t from = xdmf.find(begin), to = xdmf.find(grid_end, std::min(from, xdmf.size()));
+    if (to == std::string::npos)
+      throw StateError(fmt::format("{}: frame {} is not there; the run goes on after {} of them",
+                                   (folder_ / "fields.xdmf").string(), k, frames_));
+    AtomicFile text(part(k).replace_extension(".xdmf"));
+    text.write(std::string_view(xdmf).substr(from, to + grid_end.size() - from));
+    text.finish();
+    const Hdf5File whole(Hdf5File::Existing{folder_ / "fields.h5"});
+    const fs::path partial = partial_name(part(k));
+    Hdf5File of_frame(partial);
+    of_frame.copy(whole, "/" + frame_name(k));
+    of_frame.copy(whole, "/vertex");
+    of_frame.close();
+    fs::rename(partial, part(k));
+  }
+
   fs::path folder_;
   std::size_t frames_;
 };
@@ -237,9 +261,9 @@ void FieldWriter::add(const FieldFrame& frame) {
 
 std::size_t FieldWriter::frames() const { return files_ ? files_->frames() : 0; }
 
-void FieldWriter::finish(bool goes_on) {
+void FieldWriter::finish() {
   if (!files_) return;
-  files_->finish(goes_on);
+  files_->finish();
   files_.reset();
 }
 

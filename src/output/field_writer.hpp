@@ -46,9 +46,8 @@ class FieldWriter {
   /// Throws std::invalid_argument for a frame whose parts are not of the shapes above; nothing is written then.
   void add(const FieldFrame& frame);
   std::size_t frames() const;
-  /// Joins the frames. To be called at the end of every run, and of one that went wrong, too. goes_on: the run may be
-  /// resumed, and its frames stay below fields.partial/ as well.
-  void finish(bool goes_on = false);
+  /// Joins the frames. To be called at the end of every run, and of one that went wrong, too.
+  void finish();
 
  private:
   class Files;

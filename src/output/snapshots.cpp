@@ -66,8 +66,8 @@ void Snapshots::take_last(double t, ConstVec u, ConstVec v) {
   if (writer_ && (taken_.empty() || taken_.back().t < t)) take(t, u, v);
 }
 
-void Snapshots::finish(bool goes_on) {
-  if (writer_) writer_->finish(goes_on);
+void Snapshots::finish() {
+  if (writer_) writer_->finish();
 }
 
 void Snapshots::take(double t, ConstVec u, ConstVec v) {

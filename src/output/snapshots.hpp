@@ -28,8 +28,8 @@ class Snapshots {
   void sample(double t, ConstVec u, ConstVec v);
   /// The state in which the run ends, if the scene asks for fields.
   void take_last(double t, ConstVec u, ConstVec v);
-  /// Closes the files. goes_on: the run may be resumed.
-  void finish(bool goes_on = false);
+  /// Closes the files.
+  void finish();
 
   const std::vector<Snapshot>& taken() const { return taken_; }
 

@@ -93,9 +93,9 @@ void Recorder::archive(const StateArchive& state) {
   snapshots_.archive(state.part("snapshots"));
 }
 
-void Recorder::finish(double t, const PhaseMotion* motion, bool goes_on) {
+void Recorder::finish(double t, const PhaseMotion* motion) {
   if (motion) snapshots_.take_last(t, motion->u(), motion->v());
-  snapshots_.finish(goes_on);
+  snapshots_.finish();
   history_.finish();
 }
 

@@ -44,8 +44,8 @@ class Recorder {
   /// Before a phase ends, and when the next has begun.
   void end_phase(double t, PhaseMotion& motion);
   void begin_phase(double t, PhaseMotion& motion);
-  /// Closes the files; a run that ends writes its last state as well, if it can be read. goes_on: it may be resumed.
-  void finish(double t, const PhaseMotion* motion, bool goes_on);
+  /// Closes the files; a run that ends writes its last state as well, if it can be read.
+  void finish(double t, const PhaseMotion* motion);
   void fill(Summary& summary, double t, PhaseMotion& motion);
 
  private:

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "output/point_fields.hpp"
+#include "output/run_folder.hpp"
 
 namespace stillpoint {
 namespace {
@@ -55,6 +56,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
       overshoot_(scene_, model_),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
+  if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);
   if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance(), resumes);
   if (resumes) {
     resume(options_.resume);
@@ -256,8 +258,7 @@ void Simulation::Impl::test_stability() {
 void Simulation::Impl::finish() {
   if (is_readable_) motion_->finish(t_);
   test_stability();
-  const bool goes_on = status_ == RunStatus::interrupted || status_ == RunStatus::time_limit;
-  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr, goes_on && leaves_checkpoints());
+  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
 }
 
 }  // namespace stillpoint

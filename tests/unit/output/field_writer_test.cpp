@@ -94,7 +94,8 @@ TEST_CASE("the files of the fields have their names once they are whole") {
   const fs::path folder = temporary.path() / "new" / "folder";
   FieldWriter writer(folder);
   writer.add(a_frame(0));
-  CHECK(names_in(folder) == Names{"fields.h5.partial", "fields.xdmf.partial"});
+  CHECK(names_in(folder) == Names{"fields.partial"});
+  CHECK(names_in(folder / "fields.partial") == Names{"frame_0000.h5", "frame_0000.xdmf"});
   writer.finish();
   CHECK(names_in(folder) == Names{"fields.h5", "fields.xdmf"});
   CHECK(frames_in_xdmf(folder) == 1);
@@ -104,37 +105,61 @@ TEST_CASE("the files of the fields have their names once they are whole") {
   CHECK_THROWS_AS(writer.add(a_frame(1)), std::logic_error);
 }
 
-TEST_CASE("a writer that is never finished leaves nothing behind, and an earlier run's files alone") {
+TEST_CASE("a writer that is never finished leaves its frames, and an earlier run's files alone") {
   const TemporaryFolder folder;
+  folder.write("fields.h5", "earlier");
+  folder.write("fields.xdmf", "earlier");
   {
     FieldWriter writer(folder.path());
     writer.add(a_frame(0));
-    CHECK(open_in(folder.path()) == 2);
+    writer.add(a_frame(1));
   }
-  CHECK(names_in(folder.path()).empty());
   CHECK(open_in(folder.path()) == 0);
-
-  folder.write("fields.h5", "earlier");
-  folder.write("fields.xdmf", "earlier");
-  { FieldWriter(folder.path()).add(a_frame(0)); }
-  CHECK(names_in(folder.path()) == Names{"fields.h5", "fields.xdmf"});
+  CHECK(names_in(folder.path()) == Names{"fields.h5", "fields.partial", "fields.xdmf"});
   CHECK(bytes_of(folder.path() / "fields.h5") == "earlier");
+  CHECK(names_in(folder.path() / "fields.partial").size() == 4);
+  FieldWriter next(folder.path());  // another run
+  CHECK(names_in(folder.path() / "fields.partial").empty());
+}
+
+TEST_CASE("a writer that goes on after some frames leaves what one that was never broken off leaves") {
+  for (const bool was_joined : {false, true}) {
+    const TemporaryFolder folder, other;
+    FieldWriter expected(other.path());
+    {
+      FieldWriter writer(folder.path());
+      for (const double t : {0., 1., 2.}) writer.add(a_frame(t, t == 1 ? 7 : 3));
+      if (was_joined) writer.finish();
+    }
+    FieldWriter writer(folder.path(), 2);
+    for (const double t : {0., 1., 5.}) expected.add(a_frame(t, t == 1 ? 7 : 3));
+    writer.add(a_frame(5));
+    writer.finish();
+    expected.finish();
+    for (const char* name : {"fields.h5", "fields.xdmf"}) {
+      CAPTURE(was_joined, name);
+      CHECK((bytes_of(folder.path() / name) == bytes_of(other.path() / name)));
+    }
+    CHECK(names_in(folder.path()) == Names{"fields.h5", "fields.xdmf"});
+    CHECK_THROWS_WITH(FieldWriter(folder.path(), 4), Catch::Contains("frame 3 is not there"));
+  }
 }
 
 TEST_CASE("fields that cannot be written are a filesystem error, and leave nothing behind") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(FieldWriter(folder.write("a file", "")), fs::filesystem_error);
 
-  fs::create_directories(folder.path() / "fields.h5.partial" / "in the way");
+  FieldWriter writer(folder.path());
+  const fs::path in_the_way = folder.path() / "fields.partial" / "frame_0000.h5.partial";
+  fs::create_directories(in_the_way / "file");
   try {
-    FieldWriter writer(folder.path());
+    writer.add(a_frame(0));
     FAIL("a folder was taken for a file");
   } catch (const fs::filesystem_error& error) {
     CHECK(error.code() == std::errc::is_a_directory);
-    CHECK(error.path1() == folder.path() / "fields.h5.partial");
+    CHECK(error.path1() == in_the_way);
     CHECK_THAT(error.what(), Catch::Contains("unable to open file"));  // the words of HDF5
   }
-  CHECK(names_in(folder.path()) == Names{"a file", "fields.h5.partial"});
 }
 
 TEST_CASE("what HDF5 alone refuses is told in its words, without the system's error of something earlier") {
@@ -154,28 +179,45 @@ TEST_CASE("what HDF5 alone refuses is told in its words, without the system's er
 
 TEST_CASE("on a full disk a frame is refused as a whole, and the frames before it are kept") {
   const std::size_t points = 100000;
-  for (const bool room_for_a_part : {true, false}) {
+  for (const rlim_t room : {1 << 20, 2048, 0}) {
     const TemporaryFolder folder, other;
     FieldWriter writer(folder.path()), expected(other.path());
     writer.add(a_frame(0));
     expected.add(a_frame(0));
     {
-      const FullDisk full(room_for_a_part ? 1 << 20 : fs::file_size(folder.path() / "fields.h5.partial"));
+      const FullDisk full(room);
       try {
         writer.add(a_frame(1, points));
         FAIL("the frame was written");
       } catch (const fs::filesystem_error& error) {
         CHECK(error.code() == std::errc::file_too_large);
-        CHECK_THAT(error.what(), Catch::Contains("cannot write: ") && Catch::Contains("fields.h5.partial"));
+        CHECK_THAT(error.what(), Catch::Contains("cannot write") && Catch::Contains("frame_0001"));
       }
     }
+    CHECK(names_in(folder.path() / "fields.partial") == Names{"frame_0000.h5", "frame_0000.xdmf"});
     for (FieldWriter* each : {&writer, &expected}) each->add(a_frame(1, points));  // there is room again
     writer.finish();
     expected.finish();
     CHECK(open_in(folder.path()) == 0);
     CHECK(frames_in_xdmf(folder.path()) == 2);
-    CHECK(bytes_of(folder.path() / "fields.xdmf") == bytes_of(other.path() / "fields.xdmf"));
+    for (const char* name : {"fields.h5", "fields.xdmf"})
+      CHECK((bytes_of(folder.path() / name) == bytes_of(other.path() / name)));
   }
+}
+
+TEST_CASE("on a disk that is full when the frames are joined they all stay, and are joined when there is room") {
+  const TemporaryFolder folder;
+  FieldWriter writer(folder.path());
+  for (const double t : {0., 1., 2.}) writer.add(a_frame(t, 20000));
+  {
+    const FullDisk full(fs::file_size(folder.path() / "fields.partial" / "frame_0000.h5") * 2);
+    CHECK_THROWS_WITH(writer.finish(), Catch::Contains("cannot write") && Catch::Contains("fields.h5"));
+  }
+  CHECK(names_in(folder.path()) == Names{"fields.partial"});
+  CHECK(names_in(folder.path() / "fields.partial").size() == 6);
+  writer.finish();
+  CHECK(names_in(folder.path()) == Names{"fields.h5", "fields.xdmf"});
+  CHECK(frames_in_xdmf(folder.path()) == 3);
 }
 
 TEST_CASE("equal frames give equal bytes") {

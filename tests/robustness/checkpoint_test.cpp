@@ -1,0 +1,283 @@
+// Checkpoints: what goes on from one is the run that was not broken off, and none that is not whole is gone on from.
+#include <stillpoint/integrator.hpp>
+#include <stillpoint/relaxation.hpp>
+
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "files.hpp"
+#include "output/checkpoint_file.hpp"
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using stillpoint::test::contents;
+using stillpoint::test::json_of;
+using stillpoint::testing::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Case {
+  const char* scene;
+  std::vector<std::string> set;
+};
+
+std::vector<std::string> with(std::vector<std::string> set, const std::vector<std::string>& more) {
+  set.insert(set.end(), more.begin(), more.end());
+  return set;
+}
+
+// What a run leaves behind, but for its times on the clock.
+std::string left_by(const Summary& s, const fs::path& out) {
+  std::string left = fmt::format("{} {} steps {} evaluations {} phases {} rejected\n{:a} {:a} {:a}\n{}\n", s.reason,
+                                 s.steps, s.rhs_evaluations, s.phases, s.rejected_steps, s.residual,
+                                 s.distance.value_or(0), s.momentum_error.value_or(0), fmt::join(s.notes, "\n"));
+  for (const char* name : {"history.csv", "fields.h5", "fields.xdmf"})
+    if (fs::exists(out / name)) left += contents(out / name);
+  return left;
+}
+
+std::string unbroken(const Scene& scene) {
+  const TemporaryFolder folder;
+  const Summary s = run(scene, {.out = folder.path()});
+  return left_by(s, folder.path());
+}
+
+// The process ends within a step, after some of them.
+void break_off(const Scene& scene, const fs::path& out, long steps) {
+  Simulation simulation(scene, {.out = out});
+  while (!simulation.done() && simulation.steps() < steps) simulation.step();
+}
+
+std::string resumed(const fs::path& out) {
+  const fs::path checkpoint = out / "checkpoint.h5";
+  const Summary s = run(load_scene_of(checkpoint), {.out = out, .resume = checkpoint});
+  return left_by(s, out);
+}
+
+void check_same_bits(const Case& one, long steps) {
+  const Scene scene = scenes::load(one.scene, with(one.set, {"checkpoint.every_steps=20"}));
+  CAPTURE(one.scene, one.set);
+  const TemporaryFolder folder;
+  break_off(scene, folder.path(), steps);
+  CHECK_FALSE(fs::exists(folder.path() / "summary.json"));
+  CHECK((resumed(folder.path()) == unbroken(scene)));
+}
+
+const std::vector<std::string> few_steps = {"stop.steps=90", "output.every=0.003"};
+
+}  // namespace
+
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with every integrator") {
+  for (const Method& method : methods()) {
+    const std::vector<std::string> set = {"integrator.method=" + method.name, "stop.steps=90", "output.every=0.5"};
+    if (method.fixed_step) check_same_bits({"bar", set}, 70);
+    if (method.adaptive) check_same_bits({"bar", with(set, {"integrator.rtol=1e-5"})}, 70);
+  }
+}
+
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with every damping") {
+  for (const StrategyInfo& damping : dampings()) {
+    for (const char* method : {"leapfrog", "symplectic-euler"}) {
+      check_same_bits({"inclusion",
+                       {"damping.strategy=" + std::string(damping.name), std::string("integrator.method=") + method,
+                        "grid.cells=[8, 8]", "stop.steps=90"}},
+                      70);
+    }
+  }
+}
+
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with every relaxation") {
+  for (const RelaxationInfo& relaxation : relaxations()) {
+    const std::string strategy = "damping.strategy=" + std::string(relaxation.about.name);
+    check_same_bits({"inclusion", {strategy, "grid.cells=[8, 8]", "stop.steps=90"}}, 70);
+    check_same_bits({"hard/fast_column", {strategy, "stop.steps=300"}}, 250);
+  }
+}
+
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with every static solver") {
+  for (const char* solver : {"cg", "lbfgs", "newton", "newton-cg"}) {
+    const std::string method = std::string("solve.method=") + solver;
+    check_same_bits({"inclusion", {method, "grid.cells=[8, 8]", "damping=none", "integrator=none"}}, 30);
+  }
+}
+
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one in phases, with whatever they hold") {
+  const std::vector<std::string> small = {"grid.cells=[24, 10]", "stop.steps=150", "output.fields_every=0.005"};
+  for (const char* transfer : {"flip", "pic", "xpic", "apic"})
+    check_same_bits({"slope", with(small, {std::string("phase.transfer=") + transfer})}, 110);
+  for (const char* strategy : {"viscous", "kinetic", "auto"})
+    check_same_bits({"hard/beam_in_phases", {std::string("damping.strategy=") + strategy, "stop.steps=400"}}, 290);
+  check_same_bits({"hard/pulled_in_phases", {"stop.steps=400"}}, 290);
+  check_same_bits(
+      {"hard/pulled_in_phases", {"traction=[]", "force=[{at=[1.0, 0.5], value=[0.05, 0.0]}]", "stop.steps=400"}}, 290);
+  check_same_bits({"hard/fast_wall", {"stop.steps=400"}}, 290);
+}
+
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with walls, and with what stiffens") {
+  check_same_bits({"block_on_wall", {"stop.steps=150"}}, 90);
+  check_same_bits({"neo_hookean_bar", {"stop.steps=150"}}, 90);
+  check_same_bits({"footing", {"stop.steps=150"}}, 90);
+  check_same_bits({"incompressible", {"stop.steps=150"}}, 90);
+}
+
+TEST_CASE("a run may be resumed again and again, and by another number of threads") {
+  const Scene scene = scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=20"});
+  const TemporaryFolder folder;
+  break_off(scene, folder.path(), 50);
+  for (const long steps : {70, 71, 130}) {
+    const fs::path checkpoint = folder.path() / "checkpoint.h5";
+    Simulation simulation(load_scene_of(checkpoint), {.out = folder.path(), .resume = checkpoint, .threads = 2});
+    while (simulation.steps() < steps) simulation.step();
+  }
+  CHECK((resumed(folder.path()) == unbroken(scene)));
+}
+
+TEST_CASE("a run that was interrupted goes on where it was, from the step of the interrupt") {
+  const Scene scene = scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=1000",
+                                                     "output.stages=[1e-3, 1e3]"});
+  const TemporaryFolder folder;
+  int asked = 0;
+  const Summary s = run(scene, {.out = folder.path(), .interrupted = [&] { return ++asked == 77; }});
+  CHECK(s.status == RunStatus::interrupted);
+  CHECK(s.steps == 77);
+  const fs::path checkpoint = folder.path() / "checkpoint.h5";
+  CHECK(Simulation(load_scene_of(checkpoint), {.resume = checkpoint}).steps() == 77);
+  CHECK((resumed(folder.path()) == unbroken(scene)));
+}
+
+TEST_CASE("a program saves a state and goes on from it, with its own scene") {
+  const TemporaryFolder folder;
+  const fs::path checkpoint = folder.path() / "state.h5";
+  const Scene scene = scenes::load("inclusion", {"grid.cells=[8, 8]"});
+  Simulation first(scene);
+  while (first.steps() < 30) first.step();
+  first.save(checkpoint);
+  Simulation second(scene, {.resume = checkpoint});
+  CHECK(second.t() == first.t());
+  while (first.steps() < 60) {
+    first.step();
+    second.step();
+  }
+  CHECK(std::ranges::equal(first.u(), second.u()));
+  CHECK(std::ranges::equal(first.v(), second.v()));
+  CHECK(first.evaluations() == second.evaluations());
+}
+
+TEST_CASE("the checkpoint before the last one is kept, and can be gone on from") {
+  const Scene scene = scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=20"});
+  const TemporaryFolder folder;
+  break_off(scene, folder.path(), 90);
+  const auto steps_of = [&](const char* name) {
+    return Simulation(scene, {.resume = folder.path() / name}).steps();
+  };
+  CHECK(steps_of("checkpoint.h5") == 80);
+  CHECK(steps_of("checkpoint-previous.h5") == 60);
+}
+
+TEST_CASE("a checkpoint that is not whole is refused with what is wrong, and so is a foreign one") {
+  const Scene scene = scenes::load("inclusion", {"grid.cells=[8, 8]"});
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "checkpoint.h5";
+  Simulation(scene).save(file);
+  const std::string whole = contents(file);
+  const auto refusal = [&](const std::string& bytes) {
+    folder.write("checkpoint.h5", bytes);
+    try {
+      load_scene_of(file);
+    } catch (const StateError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  CHECK(refusal(whole) == "taken");
+  for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{600}})
+    CHECK_THAT(refusal(whole.substr(0, size)), Catch::Contains("checkpoint.h5: is cut short: "));
+  for (const std::size_t size : {std::size_t{0}, std::size_t{10}, std::size_t{511}})
+    CHECK_THAT(refusal(whole.substr(0, size)), Catch::Contains("is no checkpoint of this format"));
+  for (std::size_t at = 512; at < whole.size(); at += whole.size() / 97) {
+    std::string altered = whole;
+    altered[at] ^= 1;
+    CHECK_THAT(refusal(altered), Catch::Contains("was altered"));
+  }
+  CHECK_THAT(refusal(whole + "x"), Catch::Contains("was altered"));
+  CHECK_THAT(refusal("t,steps\n0,0\n" + std::string(600, '0')), Catch::Contains("is no checkpoint of this format"));
+  CHECK_THROWS_WITH(load_scene_of(folder.path() / "none.h5"), Catch::Contains("none.h5: cannot be read"));
+}
+
+TEST_CASE("a checkpoint of another scene, other settings, another body or another version is refused") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "checkpoint.h5";
+  Simulation(scenes::load("inclusion", {"grid.cells=[8, 8]"})).save(file);
+  const auto go_on = [&](const Scene& scene) { Simulation(scene, {.resume = file}); };
+  CHECK_THROWS_WITH(go_on(scenes::bar()), Catch::Contains("it is of another scene than"));
+  CHECK_THROWS_WITH(go_on(scenes::load("inclusion", {"grid.cells=[8, 9]"})),
+                    Catch::Contains("it is of the scene with --set grid.cells=[8, 8], expected one with --set"));
+  Scene moved = scenes::load("inclusion", {"grid.cells=[8, 8]"});
+  moved.bodies.front().points_per_cell = {3, 3};
+  CHECK_THROWS_WITH(go_on(moved), Catch::Contains("another body"));
+
+  SavedState state = read_checkpoint(file);
+  state["origin/version"] = "0.0.1";
+  write_checkpoint(file, state);
+  CHECK_THROWS_WITH(load_scene_of(file), Catch::Contains("it is of version 0.0.1, expected "));
+}
+
+TEST_CASE("a checkpoint that lacks a value, or has one of another kind or size, is refused with its name") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "checkpoint.h5";
+  const Scene scene = scenes::load("inclusion", {"grid.cells=[8, 8]"});
+  Simulation(scene).save(file);
+  const SavedState whole = read_checkpoint(file);
+  for (const auto& [name, value] : whole) {
+    CAPTURE(name);
+    SavedState spoilt = whole;
+    spoilt.erase(name);
+    write_checkpoint(file, spoilt);
+    CHECK_THROWS_WITH(Simulation(scene, {.resume = file}), Catch::Contains("it has no '" + name + "'"));
+    spoilt[name] = std::holds_alternative<std::string>(value) ? SavedValue(std::vector<double>()) : SavedValue("?");
+    write_checkpoint(file, spoilt);
+    CHECK_THROWS_WITH(Simulation(scene, {.resume = file}), Catch::Contains("'" + name + "' is of another kind"));
+  }
+}
+
+TEST_CASE("a history that was altered since the checkpoint is not appended to") {
+  const Scene scene = scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=20"});
+  const TemporaryFolder folder;
+  break_off(scene, folder.path(), 90);
+  const std::string history = contents(folder.path() / "history.csv.partial");
+  folder.write("history.csv.partial", history.substr(0, 50));
+  CHECK_THROWS_WITH(resumed(folder.path()), Catch::Contains("history.csv.partial: is not what was written so far"));
+  folder.write("history.csv.partial", "T" + history.substr(1));
+  CHECK_THROWS_WITH(resumed(folder.path()), Catch::Contains("history.csv.partial: was altered since it was written"));
+}
+
+TEST_CASE("SIGTERM and SIGHUP end the command in good order, and --resume goes on") {
+  for (const int signal : {SIGTERM, SIGHUP}) {
+    const TemporaryFolder folder;
+    const std::string out = folder.path().string();
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      execl(STILLPOINT_BINARY, "stillpoint", "run", STILLPOINT_PROBLEMS "/bar.toml", "--set", "damping.strategy=none",
+            "--set", "stop.steps=400000", "--set", "checkpoint.every=60", "--quiet", "--out", out.c_str(), nullptr);
+      _exit(127);
+    }
+    for (int wait = 0; wait < 500 && !fs::exists(folder.path() / "checkpoint.h5"); ++wait) usleep(20'000);
+    usleep(50'000);
+    kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 3);
+    CHECK(json_of(folder.path() / "summary.json")["status"] == "interrupted");
+    const long steps = json_of(folder.path() / "summary.json")["steps"];
+    CHECK(steps > 0);
+    const std::string command = fmt::format("{} run --resume {} --quiet 2> {}/messages", STILLPOINT_BINARY, out, out);
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 3);
+    CHECK(json_of(folder.path() / "summary.json")["status"] == "step-limit");
+    CHECK(json_of(folder.path() / "summary.json")["steps"] == 400000);
+  }
+}
