@@ -248,6 +248,8 @@ Model make_model(const Scene& scene) {
   if (!chooses_mass) model.omega_max = highest_frequency(scene, *model.phase, model.u);
   const Omega1Needs needs = omega_1_needs(scene, model, takes_c);
   if (needs.any()) find_omega_1(scene, needs, model);
+  if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian)
+    model.volume_norm = volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);
   if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
     model.notes.push_back(
         "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "

@@ -81,7 +81,7 @@ class Simulation::Impl {
         options_(std::move(options)),
         model_(make_model(scene_)),
         monitor_(monitor_options(scene_, model_)),
-        error_bound_(*model_.phase, model_.omega_1),
+        error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
         schedule_(scene_, *model_.phase, scene_.stop.time),
         overshoot_(scene_, model_),
         t_(model_.t) {
