@@ -53,7 +53,7 @@ int spectrum(const SceneArguments& arguments) {
   fmt::print("  critical step with {} damping [s], and what a force evaluation buys of it\n", strategy.name);
   for (const Method& method : methods()) {
     if (!method.amplification) continue;
-    const double step = critical_step(method.amplification, damped);
+    const double step = critical_step(method, *damping, damped);
     fmt::print("    {:<34}{:>12.6g}{:>12.6g}\n", method.name, step, step / method.evaluations_per_step);
   }
   return 0;

@@ -106,7 +106,7 @@ void choose_step(const Scene& scene, Model& model) {
     const DampedSpectrum spectrum =
         damped_spectrum(model.omega_1.value_or(0), model.omega_max, *model.damping, model.phase->mass());
     constexpr double longest = 1e3;  // of 1/omega_max: a step is never without a limit, though the method may have none
-    model.critical_step = std::min(critical_step(model.method.amplification, spectrum), longest / model.omega_max);
+    model.critical_step = std::min(critical_step(model.method, *model.damping, spectrum), longest / model.omega_max);
   }
   if (spec.step) {
     model.integrator.max_step = *spec.step;

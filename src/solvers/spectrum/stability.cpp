@@ -1,8 +1,10 @@
 #include <stillpoint/stability.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -103,6 +105,46 @@ double critical_step(const AmplificationRadius& amplification, const DampedSpect
     }
   }
   return h;
+}
+
+namespace {
+
+// Whether no motion grows: by log ‖y‖ over the second half of many steps, from phases all around half the circle; the
+// other half is the same with all signs changed, and lengths are no matter, as D(v, s Q) = s D(v, Q).
+bool every_phase_decays(const OscillatorStep& step, const Damping& local, double h) {
+  constexpr int phases = 24, steps = 200;
+  for (int k = 0; k < phases; ++k) {
+    const double phase = std::numbers::pi * (k + 0.5) / phases;
+    std::array<double, 2> y = {std::cos(phase), std::sin(phase)};
+    double log_growth = 0;
+    for (int n = 0; n < steps; ++n) {
+      step(h, local, y);
+      const double length = std::hypot(y[0], y[1]);
+      if (length == 0) break;
+      if (!std::isfinite(length)) return false;
+      if (n >= steps / 2) log_growth += std::log(length);
+      for (double& value : y) value /= length;
+    }
+    if (log_growth > 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double switched_stability_limit(const OscillatorStep& step, const Damping& local) {
+  constexpr double first = 0.2, ratio = 1.02, last = 100, accuracy = 1e-3;
+  double good = 0, bad = first;
+  while (every_phase_decays(step, local, bad)) {
+    good = bad;
+    bad *= ratio;
+    if (bad > last) return last;
+  }
+  while (good > 0 && bad - good > accuracy * bad) {
+    const double middle = (good + bad) / 2;
+    (every_phase_decays(step, local, middle) ? good : bad) = middle;
+  }
+  return good;
 }
 
 double stability_limit(const AmplificationRadius& amplification, double zeta) {
