@@ -3,6 +3,7 @@
 #include <stillpoint/spectrum.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace stillpoint {
@@ -15,13 +16,21 @@ std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const V
   if (!omega_1_) return std::nullopt;
   const Mass& V = volume_ ? volume_->V : phase_.mass();
   const double omega_V = volume_ ? volume_->omega_1 : *omega_1_;
-  double energy_error = relaxation.energy_error(phase_.mass(), *omega_1_);
-  if (volume_) energy_error = std::min(energy_error, relaxation.energy_error(V, omega_V));
-  const double error = energy_error / omega_V, size = relaxation.mass_norm(V, u);
-  largest_ = std::max(largest_, size);
+  energy_error_ = relaxation.energy_error(phase_.mass(), *omega_1_);
+  if (volume_) energy_error_ = std::min(energy_error_, relaxation.energy_error(V, omega_V));
+  const double error = energy_error_ / omega_V;
+  size_ = relaxation.mass_norm(V, u);
+  largest_ = std::max(largest_, std::min(size_, most_));
   const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
   beside_largest_ = beside(largest_);
-  return beside(size);
+  return beside(size_);
+}
+
+// ‖u‖_V ≤ ‖u_s‖_V + ‖u − u*‖_V + ‖u_s − u*‖_V,  ω_V² ‖u − u*‖_V² ≤ ‖u − u*‖_K² ≤ ‖u_s − u*‖_K² + ‖v_s‖_M²
+void ErrorBound::loads_have_settled(double kinetic_energy) {
+  if (!omega_1_ || phase_.info().nonlinear || std::isfinite(most_)) return;
+  const double omega_V = volume_ ? volume_->omega_1 : *omega_1_;
+  most_ = size_ + 2 * std::sqrt(energy_error_ * energy_error_ + 2 * kinetic_energy) / omega_V;
 }
 
 bool ErrorBound::refresh(double t, ConstVec u, double residual) {

@@ -22,6 +22,10 @@ class ErrorBound {
   std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u);
   /// The last one beside the largest ‖u‖_V so far instead, which a body that is unloaded to nothing leaves behind.
   std::optional<double> beside_largest() const { return beside_largest_; }
+  /// Nothing acts on the body from now on but what does now: a linear one, which cannot get any energy beyond what it
+  /// then has, is no measure for itself where it still comes to be larger, as with a step that is not stable. After
+  /// distance(); the first call counts.
+  void loads_have_settled(double kinetic_energy);
   /// Looks at the tangent at (t, u), if that may have changed since it last did with a larger residual. Where the
   /// tangent is not positive definite there is no distance any more. False if nothing was done.
   bool refresh(double t, ConstVec u, double residual);
@@ -30,7 +34,9 @@ class ErrorBound {
   const LagrangianPhase& phase_;
   std::optional<double> omega_1_, beside_largest_;
   std::optional<VolumeNorm> volume_;
+  double energy_error_ = 0, size_ = 0;                             // of the last distance()
   double largest_ = 0;                                             // ‖u‖_V so far
+  double most_ = std::numeric_limits<double>::infinity();          // that it can become
   double refreshed_at_ = std::numeric_limits<double>::infinity();  // the residual then
 };
 

@@ -198,8 +198,7 @@ double dwell_of(const Scene& scene, const Model& model) {
 double distance_goal_of(const Scene& scene, const Model& model) {
   constexpr double usual = 1e-3;
   const bool is_known = model.omega_1 && !model.phase->info().updated_lagrangian;
-  const bool is_newton = model.static_method && model.static_method->is_newton;  // quadratic: the residual is enough
-  const bool by_default = scene.stop.residual > 0 && is_known && !is_newton && !scene.where.contains("stop.distance");
+  const bool by_default = scene.stop.residual > 0 && is_known && !scene.where.contains("stop.distance");
   return by_default ? usual : scene.stop.distance;
 }
 

@@ -281,6 +281,49 @@ TEST_CASE("where ground yields the distance is that to the equilibrium that the 
   }
 }
 
+// With a consistent mass local damping may turn forces into higher modes: this motion grows by 1e8, and comes back.
+TEST_CASE("a step that is not stable makes no equilibrium by the size of what it blew up", "[error bound]") {
+  const Scene scene = with({"hard/blown_up", {"stop.steps=20000"}}, "one-sided");
+  const Ended end = ended(scene);
+  const Values rest = equilibrium_of(scenes::load("hard/blown_up", {"support=[{face='bottom'}, {face='top', "
+                                                                    "kind='roller', u=-0.0005386}]"}));
+  CAPTURE(end.summary.reason);
+  CHECK((end.summary.exit_status != 0 || error_of(end, rest) < 0.01));
+}
+
+// A small residual is one beside the stiff bar's forces.
+TEST_CASE("Newton's methods go on until a soft bar beside a stiff one is right as well", "[error bound]") {
+  const std::vector<std::string> large_strain = {"material.soft.law=hencky", "material.stiff.law=hencky",
+                                                 "phase.max_motion=none",
+                                                 "force=[{at=6, value=1e6}, {at=9, value=-1e6}, {at=10, value=0.3}]"};
+  for (const std::vector<std::string>& overrides : {std::vector<std::string>{}, large_strain}) {
+    const Case problem{"hard/soft_and_stiff", overrides};
+    const Values rest = equilibrium_of(with(problem, "viscous"));
+    for (const std::string method : {"newton", "newton-cg"}) {
+      for (const std::string residual : {"stop.residual=1e-3", "stop.residual=1e-4", "stop.residual=1e-6"}) {
+        const Ended end = ended(with(problem, method, {residual}));
+        CAPTURE(overrides.size(), method, residual, end.summary.reason);
+        CHECK(end.summary.status == RunStatus::equilibrium);
+        CHECK(error_of(end, rest) <= 1e-3);
+      }
+    }
+  }
+}
+
+// P = E ln F/F of the soft bar is E/e at most.
+TEST_CASE("a static solver finds no equilibrium of a soft bar under more than it can bear, whatever a stiff one bears",
+          "[error bound]") {
+  for (const std::string method : {"newton", "newton-cg", "cg", "lbfgs"}) {
+    const Ended end = ended(with({"hard/soft_and_stiff",
+                                  {"material.soft.law=hencky", "material.stiff.law=hencky", "phase.max_motion=none",
+                                   "force=[{at=6, value=1e6}, {at=9, value=-1e6}, {at=10, value=0.6}]"}},
+                                 method));
+    CAPTURE(method, end.summary.reason);
+    CHECK((end.summary.status == RunStatus::failed || end.summary.status == RunStatus::unstable_equilibrium));
+    CHECK(end.summary.exit_status != 0);
+  }
+}
+
 // --- stop.distance --------------------------------------------------------------------------------
 
 TEST_CASE("a run that stops by the distance alone is in equilibrium and no further off than was asked",
