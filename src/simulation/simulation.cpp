@@ -288,7 +288,7 @@ class Simulation::Impl {
     work_scale_ = motion_->system.work_scale(motion_->u_vector);
     power_ = motion_->system.power(motion_->v_vector);
     kinetic_energy_ = motion_->system.kinetic_energy(motion_->v_vector);
-    if (schedule_.settled(t_)) error_bound_.loads_have_settled(kinetic_energy_);
+    if (schedule_.settled_for_good(t_)) error_bound_.loads_have_settled(kinetic_energy_);
   }
 
   bool has_distance() const { return model_.omega_1 && !model_.phase->info().updated_lagrangian; }
