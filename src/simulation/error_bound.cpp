@@ -22,7 +22,8 @@ std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const V
   size_ = relaxation.mass_norm(V, u);
   largest_ = std::max(largest_, std::min(size_, most_));
   const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
-  beside_largest_ = beside(largest_);
+  constexpr double next_to_nothing = 0.01;
+  beside_largest_ = beside(size_ > next_to_nothing * largest_ ? size_ : largest_);
   return beside(size_);
 }
 

@@ -20,7 +20,7 @@ class ErrorBound {
   ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1, std::optional<VolumeNorm> volume);
 
   std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u);
-  /// The last one beside the largest ‖u‖_V so far instead, which a body that is unloaded to nothing leaves behind.
+  /// The last one beside the largest ‖u‖_V so far instead, if that is a hundred times as large: unloaded to nothing.
   std::optional<double> beside_largest() const { return beside_largest_; }
   /// Nothing acts on the body from now on but what does now: a linear one, which cannot get any energy beyond what it
   /// then has, is no measure for itself where it still comes to be larger, as with a step that is not stable. After
