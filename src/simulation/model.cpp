@@ -21,6 +21,7 @@
 #include "simulation/notes.hpp"
 #include "simulation/stiffening_step.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
+#include "solvers/spectrum/local_damping_gain.hpp"
 
 namespace stillpoint {
 namespace {
@@ -103,8 +104,9 @@ void choose_step(const Scene& scene, Model& model) {
   const IntegratorSpec& spec = scene.integrator;
   const bool adaptive = spec.rtol.has_value();
   if (model.method.amplification) {
+    const double gain = local_damping_gain(*model.phase, 0, model.u, *model.damping, model.omega_max);
     const DampedSpectrum spectrum =
-        damped_spectrum(model.omega_1.value_or(0), model.omega_max, *model.damping, model.phase->mass());
+        damped_spectrum(model.omega_1.value_or(0), gain * model.omega_max, *model.damping, model.phase->mass());
     constexpr double longest = 1e3;  // of 1/omega_max: a step is never without a limit, though the method may have none
     model.critical_step = std::min(critical_step(model.method, *model.damping, spectrum), longest / model.omega_max);
   }

@@ -63,3 +63,19 @@ TEST_CASE("Jameson's method diverges with local damping at the step that is stab
     CHECK(outcome(way, {}) == RunStatus::equilibrium);
   }
 }
+
+TEST_CASE("with a consistent mass leapfrog's step is sharp under local damping as well", "[stability]") {
+  for (const std::string basis : {"linear", "cubic", "hermite"}) {
+    for (const std::string damping : {"cundall", "one-sided"}) {
+      for (const std::string fraction : {"0.98", "1.05"}) {
+        const Scene scene =
+            scenes::load("hard/cut_bar", {"constants.sliver=0", "mass.kind=consistent", "grid.basis=" + basis,
+                                          "damping.strategy=" + damping, "integrator.step_fraction=" + fraction,
+                                          beyond.back(), "stop.steps=8000"});
+        CAPTURE(basis, damping, fraction);
+        const RunStatus expected = fraction < "1" ? RunStatus::equilibrium : RunStatus::diverged;
+        CHECK(Simulation(scene, {.records = false}).run() == expected);
+      }
+    }
+  }
+}

@@ -206,7 +206,10 @@ TEST_CASE("a kick and a drift with Cundall's damping let motions grow from h = 2
     CAPTURE(alpha);
     const auto cundall = make_damping("cundall", 0, alpha), one_sided = make_damping("one-sided", 0, alpha);
     CHECK(switched_stability_limit(kick_drift, *cundall) == Approx(2 / std::sqrt(1 + alpha)).epsilon(5e-3));
-    CHECK(switched_stability_limit(kick_drift, *one_sided) == Approx(2).epsilon(5e-3));
+    // 2, but from √3 on, where three steps make a period, motions hardly meet one-sided damping: it is on the safe side
+    const double limit = switched_stability_limit(kick_drift, *one_sided);
+    CHECK(limit <= 2.01);
+    CHECK(limit >= 1.73);
   }
 }
 
