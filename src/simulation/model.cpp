@@ -21,6 +21,7 @@
 #include "simulation/notes.hpp"
 #include "simulation/stiffening_step.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
+#include "solvers/spectrum/local_damping_gain.hpp"
 
 namespace stillpoint {
 namespace {
@@ -103,10 +104,11 @@ void choose_step(const Scene& scene, Model& model) {
   const IntegratorSpec& spec = scene.integrator;
   const bool adaptive = spec.rtol.has_value();
   if (model.method.amplification) {
+    const double gain = local_damping_gain(*model.phase, 0, model.u, *model.damping, model.omega_max);
     const DampedSpectrum spectrum =
-        damped_spectrum(model.omega_1.value_or(0), model.omega_max, *model.damping, model.phase->mass());
+        damped_spectrum(model.omega_1.value_or(0), gain * model.omega_max, *model.damping, model.phase->mass());
     constexpr double longest = 1e3;  // of 1/omega_max: a step is never without a limit, though the method may have none
-    model.critical_step = std::min(critical_step(model.method.amplification, spectrum), longest / model.omega_max);
+    model.critical_step = std::min(critical_step(model.method, *model.damping, spectrum), longest / model.omega_max);
   }
   if (spec.step) {
     model.integrator.max_step = *spec.step;
@@ -198,8 +200,7 @@ double dwell_of(const Scene& scene, const Model& model) {
 double distance_goal_of(const Scene& scene, const Model& model) {
   constexpr double usual = 1e-3;
   const bool is_known = model.omega_1 && !model.phase->info().updated_lagrangian;
-  const bool is_newton = model.static_method && model.static_method->is_newton;  // quadratic: the residual is enough
-  const bool by_default = scene.stop.residual > 0 && is_known && !is_newton && !scene.where.contains("stop.distance");
+  const bool by_default = scene.stop.residual > 0 && is_known && !scene.where.contains("stop.distance");
   return by_default ? usual : scene.stop.distance;
 }
 
@@ -248,6 +249,8 @@ Model make_model(const Scene& scene) {
   if (!chooses_mass) model.omega_max = highest_frequency(scene, *model.phase, model.u);
   const Omega1Needs needs = omega_1_needs(scene, model, takes_c);
   if (needs.any()) find_omega_1(scene, needs, model);
+  if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian)
+    model.volume_norm = volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);
   if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
     model.notes.push_back(
         "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "

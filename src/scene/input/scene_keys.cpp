@@ -155,7 +155,7 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
   tables.add({"stop", "when a run ends; a test set to 0 is off"}, &Scene::stop)
       .key("residual", &StopSpec::residual, "|F - R|/|F| of equilibrium", {.range = kNotNegative})
       .key("distance", &StopSpec::distance,
-           "the certified |u - u*|/|u| in the M-norm; beside residual 1e-3 where omega_1 is known, unless given",
+           "the certified |u - u*|/|u| over the volume; beside residual 1e-3 where omega_1 is known, unless given",
            {.range = kNotNegative})
       .key("kinetic_energy", &StopSpec::kinetic_energy, "besides: its share of the largest so far",
            {.range = kNotNegative})

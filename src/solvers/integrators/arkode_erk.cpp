@@ -303,6 +303,7 @@ std::vector<Method> erk_methods() {
     method.evaluations_per_step = effective_stages(table);
     method.adaptive = !table.b_embedded.empty();
     method.amplification = amplification_of(table);
+    method.oscillator_step = oscillator_step_of(table);
     methods.push_back(std::move(method));
   }
   return methods;

@@ -1,8 +1,10 @@
 #include <stillpoint/stability.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -103,6 +105,49 @@ double critical_step(const AmplificationRadius& amplification, const DampedSpect
     }
   }
   return h;
+}
+
+namespace {
+
+// Whether no motion grows: by the largest ‖y‖ in the first half of many steps and in the second, from phases all around
+// half the circle; the other half is the same with all signs changed, and lengths are no matter: D(v, s Q) = s D(v, Q).
+bool every_phase_decays(const OscillatorStep& step, const Damping& local, double h) {
+  constexpr int phases = 24, steps = 200;
+  constexpr double rounding = 1e-9;
+  for (int k = 0; k < phases; ++k) {
+    const double phase = std::numbers::pi * (k + 0.5) / phases;
+    std::array<double, 2> y = {std::cos(phase), std::sin(phase)};
+    double log_size = 0, before = 0, after = -std::numeric_limits<double>::infinity();
+    for (int n = 0; n < steps; ++n) {
+      step(h, local, y);
+      const double length = std::hypot(y[0], y[1]);
+      if (length == 0) break;
+      if (!std::isfinite(length)) return false;
+      log_size += std::log(length);
+      double& most = n < steps / 2 ? before : after;
+      most = std::max(most, log_size);
+      for (double& value : y) value /= length;
+    }
+    if (after > before + rounding) return false;  // there are motions that D never meets
+  }
+  return true;
+}
+
+}  // namespace
+
+double switched_stability_limit(const OscillatorStep& step, const Damping& local) {
+  constexpr double first = 0.2, ratio = 1.02, last = 100, accuracy = 1e-3;
+  double good = 0, bad = first;
+  while (every_phase_decays(step, local, bad)) {
+    good = bad;
+    bad *= ratio;
+    if (bad > last) return last;
+  }
+  while (good > 0 && bad - good > accuracy * bad) {
+    const double middle = (good + bad) / 2;
+    (every_phase_decays(step, local, middle) ? good : bad) = middle;
+  }
+  return good;
 }
 
 double stability_limit(const AmplificationRadius& amplification, double zeta) {
