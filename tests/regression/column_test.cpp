@@ -202,7 +202,7 @@ TEST_CASE("in many phases the linear column at points settles too far, the less 
   // much as the share of its length that the points in it stand for.
   const auto off = [](const std::string& points) {
     auto overrides = at_large_strain("hencky", "plane-strain");
-    overrides.insert(overrides.end(), {"body.points_per_cell=" + points, "phase.quadrature=points"});
+    overrides.push_back("body.points_per_cell=" + points);
     return in_phases("hencky", overrides).off;
   };
   const double coarse = off("4"), fine = off("36");
@@ -212,16 +212,18 @@ TEST_CASE("in many phases the linear column at points settles too far, the less 
 }
 
 TEST_CASE("a run of elastic points in many phases says what a linear basis costs them, and no other run does") {
-  const auto warns = [](const std::string& basis, const std::string& phase) {
-    const Scene scene =
-        scenes::load("column", {"material.soil.law=hencky", "grid.basis=" + basis, "phase={" + phase + "}"});
+  const auto warns = [](const std::string& basis, std::optional<double> max_motion,
+                        Quadrature quadrature = Quadrature::points) {
+    Scene scene = scenes::load("column", {"material.soil.law=hencky", "grid.basis=" + basis});
+    scene.phase.max_motion = max_motion;
+    scene.phase.quadrature = quadrature;
     for (const std::string& note : make_model(scene).notes) {
       if (note.find("points cross the cells of a linear basis") != std::string::npos) return true;
     }
     return false;
   };
-  CHECK(warns("linear", "max_motion=0.1, quadrature='points'"));
-  CHECK_FALSE(warns("linear", "max_motion=0.1"));
-  CHECK_FALSE(warns("quadratic", "max_motion=0.1, quadrature='points'"));
-  CHECK_FALSE(warns("linear", "max_motion='none'"));
+  CHECK(warns("linear", 0.1));
+  CHECK_FALSE(warns("linear", 0.1, Quadrature::domains));
+  CHECK_FALSE(warns("quadratic", 0.1));
+  CHECK_FALSE(warns("linear", std::nullopt));
 }

@@ -133,7 +133,8 @@ at = [10, 5.5]
 fields = ["u.x", "u.y"]
 )";
 
-/// Bent by that load in one phase and in many: the same at the end, to 0.5 % of its deflection. With phases it is taken
+/// Bent by that load in one phase and in many: the same at the end, to 0.7 % of its deflection: the mean strains of
+/// twelve domains one above the other bend the more easily by 1/12² = 0.7 %. With phases it is taken
 /// for resting when it has no energy left: functions that hardly reach it go on to settle from phase to phase.
 void check_bends_alike(const std::string& load) {
   const Summary one = run_text(beam, {load});
@@ -146,7 +147,7 @@ void check_bends_alike(const std::string& load) {
   CHECK(size > 2.5);
   CHECK(many.kinetic_energy < 1e-6 * size);
   for (const char* u : {"u.x", "u.y"})
-    CHECK_THAT(scenes::probe(many, "end", u), Catch::Matchers::WithinAbs(scenes::probe(one, "end", u), 0.005 * size));
+    CHECK_THAT(scenes::probe(many, "end", u), Catch::Matchers::WithinAbs(scenes::probe(one, "end", u), 0.007 * size));
 }
 
 }  // namespace

@@ -109,7 +109,11 @@ struct CarriedPoint {
     }
     const auto gradients = phase.weights.dN(k, p);
     for (int a = 0; a < per_cell; ++a) {
-      for (int j = 0; j < dim; ++j) dN[j][a] = gradients[per_cell * j + a];
+      for (int j = 0; j < dim; ++j) {
+        dN[j][a] = gradients[per_cell * j + a];
+        // Where the domain was shrunk: the moment is still that of x.
+        for (int c = 0; c < domain.corners; ++c) w[a] += share[c] * (domain.x[c][j] - in_grid.x[c][j]) * dN[j][a];
+      }
       const bool acts = phase.dofs.number[static_cast<std::size_t>(dim * phase.weights.function(k, a))] >= 0;
       if (acts) function[a] = phase.weights.function(k, a);
     }
