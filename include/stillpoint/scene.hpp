@@ -95,6 +95,7 @@ struct PhaseSpec {  // [phase]: when the points move on and the grid starts agai
   double flip_share = 1;  // of "flip": 1 takes increments of the nodal velocity, 0 the velocity itself
   int xpic_order = 5;     // of "xpic": m
   DeformationRule deformation = DeformationRule::positions;
+  Quadrature quadrature = Quadrature::points;
 };
 
 struct MassSpec {  // [mass]

@@ -251,7 +251,12 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("xpic_order", &PhaseSpec::xpic_order, "of xpic", {.range = from(1, 20)})
       .key("deformation", &PhaseSpec::deformation,
            "of elastic points when a phase begins: from where they are, or multiplied up from phase to phase",
-           {.words = {"positions", "accumulated"}, .fallback = "positions; accumulated on a linear basis"});
+           {.words = {"positions", "accumulated"}, .fallback = "positions; accumulated at points of a linear basis"})
+      .key("quadrature", &PhaseSpec::quadrature,
+           "functions are taken at the points, or interpolated over the domains that they stand for",
+           {.words = {"points", "domains"},
+            .fallback =
+                "domains for elastic boxes of uniform points on a line or in a plane, if damped; otherwise points"});
   add_boundary(tables);
   add_states(tables);
   add_method(tables, catalogue);

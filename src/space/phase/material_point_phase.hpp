@@ -145,6 +145,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   std::vector<double> impulse(const std::vector<double>& grid_v) const;
   void keep_spin(const std::vector<double>& grid_v);
   void end_phase(double t, ConstVec u, ConstVec v);
+  void move_corners(std::size_t k, std::size_t p);
   bool check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u, double t) const;
 
   bool is_within_phase(ConstVec u, const double* grid_u) const;

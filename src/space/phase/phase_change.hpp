@@ -166,10 +166,27 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   for_each_block(body_.points.cells(), [&](std::size_t k) {
     for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
       const auto u_p = weights_.value(grid_u_.data(), k, p);
+      if constexpr (B::window > 1) move_corners(k, p);
       for (int d = 0; d < Dim; ++d) body_.points.x[d][p] += u_p[d];
     }
   });
   for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
+}
+
+// x_c += Σ_i N_i(x_c) u_i
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::move_corners(std::size_t k, std::size_t p) {
+  const auto cell = grid_.cell_at(body_.points.cell[k]);
+  const auto domain = Domain<Dim>::in_grid(body_.points, p, grid_);
+  for (int c = 0; c < domain.corners; ++c) {
+    const auto at_corner = Basis::evaluate(grid_, cell, domain.x[c]);
+    for (int d = 0; d < Dim; ++d) {
+      double u_c = 0;
+      for (int a = 0; a < per_cell; ++a)
+        u_c += at_corner.N[a] * grid_u_[static_cast<std::size_t>(Dim * weights_.function(k, a) + d)];
+      body_.points.corner[Dim * c + d][p] += u_c;
+    }
+  }
 }
 
 // Throws PointLost if u takes a point out of the next grid. Whether one has to be put back onto a face.
