@@ -15,7 +15,9 @@
 #include "simulation/chatter.hpp"
 #include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
+#include "simulation/failure.hpp"
 #include "simulation/load_schedule.hpp"
+#include "simulation/mechanism.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
 #include "simulation/notes.hpp"
@@ -179,6 +181,7 @@ class Simulation::Impl {
     return s;
   }
 
+  Moment now() const { return {t_, steps(), phases_}; }
   long steps() const { return earlier_steps_ + motion_->integrator->steps(); }
   long evaluations() const { return earlier_evaluations_ + motion_->system.evaluations(); }
 
@@ -192,6 +195,7 @@ class Simulation::Impl {
   LoadSchedule schedule_;
   Chatter chatter_;
   Overshoot overshoot_;
+  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1};
   std::optional<Recorder> recorder_;
 
   std::optional<PhaseMotion> motion_;  // of the present phase
@@ -210,7 +214,7 @@ class Simulation::Impl {
     if (report.status != StepReport::Status::ok) {
       if (report.status == StepReport::Status::inadmissible && try_next_phase()) return;
       status_ = status_of(report.status);
-      reason_ = report.message;
+      reason_ = failure_of_step(scene_, *model_.phase, now(), report);
       sample(true);  // the last good state
       return;
     }
@@ -264,10 +268,10 @@ class Simulation::Impl {
       tell_phase_change(true);
     } catch (const PointLost& lost) {
       status_ = RunStatus::failed;
-      reason_ = lost.what();
+      reason_ = failure(now(), lost.what());
     } catch (const SceneError& error) {  // no bad input: that was looked at before the run
       status_ = RunStatus::failed;
-      reason_ = fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what());
+      reason_ = failure(now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what()));
       is_readable_ = false;
     }
   }
@@ -317,6 +321,13 @@ class Simulation::Impl {
     overshoot_.sample(t_, power_);
   }
 
+  void look_for_mechanism() {
+    const auto found = mechanism_.look(*model_.phase, t_, motion_->u(), evaluations());
+    if (!found) return;
+    status_ = RunStatus::failed;
+    reason_ = failure(now(), to_string(*found));
+  }
+
   void watch() {
     if (monitor_.due(t_)) {
       follow_period();
@@ -327,7 +338,8 @@ class Simulation::Impl {
       status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
     }
     if (!done()) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
-    reason_ = monitor_.reason();
+    reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
+    if (!done() && schedule_.settled(t_)) look_for_mechanism();
     if (!done() && options_.interrupted && options_.interrupted()) {
       status_ = RunStatus::interrupted;
       reason_ = "interrupted by the user; the step was finished";
@@ -362,8 +374,16 @@ class Simulation::Impl {
     if (writes) write_mode(stability_, *model_.phase, t_, motion_->u(), options_.out);
   }
 
+  // Limits that came before equilibrium say no more than that.
+  void say_what_moves() {
+    const bool is_limit =
+        status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
+    if (is_limit && exit_status_of(status_, scene_) != 0) reason_ += "; " + furthest_from_rest(*motion_, t_);
+  }
+
   void finish() {
     if (is_readable_) motion_->finish(t_);
+    if (is_readable_) say_what_moves();
     test_stability();
     if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
   }

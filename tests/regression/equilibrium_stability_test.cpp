@@ -1,6 +1,7 @@
 // An equilibrium that the least disturbance ends is none to be reported as such.
 #include "simulation/equilibrium_stability.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <sstream>

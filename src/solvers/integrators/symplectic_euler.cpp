@@ -43,7 +43,7 @@ class SymplecticEuler final : public SteppingIntegrator {
   void restart(double t, const Vector& /*y*/) override { system().last_out_of_balance(t, Q_.span()); }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span());
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
 
@@ -55,9 +55,8 @@ class SymplecticEuler final : public SteppingIntegrator {
       u_new[i] = u[i] + h * v_new[i];
     });
     force_is_current_ = false;
-    if (!system().out_of_balance(t + h, u_new, next_Q_.span())) {
-      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-    }
+    if (!system().out_of_balance(t + h, u_new, next_Q_.span()))
+      return {.status = StepReport::Status::inadmissible, .h = h};
     return {.h = h};
   }
 
