@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace stillpoint {
 
@@ -32,6 +33,9 @@ class RelaxationSystem {
   bool out_of_balance(double t, ConstVec u, Vec Q);
   /// The same from the last evaluation, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
+  /// Why the last evaluation was refused, and where.
+  std::string refusal() const;
+  bool went_too_far() const { return trial_->too_far; }
   /// Q += D(v, Q) of local damping, except if a contact holds; v, Q: (n), Q as the two above leave it.
   void add_local_damping(ConstVec v, Vec Q) const;
 

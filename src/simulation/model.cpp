@@ -18,6 +18,7 @@
 #include "simulation/highest_frequency.hpp"
 #include "simulation/load_notes.hpp"
 #include "simulation/load_schedule.hpp"
+#include "simulation/mechanism.hpp"
 #include "simulation/notes.hpp"
 #include "simulation/stiffening_step.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
@@ -31,9 +32,9 @@ constexpr double two_pi = 2 * std::numbers::pi;
 // Whether R can be evaluated where the motion begins.
 void check_initial_state(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   std::vector<double> R(phase.size());
-  if (phase.internal_force(0, u, R, *phase.make_trial())) return;
-  throw_scene_error(scene, "initial",
-                    "the initial state cannot be evaluated: det f <= 0 or a stress that is not finite");
+  const auto trial = phase.make_trial();
+  if (phase.internal_force(0, u, R, *trial)) return;
+  throw_scene_error(scene, "initial", "the initial state cannot be evaluated: " + phase.diagnosis().refusal(*trial));
 }
 
 void check_probes(const Scene& scene, const LagrangianPhase& phase) {
@@ -167,6 +168,7 @@ void find_omega_1(const Scene& scene, const Omega1Needs& needs, Model& model) {
                         std::back_inserter(model.notes));
     return;
   }
+  refuse_mechanism(scene, *model.phase, model.u);
   if (needs.distance) {
     throw_scene_error(
         scene, "stop.distance",
@@ -263,6 +265,11 @@ Model make_model(const Scene& scene) {
   choose_strategy(scene, takes_c, model);
   if (!model.static_method) set_tolerances(scene, model);
   choose_step(scene, model);
+  if (takes_c && model.omega_1) {
+    const double c = model.damping->linear().mass;
+    if (const auto note = slow_damping_note(scene, c, *model.omega_1, model.integrator.max_step))
+      model.notes.push_back(*note);
+  }
   model.relaxing.max_step = model.integrator.max_step;
   if (model.phase->info().stiffens && !scene.integrator.step) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);

@@ -3,6 +3,7 @@
 #include <stillpoint/damping.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
@@ -162,6 +163,27 @@ std::optional<std::string> null_space_note(const Scene& scene, const LagrangianP
                            : "take more points per cell or smaller cells";
   return fmt::format("{:.2g} of the points' stresses varies faster than the grid's functions, which do not feel it: {}",
                      null_space_stress, remedy);
+}
+
+// The slowest mode dies out like e^{−s t},  s² − c s + ω₁² = 0.
+std::optional<std::string> slow_damping_note(const Scene& scene, double c, double omega_1, double step) {
+  if (!scene.stop.wants_equilibrium() || !(c > 0) || !(omega_1 > 0) || !(step > 0)) return std::nullopt;
+  const double half = c / 2;
+  const double slowest =
+      half <= omega_1 ? half : omega_1 / half * omega_1 / (1 + std::sqrt((1 - omega_1 / half) * (1 + omega_1 / half)));
+  constexpr double usual = 1e-6;  // if only the distance is asked for
+  const double time = -std::log(scene.stop.residual > 0 ? std::min(scene.stop.residual, 0.5) : usual) / slowest;
+  const double steps = time / step;
+  std::string limit;
+  if (scene.stop.time > 0 && time > scene.stop.time) limit = fmt::format("stop.time is {:.6g} s", scene.stop.time);
+  if (scene.stop.steps > 0 && steps > static_cast<double>(scene.stop.steps))
+    limit = fmt::format("stop.steps is {}", scene.stop.steps);
+  if (limit.empty()) return std::nullopt;
+  return fmt::format(
+      "damping.c = {:.4g} is {:.2g} times the critical damping: the body would come to rest in {:.2g} s or {:.2g} "
+      "steps, "
+      "and {}; expected damping.c = \"critical\"",
+      c, half / omega_1, time, steps, limit);
 }
 
 std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance) {

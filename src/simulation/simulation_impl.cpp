@@ -81,7 +81,7 @@ void Simulation::Impl::take_step(double t_stop) {
   if (report.status != StepReport::Status::ok) {
     if (report.status == StepReport::Status::inadmissible && try_next_phase()) return;
     status_ = status_of(report.status);
-    reason_ = report.message;
+    reason_ = failure_of_step(scene_, *model_.phase, now(), report);
     sample(true);  // the last good state
     return;
   }
@@ -124,10 +124,10 @@ void Simulation::Impl::next_phase() {
     tell_phase_change(true);
   } catch (const PointLost& lost) {
     status_ = RunStatus::failed;
-    reason_ = lost.what();
+    reason_ = failure(now(), lost.what());
   } catch (const SceneError& error) {  // no bad input: that was looked at before the run
     status_ = RunStatus::failed;
-    reason_ = fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what());
+    reason_ = failure(now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what()));
     is_readable_ = false;
   }
 }
@@ -186,7 +186,8 @@ void Simulation::Impl::watch() {
     status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps(), wall_.seconds());
-  reason_ = monitor_.reason();
+  reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
+  if (!done() && schedule_.settled(t_)) look_for_mechanism();
   if (!done() && options_.interrupted && options_.interrupted()) {
     status_ = RunStatus::interrupted;
     reason_ = "interrupted by the user; the step was finished";
@@ -197,6 +198,13 @@ void Simulation::Impl::watch_overshoot() {
   if (!options_.stops || !overshoot_.due(t_)) return;
   measure();
   overshoot_.sample(t_, power_);
+}
+
+void Simulation::Impl::look_for_mechanism() {
+  const auto found = mechanism_.look(*model_.phase, t_, motion_->u(), evaluations());
+  if (!found) return;
+  status_ = RunStatus::failed;
+  reason_ = failure(now(), to_string(*found));
 }
 
 bool Simulation::Impl::watches_chatter() const {
@@ -235,6 +243,13 @@ void Simulation::Impl::report_progress() {
   options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
 }
 
+// Limits that came before equilibrium say no more than that.
+void Simulation::Impl::say_what_moves() {
+  const bool is_limit =
+      status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
+  if (is_limit && exit_status() != 0) reason_ += "; " + furthest_from_rest(*motion_, t_);
+}
+
 // What claims to be an equilibrium may be one that the least disturbance ends.
 void Simulation::Impl::test_stability() {
   const bool writes = recorder_ && !options_.out.empty();
@@ -253,6 +268,7 @@ void Simulation::Impl::test_stability() {
 
 void Simulation::Impl::finish() {
   if (is_readable_) motion_->finish(t_);
+  if (is_readable_) say_what_moves();
   test_stability();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
 }

@@ -65,6 +65,8 @@ void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
   if (const Contact* contact = system_.contact()) contact->add_force(t, linear_, Q);
 }
 
+std::string RelaxationSystem::refusal() const { return system_.diagnosis().refusal(*trial_); }
+
 void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
   if (!damping_.is_local()) return;
   if (damping_.uses_last_force()) {

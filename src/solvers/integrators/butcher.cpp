@@ -63,12 +63,10 @@ int effective_stages(const ButcherTable& table) { return table.stages - (first_s
 
 AmplificationRadius amplification_of(const ButcherTable& table) {
   return [r = stability_polynomial(table)](double h, double omega, double rate) {
-    // λ = −rate/2 ± √((rate/2)² − omega²)
-    const double half_rate = rate / 2, discriminant = (half_rate - omega) * (half_rate + omega);
-    if (discriminant < 0) {
-      return modulus(r, std::complex<double>(-h * half_rate, h * std::sqrt(-discriminant)));  // the same for both
-    }
-    const double fast = -(half_rate + std::sqrt(discriminant));
+    // λ = −rate/2 ± √((rate/2)² − omega²), no square of which overflows
+    const double half_rate = rate / 2, root = std::sqrt(std::abs(half_rate - omega)) * std::sqrt(half_rate + omega);
+    if (half_rate < omega) return modulus(r, std::complex<double>(-h * half_rate, h * root));  // the same for both
+    const double fast = -(half_rate + root);
     const double slow = fast == 0 ? 0 : omega * omega / fast;  // λ₁ λ₂ = omega², without cancellation
     return std::max(modulus(r, h * fast), modulus(r, h * slow));
   };

@@ -153,7 +153,7 @@ class Gsl final : public SteppingIntegrator {
   }
 
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const QuietErrors quiet;
     std::ranges::copy(std::as_const(y).span(), trial.span().begin());
     return adaptive() ? adaptive_step(t, h, t_stop, trial.span().data()) : fixed_step(t, h, trial.span().data());
@@ -189,9 +189,7 @@ class Gsl final : public SteppingIntegrator {
   }
 
   Attempt failure(int code, double h) const {
-    if (code == GSL_EBADFUNC) {
-      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-    }
+    if (code == GSL_EBADFUNC) return {.status = StepReport::Status::inadmissible, .h = h};
     return {.status = StepReport::Status::failed, .h = h, .message = fmt::format("GSL: {}", gsl_strerror(code))};
   }
 

@@ -46,7 +46,7 @@ class SymplecticEuler final : public SteppingIntegrator {
   }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span());
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
 
@@ -57,9 +57,7 @@ class SymplecticEuler final : public SteppingIntegrator {
       u_new[i] = u[i] + h * v_new[i];
     });
     force_is_current_ = false;
-    if (!evaluate(t + h, trial.span(), next_Q_.span())) {
-      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-    }
+    if (!evaluate(t + h, trial.span(), next_Q_.span())) return {.status = StepReport::Status::inadmissible, .h = h};
     return {.h = h};
   }
 

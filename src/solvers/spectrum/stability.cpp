@@ -16,21 +16,22 @@ namespace {
 // Stable means a growth per step of at most this. Where |R(iy)| leaves 1 at once but slowly (orders 5 and 6: like y⁶)
 // the limit is where the growth passes it: 0.02 … 0.04 for Cash–Karp and the like.
 constexpr double growth = 1e-12;
-// The scan in r = h |λ|: where it starts, its relative step, and where it gives up looking for a limit, there of h
-// omega: beside a large damping rate leapfrog's limit is 2/omega still, at a large r. A method that is unstable at the
-// start has no stable step: Heun–Euler on the imaginary axis.
-constexpr double r_first = 0.01, r_ratio = 1.02, r_last = 1e3;
+// The scan in r = h |λ|: where it starts, its relative step, and where it gives up looking for a limit. A method that
+// is unstable at the start has no stable step: Heun–Euler on the imaginary axis. Beside a large damping rate leapfrog's
+// limit is 2/omega still, at a large r: what stands up to the damping is looked at again in r = h omega, with a rate at
+// which growth can still be told from rounding.
+constexpr double r_first = 0.01, r_ratio = 1.02, r_last = 1e3, most_rate = 1e6;
 
 // The larger |λ| of λ² + rate λ + omega² = 0.
 double spectral_radius(double omega, double rate) {
   const double half = rate / 2;
-  return half <= omega ? omega : half + std::sqrt((half - omega) * (half + omega));
+  return half <= omega ? omega : half * (1 + std::sqrt((1 - omega / half) * (1 + omega / half)));
 }
 
-// The largest h ≤ h_max such that every step of the scan up to h is stable; h_max if none fails.
-double largest_stable_step(const AmplificationRadius& amplification, double omega, double rate, double h_max) {
+// The largest h ≤ h_max such that every step of a scan from h_first to h is stable; h_max if none fails.
+double scan(const AmplificationRadius& amplification, double omega, double rate, double h_first, double h_max) {
   const auto stable = [&](double h) { return amplification(h, omega, rate) <= 1 + growth; };  // false for NaN
-  double good = 0, bad = std::min(h_max, r_first / spectral_radius(omega, rate));
+  double good = 0, bad = std::min(h_max, h_first);
   while (stable(bad)) {
     if (bad >= h_max) return h_max;
     good = bad;
@@ -42,6 +43,13 @@ double largest_stable_step(const AmplificationRadius& amplification, double omeg
     (stable(middle) ? good : bad) = middle;
   }
   return good;
+}
+
+double largest_stable_step(const AmplificationRadius& amplification, double omega, double rate, double h_max) {
+  const double radius = spectral_radius(omega, rate), past_damping = std::min(h_max, r_last / radius);
+  const double h = scan(amplification, omega, rate, r_first / radius, past_damping);
+  if (h < past_damping || h >= h_max) return h;
+  return scan(amplification, omega, std::min(rate, most_rate * omega), std::max(h, r_first / omega), h_max);
 }
 
 // a = x_0 < … < x_m = b in geometric progression, each x_k/x_{k−1} ≤ ratio and at least `fewest` of them; a ≥ 0, and

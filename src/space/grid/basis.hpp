@@ -84,6 +84,8 @@ struct CubicHermite {
   static constexpr bool is_value(int a) { return a % 2 == 0; }
   static int count(const Axis& axis) { return 2 * (axis.cells() + 1); }
   static int first(int cell) { return 2 * cell; }
+  /// The node that a function belongs to.
+  static double centre(const Axis& axis, int function) { return axis.nodes[static_cast<std::size_t>(function / 2)]; }
 
   // With s = (x − x_c)/h:  1 − 3s² + 2s³,  h s(1 − s)²,  3s² − 2s³,  −h s²(1 − s)
   static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {

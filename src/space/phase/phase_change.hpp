@@ -41,7 +41,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   spread(t, u, grid_u_);
   // Before anything changes: a run that ends here shows the state it had.
   const GridFaces<Dim> faces(scene_, next_grid);
-  const bool some_past_a_face = check_inside(next_grid, faces, grid_u_, t);
+  const bool some_past_a_face = check_inside(next_grid, faces, grid_u_);
   motion_since_deformation_ += largest_motion(u);
   end_phase(t, u, v);
   if (some_past_a_face) faces.put_back(body_.points);
@@ -191,8 +191,8 @@ void MaterialPointPhase<B, K>::move_corners(std::size_t k, std::size_t p) {
 
 // Throws PointLost if u takes a point out of the next grid. Whether one has to be put back onto a face.
 template <AxisBasis B, Kinematics K>
-bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u,
-                                            double t) const {
+bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces,
+                                            ConstVec grid_u) const {
   const auto where_to = [&](std::size_t k, std::size_t p) {
     Point<Dim> x = body_.points.position(p);
     const auto u_p = weights_.value(grid_u.data(), k, p);
@@ -219,9 +219,8 @@ bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const Gr
         const Axis& axis = next_grid.axes[d];
         if (faces.keeps(d, x[d])) continue;
         throw PointLost(fmt::format(
-            "at t = {:.6g} s material point {} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected "
-            "a larger grid, a support or a wall",
-            t, body_.points.number[p] + 1, "xyz"[d], x[d], axis.min(), axis.max()));
+            "{} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected a larger grid, a support or a wall",
+            to_string(place(k, p)), "xyz"[d], x[d], axis.min(), axis.max()));
       }
     }
   }

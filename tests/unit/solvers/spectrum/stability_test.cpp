@@ -129,6 +129,16 @@ TEST_CASE("a method that is always stable has no limit") {
   CHECK(critical_step(implicit, {0.1, 1, 0, 0, 1}) == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("beside a damping rate of any size leapfrog keeps 2/omega and a Runge-Kutta method its limit over the rate") {
+  for (const double rate : {1e4, 1e8, 1e20, 1e160, 1e300}) {
+    CAPTURE(rate);
+    CHECK(critical_step(leapfrog, {1, 50, rate, rate, 1}) == Approx(2. / 50).epsilon(1e-6));
+    // |1 + z + z²/2 + z³/6 + z⁴/24| = 1 at z = −2.78529356
+    CHECK(rate * critical_step(amplification_of(classical_rk4()), {1, 50, rate, rate, 1}) ==
+          Approx(2.78529356).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("an amplification that is not a number is not stable") {
   const AmplificationRadius broken = [](double, double, double) { return std::nan(""); };
   CHECK(stability_limit(broken, 0) == 0);
