@@ -1,7 +1,8 @@
 """Random variations of hard cases: sizes, moduli, laws, bases, points, phases and ways to rest, by a seed.
 
 Variation k of a seed is always the same scene, whatever the number of variations. Each has an answer that is known:
-Newton's method on the same points, or the closed answer of a column in many phases.
+Newton's method on the same points, a slow ramp of the load where they yield, or the closed answer of a column in many
+phases.
 """
 
 import random
@@ -190,7 +191,123 @@ def two_blocks(r):
     return text + f"[body_force]\nvalue = [{number(0.2 * g)}, {number(-g)}]\n" + damping(), "newton"
 
 
-FAMILIES = [bar, bar, stretched_bar, column_in_phases, column_in_phases, block, block, two_blocks]
+def bodies_in_a_row(r):
+    """Several bodies of very different density and stiffness, each on the one before, at small strain or large."""
+    n, per, h, E = r.randint(2, 4), r.randint(1, 3), log_uniform(r, 1e-2, 10), log_uniform(r, 1e-1, 1e9)
+    finite = r.random() < 0.4
+    text, basis = "", r.choice(["linear", "quadratic"])
+    for number_ in range(n):
+        _, kind, nu, _ = law(r, "m", E, finite)
+        rho = log_uniform(r, 1e-3, 1e3)
+        text += table(
+            f"[material.m{number_}]", law=quoted(kind), E=number(E * log_uniform(r, 1e-4, 1e4)), nu=nu, rho=number(rho)
+        )
+        text += table(
+            "[[body]]", min=f"[0.0, {h * per * number_}]", max=f"[{2 * h}, {h * per * (number_ + 1)}]",
+            material=quoted(f"m{number_}"), state=quoted("plane-strain"), points_per_cell="[3, 3]",
+        )  # fmt: skip
+        size = log_uniform(r, 1e-8, 1e-3) * E * h
+        text += f"[[force]]\nat = [{h}, {h * per * (number_ + 1)}]\nvalue = [{number(size * r.uniform(-1, 1))}, {number(-size)}]\n"
+    text = plane_grid(2, n * per, h, basis) + text + mass(r) + table("[[support]]", face=quoted("bottom"))
+    return text + table("[phase]", max_motion=quoted("none")) + damping(), "newton"
+
+
+def moved_support(r):
+    """A block whose top or side is moved, with no load or a small one."""
+    basis, finite = r.choice(["linear", "quadratic"]), r.random() < 0.5
+    nx, ny, h, E = r.randint(2, 6), r.randint(2, 6), log_uniform(r, 1e-2, 10), log_uniform(r, 1e-1, 1e9)
+    material, _, _, rho = law(r, "m", E, finite)
+    n = points_of(r, basis) + 1
+    text = plane_grid(nx, ny, h, basis) + table(
+        "[body]", material=quoted("m"), state=quoted("plane-strain"), points_per_cell=f"[{n}, {n}]"
+    )
+    text += material + mass(r) + table("[[support]]", face=quoted("bottom"))
+    u = h * r.choice([-1, 1]) * log_uniform(r, 1e-4, 0.5 if finite else 1e-2)
+    moved = quoted(number(u) if r.random() < 0.5 else f"{number(u)}*min(t, 1)")
+    kind = r.choice(["fixed", "roller"])
+    text += table("[[support]]", face=quoted(r.choice(["top", "top", "left"])), kind=quoted(kind), u=moved)
+    if r.random() < 0.5:
+        g = number(-log_uniform(r, 1e-6, 1e-3) * E / (rho * h))
+        text += f"[body_force]\nvalue = [0.0, {g}]\n"
+    time = "" if "min" not in moved else "time = 1e6\n"  # the loads at the end, for who takes them there
+    return text + table("[phase]", max_motion=quoted("none")) + damping() + time, "newton"
+
+
+def pinned_shape(r):
+    """A polygon that cuts its cells, on a pinned corner and a roller, under a point force, a traction or its weight."""
+    basis, n, h, E = r.choice(["linear", "quadratic"]), r.randint(3, 8), log_uniform(r, 1e-2, 10), log_uniform(r, 1, 1e9)
+    material, _, _, rho = law(r, "m", E, False)
+    h = float(number(h))
+    l, top = h * n, h * n * r.uniform(0.55, 0.95)
+    corners = r.choice([
+        [[0, 0], [l, 0], [l, top], [0, l]],
+        [[0, 0], [l, 0], [l, l / 2], [l / 2, l / 2], [l / 2, l], [0, l]],
+        [[0, 0], [l, 0], [top, l], [l - top, l]],
+    ])  # fmt: skip
+    text = plane_grid(n, n, h, basis) + table(
+        "[body]", polygon=str(corners), material=quoted("m"),
+        state=quoted(r.choice(["plane-strain", "plane-stress"])), points_per_cell="[3, 3]",
+    )  # fmt: skip
+    text += material + mass(r)
+    if r.random() < 0.5:
+        text += table("[[support]]", face=quoted("bottom"), kind=quoted("roller"))
+        text += table("[[support]]", at="[0.0, 0.0]", component=0)
+    else:
+        text += table("[[support]]", face=quoted("bottom"))
+    size = log_uniform(r, 1e-6, 1e-3) * E
+    if r.random() < 0.5:
+        text += f"[[force]]\nat = [{number(0.49 * l)}, {number(0.49 * l)}]\nvalue = [{number(size * h)}, {number(-size * h)}]\n"
+    else:
+        text += f"[body_force]\nvalue = [{number(0.3 * size / (rho * l))}, {number(-size / (rho * l))}]\n"
+    return text + damping(), "newton"
+
+
+def two_materials_at_large_strain(r):
+    """A soft bar and a stiff one, with forces on the stiff one that nearly balance."""
+    cells, E = r.choice([6, 10, 16]), log_uniform(r, 1e-1, 1e6)
+    contrast, kind, half = log_uniform(r, 10, 1e6), r.choice(["neo-hookean", "hencky"]), cells // 2
+    text = table("[grid]", min=0.0, max=cells, cells=cells, basis=quoted(r.choice(["linear", "quadratic"])))
+    for number_, (low, high, stiffness) in enumerate([(0, half, E), (half, cells, E * contrast)]):
+        rho = log_uniform(r, 1e-2, 1e2)
+        text += table(f"[material.m{number_}]", law=quoted(kind), E=number(stiffness), nu=0.2, rho=number(rho))
+        text += table(
+            "[[body]]", min=low, max=high, material=quoted(f"m{number_}"), state=quoted("uniaxial-strain"),
+            points_per_cell=4,
+        )  # fmt: skip
+    large = E * contrast * log_uniform(r, 1e-3, 0.3)
+    for at, value in ((half + 1, large), (cells - 1, -large), (cells, E * r.uniform(-0.5, 0.5))):
+        text += table("[[force]]", at=at, value=number(value))
+    return text + mass(r) + table("[[support]]", at=0.0) + table("[phase]", max_motion=quoted("none")) + damping(), "newton"
+
+
+def yielding_column(r):
+    """Ground that yields under its weight or a load, in one phase; a slow ramp of the load is the answer."""
+    n, h, E, phi = r.randint(3, 8), log_uniform(r, 0.1, 2), log_uniform(r, 1e6, 1e9), r.choice([0, 10, 20, 30])
+    rho, nu = log_uniform(r, 1e2, 1e4), r.choice([0.2, 0.3, 0.4])
+    load = E * log_uniform(r, 1e-4, 3e-3)
+    text = plane_grid(n, n, h, r.choice(["linear", "quadratic"]))
+    text += table(
+        "[material.m]", law=quoted("drucker-prager"), E=number(E), nu=nu, rho=number(rho), phi=phi,
+        psi=r.choice([0, phi]), c=number(load * r.uniform(0.05, 0.6)),
+    )  # fmt: skip
+    text += table("[body]", material=quoted("m"), state=quoted("plane-strain"), points_per_cell="[3, 3]")
+    text += mass(r) + table("[[support]]", face=quoted("bottom"))
+    text += "".join(table("[[support]]", face=quoted(face), kind=quoted("roller")) for face in ("left", "right"))
+    force = [0.0 if r.random() < 0.5 else 0.3 * load, -load]
+    share = 1 if r.random() < 0.5 else 1 / (rho * n * h)  # a traction, or a weight
+    key, head = ("traction[0].value", '[[traction]]\nface = "top"') if share == 1 else ("body_force.value", "[body_force]")
+    values = [number(component * share) for component in force]
+    text += f"{head}\nvalue = [{', '.join(values)}]\n"
+    rise = 500 * n * h * (rho / E) ** 0.5  # dozens of its longest periods
+    slow = ", ".join(f"'{value}*min(t/{rise:.4g}, 1)'" for value in values)
+    judge_settings = [f"{key}=[{slow}]", f"stop.time={1.5 * rise:.4g}"]
+    return text + table("[phase]", max_motion=quoted("none")) + damping(), "slow", *judge_settings
+
+
+FAMILIES = [
+    bar, bar, stretched_bar, column_in_phases, column_in_phases, block, block, two_blocks, bodies_in_a_row,
+    moved_support, pinned_shape, two_materials_at_large_strain, yielding_column,
+]  # fmt: skip
 
 
 def way_of(r):
@@ -204,7 +321,7 @@ def variation(seed, k, folder):
     """Row k, with its scene written into the folder."""
     r = random.Random(f"{seed} {k}")
     family = r.choice(FAMILIES)
-    text, judge = family(r)
+    text, judge, *judge_settings = family(r)
     way = way_of(r)
     if judge.endswith("_column") and way in STATIC:
         way = "auto"  # a static solver has one phase
@@ -215,8 +332,9 @@ def variation(seed, k, folder):
         way=way,
         scene=scene,
         settings=[f"stop.steps={STEPS}"],
+        judge_settings=judge_settings,
         expected=[*RIGHT, *NAMED, "not judged"],
         judge=judge,
-        notes="cross the cells of a linear basis|K is singular",
+        notes="cross the cells of a linear basis|K is singular|inertia carried",
         seconds=10,
     )

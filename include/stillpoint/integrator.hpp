@@ -90,7 +90,14 @@ struct Method : MethodInfo {
   bool hosts_relaxations = false;     // relaxations are iterations in the place of its step
   bool begins_anew = false;           // when restored: its library keeps what it remembers of steps to itself
   AmplificationRadius amplification;  // empty if it has none (multistep)
+  OscillatorStep oscillator_step;     // empty if local damping limits its step by the stiffness factor alone
 };
+
+/// The largest h that is stable for every mode and damping [s]. With local damping and several stages a model of the
+/// body, on the safe side of what is seen: no more than without damping, as at some degrees of freedom it hardly ever
+/// acts, nor than for a single oscillator with omega_max, whose switches may keep time with the step. In a body they
+/// hardly do so everywhere at once: motions begin to grow there at up to twice as long a step.
+double critical_step(const Method& method, const Damping& damping, const DampedSpectrum& spectrum);
 
 /// Every method on offer, in the order of `stillpoint list integrators`.
 std::vector<Method> methods();

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace stillpoint {
 
@@ -33,6 +34,9 @@ class RelaxationSystem {
   bool out_of_balance(double t, ConstVec u, Vec Q);
   /// The same from the last evaluation, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
+  /// Why the last evaluation was refused, and where.
+  std::string refusal() const;
+  bool went_too_far() const { return trial_->too_far; }
   /// Q += D(v, Q) of local damping, except if a contact holds; v, Q: (n), Q as the two above leave it.
   void add_local_damping(ConstVec v, Vec Q) const;
 
@@ -51,11 +55,11 @@ class RelaxationSystem {
   double residual(double t, ConstVec u);
   /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
   double last_residual();
-  /// ‖M⁻¹Q‖_M/ω₁² with Q of the last residual() [m √kg]: in a linear system no less than ‖u − u*‖_M, since
-  /// u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁².
-  double error_norm(double omega_1);
+  /// ‖M⁻¹Q‖_M/ω₁ with Q of the last residual() [√J]: in a linear system no less than ‖u − u*‖_K, since u − u* = −K⁻¹Q
+  /// and no eigenvalue of M⁻¹K is below ω₁². M: that of the system, or any other with its own ω₁.
+  double energy_error(const Mass& M, double omega_1);
   /// ‖u‖_M [m √kg]; u: (n).
-  double mass_norm(const Vector& u);
+  double mass_norm(const Mass& M, const Vector& u);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);
   /// Q·v with the Q of the last residual() [W], before kinetic_energy() takes its place; v: (n).

@@ -69,9 +69,9 @@ struct IntegratorSpec {  // [integrator]
   std::string unstable_reason;           // why a step past the critical one is wanted
 };
 
-struct StopSpec {                // [stop]: a test set to 0 is off
-  double residual = 1e-6;        // ‖F − R‖/‖F‖
-  double distance = 0;           // ‖u − u*‖_M/‖u‖_M, certified; not written: see Model::distance_goal
+struct StopSpec {          // [stop]: a test set to 0 is off
+  double residual = 1e-6;  // ‖F − R‖/‖F‖
+  double distance = 0;     // ‖u − u*‖_V/‖u‖_V (ErrorBound), certified; not written: see Model::distance_goal
   double kinetic_energy = 1e-6;  // share of the largest kinetic energy so far; goes with these two
   double dwell = 1;              // both held for this many periods 2π/ω₁
   double time = 0;               // end time [s]
@@ -102,6 +102,7 @@ struct PhaseSpec {  // [phase]: when the points move on and the grid starts agai
   double flip_share = 1;  // of "flip": 1 takes increments of the nodal velocity, 0 the velocity itself
   int xpic_order = 5;     // of "xpic": m
   DeformationRule deformation = DeformationRule::positions;
+  Quadrature quadrature = Quadrature::points;
 };
 
 struct MassSpec {  // [mass]

@@ -21,6 +21,11 @@ enum class DeformationRule {
   positions,   // F = (∂X/∂x)⁻¹ of the undeformed positions X fitted over the present ones
   accumulated  // F = f F, from phase to phase
 };
+/// What a material point of a body that moves on stands for in the sums over points.
+enum class Quadrature {
+  points,  // itself: N_ip = N_i(x_p)
+  domains  // its part of the body: N_ip is the mean over that
+};
 /// A face of a box, named for a picture with x to the right and y upwards.
 enum class Face { left, right, bottom, top };
 constexpr int axis_of(Face face) { return face == Face::left || face == Face::right ? 0 : 1; }

@@ -4,9 +4,11 @@
 
 #include <stillpoint/damping.hpp>
 #include <stillpoint/mass.hpp>
+#include <stillpoint/place_in_body.hpp>
 #include <stillpoint/types.hpp>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace stillpoint {
@@ -18,6 +20,7 @@ class TrialState {
   virtual ~TrialState() = default;
 
   double t = 0;                   // of the evaluation [s]
+  bool too_far = false;           // refused as a motion too far for one phase, though no point may be the worse for it
   std::vector<double> reactions;  // of the supports, R at the prescribed degrees of freedom [N]
 };
 
@@ -54,6 +57,16 @@ class Contact {
   virtual double squared_forces(double sum) const = 0;
 };
 
+/// What a failure is told by. It may cost passes over all points: only a run that ends asks.
+class Diagnosis {
+ public:
+  virtual ~Diagnosis() = default;
+  /// Why internal_force() refused the trial that it was last given: which quantity, where, and what to try.
+  virtual std::string refusal(TrialState& trial) const;
+  /// Of free degree of freedom k.
+  virtual PlaceInBody of_unknown(std::size_t k) const;
+};
+
 /// n free degrees of freedom. u: displacement since the phase began [m], forces in [N], t [s].
 /// One virtual call does a whole evaluation, so none is inside a hot loop.
 class SemiDiscrete {
@@ -77,6 +90,7 @@ class SemiDiscrete {
   /// Whether R(u) depends on what was committed, so that every accepted step has to commit.
   virtual bool history_dependent() const { return false; }
   virtual const Tangents& tangents() const = 0;
+  virtual const Diagnosis& diagnosis() const;
 
   /// Q −= M_fs (a_s(t) + c v_s(t)): what moving supports s do to the free degrees of freedom f. Nothing if none moves.
   virtual void add_support_inertia(double /*t*/, double /*c*/, Vec /*Q*/) const {}

@@ -37,8 +37,8 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
 /// converged, ω = 0, if K is singular: the body is not held.
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
                                                const SpectrumOptions& = {});
-/// The same for the tangent that is consistent with what the body does at u, yielding included: of its symmetric part.
-FrequencyEstimate omega_1_of_tangent(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
+/// The same for any symmetric K and M, (n × n).
+FrequencyEstimate lowest_frequency(const SparseMatrix& K, const Mass& M, const SpectrumOptions& = {});
 /// ω₁ by ARPACK in shift-invert about 0, and ω_max by ARPACK in shift-invert about the Gershgorin bound.
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
 FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});

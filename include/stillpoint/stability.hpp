@@ -4,6 +4,7 @@
 #include <stillpoint/damping.hpp>
 #include <stillpoint/mass.hpp>
 
+#include <array>
 #include <functional>
 
 namespace stillpoint {
@@ -28,6 +29,14 @@ DampedSpectrum damped_spectrum(double omega_1, double omega_max, const Damping& 
 /// The largest h such that the amplification stays ≤ 1 for every step in (0, h] and every mode [s]. 0 if none is
 /// stable.
 double critical_step(const AmplificationRadius& amplification, const DampedSpectrum& spectrum);
+
+/// One step h of the oscillator u' = v, v' = Q + D(v, Q), Q = −u, with a local damping D; y = [u; v], in its place.
+using OscillatorStep = std::function<void(double h, const Damping& local, std::array<double, 2>& y)>;
+
+/// The largest h up to which no motion of that oscillator grows, wherever it begins. D switches with the signs of v and
+/// Q, from stage to stage of a step too: each piece is linear, and a step that is stable for every piece may still let
+/// motions grow that meet the switches in time with it. 0 if there is none.
+double switched_stability_limit(const OscillatorStep& step, const Damping& local);
 
 /// The largest r = h·omega for one oscillator of damping ratio zeta = rate/(2 omega): the method's own stability limit.
 double stability_limit(const AmplificationRadius& amplification, double zeta);

@@ -7,6 +7,7 @@
 #include "command/commands.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/model.hpp"
+#include "solvers/spectrum/local_damping_gain.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -49,11 +50,12 @@ int spectrum(const SceneArguments& arguments) {
   const auto damping = strategy.is_relaxation ? no_damping()
                                               : make_damping(strategy.name, scene.damping.c.value_or(2 * omega_1.omega),
                                                              scene.damping.alpha);
-  const DampedSpectrum damped = damped_spectrum(omega_1.omega, omega_max.omega, *damping, phase->mass());
+  const double gain = local_damping_gain(*phase, 0, u, *damping, omega_max.omega);
+  const DampedSpectrum damped = damped_spectrum(omega_1.omega, gain * omega_max.omega, *damping, phase->mass());
   fmt::print("  critical step with {} damping [s], and what a force evaluation buys of it\n", strategy.name);
   for (const Method& method : methods()) {
     if (!method.amplification) continue;
-    const double step = critical_step(method.amplification, damped);
+    const double step = critical_step(method, *damping, damped);
     fmt::print("    {:<34}{:>12.6g}{:>12.6g}\n", method.name, step, step / method.evaluations_per_step);
   }
   return 0;

@@ -47,6 +47,20 @@ std::vector<double> current_positions(const LagrangianPhase& phase, double t, Co
   return position;
 }
 
+std::vector<double> change_of(const LagrangianPhase& phase, PointQuantity quantity, double t, ConstVec x) {
+  const PhaseInfo& info = phase.info();
+  const bool is_vector = quantity == PointQuantity::displacement || quantity == PointQuantity::velocity;
+  const int components = is_vector                           ? info.dim
+                         : quantity == PointQuantity::strain ? info.gradient_components
+                                                             : info.stress_components;
+  const std::vector<double> nothing(x.size(), 0.0);
+  std::vector<double> values(static_cast<std::size_t>(components) * phase.points()), rest(values.size());
+  phase.point_field(quantity, t, x, values);
+  phase.point_field(quantity, t, nothing, rest);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= rest[i];
+  return values;
+}
+
 PointFieldComponent find_point_field(const LagrangianPhase& phase, const std::string& field) {
   const std::size_t dot = field.find('.');
   const std::string name = field.substr(0, dot), suffix = dot == std::string::npos ? "" : field.substr(dot + 1);

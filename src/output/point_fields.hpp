@@ -16,6 +16,9 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
 /// Where the points are at (t, u), (P × dim) [m].
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u);
 
+/// What a motion x, (n), changes of a quantity at the points by itself, without what supports do: (P × components).
+std::vector<double> change_of(const LagrangianPhase& phase, PointQuantity quantity, double t, ConstVec x);
+
 /// A field as a probe names it, "u" in one dimension, "stress.xy" in the plane.
 struct PointFieldComponent {
   std::string name;

@@ -18,22 +18,11 @@ namespace {
 
 constexpr const char* mode_file = "unstable_mode.csv";
 
-// What x alone makes of a quantity at the points, supports left out.
-std::vector<double> of_mode(const LagrangianPhase& phase, PointQuantity quantity, std::size_t width, double t,
-                            ConstVec x) {
-  const std::vector<double> nothing(x.size(), 0.0);
-  std::vector<double> values(width * phase.points()), rest(values.size());
-  phase.point_field(quantity, t, x, values);
-  phase.point_field(quantity, t, nothing, rest);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= rest[i];
-  return values;
-}
-
 // Σ_p V_p |σ_p| |∇x_p|², a bound of the stresses' part of xᵀKx: what is out of balance changes it by such a share.
 double stress_part(const LagrangianPhase& phase, double t, ConstVec u, ConstVec x) {
   const auto gradients = static_cast<std::size_t>(phase.info().gradient_components);
   const auto stresses = static_cast<std::size_t>(phase.info().stress_components);
-  const std::vector<double> gradient = of_mode(phase, PointQuantity::strain, gradients, t, x);
+  const std::vector<double> gradient = change_of(phase, PointQuantity::strain, t, x);
   const std::vector<double> volume = phase.point_data().volumes;
   std::vector<double> stress(stresses * phase.points());
   phase.point_stress(t, u, stress);
@@ -78,7 +67,7 @@ bool find_real_mode(const SparseMatrix& K, const Mass& mass, LowestMode& lowest)
 
 void describe_mode(const LagrangianPhase& phase, double t, ConstVec u, ConstVec x, EquilibriumStability& stability) {
   const auto dim = static_cast<std::size_t>(phase.dim());
-  stability.mode = of_mode(phase, PointQuantity::displacement, dim, t, x);
+  stability.mode = change_of(phase, PointQuantity::displacement, t, x);
   double most = 0;
   std::size_t at = 0;
   for (std::size_t p = 0; p < phase.points(); ++p) {

@@ -3,28 +3,52 @@
 #include <stillpoint/spectrum.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace stillpoint {
 
-ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1)
-    : phase_(phase), omega_1_(phase.info().updated_lagrangian ? std::nullopt : omega_1) {}
+ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1, std::optional<VolumeNorm> volume)
+    : phase_(phase), omega_1_(phase.info().updated_lagrangian ? std::nullopt : omega_1), volume_(std::move(volume)) {}
 
 std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u) {
   beside_largest_.reset();
   if (!omega_1_) return std::nullopt;
-  const double error = relaxation.error_norm(*omega_1_), size = relaxation.mass_norm(u);
-  largest_ = std::max(largest_, size);
+  const Mass& V = volume_ ? volume_->V : phase_.mass();
+  const double omega_V = volume_ ? volume_->omega_1 : *omega_1_;
+  energy_error_ = relaxation.energy_error(phase_.mass(), *omega_1_);
+  if (volume_) energy_error_ = std::min(energy_error_, relaxation.energy_error(V, omega_V));
+  const double error = energy_error_ / omega_V;
+  size_ = relaxation.mass_norm(V, u);
+  largest_ = std::max(largest_, std::min(size_, most_));
   const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
-  beside_largest_ = beside(largest_);
-  return beside(size);
+  constexpr double next_to_nothing = 0.01;
+  beside_largest_ = beside(size_ > next_to_nothing * largest_ ? size_ : largest_);
+  return beside(size_);
+}
+
+// ‖u‖_V ≤ ‖u_s‖_V + ‖u − u*‖_V + ‖u_s − u*‖_V,  ω_V² ‖u − u*‖_V² ≤ ‖u − u*‖_K² ≤ ‖u_s − u*‖_K² + ‖v_s‖_M²
+void ErrorBound::loads_have_settled(double kinetic_energy) {
+  if (!omega_1_ || phase_.info().nonlinear || std::isfinite(most_)) return;
+  const double omega_V = volume_ ? volume_->omega_1 : *omega_1_;
+  most_ = size_ + 2 * std::sqrt(energy_error_ * energy_error_ + 2 * kinetic_energy) / omega_V;
 }
 
 bool ErrorBound::refresh(double t, ConstVec u, double residual) {
   constexpr double much_nearer = 0.25;
   if (!omega_1_ || !phase_.info().nonlinear || !(residual < much_nearer * refreshed_at_)) return false;
   refreshed_at_ = residual;
-  const FrequencyEstimate lowest = omega_1_of_tangent(phase_, t, u);
-  omega_1_ = lowest.converged ? std::optional(lowest.omega) : std::nullopt;
+  // What is consistent with the body at u, yielding included.
+  const SparseMatrix K = phase_.tangents().matrix(Tangent::consistent, t, u), K_transposed = K.transpose();
+  const auto frequency = [&, symmetric = SparseMatrix(0.5 * (K + K_transposed))](const Mass& mass) {
+    const FrequencyEstimate lowest = lowest_frequency(symmetric, mass);
+    return lowest.converged ? std::optional(lowest.omega) : std::nullopt;
+  };
+  omega_1_ = frequency(phase_.mass());
+  if (!omega_1_ || !volume_) return true;
+  const std::optional<double> of_volume = frequency(volume_->V);
+  if (!of_volume) omega_1_.reset();
+  volume_->omega_1 = of_volume.value_or(0);
   return true;
 }
 

@@ -49,6 +49,7 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 }
 
 LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end) {
+  is_open_ = !(end > 0) && loads_vary(scene);
   if (!(end > 0)) return;
   constexpr int moments = 20'000, moments_at_a_point = 2'000;
   const auto dim = static_cast<std::size_t>(scene.dim);

@@ -26,12 +26,15 @@ class LoadSchedule {
   LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end);
 
   bool settled(double t) const { return t >= settled_from_; }
+  /// Not where loads depend on t and the end is open: there they may still change.
+  bool settled_for_good(double t) const { return settled(t) && !is_open_; }
 
  private:
   void look_at(const Scene& scene, const std::string& key, const Expression& formula, ConstVec x, int moments,
                double end);
 
   double settled_from_ = 0;  // [s]
+  bool is_open_ = false;
 };
 
 }  // namespace stillpoint

@@ -18,9 +18,11 @@
 #include "simulation/highest_frequency.hpp"
 #include "simulation/load_notes.hpp"
 #include "simulation/load_schedule.hpp"
+#include "simulation/mechanism.hpp"
 #include "simulation/notes.hpp"
 #include "simulation/stiffening_step.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
+#include "solvers/spectrum/local_damping_gain.hpp"
 
 namespace stillpoint {
 namespace {
@@ -30,9 +32,9 @@ constexpr double two_pi = 2 * std::numbers::pi;
 // Whether R can be evaluated where the motion begins.
 void check_initial_state(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   std::vector<double> R(phase.size());
-  if (phase.internal_force(0, u, R, *phase.make_trial())) return;
-  throw_scene_error(scene, "initial",
-                    "the initial state cannot be evaluated: det f <= 0 or a stress that is not finite");
+  const auto trial = phase.make_trial();
+  if (phase.internal_force(0, u, R, *trial)) return;
+  throw_scene_error(scene, "initial", "the initial state cannot be evaluated: " + phase.diagnosis().refusal(*trial));
 }
 
 void check_probes(const Scene& scene, const LagrangianPhase& phase) {
@@ -103,10 +105,11 @@ void choose_step(const Scene& scene, Model& model) {
   const IntegratorSpec& spec = scene.integrator;
   const bool adaptive = spec.rtol.has_value();
   if (model.method.amplification) {
+    const double gain = local_damping_gain(*model.phase, 0, model.u, *model.damping, model.omega_max);
     const DampedSpectrum spectrum =
-        damped_spectrum(model.omega_1.value_or(0), model.omega_max, *model.damping, model.phase->mass());
+        damped_spectrum(model.omega_1.value_or(0), gain * model.omega_max, *model.damping, model.phase->mass());
     constexpr double longest = 1e3;  // of 1/omega_max: a step is never without a limit, though the method may have none
-    model.critical_step = std::min(critical_step(model.method.amplification, spectrum), longest / model.omega_max);
+    model.critical_step = std::min(critical_step(model.method, *model.damping, spectrum), longest / model.omega_max);
   }
   if (spec.step) {
     model.integrator.max_step = *spec.step;
@@ -165,6 +168,7 @@ void find_omega_1(const Scene& scene, const Omega1Needs& needs, Model& model) {
                         std::back_inserter(model.notes));
     return;
   }
+  refuse_mechanism(scene, *model.phase, model.u);
   if (needs.distance) {
     throw_scene_error(
         scene, "stop.distance",
@@ -198,8 +202,7 @@ double dwell_of(const Scene& scene, const Model& model) {
 double distance_goal_of(const Scene& scene, const Model& model) {
   constexpr double usual = 1e-3;
   const bool is_known = model.omega_1 && !model.phase->info().updated_lagrangian;
-  const bool is_newton = model.static_method && model.static_method->is_newton;  // quadratic: the residual is enough
-  const bool by_default = scene.stop.residual > 0 && is_known && !is_newton && !scene.where.contains("stop.distance");
+  const bool by_default = scene.stop.residual > 0 && is_known && !scene.where.contains("stop.distance");
   return by_default ? usual : scene.stop.distance;
 }
 
@@ -248,6 +251,8 @@ Model make_model(const Scene& scene) {
   if (!chooses_mass) model.omega_max = highest_frequency(scene, *model.phase, model.u);
   const Omega1Needs needs = omega_1_needs(scene, model, takes_c);
   if (needs.any()) find_omega_1(scene, needs, model);
+  if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian)
+    model.volume_norm = volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);
   if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
     model.notes.push_back(
         "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
@@ -260,6 +265,11 @@ Model make_model(const Scene& scene) {
   choose_strategy(scene, takes_c, model);
   if (!model.static_method) set_tolerances(scene, model);
   choose_step(scene, model);
+  if (takes_c && model.omega_1) {
+    const double c = model.damping->linear().mass;
+    if (const auto note = slow_damping_note(scene, c, *model.omega_1, model.integrator.max_step))
+      model.notes.push_back(*note);
+  }
   model.relaxing.max_step = model.integrator.max_step;
   if (model.phase->info().stiffens && !scene.integrator.step) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);

@@ -3,6 +3,7 @@
 #include <stillpoint/damping.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
@@ -57,7 +58,9 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
                     quadrature.smallest_share));
   }
   const int needed = 2 * degree_of(scene.grid.basis) - 2;
-  if (quadrature.degree && *quadrature.degree < needed) {
+  // Domains integrate what is interpolated over them, wherever their points lie.
+  const bool at_points = scene.phase.quadrature == Quadrature::points;
+  if (at_points && quadrature.degree && *quadrature.degree < needed) {
     notes.push_back(fmt::format(
         "the points integrate degree {}, this basis needs {} for its full order: {}", *quadrature.degree, needed,
         quadrature.equal_volumes ? "take consistent volumes" : "take more points per cell or Gauss points"));
@@ -71,13 +74,23 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
   return notes;
 }
 
-// Where a point crosses a line of the grid its share of a linear function's gradient changes sign: what an elastic body
-// settles over many phases comes out too large [Steffen, Kirby and Berzins 2008]. Near a line a linear function's
-// second moment Σ_i N_i (x_i − x_p)² vanishes, by which apic divides what it has kept from elsewhere.
+// A function that a loaded surface has just come into is loaded by its value there, and resisted by its gradient at the
+// nearest point alone: that point's stress takes what makes the two agree. Where a point crosses a line of the grid its
+// share of a linear function's gradient changes sign: what an elastic body settles over many phases comes out too large
+// [Steffen, Kirby and Berzins 2008]. Near a line a linear function's second moment Σ_i N_i (x_i − x_p)² vanishes, by
+// which apic divides what it has kept from elsewhere.
 std::vector<std::string> phase_notes(const Scene& scene, const LagrangianPhase& phase) {
   std::vector<std::string> notes;
-  if (!phase.info().updated_lagrangian || scene.grid.basis != BasisKind::linear) return notes;
-  if (!phase.history_dependent()) {
+  if (!phase.info().updated_lagrangian) return notes;
+  if (!phase.history_dependent() && scene.phase.quadrature == Quadrature::points &&
+      !(scene.tractions.empty() && scene.forces.empty())) {
+    notes.emplace_back(
+        "where a loaded surface comes to cut cells the points next to it take a stress that is off by up to a quarter, "
+        "and an elastic body's displacement by a few per cent: expected boxes of uniform points with "
+        "phase.quadrature = \"domains\", or a single phase");
+  }
+  if (scene.grid.basis != BasisKind::linear) return notes;
+  if (!phase.history_dependent() && scene.phase.quadrature == Quadrature::points) {
     notes.emplace_back(
         "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % "
         "too far; a quadratic basis is within 0.3 %");
@@ -150,6 +163,27 @@ std::optional<std::string> null_space_note(const Scene& scene, const LagrangianP
                            : "take more points per cell or smaller cells";
   return fmt::format("{:.2g} of the points' stresses varies faster than the grid's functions, which do not feel it: {}",
                      null_space_stress, remedy);
+}
+
+// The slowest mode dies out like e^{−s t},  s² − c s + ω₁² = 0.
+std::optional<std::string> slow_damping_note(const Scene& scene, double c, double omega_1, double step) {
+  if (!scene.stop.wants_equilibrium() || !(c > 0) || !(omega_1 > 0) || !(step > 0)) return std::nullopt;
+  const double half = c / 2;
+  const double slowest =
+      half <= omega_1 ? half : omega_1 / half * omega_1 / (1 + std::sqrt((1 - omega_1 / half) * (1 + omega_1 / half)));
+  constexpr double usual = 1e-6;  // if only the distance is asked for
+  const double time = -std::log(scene.stop.residual > 0 ? std::min(scene.stop.residual, 0.5) : usual) / slowest;
+  const double steps = time / step;
+  std::string limit;
+  if (scene.stop.time > 0 && time > scene.stop.time) limit = fmt::format("stop.time is {:.6g} s", scene.stop.time);
+  if (scene.stop.steps > 0 && steps > static_cast<double>(scene.stop.steps))
+    limit = fmt::format("stop.steps is {}", scene.stop.steps);
+  if (limit.empty()) return std::nullopt;
+  return fmt::format(
+      "damping.c = {:.4g} is {:.2g} times the critical damping: the body would come to rest in {:.2g} s or {:.2g} "
+      "steps, "
+      "and {}; expected damping.c = \"critical\"",
+      c, half / omega_1, time, steps, limit);
 }
 
 std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance) {

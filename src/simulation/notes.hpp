@@ -20,6 +20,10 @@ std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhas
 std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec x,
                                            double omega_1);
 
+/// If damping c M v beside the lowest frequency lets the body come to rest only after more steps, or more time, than
+/// the scene allows. step: what is taken [s].
+std::optional<std::string> slow_damping_note(const Scene& scene, double c, double omega_1, double step);
+
 /// After a run that ended in equilibrium, if its error bound is large, as where the scene asks for none.
 std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance);
 

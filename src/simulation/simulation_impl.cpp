@@ -51,7 +51,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
       options_(std::move(options)),
       model_(make_model(scene_)),
       monitor_(monitor_options(scene_, model_)),
-      error_bound_(*model_.phase, model_.omega_1),
+      error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
       schedule_(scene_, *model_.phase, scene_.stop.time),
       overshoot_(scene_, model_),
       t_(model_.t) {
@@ -89,7 +89,7 @@ void Simulation::Impl::take_step(double t_stop) {
   if (report.status != StepReport::Status::ok) {
     if (report.status == StepReport::Status::inadmissible && try_next_phase()) return;
     status_ = status_of(report.status);
-    reason_ = report.message;
+    reason_ = failure_of_step(scene_, *model_.phase, now(), report);
     sample(true);  // the last good state
     return;
   }
@@ -136,10 +136,10 @@ void Simulation::Impl::next_phase() {
     tell_phase_change(true);
   } catch (const PointLost& lost) {
     status_ = RunStatus::failed;
-    reason_ = lost.what();
+    reason_ = failure(now(), lost.what());
   } catch (const SceneError& error) {  // no bad input: that was looked at before the run
     status_ = RunStatus::failed;
-    reason_ = fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what());
+    reason_ = failure(now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what()));
     is_readable_ = false;
   }
 }
@@ -164,6 +164,7 @@ void Simulation::Impl::measure() {
   work_scale_ = motion_->system.work_scale(motion_->u_vector);
   power_ = motion_->system.power(motion_->v_vector);
   kinetic_energy_ = motion_->system.kinetic_energy(motion_->v_vector);
+  if (schedule_.settled_for_good(t_)) error_bound_.loads_have_settled(kinetic_energy_);
 }
 
 // A scene that asks for a distance gets that of the displacement at the end.
@@ -197,13 +198,21 @@ void Simulation::Impl::watch() {
     status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps());
-  reason_ = monitor_.reason();
+  reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
+  if (!done() && schedule_.settled(t_)) look_for_mechanism();
 }
 
 void Simulation::Impl::watch_overshoot() {
   if (!options_.stops || !overshoot_.due(t_)) return;
   measure();
   overshoot_.sample(t_, power_);
+}
+
+void Simulation::Impl::look_for_mechanism() {
+  const auto found = mechanism_.look(*model_.phase, t_, motion_->u(), evaluations());
+  if (!found) return;
+  status_ = RunStatus::failed;
+  reason_ = failure(now(), to_string(*found));
 }
 
 bool Simulation::Impl::watches_chatter() const {
@@ -242,14 +251,24 @@ void Simulation::Impl::report_progress() {
   options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
 }
 
+// Limits that came before equilibrium say no more than that.
+void Simulation::Impl::say_what_moves() {
+  const bool is_limit =
+      status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
+  if (is_limit && exit_status() != 0) reason_ += "; " + furthest_from_rest(*motion_, t_);
+}
+
 // What claims to be an equilibrium may be one that the least disturbance ends.
 void Simulation::Impl::test_stability() {
   const bool writes = recorder_ && !options_.out.empty();
   if (writes) remove_mode(options_.out);
   if (status_ != RunStatus::equilibrium) return;
   stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
-  if (stability_.kind == EquilibriumStability::Kind::neutral) model_.notes.push_back(description(stability_));
-  if (stability_.kind != EquilibriumStability::Kind::unstable) return;
+  const bool neutral = stability_.kind == EquilibriumStability::Kind::neutral;
+  // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
+  const bool softened_away = neutral && model_.omega_1 && !distance_to_go();
+  if (neutral && !softened_away) model_.notes.push_back(description(stability_));
+  if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
   status_ = RunStatus::unstable_equilibrium;
   reason_ = fmt::format("{}; {}", reason_, description(stability_));
   if (writes) write_mode(stability_, *model_.phase, t_, motion_->u(), options_.out);
@@ -257,6 +276,7 @@ void Simulation::Impl::test_stability() {
 
 void Simulation::Impl::finish() {
   if (is_readable_) motion_->finish(t_);
+  if (is_readable_) say_what_moves();
   test_stability();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
 }

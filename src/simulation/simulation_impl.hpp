@@ -12,7 +12,9 @@
 #include "simulation/chatter.hpp"
 #include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
+#include "simulation/failure.hpp"
 #include "simulation/load_schedule.hpp"
+#include "simulation/mechanism.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
 #include "simulation/overshoot.hpp"
@@ -36,8 +38,10 @@ class Simulation::Impl {
     return distance_;
   }
   ConstVec field(std::string_view name);
+  int exit_status() const;
   Summary summary();                           // simulation_summary.cpp
   void save(const std::filesystem::path& to);  // simulation_state.cpp
+  Moment now() const { return {t_, steps(), phases_}; }
   long steps() const { return earlier_steps_ + motion_->integrator->steps(); }
   long evaluations() const { return earlier_evaluations_ + motion_->system.evaluations(); }
 
@@ -51,6 +55,7 @@ class Simulation::Impl {
   LoadSchedule schedule_;
   Chatter chatter_;
   Overshoot overshoot_;
+  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1};
   std::optional<Recorder> recorder_;
 
   std::optional<PhaseMotion> motion_;  // of the present phase
@@ -70,6 +75,7 @@ class Simulation::Impl {
   bool watches_chatter() const;
   void watch_chatter(double share, double residual);
   void watch_overshoot();
+  void look_for_mechanism();
   void watch();
   void follow_period();
 
@@ -88,6 +94,7 @@ class Simulation::Impl {
 
   void sample(bool last);
   void report_progress();
+  void say_what_moves();
   void test_stability();
   void finish();
 

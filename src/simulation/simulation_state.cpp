@@ -129,6 +129,7 @@ void Simulation::Impl::archive(const StateArchive& state) {
   error_bound_.archive(state.part("error_bound"));
   chatter_.archive(state.part("chatter"));
   overshoot_.archive(state.part("overshoot"));
+  mechanism_.archive(state.part("mechanism"));
   if (recorder_) recorder_->archive(state.part("records"));
 }
 

@@ -11,12 +11,18 @@
 namespace stillpoint {
 namespace {
 
-int exit_status_of(RunStatus status, const Scene& scene) {
-  switch (status) {
+void add_note(Summary& s, const std::optional<std::string>& note) {
+  if (note && !note->empty()) s.notes.push_back(*note);
+}
+
+}  // namespace
+
+int Simulation::Impl::exit_status() const {
+  switch (status_) {
     case RunStatus::equilibrium:
       return 0;
     case RunStatus::end_time:
-      return scene.stop.wants_equilibrium() ? 3 : 0;
+      return scene_.stop.wants_equilibrium() ? 3 : 0;
     case RunStatus::diverged:
     case RunStatus::failed:
       return 4;
@@ -25,19 +31,13 @@ int exit_status_of(RunStatus status, const Scene& scene) {
   }
 }
 
-void add_note(Summary& s, const std::optional<std::string>& note) {
-  if (note && !note->empty()) s.notes.push_back(*note);
-}
-
-}  // namespace
-
 Summary Simulation::Impl::summary() {
   Summary s;
   s.scene = scene_.name;
   s.title = scene_.title;
   s.status = status_;
   s.reason = reason_;
-  s.exit_status = exit_status_of(status_, scene_);
+  s.exit_status = exit_status();
   s.notes = model_.notes;
   fill_model(s);
   fill_effort(s);

@@ -11,7 +11,8 @@ namespace stillpoint {
 
 /// The critical step falls as 1/omega_max. A step h is taken that is below the critical one at u and at u + h v, where
 /// it leads. h changes in notches, since an implicit damping is factorised for each new one, and grows back by one at a
-/// time. A collapse would shrink it without end; past a ten-thousandth the integrator is left to report it.
+/// time, and only a while after it was last shortened: a step in tune with an oscillation of the stiffness feeds it. A
+/// collapse would shrink it without end; past 1e-10 the integrator is left to report it.
 class StiffeningStep {
  public:
   static constexpr double notch = 1.1;
@@ -23,15 +24,16 @@ class StiffeningStep {
   /// The step to take from (t, u, v); u, v: (n). Where the stiffness hardly changes on the way ahead, it is looked at
   /// again when that way is done: up to 16 steps later.
   double longest(double t, ConstVec u, ConstVec v) {
-    constexpr int most_notches = 97, longest_way = 16;
+    constexpr int most_notches = 242, longest_way = 16, hold = 16;
     constexpr double calm = 0.002;
     if (--steps_until_look_ > 0) return step();
     const double here = phase_.stiffening(t, u);
     const int before = notches_;
+    const bool may_grow = ++looks_since_shorter_ > hold;
     double there = 0;
-    for (notches_ = std::max(0, notches_ - 1); notches_ < most_notches; ++notches_) {
+    for (notches_ = std::max(0, notches_ - (may_grow ? 1 : 0)); notches_ < most_notches; ++notches_) {
       there = stiffening_ahead(t, u, v, way_);
-      if (step() * std::sqrt(std::max(here, there) / initial_) <= full_step_ * notch) break;
+      if (step() * std::sqrt(std::max(here, there) / initial_) <= full_step_) break;
     }
     if (way_ > 1 && (notches_ != before || !(std::abs(there - here) <= calm * here))) {
       way_ = 1;
@@ -40,12 +42,14 @@ class StiffeningStep {
       return longest(t, u, v);
     }
     steps_until_look_ = way_;
+    if (notches_ > before) looks_since_shorter_ = 0;
     if (std::abs(there - here) <= calm * here) way_ = std::min(2 * way_, longest_way);
     return step();
   }
 
   void archive(const StateArchive& state) {
     state("notches", notches_);
+    state("looks_since_shorter", looks_since_shorter_);
     state("way", way_);
     state("steps_until_look", steps_until_look_);
   }
@@ -62,6 +66,7 @@ class StiffeningStep {
   double full_step_, initial_;
   std::vector<double> ahead_;  // u + h v of the steps ahead
   int notches_ = 0;
+  int looks_since_shorter_ = 0;
   int way_ = 1, steps_until_look_ = 0;  // [steps]
 };
 

@@ -65,6 +65,8 @@ void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
   if (const Contact* contact = system_.contact()) contact->add_force(t, linear_, Q);
 }
 
+std::string RelaxationSystem::refusal() const { return system_.diagnosis().refusal(*trial_); }
+
 void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
   if (!damping_.is_local()) return;
   if (damping_.uses_last_force()) {
@@ -105,15 +107,15 @@ double RelaxationSystem::last_residual() {
 }
 
 // ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q
-double RelaxationSystem::error_norm(double omega_1) {
+double RelaxationSystem::energy_error(const Mass& M, double omega_1) {
   if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
-  system_.mass().solve(Q_.span(), Q_inverse_->span());
-  return std::sqrt(dot(Q_, *Q_inverse_)) / (omega_1 * omega_1);
+  M.solve(Q_.span(), Q_inverse_->span());
+  return std::sqrt(dot(Q_, *Q_inverse_)) / omega_1;
 }
 
-double RelaxationSystem::mass_norm(const Vector& u) {
+double RelaxationSystem::mass_norm(const Mass& M, const Vector& u) {
   if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
-  system_.mass().apply(u.span(), Q_inverse_->span());
+  M.apply(u.span(), Q_inverse_->span());
   return std::sqrt(dot(u, *Q_inverse_));
 }
 

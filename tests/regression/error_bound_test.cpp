@@ -1,8 +1,9 @@
 // How far a body is from equilibrium, certified by its residual and its lowest frequency:
 //
-//   u − u* = −K⁻¹Q,   so   ‖u − u*‖_M ≤ ‖M⁻¹Q‖_M/ω₁² = distance · ‖u‖_M
+//   u − u* = −K⁻¹Q,   so   ‖u − u*‖_V ≤ ‖M⁻¹Q‖_M/(ω₁ ω_V) = distance · ‖u‖_V
 //
-// for constant K, whatever u is. distance is relative to ‖u‖_M since u* is not known; the error below to ‖u*‖_M.
+// for constant K, whatever u is; V = M where the density is the same everywhere. distance is relative to ‖u‖_V since u*
+// is not known; the error below to ‖u*‖_V.
 #include "simulation/error_bound.hpp"
 
 #include <stillpoint/static_solution.hpp>
@@ -19,6 +20,7 @@
 
 #include "largest.hpp"
 #include "scenes.hpp"
+#include "simulation/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "way_to_rest.hpp"
 
@@ -51,21 +53,27 @@ Values equilibrium_of(const Scene& scene) {
   return u;
 }
 
+/// What errors of a run are measured with.
+const Mass& measure_of(const Simulation& simulation) {
+  const Model& model = simulation.model();
+  return model.volume_norm ? model.volume_norm->V : model.phase->mass();
+}
+
 /// After a step.
 struct Sample {
-  double error = 0, size = 0;  // ‖u − u*‖_M and ‖u‖_M, both over ‖u*‖_M
+  double error = 0, size = 0;  // ‖u − u*‖_V and ‖u‖_V, both over ‖u*‖_V
   double distance = 0;
 };
 
-/// The whole way to an error of 1e-6, in the mass that the strategy moves.
+/// The whole way to an error of 1e-6.
 std::vector<Sample> relaxed(const Scene& scene, const Values& rest, long most_steps = 20'000) {
   Simulation simulation(scene, {.records = false, .stops = false});
-  const Mass& mass = simulation.phase().mass();
-  const double scale = mass_norm(mass, rest);
+  const Mass& V = measure_of(simulation);
+  const double scale = mass_norm(V, rest);
   std::vector<Sample> samples;
   do {
     if (simulation.step() != RunStatus::running) break;  // an iteration that rounding keeps from getting any nearer
-    samples.push_back({relative_difference(mass, simulation.u(), rest), mass_norm(mass, simulation.u()) / scale,
+    samples.push_back({relative_difference(V, simulation.u(), rest), mass_norm(V, simulation.u()) / scale,
                        simulation.distance().value()});
   } while (samples.back().error > 1e-6 && simulation.steps() < most_steps);
   CHECK(samples.back().error <= 1e-6);
@@ -77,7 +85,7 @@ struct Range {
   Largest most;
   void take(double value) { least.take(value), most.take(value); }
 };
-/// What is guaranteed: distance ‖u‖_M/‖u − u*‖_M.
+/// What is guaranteed: distance ‖u‖_V/‖u − u*‖_V.
 Range guaranteed(const std::vector<Sample>& samples) {
   Range range;
   for (const Sample& s : samples) range.take(s.distance * s.size / s.error);
@@ -159,6 +167,46 @@ TEST_CASE("an error that is left in high modes is certified too large: by conjug
   CHECK(cg.most.value() < kappa);
 }
 
+// --- light parts ----------------------------------------------------------------------------------
+
+namespace {
+
+/// √(Σ_p |u_p|²) over the points, which all have the same volume.
+double at_points(const LagrangianPhase& phase, ConstVec u) {
+  Values of_points(static_cast<std::size_t>(phase.dim()) * phase.points());
+  phase.point_displacement(0, u, of_points);
+  double sum = 0;
+  for (const double value : of_points) sum += value * value;
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+TEST_CASE("an equilibrium is as near at the points of a light block as the distance says, whatever masses are moved",
+          "[error bound]") {
+  for (const std::string kind : {"lumped", "consistent"}) {
+    for (const std::string strategy : {"viscous", "papadrakakis", "adaptive", "fire", "auto", "cg"}) {
+      const Scene scene = with({"hard/light_block", {"mass.kind=" + kind}}, strategy);
+      const Values rest = equilibrium_of(scene);
+      Simulation simulation(scene, {.records = false});
+      REQUIRE(simulation.run() == RunStatus::equilibrium);
+      Values difference(rest.size());
+      for (std::size_t i = 0; i < rest.size(); ++i) difference[i] = simulation.u()[i] - rest[i];
+      const double error = at_points(simulation.phase(), difference) / at_points(simulation.phase(), rest);
+      CAPTURE(kind, strategy, error, simulation.distance().value());
+      CHECK(error <= 2 * simulation.distance().value());  // a consistent or lumped V is no sum over the points
+      CHECK(error <= 2e-3);
+    }
+  }
+}
+
+TEST_CASE("the volume measures displacements only where masses do not", "[error bound]") {
+  CHECK_FALSE(Simulation(with(linear[1], "viscous")).model().volume_norm);
+  CHECK_FALSE(Simulation(with(linear[4], "auto")).model().volume_norm);
+  CHECK_FALSE(Simulation(with(linear[3], "viscous")).model().volume_norm);  // stiff, not heavy
+  CHECK(Simulation(with({"hard/light_block"}, "viscous")).model().volume_norm);
+}
+
 // --- nonlinear: an estimate, by the tangent at the end ---------------------------------------------
 
 namespace {
@@ -230,6 +278,49 @@ TEST_CASE("where ground yields the distance is that to the equilibrium that the 
     CAPTURE(strategy, error, ratio);
     CHECK(ratio > 0.5);
     CHECK(ratio < 20);
+  }
+}
+
+// With a consistent mass local damping may turn forces into higher modes: this motion grows by 1e8, and comes back.
+TEST_CASE("a step that is not stable makes no equilibrium by the size of what it blew up", "[error bound]") {
+  const Scene scene = with({"hard/blown_up", {"stop.steps=20000"}}, "one-sided");
+  const Ended end = ended(scene);
+  const Values rest = equilibrium_of(scenes::load("hard/blown_up", {"support=[{face='bottom'}, {face='top', "
+                                                                    "kind='roller', u=-0.0005386}]"}));
+  CAPTURE(end.summary.reason);
+  CHECK((end.summary.exit_status != 0 || error_of(end, rest) < 0.01));
+}
+
+// A small residual is one beside the stiff bar's forces.
+TEST_CASE("Newton's methods go on until a soft bar beside a stiff one is right as well", "[error bound]") {
+  const std::vector<std::string> large_strain = {"material.soft.law=hencky", "material.stiff.law=hencky",
+                                                 "phase.max_motion=none",
+                                                 "force=[{at=6, value=1e6}, {at=9, value=-1e6}, {at=10, value=0.3}]"};
+  for (const std::vector<std::string>& overrides : {std::vector<std::string>{}, large_strain}) {
+    const Case problem{"hard/soft_and_stiff", overrides};
+    const Values rest = equilibrium_of(with(problem, "viscous"));
+    for (const std::string method : {"newton", "newton-cg"}) {
+      for (const std::string residual : {"stop.residual=1e-3", "stop.residual=1e-4", "stop.residual=1e-6"}) {
+        const Ended end = ended(with(problem, method, {residual}));
+        CAPTURE(overrides.size(), method, residual, end.summary.reason);
+        CHECK(end.summary.status == RunStatus::equilibrium);
+        CHECK(error_of(end, rest) <= 1e-3);
+      }
+    }
+  }
+}
+
+// P = E ln F/F of the soft bar is E/e at most.
+TEST_CASE("a static solver finds no equilibrium of a soft bar under more than it can bear, whatever a stiff one bears",
+          "[error bound]") {
+  for (const std::string method : {"newton", "newton-cg", "cg", "lbfgs"}) {
+    const Ended end = ended(with({"hard/soft_and_stiff",
+                                  {"material.soft.law=hencky", "material.stiff.law=hencky", "phase.max_motion=none",
+                                   "force=[{at=6, value=1e6}, {at=9, value=-1e6}, {at=10, value=0.6}]"}},
+                                 method));
+    CAPTURE(method, end.summary.reason);
+    CHECK((end.summary.status == RunStatus::failed || end.summary.status == RunStatus::unstable_equilibrium));
+    CHECK(end.summary.exit_status != 0);
   }
 }
 

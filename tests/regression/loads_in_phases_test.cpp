@@ -133,7 +133,8 @@ at = [10, 5.5]
 fields = ["u.x", "u.y"]
 )";
 
-/// Bent by that load in one phase and in many: the same at the end, to 0.5 % of its deflection. With phases it is taken
+/// Bent by that load in one phase and in many: the same at the end, to 0.7 % of its deflection: the mean strains of
+/// twelve domains one above the other bend the more easily by 1/12² = 0.7 %. With phases it is taken
 /// for resting when it has no energy left: functions that hardly reach it go on to settle from phase to phase.
 void check_bends_alike(const std::string& load) {
   const Summary one = run_text(beam, {load});
@@ -146,7 +147,7 @@ void check_bends_alike(const std::string& load) {
   CHECK(size > 2.5);
   CHECK(many.kinetic_energy < 1e-6 * size);
   for (const char* u : {"u.x", "u.y"})
-    CHECK_THAT(scenes::probe(many, "end", u), Catch::Matchers::WithinAbs(scenes::probe(one, "end", u), 0.005 * size));
+    CHECK_THAT(scenes::probe(many, "end", u), Catch::Matchers::WithinAbs(scenes::probe(one, "end", u), 0.007 * size));
 }
 
 }  // namespace
@@ -164,8 +165,7 @@ TEST_CASE("a column under a traction takes its closed stretch through phases, in
           CAPTURE(dim, law, traction, basis, s.reason, s.phases);
           CHECK(s.status == RunStatus::equilibrium);
           CHECK(s.phases >= (linear ? 4 : 20));
-          // The linear basis is that far off by its points that cross cells.
-          CHECK(scenes::probe(s, "end", dim == 1 ? "u" : "u.y") == Approx(exact).epsilon(linear ? 0.1 : 0.01));
+          CHECK(scenes::probe(s, "end", dim == 1 ? "u" : "u.y") == Approx(exact).epsilon(0.005));
         }
       }
     }
@@ -178,6 +178,23 @@ TEST_CASE("a cantilever under a traction on its end bends in many phases as in o
 
 TEST_CASE("a point force goes with its point: under one a cantilever bends in many phases as in one") {
   check_bends_alike("force=[{at=[10, 5.5], value=[0, '-0.01*min(t/40, 1)']}]");
+}
+
+TEST_CASE("a square pulled until it is longer by a third is right, wherever its loaded face cuts the cells") {
+  for (const char* basis : {"linear", "quadratic", "cubic"}) {
+    for (const char* motion : {"0.02", "0.1", "0.5"}) {
+      for (const char* strategy : {"viscous", "kinetic", "auto"}) {
+        const Summary s = run(scenes::load("hard/pulled_in_phases", {std::string("grid.basis=") + basis,
+                                                                     std::string("phase.max_motion=") + motion,
+                                                                     std::string("damping.strategy=") + strategy}),
+                              {.threads = 1});
+        CAPTURE(basis, motion, strategy, s.reason);
+        CHECK(s.status == RunStatus::equilibrium);
+        CHECK(scenes::probe(s, "corner", "u.x") == Approx(0.33 * 0.9375).epsilon(0.005));
+        CHECK(scenes::probe(s, "corner", "stress.xx") == Approx(0.5 * (1.33 - 1 / 1.33)).epsilon(0.005));
+      }
+    }
+  }
 }
 
 TEST_CASE("a column under a sudden load stands on its roller for 100 000 steps and loses no point") {

@@ -33,6 +33,46 @@ TEST_CASE("a bar crushed at a stroke to 40 % of its length relaxes: the step fol
   }
 }
 
+TEST_CASE("a bar crushed at a stroke to a tenth of its length relaxes: trials that are inside out are tried shorter") {
+  for (const char* method : {"leapfrog", "erk:rk4", "erk:bogacki-shampine-4-2-3"}) {
+    for (const char* fraction : {"0.9", "0.8"}) {
+      std::vector<std::string> overrides{"constants.F=0.1", std::string("integrator.method=") + method,
+                                         std::string("integrator.step_fraction=") + fraction, "stop.steps=50000"};
+      if (std::string(method) == "erk:bogacki-shampine-4-2-3") overrides.push_back("integrator.rtol=1e-3");
+      const Summary s = rubber(overrides);
+      CAPTURE(method, fraction, s.reason);
+      CHECK(s.status == RunStatus::equilibrium);
+      CHECK(s.error->u_rel_max < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("a bar under a force that crushes it to a hundredth of its length relaxes to the exact answer") {
+  // P = μ (F − 1/F) with E = 1, ν = 0, so that μ = ½ and the section stays
+  const Summary s = run(
+      scenes::bar({"material.bar.law=neo-hookean", "force=[{at=10.0, value=-50.0}]", "stop.steps=100000", "exact={}"}));
+  const double F = -50 + std::sqrt(50 * 50 + 1);
+  CAPTURE(s.reason);
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(scenes::probe(s, "p12", "u") == Approx((F - 1) * 115 / 12).epsilon(1e-6));
+}
+
+TEST_CASE("a damping of any size leaves a run a step, and what is too strong to end is said to be") {
+  for (const char* method : {"leapfrog", "symplectic-euler", "erk:rk4", "erk:jameson-5-2", "gsl:rk4"}) {
+    for (const char* c : {"1e6", "1e12", "1e300"}) {
+      const Summary s =
+          run(scenes::load("hard/cut_bar", {"constants.sliver=0", "stop.steps=500", std::string("damping.c=") + c,
+                                            std::string("integrator.method=") + method}));
+      CAPTURE(method, c, s.reason);
+      CHECK(s.status == RunStatus::step_limit);
+      CHECK(s.dt > 0);
+      REQUIRE_FALSE(s.notes.empty());
+      CHECK_THAT(s.notes.back(), Catch::Contains("times the critical damping") && Catch::Contains("stop.steps is 500"));
+    }
+  }
+  CHECK(run(scenes::load("hard/cut_bar", {"constants.sliver=0", "stop.steps=5000"})).notes.empty());
+}
+
 TEST_CASE("a free bar under a force in balance finds its shape, though it has no lowest frequency") {
   const Summary s = run(scenes::bar({"support=[]", "force=[{at=0.0, value=-0.001}, {at=10.0, value=0.001}]",
                                      "damping.strategy=cundall", "stop.residual=1e-8"}));

@@ -155,7 +155,7 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
   tables.add({"stop", "when a run ends; a test set to 0 is off"}, &Scene::stop)
       .key("residual", &StopSpec::residual, "|F - R|/|F| of equilibrium", {.range = kNotNegative})
       .key("distance", &StopSpec::distance,
-           "the certified |u - u*|/|u| in the M-norm; beside residual 1e-3 where omega_1 is known, unless given",
+           "the certified |u - u*|/|u| over the volume; beside residual 1e-3 where omega_1 is known, unless given",
            {.range = kNotNegative})
       .key("kinetic_energy", &StopSpec::kinetic_energy, "besides: its share of the largest so far",
            {.range = kNotNegative})
@@ -257,7 +257,12 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("xpic_order", &PhaseSpec::xpic_order, "of xpic", {.range = from(1, 20)})
       .key("deformation", &PhaseSpec::deformation,
            "of elastic points when a phase begins: from where they are, or multiplied up from phase to phase",
-           {.words = {"positions", "accumulated"}, .fallback = "positions; accumulated on a linear basis"});
+           {.words = {"positions", "accumulated"}, .fallback = "positions; accumulated at points of a linear basis"})
+      .key("quadrature", &PhaseSpec::quadrature,
+           "functions are taken at the points, or interpolated over the domains that they stand for",
+           {.words = {"points", "domains"},
+            .fallback =
+                "domains for elastic boxes of uniform points on a line or in a plane, if damped; otherwise points"});
   add_boundary(tables);
   add_states(tables);
   add_method(tables, catalogue);

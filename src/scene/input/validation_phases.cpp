@@ -54,6 +54,30 @@ void check_moving_supports(SceneCheck& check, const std::string& one_phase) {
   }
 }
 
+/// Domains lie side by side in boxes that uniform points fill.
+std::string why_no_domains(const Scene& scene) {
+  if (scene.state == StressState::axisymmetric) return "an axisymmetric scene has rings";
+  for (const BodySpec& body : scene.bodies) {
+    if (!body.file.empty() || !body.polygon.empty()) return "a body of a file or a polygon is no box";
+    if (body.placement != Placement::uniform || body.jitter > 0) return "points that are not uniform share no faces";
+  }
+  return "";
+}
+
+/// Elastic bodies take domains where there are some, but where nothing damps: means over domains cost flip some of the
+/// motion's energy.
+void choose_quadrature(SceneCheck& check, bool remembers) {
+  Scene& scene = check.scene();
+  const std::string why_not = why_no_domains(scene);
+  if (!check.written("phase.quadrature")) {
+    const StrategyInfo* const strategy = check.catalogue().strategy(scene.damping.strategy);
+    const bool rests = strategy && strategy->damps && scene.grid.basis != BasisKind::hermite;
+    scene.phase.quadrature = rests && why_not.empty() && !remembers ? Quadrature::domains : Quadrature::points;
+  } else if (scene.phase.quadrature == Quadrature::domains && !why_not.empty()) {
+    check.add("phase.quadrature", fmt::format("{}: there are no domains side by side; take \"points\"", why_not));
+  }
+}
+
 }  // namespace
 
 void check_phases(SceneCheck& check) {
@@ -64,8 +88,6 @@ void check_phases(SceneCheck& check) {
     check.refuse("phase", {"flip_share"}, "goes with transfer = \"flip\" only");
   if (known && phase.transfer != Transfer::xpic)
     check.refuse("phase", {"xpic_order"}, "goes with transfer = \"xpic\" only");
-  if (!check.written("phase.deformation") && scene.grid.basis == BasisKind::linear)
-    phase.deformation = DeformationRule::accumulated;  // a strain that jumps at grid lines would feed the motion
   if (scene.solve.is_static()) {
     const std::string why = fmt::format("'{}' is a static solver, which needs a single phase: ", scene.solve.method);
     if (phase.max_motion) check.add("phase.max_motion", why + "take \"none\"");
@@ -82,10 +104,16 @@ void check_phases(SceneCheck& check) {
       std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; }))
     phase.max_motion = usual_motion;
   if (!phase.max_motion && !phase.max_strain)
-    return check.refuse("phase", {"deformation"}, "goes with phases only: give phase.max_motion");
-  if (std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; }))
+    return check.refuse("phase", {"deformation", "quadrature"}, "goes with phases only: give phase.max_motion");
+  const bool remembers =
+      std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; });
+  if (remembers)
     check.refuse("phase", {"deformation"},
                  "goes with laws without history only, whose stress follows from the deformation");
+  choose_quadrature(check, remembers);
+  const bool jumps = scene.grid.basis == BasisKind::linear && phase.quadrature == Quadrature::points;
+  if (!check.written("phase.deformation") && jumps)
+    phase.deformation = DeformationRule::accumulated;  // a strain that jumps at grid lines would feed the motion
 
   const std::string one_phase =
       fmt::format("or {}{}{} for a single phase", phase.max_motion ? "phase.max_motion = \"none\"" : "",

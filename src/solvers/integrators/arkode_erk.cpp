@@ -179,9 +179,7 @@ class Erk final : public SteppingIntegrator {
   Attempt failure(int code, double h) {
     refused();
     if (adaptive()) check(ark::GetCurrentStep(arkode_, &h), "GetCurrentStep");
-    if (inadmissible_) {
-      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-    }
+    if (inadmissible_) return {.status = StepReport::Status::inadmissible, .h = h};
     if (code == ARK_TOO_MUCH_ACC && !adaptive()) {  // the norm with weights of 1 times the unit roundoff is above 1
       return {
           .status = StepReport::Status::not_finite, .h = h, .message = "the state has grown past 4e15: it diverges"};
@@ -304,6 +302,7 @@ std::vector<Method> erk_methods() {
     method.evaluations_per_step = effective_stages(table);
     method.adaptive = !table.b_embedded.empty();
     method.amplification = amplification_of(table);
+    method.oscillator_step = oscillator_step_of(table);
     methods.push_back(std::move(method));
   }
   return methods;

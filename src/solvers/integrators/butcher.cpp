@@ -1,6 +1,7 @@
 #include "solvers/integrators/butcher.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numeric>
@@ -62,14 +63,30 @@ int effective_stages(const ButcherTable& table) { return table.stages - (first_s
 
 AmplificationRadius amplification_of(const ButcherTable& table) {
   return [r = stability_polynomial(table)](double h, double omega, double rate) {
-    // λ = −rate/2 ± √((rate/2)² − omega²)
-    const double half_rate = rate / 2, discriminant = (half_rate - omega) * (half_rate + omega);
-    if (discriminant < 0) {
-      return modulus(r, std::complex<double>(-h * half_rate, h * std::sqrt(-discriminant)));  // the same for both
-    }
-    const double fast = -(half_rate + std::sqrt(discriminant));
+    // λ = −rate/2 ± √((rate/2)² − omega²), no square of which overflows
+    const double half_rate = rate / 2, root = std::sqrt(std::abs(half_rate - omega)) * std::sqrt(half_rate + omega);
+    if (half_rate < omega) return modulus(r, std::complex<double>(-h * half_rate, h * root));  // the same for both
+    const double fast = -(half_rate + root);
     const double slow = fast == 0 ? 0 : omega * omega / fast;  // λ₁ λ₂ = omega², without cancellation
     return std::max(modulus(r, h * fast), modulus(r, h * slow));
+  };
+}
+
+OscillatorStep oscillator_step_of(const ButcherTable& table) {
+  return [table, k = std::vector<std::array<double, 2>>(table.b.size())](double h, const Damping& local,
+                                                                         std::array<double, 2>& y) mutable {
+    const auto stages = table.b.size();
+    for (std::size_t i = 0; i < stages; ++i) {
+      std::array<double, 2> Y = y;
+      for (std::size_t j = 0; j < i; ++j) {
+        for (std::size_t c = 0; c < 2; ++c) Y[c] += h * table.A[i * stages + j] * k[j][c];
+      }
+      k[i] = {Y[1], -Y[0]};
+      local.add_local({&Y[1], 1}, {&k[i][1], 1});
+    }
+    for (std::size_t i = 0; i < stages; ++i) {
+      for (std::size_t c = 0; c < 2; ++c) y[c] += h * table.b[i] * k[i][c];
+    }
   };
 }
 

@@ -29,6 +29,9 @@ int effective_stages(const ButcherTable& table);
 /// R(z) = 1 + Σ_k z^k bᵀA^{k−1}1. A call allocates nothing.
 AmplificationRadius amplification_of(const ButcherTable& table);
 
+/// A step as the method takes it: its stages see D as their own v and Q have it.
+OscillatorStep oscillator_step_of(const ButcherTable& table);
+
 /// Kutta's classical method of order 4, without embedding.
 ButcherTable classical_rk4();
 /// Sofroniou and Spaletta's pair 4(3), five stages, first same as last.

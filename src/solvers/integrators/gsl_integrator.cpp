@@ -66,9 +66,10 @@ Stepper make_stepper(const gsl_odeiv2_step_type* type, std::size_t size) {
 
 // --- what a stepper is like, found by applying it: GSL does not publish its tableaux ---
 
-/// u'' + rate u' + omega² u = 0, y = [u; v].
+/// u'' + rate u' + omega² u = D, y = [u; v].
 struct Oscillator {
   double omega = 1, rate = 0;
+  const Damping* local = nullptr;  // null: D = 0
   int evaluations = 0;
 
   static int right_hand_side(double /*t*/, const double y[], double ydot[], void* self) {
@@ -76,6 +77,7 @@ struct Oscillator {
     ++oscillator.evaluations;
     ydot[0] = y[1];
     ydot[1] = -oscillator.omega * oscillator.omega * y[0] - oscillator.rate * y[1];
+    if (oscillator.local) oscillator.local->add_local({&y[1], 1}, {&ydot[1], 1});
     return GSL_SUCCESS;
   }
 };
@@ -151,7 +153,7 @@ class Gsl final : public SteppingIntegrator {
   }
 
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const QuietErrors quiet;
     std::ranges::copy(std::as_const(y).span(), trial.span().begin());
     return adaptive() ? adaptive_step(t, h, t_stop, trial.span().data()) : fixed_step(t, h, trial.span().data());
@@ -187,9 +189,7 @@ class Gsl final : public SteppingIntegrator {
   }
 
   Attempt failure(int code, double h) const {
-    if (code == GSL_EBADFUNC) {
-      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-    }
+    if (code == GSL_EBADFUNC) return {.status = StepReport::Status::inadmissible, .h = h};
     return {.status = StepReport::Status::failed, .h = h, .message = fmt::format("GSL: {}", gsl_strerror(code))};
   }
 
@@ -235,6 +235,10 @@ std::vector<Method> gsl_methods() {
       method.order = stepper.order;
       method.evaluations_per_step = evaluations_of(stepper.type);
       method.amplification = amplification_of(stepper.type);
+      method.oscillator_step = [type = stepper.type](double h, const Damping& local, std::array<double, 2>& y) {
+        Oscillator oscillator{.local = &local};
+        apply_once(type, oscillator, h, y);
+      };
     }
     methods.push_back(std::move(method));
   }

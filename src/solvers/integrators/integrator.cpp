@@ -74,6 +74,15 @@ Method find_method(std::string_view name, DampingTreatment treatment) {
   throw std::invalid_argument(unknown_word("there is no integrator", std::string(name), names));
 }
 
+double critical_step(const Method& method, const Damping& damping, const DampedSpectrum& spectrum) {
+  if (!damping.is_local() || !method.oscillator_step || !(spectrum.omega_max > 0))
+    return critical_step(method.amplification, spectrum);
+  DampedSpectrum undamped = spectrum;
+  undamped.stiffness_factor = 1;
+  return std::min(critical_step(method.amplification, undamped),
+                  switched_stability_limit(method.oscillator_step, damping) / spectrum.omega_max);
+}
+
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system) {
   const Method method = find_method(options.method, options.treatment);
   validate(options, method);

@@ -56,7 +56,7 @@ class Leapfrog final : public SteppingIntegrator {
   }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span()), a = a_.span();
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a_new = next_a_.span();
 
@@ -65,9 +65,8 @@ class Leapfrog final : public SteppingIntegrator {
       u_new[i] = u[i] + h * v_new[i];
     });
     force_is_current_ = false;
-    if (!evaluate(t + h, trial.span(), acceleration_, h, a_new)) {
-      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-    }
+    if (!evaluate(t + h, trial.span(), acceleration_, h, a_new))
+      return {.status = StepReport::Status::inadmissible, .h = h};
     for_each_index(u.size(), [=](std::size_t i) { v_new[i] += h / 2 * a_new[i]; });
     return {.h = h};
   }

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "linalg/vector_operations.hpp"
+#include "system/largest_at.hpp"
 
 namespace stillpoint {
 
@@ -31,17 +33,25 @@ StepReport SteppingIntegrator::step(double t_stop) {
     throw std::invalid_argument(fmt::format("there is no step from t = {} to {}", t_, t_stop));
   }
   double h = adaptive() ? options_.max_step : division_.step_from(t_, t_stop);
+  bool keeps_clear = true;  // of states that cannot be evaluated
   for (int halvings = 0;; ++halvings) {
     Attempt tried = attempt(t_, *y_, h, t_stop, *trial_);
     if (tried.status == StepReport::Status::ok) {
       // A sum of squares is not finite if any entry is not.
-      if (std::isfinite(dot(*trial_, *trial_))) return accept(tried);
+      const bool finite = std::isfinite(dot(*trial_, *trial_));
+      if (finite && keeps_clear) return accept(tried);
       refused();
-      tried = {.status = StepReport::Status::not_finite, .h = tried.h, .message = "the new state is not finite"};
+      if (finite) {
+        keeps_clear = true;
+        h = tried.h / clearance;
+        continue;
+      }
+      tried = {.status = StepReport::Status::not_finite, .h = tried.h};
     }
     const bool retry = tried.status == StepReport::Status::inadmissible && tried.h > 0 && halvings < max_halvings;
-    if (!retry) return {.status = tried.status, .t = t_, .h = tried.h, .message = tried.message};
+    if (!retry) return {.status = tried.status, .t = t_, .h = tried.h, .message = message_of(tried, halvings)};
     ++rejected_;
+    keeps_clear = keeps_clear && system_.went_too_far();
     h = tried.h / 2;
   }
 }
@@ -61,6 +71,21 @@ void SteppingIntegrator::archive(const StateArchive& state) {
   state("steps", steps_);
   state("rejected", rejected_);
   archive_memory(state);
+}
+
+std::string SteppingIntegrator::message_of(const Attempt& tried, int halvings) const {
+  switch (tried.status) {
+    case StepReport::Status::inadmissible:
+      if (tried.h == 0) return "the state cannot be evaluated: " + system_.refusal();
+      return fmt::format("the trial state cannot be evaluated, also after {} halvings of the step: {}", halvings,
+                         system_.refusal());
+    case StepReport::Status::not_finite:
+      return fmt::format("{}; {}; expected a smaller step, or more damping",
+                         tried.message.empty() ? "the new state is not finite" : tried.message,
+                         divergence_at(system_.system(), std::as_const(*y_).span(), std::as_const(*trial_).span()));
+    default:
+      return tried.message;
+  }
 }
 
 StepReport SteppingIntegrator::accept(const Attempt& attempt) {

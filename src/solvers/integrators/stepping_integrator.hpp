@@ -12,8 +12,11 @@ namespace stillpoint {
 
 class SteppingIntegrator : public Integrator {
  public:
-  /// An inadmissible trial is tried again with half its step, at most so many times.
+  /// An inadmissible trial is tried again with half its step, at most so many times. The first that is admissible may
+  /// still be as good as turned inside out, under stresses that would tear it apart within that step: the one taken
+  /// goes so much less far.
   static constexpr int max_halvings = 10;
+  static constexpr double clearance = 4;
 
   void start(double t, Vector& y) final;
   StepReport step(double t_stop) final;
@@ -26,9 +29,9 @@ class SteppingIntegrator : public Integrator {
  protected:
   struct Attempt {
     StepReport::Status status = StepReport::Status::ok;
-    double h = 0;  // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
-    double t = 0;  // adaptive: where the trial is [s]
-    std::string message{};
+    double h = 0;           // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
+    double t = 0;           // adaptive: where the trial is [s]
+    std::string message{};  // of what failed; where a state is inadmissible or not finite is found by the caller
   };
 
   SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system);
@@ -58,6 +61,7 @@ class SteppingIntegrator : public Integrator {
 
  private:
   StepReport accept(const Attempt& attempt);
+  std::string message_of(const Attempt& tried, int halvings) const;
 
   RelaxationSystem& system_;
   IntegratorOptions options_;

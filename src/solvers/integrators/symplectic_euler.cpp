@@ -2,7 +2,7 @@
 //
 // with C v_n (lagged), C v_{n+1} (implicit, the default), or v' = M⁻¹(Q_n − C v) solved exactly over the step
 // (e^{−ch}). Q_{n+1} is evaluated at the end of a step, so that a state that cannot be evaluated is never accepted: one
-// force evaluation a step, and one at the start.
+// force evaluation a step, and one at the start. D(v_{n+1}, Q_{n+1}) is added there, where Q_n is still the last force.
 
 #include <algorithm>
 #include <stdexcept>
@@ -37,28 +37,35 @@ class SymplecticEuler final : public SteppingIntegrator {
 
  private:
   void begin(double t, const Vector& y) override {
-    admissible_ = system().out_of_balance(t, first_half(y.span()), Q_.span());
+    admissible_ = evaluate(t, y.span(), Q_.span());
     force_is_current_ = true;
   }
-  void restart(double t, const Vector& /*y*/) override { system().last_out_of_balance(t, Q_.span()); }
+  void restart(double t, const Vector& y) override {
+    system().last_out_of_balance(t, Q_.span());
+    system().add_local_damping(second_half(y.span()), Q_.span());
+  }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span());
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
 
     std::ranges::copy(std::as_const(Q_).span(), a.begin());
-    system().add_local_damping(v, a);
     acceleration_(h, v, a);
     for_each_index(u.size(), [=](std::size_t i) {
       v_new[i] = v[i] + h * a[i];
       u_new[i] = u[i] + h * v_new[i];
     });
     force_is_current_ = false;
-    if (!system().out_of_balance(t + h, u_new, next_Q_.span())) {
-      return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-    }
+    if (!evaluate(t + h, trial.span(), next_Q_.span())) return {.status = StepReport::Status::inadmissible, .h = h};
     return {.h = h};
+  }
+
+  // Q + D(v, Q)
+  bool evaluate(double t, ConstVec y, Vec Q) {
+    if (!system().out_of_balance(t, first_half(y), Q)) return false;
+    system().add_local_damping(second_half(y), Q);
+    return true;
   }
 
   void accepted() override {
@@ -69,7 +76,7 @@ class SymplecticEuler final : public SteppingIntegrator {
   void archive_memory(const StateArchive& state) override { state("Q", Q_.span()); }
 
   DampedAcceleration acceleration_;
-  Vector Q_, next_Q_;  // (n) at t_n and at the trial's time
+  Vector Q_, next_Q_;  // Q + D, (n), at t_n and at the trial's time
   Vector a_;           // (n)
   bool admissible_ = true;
   bool force_is_current_ = false;

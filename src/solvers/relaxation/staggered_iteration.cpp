@@ -37,13 +37,12 @@ void StaggeredIteration::restart(double t, const Vector& /*y*/) {
 
 SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/, double h, double /*t_stop*/,
                                                         Vector& trial) {
-  if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+  if (!admissible_) return {.status = StepReport::Status::inadmissible};
   const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span());
   propose(h, u_new, v_new);
   force_is_current_ = false;
-  if (!system().out_of_balance(t + h, u_new, next_Q_.span())) {
-    return {.status = StepReport::Status::inadmissible, .h = h, .message = "the trial state cannot be evaluated"};
-  }
+  if (!system().out_of_balance(t + h, u_new, next_Q_.span()))
+    return {.status = StepReport::Status::inadmissible, .h = h};
   system().system().mass().solve(next_Q_.span(), next_a_.span());
   trial_step_ = h;
   trial_t_ = t + h;

@@ -1,36 +1,17 @@
 #include "solvers/spectrum/lowest_mode.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/SparseCore>
 
 #include "linalg/sparse_cholesky.hpp"
+#include "solvers/spectrum/largest_entry.hpp"
 #include "solvers/spectrum/nearest_eigenvalue.hpp"
 
 namespace stillpoint {
-namespace {
-
-// max |K_ij|/√(M_ii M_jj), of the size of the largest |λ|; NaN if one is. An indefinite K may have a diagonal of zeros.
-double largest_entry(const SparseMatrix& K, const Mass& mass) {
-  double largest = 0;
-  for (Eigen::Index j = 0; j < K.outerSize(); ++j) {
-    for (SparseMatrix::InnerIterator entry(K, j); entry; ++entry) {
-      const auto row = static_cast<std::size_t>(entry.row()), column = static_cast<std::size_t>(j);
-      const double size = std::abs(entry.value()) / std::sqrt(mass.diagonal()[row] * mass.diagonal()[column]);
-      if (std::isnan(size)) return size;
-      largest = std::max(largest, size);
-    }
-  }
-  return largest;
-}
-
-}  // namespace
-
 LowestMode lowest_mode(const SparseMatrix& K, const Mass& mass) {
   const double scale = largest_entry(K, mass);
-  LowestMode lowest{.rounding = 64 * std::numeric_limits<double>::epsilon() * scale};
+  LowestMode lowest{.rounding = rounding_of_eigenvalues * scale};
   if (!(scale > 0) || !std::isfinite(scale)) return lowest;
   const SparseMatrix M = mass.matrix();
   lowest.positive_definite = SparseCholesky(SparseMatrix(K - lowest.rounding * M)).positive_definite();

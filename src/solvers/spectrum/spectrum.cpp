@@ -51,26 +51,23 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
   return estimate;
 }
 
-namespace {
-
 // x ← K⁻¹ M x, and with the same factor ARPACK, if that does not converge: rounding in solutions with an
 // ill-conditioned K moves ρ by more than the tolerance, or a second mode has nearly the same frequency. Each has half
 // of the iterations.
-FrequencyEstimate lowest_frequency(const SemiDiscrete& system, const SparseMatrix& of_body,
-                                   const SpectrumOptions& options) {
+FrequencyEstimate lowest_frequency(const SparseMatrix& of_body, const Mass& mass, const SpectrumOptions& options) {
   require_valid(options);
   const Stopwatch watch;
-  const FactorisedStiffness K(system.mass(), of_body);
+  const FactorisedStiffness K(mass, of_body);
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
-  const LinearMap apply_M = [&](ConstVec x, Vec Mx) { system.mass().apply(x, Mx); };
+  const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
   const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
   const int half = std::max(1, options.max_iterations / 2);
-  const PowerIterationResult result = power_iteration(system.size(), apply_M, solve_K, options.tolerance, half);
+  const PowerIterationResult result = power_iteration(mass.size(), apply_M, solve_K, options.tolerance, half);
   FrequencyEstimate estimate{0, result.iterations, 0, result.converged, status_of(result, options), result.x};
   double omega_squared = 1 / result.eigenvalue;  // from above
   if (!result.converged && std::isfinite(result.eigenvalue) && options.max_iterations > half) {
     const NearestEigenvalue lowest = nearest_eigenvalue(
-        solve_K, system.mass(), 0, {.tolerance = options.tolerance, .max_iterations = options.max_iterations - half});
+        solve_K, mass, 0, {.tolerance = options.tolerance, .max_iterations = options.max_iterations - half});
     estimate.iterations += lowest.applications;
     estimate.converged = lowest.converged;
     if (lowest.converged) {
@@ -89,16 +86,9 @@ FrequencyEstimate lowest_frequency(const SemiDiscrete& system, const SparseMatri
   return estimate;
 }
 
-}  // namespace
-
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
                                                const SpectrumOptions& options) {
-  return lowest_frequency(system, system.tangents().matrix(Tangent::elastic, t, u), options);
-}
-
-FrequencyEstimate omega_1_of_tangent(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
-  const SparseMatrix K = system.tangents().matrix(Tangent::consistent, t, u), K_transposed = K.transpose();
-  return lowest_frequency(system, 0.5 * (K + K_transposed), options);
+  return lowest_frequency(system.tangents().matrix(Tangent::elastic, t, u), system.mass(), options);
 }
 
 }  // namespace stillpoint

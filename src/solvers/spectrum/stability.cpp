@@ -1,8 +1,10 @@
 #include <stillpoint/stability.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -14,21 +16,22 @@ namespace {
 // Stable means a growth per step of at most this. Where |R(iy)| leaves 1 at once but slowly (orders 5 and 6: like y⁶)
 // the limit is where the growth passes it: 0.02 … 0.04 for Cash–Karp and the like.
 constexpr double growth = 1e-12;
-// The scan in r = h |λ|: where it starts, its relative step, and where it gives up looking for a limit, there of h
-// omega: beside a large damping rate leapfrog's limit is 2/omega still, at a large r. A method that is unstable at the
-// start has no stable step: Heun–Euler on the imaginary axis.
-constexpr double r_first = 0.01, r_ratio = 1.02, r_last = 1e3;
+// The scan in r = h |λ|: where it starts, its relative step, and where it gives up looking for a limit. A method that
+// is unstable at the start has no stable step: Heun–Euler on the imaginary axis. Beside a large damping rate leapfrog's
+// limit is 2/omega still, at a large r: what stands up to the damping is looked at again in r = h omega, with a rate at
+// which growth can still be told from rounding.
+constexpr double r_first = 0.01, r_ratio = 1.02, r_last = 1e3, most_rate = 1e6;
 
 // The larger |λ| of λ² + rate λ + omega² = 0.
 double spectral_radius(double omega, double rate) {
   const double half = rate / 2;
-  return half <= omega ? omega : half + std::sqrt((half - omega) * (half + omega));
+  return half <= omega ? omega : half * (1 + std::sqrt((1 - omega / half) * (1 + omega / half)));
 }
 
-// The largest h ≤ h_max such that every step of the scan up to h is stable; h_max if none fails.
-double largest_stable_step(const AmplificationRadius& amplification, double omega, double rate, double h_max) {
+// The largest h ≤ h_max such that every step of a scan from h_first to h is stable; h_max if none fails.
+double scan(const AmplificationRadius& amplification, double omega, double rate, double h_first, double h_max) {
   const auto stable = [&](double h) { return amplification(h, omega, rate) <= 1 + growth; };  // false for NaN
-  double good = 0, bad = std::min(h_max, r_first / spectral_radius(omega, rate));
+  double good = 0, bad = std::min(h_max, h_first);
   while (stable(bad)) {
     if (bad >= h_max) return h_max;
     good = bad;
@@ -40,6 +43,13 @@ double largest_stable_step(const AmplificationRadius& amplification, double omeg
     (stable(middle) ? good : bad) = middle;
   }
   return good;
+}
+
+double largest_stable_step(const AmplificationRadius& amplification, double omega, double rate, double h_max) {
+  const double radius = spectral_radius(omega, rate), past_damping = std::min(h_max, r_last / radius);
+  const double h = scan(amplification, omega, rate, r_first / radius, past_damping);
+  if (h < past_damping || h >= h_max) return h;
+  return scan(amplification, omega, std::min(rate, most_rate * omega), std::max(h, r_first / omega), h_max);
 }
 
 // a = x_0 < … < x_m = b in geometric progression, each x_k/x_{k−1} ≤ ratio and at least `fewest` of them; a ≥ 0, and
@@ -103,6 +113,49 @@ double critical_step(const AmplificationRadius& amplification, const DampedSpect
     }
   }
   return h;
+}
+
+namespace {
+
+// Whether no motion grows: by the largest ‖y‖ in the first half of many steps and in the second, from phases all around
+// half the circle; the other half is the same with all signs changed, and lengths are no matter: D(v, s Q) = s D(v, Q).
+bool every_phase_decays(const OscillatorStep& step, const Damping& local, double h) {
+  constexpr int phases = 24, steps = 200;
+  constexpr double rounding = 1e-9;
+  for (int k = 0; k < phases; ++k) {
+    const double phase = std::numbers::pi * (k + 0.5) / phases;
+    std::array<double, 2> y = {std::cos(phase), std::sin(phase)};
+    double log_size = 0, before = 0, after = -std::numeric_limits<double>::infinity();
+    for (int n = 0; n < steps; ++n) {
+      step(h, local, y);
+      const double length = std::hypot(y[0], y[1]);
+      if (length == 0) break;
+      if (!std::isfinite(length)) return false;
+      log_size += std::log(length);
+      double& most = n < steps / 2 ? before : after;
+      most = std::max(most, log_size);
+      for (double& value : y) value /= length;
+    }
+    if (after > before + rounding) return false;  // there are motions that D never meets
+  }
+  return true;
+}
+
+}  // namespace
+
+double switched_stability_limit(const OscillatorStep& step, const Damping& local) {
+  constexpr double first = 0.2, ratio = 1.02, last = 100, accuracy = 1e-3;
+  double good = 0, bad = first;
+  while (every_phase_decays(step, local, bad)) {
+    good = bad;
+    bad *= ratio;
+    if (bad > last) return last;
+  }
+  while (good > 0 && bad - good > accuracy * bad) {
+    const double middle = (good + bad) / 2;
+    (every_phase_decays(step, local, middle) ? good : bad) = middle;
+  }
+  return good;
 }
 
 double stability_limit(const AmplificationRadius& amplification, double zeta) {

@@ -3,11 +3,13 @@
 #include <stillpoint/static_solution.hpp>
 
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
 #include "solvers/statics/subtract_product.hpp"
+#include "system/largest_at.hpp"
 #include "system/static_balance.hpp"
 
 namespace stillpoint {
@@ -45,8 +47,9 @@ StaticReport conjugate_gradients(const SemiDiscrete& system, double t, Vec u, co
     if (report.residual <= options.tolerance)
       return end(true, fmt::format("residual {:.3g} ≤ tolerance {:.3g}", report.residual, options.tolerance));
     if (pass == passes || report.iterations >= most)
-      return end(false, fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations", report.residual,
-                                    options.tolerance, report.iterations));
+      return end(false, fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations, largest at {}",
+                                    report.residual, options.tolerance, report.iterations,
+                                    largest_at(system, std::as_const(balance.Q).span())));
     const SparseMatrix of_loads = system.tangents().of_loads(t, u);
     const LinearMap K = [&](ConstVec x, Vec Kx) {
       system.tangents().apply(Tangent::consistent, t, u, x, Kx);

@@ -9,6 +9,7 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "solvers/statics/subtract_product.hpp"
+#include "system/largest_at.hpp"
 #include "system/static_balance.hpp"
 
 namespace stillpoint {
@@ -31,7 +32,7 @@ class Newton {
 
   StaticReport solve() {
     if (!balance_.start(u_)) {
-      report_.reason = "the state at the start is inadmissible";
+      report_.reason = "the state at the start cannot be evaluated: " + system_.diagnosis().refusal(balance_.trial());
       return finished();
     }
     std::vector<double> u(u_.begin(), u_.end());
@@ -55,8 +56,9 @@ class Newton {
           size = std::min(1.0 / options_.load_steps, options_.max_load_step);
           accepts_ = std::exchange(refused_, false);
         } else if (size < options_.min_load_step) {
-          report_.reason = fmt::format("no equilibrium beyond the load factor {:.4g}: {}; load step {:.3g} < {:.3g}", s,
-                                       report_.reason, size, options_.min_load_step);
+          report_.reason =
+              fmt::format("no equilibrium beyond the load factor {:.4g}: {}, {}; load step {:.3g} < {:.3g}", s,
+                          report_.reason, worst(step.to, u), size, options_.min_load_step);
           return finished();
         }
       }
@@ -115,6 +117,12 @@ class Newton {
     report_.residual = residual;
     report_.reason = fmt::format("residual {:.3g} ≤ tolerance {:.3g}", residual, options_.tolerance);
     return true;
+  }
+
+  // What keeps u from being in balance.
+  std::string worst(double s, ConstVec u) {
+    if (!balance_.evaluate(s, u)) return "where " + system_.diagnosis().refusal(balance_.trial());
+    return "largest at " + largest_at(system_, std::as_const(balance_.Q).span());
   }
 
   // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays if none does.

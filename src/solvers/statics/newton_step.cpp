@@ -23,12 +23,15 @@ class NewtonStep final : public Integrator {
     t_ = t;
     y_ = &y;
   }
-  // At the t of the start: there is no time on the way. A second step is the same once more, from the answer.
+  // At the t of the start: there is no time on the way. A second step is the same once more, from the answer and to a
+  // smaller residual.
   StepReport step(double /*t_stop*/) override {
     const StaticReport report = newton(system_.system(), t_, first_half(y_->span()), options_);
     iterations_ += report.iterations;
     system_.count_evaluations(report.force_evaluations + report.tangent_products);
     std::ranges::fill(second_half(y_->span()), 0.0);
+    constexpr double smaller = 1e-2, rounding = 1e-17;
+    options_.tolerance = std::clamp(smaller * report.residual, rounding, options_.tolerance);
     const bool moved = report.iterations > 0 || iterations_ == 0;
     if (report.converged && moved) return {.t = t_, .message = report.reason};
     return {.status = StepReport::Status::failed,

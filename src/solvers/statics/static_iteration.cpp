@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/parallel_loop.hpp"
+#include "system/largest_at.hpp"
 
 namespace stillpoint {
 
@@ -28,7 +29,7 @@ void StaticIteration::begin(double t, const Vector& /*y*/) {
 }
 
 SteppingIntegrator::Attempt StaticIteration::attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) {
-  if (!admissible_) return {.status = StepReport::Status::inadmissible, .message = "the state cannot be evaluated"};
+  if (!admissible_) return {.status = StepReport::Status::inadmissible};
   const Vec u_new = first_half(trial.span());
   std::ranges::copy(first_half(std::as_const(y).span()), u_new.begin());
   std::ranges::fill(second_half(trial.span()), 0.0);
@@ -41,7 +42,8 @@ SteppingIntegrator::Attempt StaticIteration::attempt(double t, Vector& y, double
   system().out_of_balance(t, first_half(std::as_const(y).span()), Q_.span());
   return {.status = StepReport::Status::failed,
           .h = h,
-          .message = "the line search finds no state that is more in balance"};
+          .message = "the line search finds no state that is more in balance; the out-of-balance force is largest at " +
+                     largest_at(system().system(), std::as_const(Q_).span())};
 }
 
 void StaticIteration::archive_memory(const StateArchive& state) {

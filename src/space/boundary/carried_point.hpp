@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "space/boundary/boundary_condition.hpp"
 #include "space/points/nearest_point.hpp"
@@ -29,6 +30,8 @@ inline bool has_phases(const Scene& scene) { return scene.phase.max_motion || sc
 ///   a force inside the body and a dipole that the point's stress resists. Since Σ N_a = 1 and Σ N_a ξ_a = x (ξ_a the
 ///   Greville abscissae), Σ w_a f = f and Σ w_a ξ_a × f = x × f: neither the force nor its moment depends on which
 ///   point that is.
+/// - Where points stand for domains, the position is Σ_c ω_c x_c of the corners of one of them for good, and
+///   w_a = Σ_c ω_c N_a(x_c): a load on a face of domains is in equilibrium with a stress in them.
 template <AxisBasis B, Kinematics K>
 struct CarriedPoint {
   static constexpr int dim = dimensions(K);
@@ -37,6 +40,8 @@ struct CarriedPoint {
   static constexpr int entries = 2 * per_cell;  // functions of two cells, which may be the same one
 
   Point<dim> x;                                     // when the phase begins [m]
+  Point<dim> xi;                                    // in its domain, −1 to 1
+  std::size_t carrier;                              // number of the point whose domain that is
   std::array<int, entries> function;                // −1: nothing
   std::array<double, entries> w;                    // weights
   std::array<std::array<double, entries>, dim> dN;  // of the displacement's gradient there, [j][a] [1/m]
@@ -51,9 +56,9 @@ struct CarriedPoint {
   }
   /// By a material point. A position further than a cell's width away has lost its surface, and is brought back to
   /// there.
-  void freeze(const PointInCell& carrier, const PhaseParts<B, K>& phase) {
+  void freeze(const PointInCell& nearest, const PhaseParts<B, K>& phase) {
     clear();
-    const auto [k, p] = carrier;
+    const auto [k, p] = nearest;
     const Point<dim> x_p = phase.points.position(p);
     const auto at = phase.grid.cell_at(phase.points.cell[k]);
     Point<dim> d, mirror;
@@ -80,6 +85,37 @@ struct CarriedPoint {
     for (int a = 0; a < per_cell; ++a) {
       function[per_cell + a] = -1;
       w[a] = N[a] + w[a] / 2;
+    }
+  }
+
+  /// Belongs to the domain of a point from now on, which is still a box.
+  void attach(const PointInCell& nearest, const MaterialPoints<dim>& points) {
+    carrier = static_cast<std::size_t>(points.number[nearest.p]);
+    const auto box = Domain<dim>::of(points, nearest.p);
+    for (int j = 0; j < dim; ++j) xi[j] = (2 * x[j] - box.x[0][j] - box.x.back()[j]) / (box.x.back()[j] - box.x[0][j]);
+  }
+  /// By the corners of that domain.
+  void freeze_in_domain(const PointInCell& of, const PhaseParts<B, K>& phase) {
+    clear();
+    const auto [k, p] = of;
+    const auto cell = phase.grid.cell_at(phase.points.cell[k]);
+    const auto domain = Domain<dim>::of(phase.points, p), in_grid = Domain<dim>::in_grid(phase.points, p, phase.grid);
+    const auto share = Domain<dim>::weights(xi);
+    x.fill(0);
+    for (int c = 0; c < domain.corners; ++c) {
+      const auto N = Basis::evaluate(phase.grid, cell, in_grid.x[c]).N;
+      for (int a = 0; a < per_cell; ++a) w[a] += share[c] * N[a];
+      for (int j = 0; j < dim; ++j) x[j] += share[c] * domain.x[c][j];
+    }
+    const auto gradients = phase.weights.dN(k, p);
+    for (int a = 0; a < per_cell; ++a) {
+      for (int j = 0; j < dim; ++j) {
+        dN[j][a] = gradients[per_cell * j + a];
+        // Where the domain was shrunk: the moment is still that of x.
+        for (int c = 0; c < domain.corners; ++c) w[a] += share[c] * (domain.x[c][j] - in_grid.x[c][j]) * dN[j][a];
+      }
+      const bool acts = phase.dofs.number[static_cast<std::size_t>(dim * phase.weights.function(k, a))] >= 0;
+      if (acts) function[a] = phase.weights.function(k, a);
     }
   }
 
@@ -125,5 +161,25 @@ struct CarriedPoint {
     return reached;
   }
 };
+
+/// Lets material points carry the positions at_of(load) in the phase that begins.
+template <AxisBasis B, Kinematics K, class Loads, class PositionOf>
+void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const PhaseParts<B, K>& phase) {
+  if constexpr (B::window == 1) {
+    const NearestPoint<dimensions(K)> nearest(phase.points, phase.grid);
+    for (auto& load : loads) at_of(load).freeze(nearest.to(at_of(load).x), phase);
+  } else {
+    if (is_first) {
+      const NearestPoint<dimensions(K)> nearest(phase.points, phase.grid);
+      for (auto& load : loads) at_of(load).attach(nearest.to(at_of(load).x), phase.points);
+    }
+    std::vector<PointInCell> with_number(phase.points.size());
+    for (std::size_t k = 0; k < phase.points.cells(); ++k) {
+      for (std::size_t p = phase.points.begin(k); p < phase.points.end(k); ++p)
+        with_number[static_cast<std::size_t>(phase.points.number[p])] = {k, p};
+    }
+    for (auto& load : loads) at_of(load).freeze_in_domain(with_number[at_of(load).carrier], phase);
+  }
+}
 
 }  // namespace stillpoint

@@ -20,12 +20,13 @@ struct FacePoint {
 
 /// Three Gauss points, exact to degree 5. If material points are to carry them, one to each of the points that lie
 /// along the face, as wide as it is.
-inline std::vector<FacePoint> face_rule(const BodySpec& body, std::size_t along, bool carried) {
+inline std::vector<FacePoint> face_rule(const BodySpec& body, std::size_t along, bool carried, bool domains) {
   if (!carried) return {{-std::sqrt(0.6), 5.0 / 9}, {0.0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}};
   const Placement placement = body.placement == Placement::gauss ? Placement::gauss : Placement::uniform;
   const std::vector<double> xi = line_positions(placement, body.points_per_cell[along]);
   const Eigen::MatrixXd row = Eigen::Map<const Eigen::RowVectorXd>(xi.data(), static_cast<Eigen::Index>(xi.size()));
-  const MomentFit fit = body.volumes == VolumeRule::consistent ? fit_moments(row) : equal_weights(row);
+  const bool fitted = body.volumes == VolumeRule::consistent && !domains;
+  const MomentFit fit = fitted ? fit_moments(row) : equal_weights(row);
   std::vector<FacePoint> rule;
   for (std::size_t k = 0; k < xi.size(); ++k) rule.push_back({xi[k], 2 * fit.weights(static_cast<Eigen::Index>(k))});
   return rule;

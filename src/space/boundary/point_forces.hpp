@@ -63,18 +63,25 @@ class PointForces final : public BoundaryCondition<B, K> {
     for (const auto& [dof, weight] : load.weights) F[static_cast<std::size_t>(dof)] += weight * force;
   }
 
+  static std::array<int, dim> cell_at(const Point<dim>& x, const Grid<dim>& grid) {
+    auto cell = grid.host_of(x);
+    for (int d = 0; d < dim; ++d) cell[d] = std::clamp(cell[d], 0, std::max(grid.axes[d].cells() - B::window, 0));
+    return cell;
+  }
+
   void find(const Parts& phase) {
     for (std::size_t f = 0; f < at_.size() && !has_begun_; ++f) {
-      at_[f].freeze(phase.grid.host_of(at_[f].x), phase);
+      at_[f].freeze(cell_at(at_[f].x, phase.grid), phase);
       for (std::size_t a = 0; a < at_[f].w.size(); ++a) {
         if (at_[f].function[a] < 0 && std::abs(at_[f].w[a]) > 1e-12)
           throw_scene_error(scene_, fmt::format("force[{}].at", f), "there is no material at this place");
       }
     }
+    if (has_phases(scene_)) {
+      freeze_carried<B, K>(
+          at_, [](CarriedPoint<B, K> & at) -> auto& { return at; }, !has_begun_, phase);
+    }
     has_begun_ = true;
-    if (!has_phases(scene_)) return;
-    const NearestPoint<dim> nearest(phase.points, phase.grid);
-    for (auto& at : at_) at.freeze(nearest.to(at.x), phase);
   }
 
   static std::vector<std::pair<int, double>> weights_of(const CarriedPoint<B, K>& at, int component,

@@ -31,8 +31,9 @@ class Tractions final : public BoundaryCondition<B, K> {
 
   void begin_phase(const Parts& phase, Vec) override {
     if (has_phases(scene_)) {
-      const NearestPoint<dim> nearest(phase.points, phase.grid);
-      for (Piece& piece : pieces_) piece.at.freeze(nearest.to(piece.at.x), phase);
+      freeze_carried<B, K>(
+          pieces_, [](Piece & piece) -> auto& { return piece.at; }, !has_begun_, phase);
+      has_begun_ = true;
       return;
     }
     for (Piece& piece : pieces_) {
@@ -111,7 +112,7 @@ class Tractions final : public BoundaryCondition<B, K> {
     } else {
       const auto along = static_cast<std::size_t>(1 - axis);
       const double begin = body.min[along], end = body.max[along];
-      const auto rule = face_rule(body, along, has_phases(scene_));
+      const auto rule = face_rule(body, along, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
       const auto& nodes = grid.axes[along].nodes;
       for (std::size_t c = 0; c + 1 < nodes.size(); ++c) {
         const double from = std::max(begin, nodes[c]), to = std::min(end, nodes[c + 1]);
@@ -199,6 +200,7 @@ class Tractions final : public BoundaryCondition<B, K> {
 
   const Scene& scene_;
   std::vector<Piece> pieces_;
+  bool has_begun_ = false;  // the first phase
 };
 
 }  // namespace stillpoint

@@ -6,6 +6,7 @@
 //   CubicHermite   value and slope at both nodes, C¹; a slope's degree of freedom is du/dx
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -22,6 +23,8 @@ concept AxisBasis = requires(const Axis& axis, int cell, double x, double* N) {
   { B::per_cell } -> std::convertible_to<int>;
   // Whether Σ_i N_i = 1, so that row sums lump the mass.
   { B::partition_of_unity } -> std::convertible_to<bool>;
+  // How many cells in a row the local functions are those of.
+  { B::window } -> std::convertible_to<int>;
   // Whether local function a is a value (and not a slope).
   { B::is_value(cell) } -> std::convertible_to<bool>;
   { B::count(axis) } -> std::convertible_to<int>;
@@ -34,6 +37,7 @@ template <int Degree>
 struct BSpline {
   static constexpr int degree = Degree;
   static constexpr int per_cell = Degree + 1;
+  static constexpr int window = 1;
   static constexpr bool partition_of_unity = true;
   static constexpr bool is_value(int) { return true; }
   static int count(const Axis& axis) { return axis.cells() + Degree; }
@@ -75,10 +79,13 @@ struct BSpline {
 struct CubicHermite {
   static constexpr int degree = 3;
   static constexpr int per_cell = 4;
+  static constexpr int window = 1;
   static constexpr bool partition_of_unity = false;
   static constexpr bool is_value(int a) { return a % 2 == 0; }
   static int count(const Axis& axis) { return 2 * (axis.cells() + 1); }
   static int first(int cell) { return 2 * cell; }
+  /// The node that a function belongs to.
+  static double centre(const Axis& axis, int function) { return axis.nodes[static_cast<std::size_t>(function / 2)]; }
 
   // With s = (x − x_c)/h:  1 − 3s² + 2s³,  h s(1 − s)²,  3s² − 2s³,  −h s²(1 − s)
   static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {
@@ -127,11 +134,14 @@ struct TensorBasis {
     for (int d = Dim - 1; d >= 0; --d) number = number * B::count(grid.axes[d]) + B::first(cell[d]);
     return number;
   }
-  /// What to add to first() for local function a.
+  /// What to add to first() for local function a. Functions of a second cell that an axis does not have are 0.
   static std::array<int, per_cell> offsets(const Grid<Dim>& grid) {
     std::array<int, per_cell> offset{};
     for (int a = 0; a < per_cell; ++a) {
-      for (int d = Dim - 1; d >= 0; --d) offset[a] = offset[a] * B::count(grid.axes[d]) + axis_index(a, d);
+      for (int d = Dim - 1; d >= 0; --d) {
+        const int count = B::count(grid.axes[d]);
+        offset[a] = offset[a] * count + std::min(axis_index(a, d), count - 1);
+      }
     }
     return offset;
   }

@@ -53,8 +53,12 @@ requires(B::partition_of_unity) class Extrapolator {
     }
     if (nearest) return nearest;
     if constexpr (Dim == 2) nearest = from_rectangle(function);
-    return nearest ? nearest : from_neighbour(function);
+    return nearest ? nearest : from_neighbour(function, share_[static_cast<std::size_t>(function)]);
   }
+
+  /// Of a function that has more of its share than all that share a cell with it: the one next to it in that. None if
+  /// it is alone.
+  std::optional<Extrapolation> from_next_best(int function) const { return from_neighbour(function, 0); }
 
  private:
   static constexpr int reach = B::degree + 1;
@@ -77,11 +81,11 @@ requires(B::partition_of_unity) class Extrapolator {
     return nearest;
   }
 
-  std::optional<Extrapolation> from_neighbour(int function) const {
+  // With more than this share.
+  std::optional<Extrapolation> from_neighbour(int function, double best) const {
     constexpr int span = 2 * B::degree + 1;
     std::optional<Extrapolation> nearest;
     int distance = 0;
-    double best = share_[static_cast<std::size_t>(function)];
     for (int k = 0; k < power(span, Dim); ++k) {
       int other = function, away = 0;
       bool exists = true;
@@ -91,6 +95,7 @@ requires(B::partition_of_unity) class Extrapolator {
         other += by * stride_[d];
         away += std::abs(by);
       }
+      exists = exists && other != function;
       const double share = exists ? std::min(share_[static_cast<std::size_t>(other)], 1.0) : 0;
       if (!(share > best || (nearest && share == best && away < distance))) continue;
       nearest = Extrapolation{.functions = 1, .function = {other}, .weight = {1}};

@@ -108,6 +108,11 @@ class NodalInertia {
       std::erase_if(added_, [&](const AddedInertia& one) {
         return one.relative_to.functions == 0 && share[static_cast<std::size_t>(one.function)] > most_of_it;
       });
+      // If that has too little it goes by another one of the point's, which goes by it: the point still falls freely.
+      for (AddedInertia& one : added_) {
+        if (one.relative_to.functions > 0 || !is_free[static_cast<std::size_t>(one.function)]) continue;
+        one.relative_to = extrapolate.from_next_best(one.function).value_or(Extrapolation{});
+      }
     }
   }
 

@@ -14,6 +14,7 @@
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/materials/deformation.hpp"
 #include "space/points/material_points.hpp"
+#include "space/points/point_domains.hpp"
 
 namespace stillpoint {
 
@@ -55,7 +56,7 @@ class PointWeights {
         return;
       }
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        const auto values = Basis::evaluate(grid, cell, points.position(p));
+        const auto values = evaluate(grid, cell, points, p);
         double* N = N_.data() + per_cell * p;
         double* dN = dN_.data() + rows * per_cell * p;
         for (int a = 0; a < per_cell; ++a) {
@@ -138,6 +139,24 @@ class PointWeights {
   }
 
  private:
+  static typename Basis::Values evaluate(const Grid<dim>& grid, const std::array<int, dim>& cell,
+                                         const MaterialPoints<dim>& points, std::size_t p) {
+    if constexpr (B::window == 1) {
+      return Basis::evaluate(grid, cell, points.position(p));
+    } else {
+      const auto domain = Domain<dim>::in_grid(points, p, grid);
+      const auto S = domain.gradients();
+      typename Basis::Values mean{};
+      for (int c = 0; c < domain.corners; ++c) {
+        const auto at_corner = Basis::evaluate(grid, cell, domain.x[c]);
+        for (int a = 0; a < per_cell; ++a) {
+          mean.N[a] += at_corner.N[a] / domain.corners;
+          for (int j = 0; j < dim; ++j) mean.dN[j][a] += S[c][j] * at_corner.N[a];
+        }
+      }
+      return mean;
+    }
+  }
   void locate_in_cell(const Grid<dim>& grid, const std::array<int, dim>& at, const MaterialPoints<dim>& points,
                       std::size_t k) {
     Cell& cell = cell_[k];

@@ -160,7 +160,25 @@ class VelocityTransfer {
         w[j][a] = by_gradient ? dN[per_cell * j + a] : N[a] * (centre[j][a] - x[j]) / D;
       }
     }
+    if constexpr (B::window > 1 && dim == 2) set_by_full_moments(N, centre, x, w);
     return w;
+  }
+  // The mean of N over a domain is no product of functions of x and y: w = D⁻¹ N (x_a − x_p), D_ij with mixed terms.
+  static void set_by_full_moments(const double* N, const Centres& centre, const Point<dim>& x, AffineWeights& w) {
+    double D_xx = 0, D_xy = 0, D_yy = 0;
+    for (int a = 0; a < per_cell; ++a) {
+      const double r_x = centre[0][a] - x[0], r_y = centre[1][a] - x[1];
+      D_xx += N[a] * r_x * r_x;
+      D_xy += N[a] * r_x * r_y;
+      D_yy += N[a] * r_y * r_y;
+    }
+    const double det = D_xx * D_yy - D_xy * D_xy;
+    if (!(det > 1e-12 * (D_xx + D_yy) * (D_xx + D_yy))) return;
+    for (int a = 0; a < per_cell; ++a) {
+      const double r_x = centre[0][a] - x[0], r_y = centre[1][a] - x[1];
+      w[0][a] = N[a] * (D_yy * r_x - D_xy * r_y) / det;
+      w[1][a] = N[a] * (D_xx * r_y - D_xy * r_x) / det;
+    }
   }
 
   // B_p = Σ_a N_a v_a ⊗ (x_a + u_a − x_p − u_p)

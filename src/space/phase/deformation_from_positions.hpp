@@ -19,6 +19,7 @@
 #include "space/boundary/boundary_condition.hpp"
 #include "space/kernels/point_fit.hpp"
 #include "space/points/body.hpp"
+#include "space/points/point_domains.hpp"
 
 namespace stillpoint {
 
@@ -87,7 +88,7 @@ class DeformationFromPositions {
       const Values values = displacements(body, b, F, origin);
       if (values.mass.empty()) continue;
       const double h = (grid.axes[0].max() - grid.axes[0].min()) / grid.axes[0].cells();
-      const Fit fit(grid, body.points, weights, corner_sum, values, {.tolerance = tolerance * h});
+      const Fit fit(grid, body.points, weights, corner_sum, values, options(h));
       const std::vector<double> U = fit.solve(still_anchored(b, held));
       const std::vector<char> trusted = trusted_functions(grid, body.points, weights, fit, values, U);
       for_each_block(body.points.cells(), [&](std::size_t k) {
@@ -146,6 +147,16 @@ class DeformationFromPositions {
     return !held.motion(s).moves() && held.motion(s).displacement(0) == 0;
   }
 
+  // Domains show their gradients themselves: these decide, and what the fit takes from them is what no function feels,
+  // Σ_p V_p ∇N̄_ip (∇U − g_p) = 0.
+  static PointFitOptions options(double h) {
+    if constexpr (B::window > 1) {
+      return {.gradient_share = 1, .tolerance = tolerance * h, .iterations = 40};
+    } else {
+      return {.tolerance = tolerance * h};
+    }
+  }
+
   // I − H
   static TensorOf<K> identity_minus(TensorOf<K> H) {
     for (double& component : H) component = -component;
@@ -166,9 +177,9 @@ class DeformationFromPositions {
           values.gradient.resize(points.size());
           values.mass.assign(points.size(), 0);
         }
-        const auto inverse_F = inverse<K>(F.at(k, p));
+        const auto inverse_F = inverse<K>(present_deformation(points, F, k, p));
         const auto number = static_cast<std::size_t>(points.number[p]);
-        values.mass[p] = points.mass[p];
+        values.mass[p] = B::window > 1 ? points.volume[p] : points.mass[p];
         for (int i = 0; i < dim; ++i) {
           values.value[p][i] = points.x[i][p] - origin[dim * number + i];
           for (int j = 0; j < dim; ++j) values.gradient[p][dim * i + j] = (i == j ? 1 : 0) - inverse_F[dim * i + j];
@@ -176,6 +187,18 @@ class DeformationFromPositions {
       }
     }
     return values;
+  }
+
+  // Of a domain by its corners, which show what its point alone does not.
+  static TensorOf<K> present_deformation(const MaterialPoints<dim>& points, const PointDeformations& F, std::size_t k,
+                                         std::size_t p) {
+    if constexpr (B::window > 1) {
+      Point<dim> r;
+      for (int d = 0; d < dim; ++d) r[d] = points.half[d][p];
+      return Domain<dim>::of(points, p).deformation(r);
+    } else {
+      return F.at(k, p);
+    }
   }
 
   std::vector<char> still_anchored(std::size_t b, const HeldUnknowns& held) const {

@@ -93,6 +93,12 @@ class PhaseControl {
   virtual void archive(const StateArchive& state) = 0;
 };
 
+/// Of material points as well, by their numbers from 0.
+class PhaseDiagnosis : public Diagnosis {
+ public:
+  virtual PlaceInBody of_point(std::size_t number) const = 0;
+};
+
 /// The semi-discrete system of one phase, with what a user wants to see of its points.
 class LagrangianPhase : public SemiDiscrete {
  public:
@@ -120,6 +126,7 @@ class LagrangianPhase : public SemiDiscrete {
   /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
   /// Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;
+  const PhaseDiagnosis& diagnosis() const override = 0;
   virtual PhaseControl& control() = 0;
   virtual const PhaseControl& control() const = 0;
 

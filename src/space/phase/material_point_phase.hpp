@@ -1,5 +1,5 @@
 // Lagrangian phases for one basis and one kind of kinematics: what they are made of. What they do is in
-// phase_forces.hpp, phase_points.hpp, phase_inertia.hpp, phase_change.hpp and phase_cut_cells.hpp.
+// phase_forces.hpp, phase_points.hpp, phase_inertia.hpp, phase_change.hpp, phase_cut_cells.hpp and phase_diagnosis.hpp.
 #pragma once
 
 #include <stillpoint/damping.hpp>
@@ -29,7 +29,10 @@
 namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
-class MaterialPointPhase final : public LagrangianPhase, private Tangents, private PhaseControl {
+class MaterialPointPhase final : public LagrangianPhase,
+                                 private Tangents,
+                                 private PhaseControl,
+                                 private PhaseDiagnosis {
   static constexpr int Dim = dimensions(K);
   static constexpr int per_cell = PointWeights<B, K>::per_cell;
   static constexpr int components = stillpoint::gradient_components(K);
@@ -66,6 +69,7 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   void commit(TrialState& trial) override;
   bool history_dependent() const override { return history_dependent_; }
   const Tangents& tangents() const override { return *this; }
+  const PhaseDiagnosis& diagnosis() const override { return *this; }
   void add_support_inertia(double t, double c, Vec Q) const override;
   const Contact* contact() const override { return contact_; }
   Contact* contact() override { return contact_; }
@@ -119,6 +123,14 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
 
   void archive(const StateArchive& state) override;  // phase_archive.hpp
 
+  // --- PhaseDiagnosis, see phase_diagnosis.hpp -----------------------------------------------------
+  std::string refusal(TrialState& trial) const override;
+  PlaceInBody of_unknown(std::size_t k) const override;
+  PlaceInBody of_point(std::size_t number) const override;
+  PlaceInBody place(std::size_t k, std::size_t p) const;
+  std::string refusal_of_motion(ConstVec u) const;
+  std::string refusal_at_points(Trial& trial) const;
+
   static bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
   bool updated_lagrangian() const { return info_.updated_lagrangian; }
   void describe();
@@ -154,7 +166,8 @@ class MaterialPointPhase final : public LagrangianPhase, private Tangents, priva
   std::vector<double> impulse(const std::vector<double>& grid_v) const;
   void keep_spin(const std::vector<double>& grid_v);
   void end_phase(double t, ConstVec u, ConstVec v);
-  bool check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u, double t) const;
+  void move_corners(std::size_t k, std::size_t p);
+  bool check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u) const;
 
   bool is_within_phase(ConstVec u, const double* grid_u) const;
   double largest_motion(ConstVec u) const;

@@ -41,6 +41,9 @@ void MaterialPointPhase<B, K>::archive_points(const StateArchive& state) {
     state(fmt::format("v_{}", d), Vec(points.v[d]));
   }
   for (std::size_t ij = 0; ij < points.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), Vec(points.B_apic[ij]));
+  if (points.has_domains()) {
+    for (std::size_t c = 0; c < points.corner.size(); ++c) state(fmt::format("corner_{}", c), Vec(points.corner[c]));
+  }
   state("volume", Vec(points.volume));
   state("mass", Vec(points.mass));
   state("number", points.number);

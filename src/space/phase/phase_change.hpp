@@ -42,7 +42,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   spread(t, u, grid_u_);
   // Before anything changes: a run that ends here shows the state it had.
   const GridFaces<Dim> faces(scene_, next_grid);
-  const bool some_past_a_face = check_inside(next_grid, faces, grid_u_, t);
+  const bool some_past_a_face = check_inside(next_grid, faces, grid_u_);
   motion_since_deformation_ += largest_motion(u);
   end_phase(t, u, v);
   if (some_past_a_face) faces.put_back(body_.points);
@@ -189,16 +189,33 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   for_each_block(body_.points.cells(), [&](std::size_t k) {
     for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
       const auto u_p = weights_.value(grid_u_.data(), k, p);
+      if constexpr (B::window > 1) move_corners(k, p);
       for (int d = 0; d < Dim; ++d) body_.points.x[d][p] += u_p[d];
     }
   });
   for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
 }
 
+// x_c += Σ_i N_i(x_c) u_i
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::move_corners(std::size_t k, std::size_t p) {
+  const auto cell = grid_.cell_at(body_.points.cell[k]);
+  const auto domain = Domain<Dim>::in_grid(body_.points, p, grid_);
+  for (int c = 0; c < domain.corners; ++c) {
+    const auto at_corner = Basis::evaluate(grid_, cell, domain.x[c]);
+    for (int d = 0; d < Dim; ++d) {
+      double u_c = 0;
+      for (int a = 0; a < per_cell; ++a)
+        u_c += at_corner.N[a] * grid_u_[static_cast<std::size_t>(Dim * weights_.function(k, a) + d)];
+      body_.points.corner[Dim * c + d][p] += u_c;
+    }
+  }
+}
+
 // Throws PointLost if u takes a point out of the next grid. Whether one has to be put back onto a face.
 template <AxisBasis B, Kinematics K>
-bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u,
-                                            double t) const {
+bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces,
+                                            ConstVec grid_u) const {
   const auto where_to = [&](std::size_t k, std::size_t p) {
     Point<Dim> x = body_.points.position(p);
     const auto u_p = weights_.value(grid_u.data(), k, p);
@@ -225,9 +242,8 @@ bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const Gr
         const Axis& axis = next_grid.axes[d];
         if (faces.keeps(d, x[d])) continue;
         throw PointLost(fmt::format(
-            "at t = {:.6g} s material point {} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected "
-            "a larger grid, a support or a wall",
-            t, body_.points.number[p] + 1, "xyz"[d], x[d], axis.min(), axis.max()));
+            "{} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected a larger grid, a support or a wall",
+            to_string(place(k, p)), "xyz"[d], x[d], axis.min(), axis.max()));
       }
     }
   }

@@ -6,11 +6,12 @@
 namespace stillpoint {
 
 std::unique_ptr<LagrangianPhase> make_phase(const Scene& scene) {
+  const bool domains = scene.phase.quadrature == Quadrature::domains;
   switch (kinematics(scene.state)) {
     case Kinematics::line:
-      return make_phase_of<Kinematics::line>(scene);
+      return domains ? make_phase_of_domains<Kinematics::line>(scene) : make_phase_of<Kinematics::line>(scene);
     case Kinematics::plane:
-      return make_phase_of<Kinematics::plane>(scene);
+      return domains ? make_phase_of_domains<Kinematics::plane>(scene) : make_phase_of<Kinematics::plane>(scene);
     case Kinematics::axisymmetric:
       return make_phase_of<Kinematics::axisymmetric>(scene);
   }

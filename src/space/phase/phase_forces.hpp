@@ -51,7 +51,8 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   spread(t, u, grid_u);
   trial.t = t;
   trial.evaluated = false;
-  if (!is_within_phase(u, grid_u.data())) return false;
+  trial.too_far = !is_within_phase(u, grid_u.data());
+  if (trial.too_far) return false;
   const double* V = body_.points.volume.data();
   if (history_dependent_) {
     const double dt = t - committed_t_;

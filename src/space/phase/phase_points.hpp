@@ -131,6 +131,7 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
     arrays.push_back({"velocity", Dim * real});
     arrays.push_back({"position at the start", Dim * real});
     if (scene_.phase.transfer == Transfer::apic) arrays.push_back({"affine velocity", Dim * Dim * real});
+    if (B::window > 1) arrays.push_back({"corners of the domain", ((Dim << Dim) + Dim) * real});
   }
   // What a law keeps counts for the share of points that have it.
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {

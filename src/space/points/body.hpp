@@ -43,8 +43,8 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
   std::map<std::string, std::vector<std::pair<MaterialPoints<dim>, int>>> by_material;  // with each first number
   int number = 0;
   for (const BodySpec& spec : scene.bodies) {
-    PlacedBody<dim> placed =
-        place_body<dim>(spec, grid, scene.materials.at(spec.material).parameters.at("rho"), scene.state);
+    PlacedBody<dim> placed = place_body<dim>(spec, grid, scene.materials.at(spec.material).parameters.at("rho"),
+                                             scene.state, scene.phase.quadrature == Quadrature::domains);
     body.quadrature.add(placed.quadrature);
     const int count = static_cast<int>(placed.points.size());
     if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
@@ -59,6 +59,8 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
       for (int d = 0; d < dim; ++d) detail::append(points.x[d], part.x[d]);
       detail::append(points.volume, part.volume);
       detail::append(points.mass, part.mass);
+      for (std::size_t c = 0; c < points.corner.size(); ++c) detail::append(points.corner[c], part.corner[c]);
+      for (int d = 0; d < dim; ++d) detail::append(points.half[d], part.half[d]);
       for (std::size_t p = 0; p < part.size(); ++p) points.number.push_back(first_number + static_cast<int>(p));
     }
     const auto begin = static_cast<std::size_t>(points.material_begin.back());

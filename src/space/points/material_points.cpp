@@ -37,6 +37,14 @@ class PointCollector {
     points_.volume.push_back(volume);
     points_.mass.push_back(volume * density_);
   }
+  /// Of the last point: a box about it with half sides r.
+  void add_domain(const Point<Dim>& r) {
+    for (int d = 0; d < Dim; ++d) {
+      const double x = points_.x[d].back();
+      points_.half[d].push_back(r[d]);
+      for (int c = 0; c < 1 << Dim; ++c) points_.corner[Dim * c + d].push_back(c >> d & 1 ? x + r[d] : x - r[d]);
+    }
+  }
   MaterialPoints<Dim> finish() {
     points_.cell_begin.push_back(static_cast<int>(points_.size()));
     return std::move(points_);
@@ -58,6 +66,11 @@ struct Box {
     for (int d = 0; d < Dim; ++d) product *= high[d] - low[d];
     return product;
   }
+  Point<Dim> half() const {
+    Point<Dim> r;
+    for (int d = 0; d < Dim; ++d) r[d] = (high[d] - low[d]) / 2;
+    return r;
+  }
   /// The position of ξ in [−1, 1]^Dim.
   Point<Dim> position(const Eigen::MatrixXd& xi, Eigen::Index p) const {
     Point<Dim> x;
@@ -70,8 +83,8 @@ struct Box {
 template <int Dim>
 class Filling {
  public:
-  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points, CellShares& covered)
-      : body_(body), grid_(grid), points_(points), covered_(covered), positions_(body) {}
+  Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points, CellShares& covered, bool domains)
+      : body_(body), grid_(grid), points_(points), covered_(covered), domains_(domains), positions_(body) {}
 
   QuadratureReport run() {
     for (int number = 0; number < grid_.cells(); ++number) {
@@ -112,15 +125,22 @@ class Filling {
   /// The whole pattern in a part of a cell that is a box.
   void fill(int number, const Box<Dim>& part, const Box<Dim>& cell) {
     const Eigen::MatrixXd& xi = positions_.next();
-    if (fit_.weights.size() == 0 || positions_.vary())
+    if (fit_.weights.size() == 0 || positions_.vary()) {
       fit_ = body_.volumes == VolumeRule::consistent ? fit_moments(xi) : equal_weights(xi);
+      if (domains_) fit_.weights.setConstant(1.0 / static_cast<double>(xi.cols()));
+    }
     quadrature_.add({.degree = fit_.degree,
                      .equal_volumes = body_.volumes == VolumeRule::equal,
                      .smallest_share = smallest_share(part, cell),
                      .cells_limited_by_sign = fit_.limited_by_sign ? 1 : 0});
     covered_.emplace_back(number, part.size() / cell.size());
     points_.begin_cell(number);
-    for (Eigen::Index p = 0; p < xi.cols(); ++p) points_.add(part.position(xi, p), fit_.weights(p) * part.size());
+    Point<Dim> r = part.half();
+    for (int d = 0; d < Dim; ++d) r[d] /= body_.points_per_cell[static_cast<std::size_t>(d)];
+    for (Eigen::Index p = 0; p < xi.cols(); ++p) {
+      points_.add(part.position(xi, p), fit_.weights(p) * part.size());
+      if (domains_) points_.add_domain(r);
+    }
   }
 
   /// The part of a cell that lies in the polygon.
@@ -163,6 +183,7 @@ class Filling {
   const Grid<Dim>& grid_;
   PointCollector<Dim>& points_;
   CellShares& covered_;
+  bool domains_;
   CellPositions<Dim> positions_;
   MomentFit fit_;
   QuadratureReport quadrature_;
@@ -212,11 +233,12 @@ void QuadratureReport::add(const QuadratureReport& other) {
 }
 
 template <int Dim>
-PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state) {
+PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state,
+                           bool domains) {
   PlacedBody<Dim> placed;
   PointCollector<Dim> points(body.area, density, state);
   if (body.file.empty()) {
-    placed.quadrature = Filling<Dim>(body, grid, points, placed.covered).run();
+    placed.quadrature = Filling<Dim>(body, grid, points, placed.covered, domains).run();
   } else {
     take_from_file(body.file, grid, points);
   }
@@ -224,7 +246,7 @@ PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double d
   return placed;
 }
 
-template PlacedBody<1> place_body<1>(const BodySpec&, const Grid<1>&, double, StressState);
-template PlacedBody<2> place_body<2>(const BodySpec&, const Grid<2>&, double, StressState);
+template PlacedBody<1> place_body<1>(const BodySpec&, const Grid<1>&, double, StressState, bool);
+template PlacedBody<2> place_body<2>(const BodySpec&, const Grid<2>&, double, StressState, bool);
 
 }  // namespace stillpoint

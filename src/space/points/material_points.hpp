@@ -26,8 +26,13 @@ struct MaterialPoints {
   // Only in a body that moves on from phase to phase:
   std::array<std::vector<double>, Dim> v;             // velocity [m/s], each (n)
   std::array<std::vector<double>, Dim * Dim> B_apic;  // Σ_i N_ip v_i ⊗ (x_i − x_p) [m²/s], each (n); APIC alone
+  // Only where the points stand for domains, see point_domains.hpp:
+  std::array<std::vector<double>, (Dim << Dim)> corner;  // c along d at [Dim c + d] [m], each (n)
+  std::array<std::vector<double>, Dim> half;             // undeformed half sides [m], each (n)
+  Point<Dim> widest{};                                   // a domain may be along each axis: the narrowest cell [m]
 
   std::size_t size() const { return volume.size(); }
+  bool has_domains() const { return !corner[0].empty(); }
   std::size_t cells() const { return cell.size(); }
   /// Points of occupied cell k.
   std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(cell_begin[k]); }
@@ -75,7 +80,10 @@ struct PlacedBody {
 ///   below 1e-6 of a cell are left out.
 /// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError if it is wrong.
 /// A volume is an area times the thickness, in an axisymmetric body times 2π r, all the way round. density [kg/m³].
+/// domains: whether points stand for domains, which uniform ones in a box have side by side; with equal volumes, which
+/// integrate whatever is interpolated over them.
 template <int Dim>
-PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state);
+PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state,
+                           bool domains = false);
 
 }  // namespace stillpoint

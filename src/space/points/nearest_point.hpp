@@ -39,8 +39,10 @@ class NearestPoint {
     const std::array<int, Dim> here = grid_.cell_of(x);
     PointInCell found;
     double least = std::numeric_limits<double>::infinity();
-    // What lies beyond a ring of cells is at least as many cells away as the ring, less the cell of x.
-    for (int ring = 0; ring < most_cells_ && !(least <= square((ring - 1) * narrowest_) && ring > 0); ++ring) {
+    // What lies beyond a ring of cells is at least as many cells away as the ring, less the cell of x. A domain may
+    // begin a cell below its point.
+    const int first = points_.has_domains() ? 2 : 1;
+    for (int ring = 0; ring < most_cells_ && !(least <= square((ring - first) * narrowest_) && ring >= first); ++ring) {
       visit_ring(here, ring, [&](int cell) {
         for (int l = lists_[static_cast<std::size_t>(cell)]; l < lists_[static_cast<std::size_t>(cell) + 1]; ++l) {
           const std::size_t k = list_[static_cast<std::size_t>(l)];

@@ -7,6 +7,7 @@
 
 #include "base/parallel_loop.hpp"
 #include "space/points/material_points.hpp"
+#include "space/points/point_domains.hpp"
 
 namespace stillpoint {
 
@@ -36,9 +37,14 @@ class PointOrder {
       // of the first cell: the last may be wider or narrower, next to a wall that the grid follows
       cells_per_length[d] = 1 / (grid.axes[d].nodes[1] - grid.axes[d].nodes[0]);
     }
+    if (points.has_domains()) set_widest(points, grid);
     for_each_index(n, [&](std::size_t p) {
       std::array<int, Dim> cell;
-      for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], cells_per_length[d]);
+      if (points.has_domains()) {
+        cell = window_of(Domain<Dim>::in_grid(points, p, grid), grid);
+      } else {
+        for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], cells_per_length[d]);
+      }
       cell_[p] = grid.cell_number(cell);
       if (!grid.host.empty()) cell_[p] = grid.host[static_cast<std::size_t>(cell_[p])];
     });
@@ -52,6 +58,8 @@ class PointOrder {
     for (auto& x : points.x) reorder(x, order_, work_);
     for (auto& v : points.v) reorder(v, order_, work_);
     for (auto& B : points.B_apic) reorder(B, order_, work_);
+    for (auto& x : points.corner) reorder(x, order_, work_);
+    for (auto& r : points.half) reorder(r, order_, work_);
     reorder(points.volume, order_, work_);
     reorder(points.mass, order_, work_);
     reorder(points.number, order_, integer_work_);
@@ -59,6 +67,15 @@ class PointOrder {
   const std::vector<int>& order() const { return order_; }
 
  private:
+  static void set_widest(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
+    for (int d = 0; d < Dim; ++d) {
+      const std::vector<double>& nodes = grid.axes[d].nodes;
+      points.widest[d] = nodes[1] - nodes[0];
+      for (std::size_t c = 1; c + 1 < nodes.size(); ++c)
+        points.widest[d] = std::min(points.widest[d], nodes[c + 1] - nodes[c]);
+    }
+  }
+
   // Counting sort, stable, and the list of cells with their first points.
   void sort_material(MaterialPoints<Dim>& points, int cells, int begin, int end) {
     next_.assign(static_cast<std::size_t>(cells) + 1, 0);

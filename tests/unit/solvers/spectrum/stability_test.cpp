@@ -1,5 +1,6 @@
 #include <stillpoint/stability.hpp>
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -128,6 +129,16 @@ TEST_CASE("a method that is always stable has no limit") {
   CHECK(critical_step(implicit, {0.1, 1, 0, 0, 1}) == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("beside a damping rate of any size leapfrog keeps 2/omega and a Runge-Kutta method its limit over the rate") {
+  for (const double rate : {1e4, 1e8, 1e20, 1e160, 1e300}) {
+    CAPTURE(rate);
+    CHECK(critical_step(leapfrog, {1, 50, rate, rate, 1}) == Approx(2. / 50).epsilon(1e-6));
+    // |1 + z + z²/2 + z³/6 + z⁴/24| = 1 at z = −2.78529356
+    CHECK(rate * critical_step(amplification_of(classical_rk4()), {1, 50, rate, rate, 1}) ==
+          Approx(2.78529356).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("an amplification that is not a number is not stable") {
   const AmplificationRadius broken = [](double, double, double) { return std::nan(""); };
   CHECK(stability_limit(broken, 0) == 0);
@@ -191,5 +202,33 @@ TEST_CASE("the rates of identity damping enclose those of a consistent mass with
     CHECK(spectrum.rate_min >= 0.45 / m.maxCoeff() / 1.02);
     CHECK(spectrum.rate_max >= 0.45 / m.minCoeff());
     CHECK(spectrum.rate_max <= 0.45 / m.minCoeff() * 1.02);
+  }
+}
+
+TEST_CASE("a kick and a drift with Cundall's damping let motions grow from h = 2/√(1 + α) on", "[stability]") {
+  const OscillatorStep kick_drift = [](double h, const Damping& local, std::array<double, 2>& y) {
+    double Q = -y[0];
+    local.add_local({&y[1], 1}, {&Q, 1});
+    y[1] += h * Q;
+    y[0] += h * y[1];
+  };
+  for (const double alpha : {0.2, 0.5, 0.7, 0.9}) {
+    CAPTURE(alpha);
+    const auto cundall = make_damping("cundall", 0, alpha), one_sided = make_damping("one-sided", 0, alpha);
+    CHECK(switched_stability_limit(kick_drift, *cundall) == Approx(2 / std::sqrt(1 + alpha)).epsilon(5e-3));
+    // 2, but from √3 on, where three steps make a period, motions hardly meet one-sided damping: it is on the safe side
+    const double limit = switched_stability_limit(kick_drift, *one_sided);
+    CHECK(limit <= 2.01);
+    CHECK(limit >= 1.73);
+  }
+}
+
+TEST_CASE("a motion that meets the switches of local damping in time with Jameson's step grows from half its limit on",
+          "[stability]") {
+  const double linear = stability_limit(amplification_of(jameson_5()), 0);
+  for (const std::string_view damping : {"cundall", "one-sided"}) {
+    const double switched = switched_stability_limit(oscillator_step_of(jameson_5()), *make_damping(damping, 0, 0.7));
+    CHECK(switched < 0.6 * linear);
+    CHECK(switched > 0.4 * linear);
   }
 }

@@ -11,7 +11,9 @@
 #include <catch2/catch.hpp>
 
 #include "free_block.hpp"
+#include "largest.hpp"
 #include "space/boundary/boundary_conditions.hpp"
+#include "space/grid/domain_basis.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/points/body.hpp"
 
@@ -60,6 +62,9 @@ class LoadedBlock {
 
   /// Each position goes to where(x), which is affine, and the next phase begins.
   void deform(const std::function<Point<2>(const Point<2>&)>& where) {
+    const Point<2> origin = where({0, 0}), along_x = where({1, 0}), along_y = where({0, 1});
+    const double det =
+        (along_x[0] - origin[0]) * (along_y[1] - origin[1]) - (along_y[0] - origin[0]) * (along_x[1] - origin[1]);
     std::vector<double> u;
     for (int f = 0; f < Basis::count(grid_); ++f) {
       const Point<2> at = greville(f), to = where(at);
@@ -69,9 +74,36 @@ class LoadedBlock {
     for (std::size_t p = 0; p < body_.points.size(); ++p) {
       const Point<2> to = where(body_.points.position(p));
       for (std::size_t i = 0; i < 2; ++i) body_.points.x[i][p] = to[i];
+      body_.points.volume[p] *= det;
+      for (std::size_t c = 0; B::window > 1 && c < 4; ++c) {
+        const Point<2> corner = where({body_.points.corner[2 * c][p], body_.points.corner[2 * c + 1][p]});
+        for (std::size_t i = 0; i < 2; ++i) body_.points.corner[2 * c + i][p] = corner[i];
+      }
     }
     order_.sort(body_.points, grid_);
     begin_phase();
+  }
+
+  /// Of Σ_p V_p σ ∇N_ip with the same first row of σ everywhere and the nodal forces along x, over the largest of
+  /// these.
+  double imbalance(double stress_xx, double stress_xy) const {
+    std::vector<double> F = constant_force_;
+    for (const auto& load : loads_) load->add_load(parts(), 0, F);
+    for (std::size_t k = 0; k < F.size(); ++k) {
+      if (dofs_->free[k] % 2 == 1) F[k] = 0;
+    }
+    const double scale = largest_magnitude(F);
+    for (std::size_t k = 0; k < body_.points.cells(); ++k) {
+      for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+        const double* dN = weights_.dN(k, p);
+        for (int a = 0; a < Basis::per_cell; ++a) {
+          const int dof = dofs_->number[static_cast<std::size_t>(2 * weights_.function(k, a))];
+          const double force = stress_xx * dN[a] + stress_xy * dN[Basis::per_cell + a];
+          F[static_cast<std::size_t>(dof)] -= body_.points.volume[p] * force;
+        }
+      }
+    }
+    return largest_magnitude(F) / scale;
   }
 
   /// Of the nodal forces: Σ F_i and Σ ξ_i × F_i.
@@ -157,6 +189,31 @@ void stretch_and_turn(LoadedBlock<B, Kinematics::plane>& block, const std::funct
     });
   }
 }
+template <AxisBasis B>
+std::string quadrature() {
+  return B::window > 1 ? "phase.quadrature=domains" : "phase.quadrature=points";
+}
+
+/// A block under q along its right and left face that has been stretched by λ, sheared and shifted by shares of a cell.
+template <AxisBasis B>
+double largest_imbalance(const std::string& points_per_cell, double shear) {
+  constexpr double q = 0.7;
+  Largest largest;
+  for (const double stretch : {0.4, 0.75, 1.0, 1.33, 1.7}) {
+    for (int tenths = 0; tenths < 10; ++tenths) {
+      LoadedBlock<B, Kinematics::plane> block(
+          loaded(points_per_cell,
+                 {quadrature<B>(), "traction=[{face='right', value=[0.7, 0]}, {face='left', value=[-0.7, 0]}]"}));
+      block.deform([&](const Point<2>& x) {
+        return Point<2>{stretch * x[0] + 0.025 * tenths, x[1] + shear * x[0] - 0.01 * tenths};
+      });
+      // σ = P Fᵀ/det F with P_xx = q alone, F = [λ 0; γ 1]: σ_xx = q, σ_xy = γ q/λ
+      largest.take(block.imbalance(q, shear * q / stretch));
+    }
+  }
+  return largest.value();
+}
+
 /// Where a position of the undeformed block is.
 Point<2> image(const Matrix& F, const Point<2>& X) {
   const Point<2> moved = F * Point<2>{X[0] - 1.125, X[1] - 0.5};
@@ -166,8 +223,9 @@ Point<2> image(const Matrix& F, const Point<2>& X) {
 template <AxisBasis B>
 void check_dead_loads(const std::string& points_per_cell) {
   LoadedBlock<B, Kinematics::plane> block(
-      loaded(points_per_cell, {"traction=[{face='top', value=[0.2, -0.3]}, {face='right', value=['0.7*(1 + t)', 0.1]}]",
-                               "force=[{at=[0.6, 0.3], value=[0.4, '-0.9 - t']}, {at=[0.5, 0.75], value=[0, 1]}]"}));
+      loaded(points_per_cell,
+             {quadrature<B>(), "traction=[{face='top', value=[0.2, -0.3]}, {face='right', value=['0.7*(1 + t)', 0.1]}]",
+              "force=[{at=[0.6, 0.3], value=[0.4, '-0.9 - t']}, {at=[0.5, 0.75], value=[0, 1]}]"}));
   stretch_and_turn<B>(block, [&](const Matrix& F) {
     Resultant given;
     given.add(image(F, {1.125, 0.75}), {1.25 * 0.2, -1.25 * 0.3});
@@ -180,7 +238,8 @@ void check_dead_loads(const std::string& points_per_cell) {
 
 template <AxisBasis B>
 void check_pressure(const std::string& points_per_cell) {
-  LoadedBlock<B, Kinematics::plane> block(loaded(points_per_cell, {"traction=[{face='right', pressure=0.3}]"}));
+  LoadedBlock<B, Kinematics::plane> block(
+      loaded(points_per_cell, {quadrature<B>(), "traction=[{face='right', pressure=0.3}]"}));
   stretch_and_turn<B>(block, [&](const Matrix& F) {
     const Point<2> area = F.cofactor() * Point<2>{0.5, 0};
     Resultant given;
@@ -197,6 +256,22 @@ TEST_CASE("through phases the force and the moment of tractions and point forces
     check_dead_loads<BSpline<1>>(points);
     check_dead_loads<BSpline<2>>(points);
     check_dead_loads<BSpline<3>>(points);
+    check_dead_loads<DomainBSpline<1>>(points);
+    check_dead_loads<DomainBSpline<2>>(points);
+    check_dead_loads<DomainBSpline<3>>(points);
+  }
+}
+
+TEST_CASE("a deformed block is in equilibrium with its tractions wherever it cuts the cells, if points are domains") {
+  for (const char* points : {"4", "9"}) {
+    for (const double shear : {0.0, 0.1, -0.2}) {
+      CAPTURE(points, shear);
+      CHECK(largest_imbalance<DomainBSpline<1>>(points, shear) < 1e-12);
+      CHECK(largest_imbalance<DomainBSpline<2>>(points, shear) < 1e-12);
+      CHECK(largest_imbalance<DomainBSpline<3>>(points, shear) < 1e-12);
+    }
+    // At points alone the sums are off by that much of the largest nodal force: what domains are for.
+    CHECK(largest_imbalance<BSpline<2>>(points, 0) > 0.05);
   }
 }
 
@@ -206,6 +281,9 @@ TEST_CASE("through phases the force and the moment of a pressure are those on th
     check_pressure<BSpline<1>>(points);
     check_pressure<BSpline<2>>(points);
     check_pressure<BSpline<3>>(points);
+    check_pressure<DomainBSpline<1>>(points);
+    check_pressure<DomainBSpline<2>>(points);
+    check_pressure<DomainBSpline<3>>(points);
   }
 }
 

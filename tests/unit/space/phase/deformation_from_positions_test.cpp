@@ -58,12 +58,14 @@ TEST_CASE("the fit of the deformation gives the same bits for any number of thre
 }
 
 TEST_CASE(
-    "phase.deformation is refused where no point's deformation is carried on, and accumulated on a linear basis") {
+    "phase.deformation is refused where no point's deformation is carried on, and accumulated at points of a linear "
+    "basis") {
   CHECK_THROWS_WITH(free_block({"phase={max_motion='none', deformation='positions'}"}),
                     Contains("phase.deformation") && Contains("goes with phases only"));
   CHECK_THROWS_WITH(free_soil({"phase.deformation=positions"}),
                     Contains("phase.deformation") && Contains("laws without history"));
   CHECK(free_block().phase.deformation == DeformationRule::accumulated);
+  CHECK(free_block({"phase.quadrature=domains"}).phase.deformation == DeformationRule::positions);
   CHECK(free_block({"grid.basis=quadratic"}).phase.deformation == DeformationRule::positions);
   CHECK(free_block({"phase.deformation=positions"}).phase.deformation == DeformationRule::positions);
 }

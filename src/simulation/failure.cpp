@@ -1,0 +1,57 @@
+#include "simulation/failure.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "simulation/load_schedule.hpp"
+#include "system/largest_at.hpp"
+
+namespace stillpoint {
+namespace {
+
+// "body_force.value is not a number at t = 0.3 at material point 12 at (0.5, 0.25)"; empty: all formulas have values.
+std::string formula_without_value(const Scene& scene, const LagrangianPhase& phase, double t, double step) {
+  const std::vector<double> positions = phase.positions();
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  std::string said;
+  scene.for_each_formula([&](const std::string& key, const Expression& formula) {
+    const std::size_t places = uses_position(formula) ? phase.points() : 1;
+    for (std::size_t p = 0; p < places && said.empty(); ++p) {
+      const ConstVec x = uses_position(formula) ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
+      for (const double at : {t, t + step / 2, t + step}) {
+        const double value = formula(x, at);
+        if (std::isfinite(value) || !said.empty()) continue;
+        said = fmt::format("{} is {} at t = {:.6g}", key, std::isnan(value) ? "not a number" : "infinite", at);
+        if (!x.empty()) said += " at " + to_string(phase.diagnosis().of_point(p));
+      }
+    }
+  });
+  return said;
+}
+
+}  // namespace
+
+std::string failure(const Moment& moment, const std::string& what) {
+  return fmt::format("at t = {:.6g} s, after {} steps, in phase {}: {}", moment.t, moment.steps, moment.phase, what);
+}
+
+std::string failure_of_step(const Scene& scene, const LagrangianPhase& phase, const Moment& moment,
+                            const StepReport& report) {
+  const std::string formula = formula_without_value(scene, phase, moment.t, report.h);
+  return failure(moment, formula.empty() ? report.message : formula + "; expected a finite number at any time");
+}
+
+std::string furthest_from_rest(PhaseMotion& motion, double t) {
+  const ConstVec v = motion.v();
+  motion.residual(t);
+  std::vector<double> Q(v.size());
+  motion.system.last_out_of_balance(t, Q);
+  const SemiDiscrete& system = motion.system.system();
+  std::string said = "the out-of-balance force is largest at " + largest_at(system, Q);
+  const double fastest = v.empty() ? 0 : std::abs(v[largest_entry(v)]);
+  if (fastest > 0) said += fmt::format("; fastest, {:.3g} m/s, is {}", fastest, largest_at(system, v));
+  return said;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,7 @@
+#include "space/phase/phase_of_domains.hpp"
+
+namespace stillpoint {
+
+template std::unique_ptr<LagrangianPhase> make_phase_of_domains<Kinematics::plane>(const Scene& scene);
+
+}  // namespace stillpoint

@@ -1,0 +1,117 @@
+// The domains that material points stand for: quadrilaterals, whose corners move with the body.
+//
+// A domain begins as a point's part of its cell. Functions are taken at its corners x_c,
+//
+//   N̄_ip = 2^-dim Σ_c N_i(x_c),   ∇N̄_ip = Σ_c N_i(x_c) S_c/V_p,   S_c = ∂V_p/∂x_c:
+//
+// the mean gradient of what interpolates the corners' values [Sadeghirad, Brannon and Burghardt 2013, CPDI2]. Domains
+// that lie side by side share corners and go on doing so, so that Σ_p V_p ∇N̄_ip telescopes to the surface of the body:
+// a stress that is the same everywhere is in equilibrium with its tractions, wherever the points lie in their cells and
+// wherever the surface cuts these. With functions at the points alone it is so by chance only.
+//
+// With u_c = Σ_i N_i(x_c) u_i the point goes on as the mean of its corners, and Σ_p f_p F_p from phase to phase is the
+// mean gradient from the first corners to the present ones: the body remembers where its corners are, and no more.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "space/points/material_points.hpp"
+
+namespace stillpoint {
+
+template <int Dim>
+struct Domain {
+  static constexpr int corners = 1 << Dim;
+
+  std::array<Point<Dim>, corners> x;  // corner c is the upper one along axis d if bit d of c is set [m]
+
+  /// As it is.
+  static Domain of(const MaterialPoints<Dim>& points, std::size_t p) {
+    Domain domain;
+    for (int c = 0; c < corners; ++c) {
+      for (int d = 0; d < Dim; ++d) domain.x[c][d] = points.corner[Dim * c + d][p];
+    }
+    return domain;
+  }
+  /// What functions are taken at: shrunk to where it is wider than a cell, and no corner outside the grid.
+  static Domain in_grid(const MaterialPoints<Dim>& points, std::size_t p, const Grid<Dim>& grid) {
+    Domain domain = of(points, p);
+    for (int d = 0; d < Dim; ++d) {
+      double low = domain.x[0][d], high = low;
+      for (const auto& corner : domain.x) low = std::min(low, corner[d]), high = std::max(high, corner[d]);
+      const double middle = points.x[d][p], most = points.widest[d];
+      if (high - low > most) {
+        for (auto& corner : domain.x) corner[d] = middle + (corner[d] - middle) * (most / (high - low));
+      }
+      for (auto& corner : domain.x) corner[d] = std::clamp(corner[d], grid.axes[d].min(), grid.axes[d].max());
+    }
+    return domain;
+  }
+
+  /// Since it was a box with these half sides r: F_ij = 2^-dim Σ_c ± x_c,i/r_j, (Dim × Dim).
+  std::array<double, (Dim * Dim)> deformation(const Point<Dim>& r) const {
+    std::array<double, Dim * Dim> F{};
+    for (int c = 0; c < corners; ++c) {
+      for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) F[Dim * i + j] += (c >> j & 1 ? x[c][i] : -x[c][i]) / (corners * r[j]);
+      }
+    }
+    return F;
+  }
+
+  Point<Dim> low() const {
+    Point<Dim> least = x[0];
+    for (const auto& corner : x) {
+      for (int d = 0; d < Dim; ++d) least[d] = std::min(least[d], corner[d]);
+    }
+    return least;
+  }
+
+  /// S_c/V
+  std::array<Point<Dim>, corners> gradients() const {
+    std::array<Point<Dim>, corners> S;
+    if constexpr (Dim == 1) {
+      const double length = x[1][0] - x[0][0];
+      S[0] = {-1 / length};
+      S[1] = {1 / length};
+    } else {
+      // By the diagonals a = x_3 − x_0 and b = x_2 − x_1: V = ½ a × b
+      const Point<2> a{x[3][0] - x[0][0], x[3][1] - x[0][1]}, b{x[2][0] - x[1][0], x[2][1] - x[1][1]};
+      const double twice = a[0] * b[1] - a[1] * b[0];
+      S[0] = {-b[1] / twice, b[0] / twice};
+      S[1] = {a[1] / twice, -a[0] / twice};
+      S[2] = {-S[1][0], -S[1][1]};
+      S[3] = {-S[0][0], -S[0][1]};
+    }
+    return S;
+  }
+
+  /// Of a position in it, ξ_d from −1 to 1, as the domain's mean deformation moves it: x = Σ_c weight_c x_c. No load by
+  /// these drives the motion of corners against each other that strains nothing.
+  static std::array<double, corners> weights(const Point<Dim>& xi) {
+    std::array<double, corners> weight;
+    for (int c = 0; c < corners; ++c) {
+      weight[c] = 1.0 / corners;
+      for (int d = 0; d < Dim; ++d) weight[c] += (c >> d & 1 ? xi[d] : -xi[d]) / corners;
+    }
+    return weight;
+  }
+};
+
+/// The cell whose window holds a domain: that of its lower corner.
+template <int Dim>
+std::array<int, Dim> window_of(const Domain<Dim>& domain, const Grid<Dim>& grid) {
+  constexpr double rounding = 1e-12;
+  std::array<int, Dim> cell;
+  const Point<Dim> low = domain.low();
+  for (int d = 0; d < Dim; ++d) {
+    const Axis& axis = grid.axes[d];
+    const double tolerance = rounding * (axis.max() - axis.min()) / axis.cells();
+    cell[d] = std::clamp(axis.cell_of(low[d] + tolerance), 0, std::max(axis.cells() - 2, 0));
+  }
+  return cell;
+}
+
+}  // namespace stillpoint
