@@ -18,6 +18,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/checksum.hpp"
+#include "base/disk_room.hpp"
 #include "output/hdf5_handle.hpp"
 
 namespace stillpoint {
@@ -87,6 +88,17 @@ std::string fault_of(const fs::path& path) {
 }
 
 // --- the datasets ----------------------------------------------------------------------------------------------------
+
+// No fewer bytes than the file has.
+std::uint64_t most_bytes(const SavedState& state) {
+  constexpr std::uint64_t of_file = 1 << 16, of_dataset = 1 << 11, of_number = 8;
+  std::uint64_t bytes = of_file;
+  for (const auto& [name, value] : state) {
+    bytes += of_dataset + 4 * name.size() +
+             std::visit([](const auto& values) { return of_number * std::uint64_t{values.size()}; }, value);
+  }
+  return bytes;
+}
 
 class Writer {
  public:
@@ -203,6 +215,7 @@ fs::path previous_checkpoint(const fs::path& file) {
 void write_checkpoint(const fs::path& file, const SavedState& state) {
   const fs::path partial = partial_name(file);
   try {
+    require_room(partial, most_bytes(state));
     Writer(partial).write(state);
     write_head(partial);
     bring_to_disk(partial);

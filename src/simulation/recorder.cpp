@@ -95,8 +95,8 @@ void Recorder::archive(const StateArchive& state) {
 
 void Recorder::finish(double t, const PhaseMotion* motion) {
   if (motion) snapshots_.take_last(t, motion->u(), motion->v());
+  history_.finish();  // first: the other needs more room
   snapshots_.finish();
-  history_.finish();
 }
 
 void Recorder::fill(Summary& s, double t, PhaseMotion& motion) {

@@ -94,7 +94,7 @@ def _(folder):
 def _(folder):
     (folder / "fields.h5.partial").mkdir()
     result = call(sys.argv[3], "plane", folder)
-    assert "unable to open file" in result.stderr and result.stderr.count("\n") == 1, result
+    assert "Is a directory" in result.stderr and result.stderr.count("\n") == 1, result
 
 
 def check_item(item, folder):

@@ -158,7 +158,6 @@ TEST_CASE("fields that cannot be written are a filesystem error, and leave nothi
   } catch (const fs::filesystem_error& error) {
     CHECK(error.code() == std::errc::is_a_directory);
     CHECK(error.path1() == in_the_way);
-    CHECK_THAT(error.what(), Catch::Contains("unable to open file"));  // the words of HDF5
   }
 }
 
