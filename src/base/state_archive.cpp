@@ -37,8 +37,7 @@ template const std::vector<std::int64_t>& StateArchive::get(std::string_view) co
 template const std::string& StateArchive::get(std::string_view) const;
 
 void StateArchive::expect_size(std::string_view name, std::size_t found, std::size_t expected) const {
-  if (found != expected)
-    throw StateError(fmt::format("'{}' has {} values, expected {}", path(name), found, expected));
+  if (found != expected) throw StateError(fmt::format("'{}' has {} values, expected {}", path(name), found, expected));
 }
 
 }  // namespace stillpoint

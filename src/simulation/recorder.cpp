@@ -12,7 +12,8 @@ namespace stillpoint {
 namespace {
 
 // Time between rows: as asked; otherwise 200 rows to the end time or 20 to a period, and a whole number of steps so
-// that landing on a row costs none.
+// that landing on a row costs none. Of steps that follow the stiffness there is no whole number: to land on a row every
+// few steps would shorten them, by half where a row was a step.
 double output_interval(const Scene& scene, const Model& model) {
   if (scene.output.every > 0) return scene.output.every;
   const double period = model.omega_1 ? 2 * std::numbers::pi / *model.omega_1 : model.dwell;
@@ -46,7 +47,8 @@ Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem
       energy_balance_(*model.phase),
       history_(open_output(folder, [&] { return History(folder, columns(), resumed); })),
       snapshots_(open_output(folder, [&] { return Snapshots(scene, *model.phase, folder, resumed); })),
-      interval_(output_interval(scene, model)) {}
+      interval_(output_interval(scene, model)),
+      lands_on_rows_(scene.output.every > 0 || !model.initial_stiffening) {}
 
 std::vector<std::string> Recorder::columns() const {
   std::vector<std::string> all = probes_.columns();
@@ -61,7 +63,9 @@ double Recorder::next_row_time() const {
   return end > 0 && t_row > end - 1e-9 * interval_ ? end : t_row;
 }
 
-double Recorder::next_time() const { return std::min(next_row_time(), snapshots_.next_time()); }
+double Recorder::next_time() const {
+  return lands_on_rows_ ? std::min(next_row_time(), snapshots_.next_time()) : snapshots_.next_time();
+}
 
 void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   const double t = row.figures.t;

@@ -58,8 +58,9 @@ class Recorder {
   EnergyBalance energy_balance_;
   History history_;
   Snapshots snapshots_;
-  double interval_;  // between rows [s]
-  long rows_ = 0;    // number of the next row: it is due at rows_ · interval_
+  double interval_;       // between rows [s]
+  bool lands_on_rows_;    // else a row is taken at the first step that is not before it
+  long rows_ = 0;         // number of the next row: it is due at rows_ · interval_
   double last_row_ = -1;  // [s]
 };
 

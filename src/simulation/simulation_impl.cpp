@@ -111,10 +111,12 @@ void Simulation::Impl::take_step(double t_stop) {
   if (ends) sample(true);
 }
 
-// Where a step has to land. Without records and an end: so far away that steps are what the method takes by itself.
+// Where a step has to land. Without records to land on and an end: so far away that steps are what the method takes by
+// itself.
 double Simulation::Impl::landing_time(double t_stop) const {
   const double horizon = 1e9 * model_.integrator.max_step;
-  double landing = std::min(t_stop, recorder_ ? recorder_->next_time() : std::max(horizon, 2 * t_));
+  double landing = std::min(t_stop, std::max(horizon, 2 * t_));
+  if (recorder_) landing = std::min(landing, recorder_->next_time());
   if (options_.stops && scene_.stop.time > 0) landing = std::min(landing, scene_.stop.time);
   return landing;
 }

@@ -11,8 +11,9 @@ namespace stillpoint {
 
 /// The critical step falls as 1/omega_max. A step h is taken that is below the critical one at u and at u + h v, where
 /// it leads. h changes in notches, since an implicit damping is factorised for each new one, and grows back by one at a
-/// time, and only a while after it was last shortened: a step in tune with an oscillation of the stiffness feeds it. A
-/// collapse would shrink it without end; past 1e-10 the integrator is left to report it.
+/// time, and only a while after it was last shortened: near the critical step a longer one swells the fastest
+/// vibrations, these stiffen the body, and the step swings with them for ever unless damping takes in that while what
+/// it adds. A collapse would shrink it without end; past 1e-10 the integrator is left to report it.
 class StiffeningStep {
  public:
   static constexpr double notch = 1.1;
@@ -24,7 +25,7 @@ class StiffeningStep {
   /// The step to take from (t, u, v); u, v: (n). Where the stiffness hardly changes on the way ahead, it is looked at
   /// again when that way is done: up to 16 steps later.
   double longest(double t, ConstVec u, ConstVec v) {
-    constexpr int most_notches = 242, longest_way = 16, hold = 16;
+    constexpr int most_notches = 242, longest_way = 16, hold = 48;
     constexpr double calm = 0.002;
     if (--steps_until_look_ > 0) return step();
     const double here = phase_.stiffening(t, u);

@@ -136,8 +136,8 @@ TEST_CASE("a run may be resumed again and again, and by another number of thread
 }
 
 TEST_CASE("a run that was interrupted goes on where it was, from the step of the interrupt") {
-  const Scene scene = scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=1000",
-                                                     "output.stages=[1e-3, 1e3]"});
+  const Scene scene =
+      scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=1000", "output.stages=[1e-3, 1e3]"});
   const TemporaryFolder folder;
   int asked = 0;
   const Summary s = run(scene, {.out = folder.path(), .interrupted = [&] { return ++asked == 77; }});
@@ -170,9 +170,7 @@ TEST_CASE("the checkpoint before the last one is kept, and can be gone on from")
   const Scene scene = scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=20"});
   const TemporaryFolder folder;
   break_off(scene, folder.path(), 90);
-  const auto steps_of = [&](const char* name) {
-    return Simulation(scene, {.resume = folder.path() / name}).steps();
-  };
+  const auto steps_of = [&](const char* name) { return Simulation(scene, {.resume = folder.path() / name}).steps(); };
   CHECK(steps_of("checkpoint.h5") == 80);
   CHECK(steps_of("checkpoint-previous.h5") == 60);
 }
