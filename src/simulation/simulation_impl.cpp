@@ -115,7 +115,7 @@ void Simulation::Impl::take_step(double t_stop) {
 // itself.
 double Simulation::Impl::landing_time(double t_stop) const {
   const double horizon = 1e9 * model_.integrator.max_step;
-  double landing = std::min(t_stop, std::max(horizon, 2 * t_));
+  double landing = std::min(t_stop, std::max({horizon, 2 * t_, model_.dwell}));
   if (recorder_) landing = std::min(landing, recorder_->next_time());
   if (options_.stops && scene_.stop.time > 0) landing = std::min(landing, scene_.stop.time);
   return landing;
