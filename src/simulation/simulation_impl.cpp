@@ -268,7 +268,7 @@ void Simulation::Impl::test_stability() {
   stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
   const bool neutral = stability_.kind == EquilibriumStability::Kind::neutral;
   // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
-  const bool softened_away = neutral && model_.omega_1 && !distance_to_go();
+  const bool softened_away = neutral && has_distance() && !distance_to_go();
   if (neutral && !softened_away) model_.notes.push_back(description(stability_));
   if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
   status_ = RunStatus::unstable_equilibrium;
