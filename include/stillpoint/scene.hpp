@@ -173,7 +173,6 @@ bool loads_vary(const Scene& scene);
 /// Throws SceneError with every problem.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 /// The same of a text that was read from the file before.
-Scene load_scene(const std::filesystem::path& file, const std::string& text,
-                 const std::vector<std::string>& overrides);
+Scene load_scene(const std::filesystem::path& file, const std::string& text, const std::vector<std::string>& overrides);
 
 }  // namespace stillpoint

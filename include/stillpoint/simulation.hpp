@@ -38,7 +38,7 @@ struct SimulationOptions {
   std::filesystem::path out{};  // folder for history.csv, the fields and checkpoints; empty: no files
   /// A checkpoint of the same scene to go on from, with the files in `out`; empty: from the start.
   std::filesystem::path resume{};
-  int threads = 0;              // 0: as many as OpenMP would take
+  int threads = 0;  // 0: as many as OpenMP would take
   /// Whether steps land on the times of rows and snapshots, and these are taken.
   bool records = true;
   /// Whether the scene's stop tests end it; otherwise only a failure does.
@@ -85,8 +85,8 @@ class Simulation {
   /// "plastic_strain" … (P); valid until the next call. Throws std::invalid_argument for another name.
   ConstVec field(std::string_view name);
 
-  /// Saves the state between two steps, to go on from with options.resume: the same steps follow, bit for bit, but where
-  /// Method::begins_anew. Throws std::filesystem::filesystem_error.
+  /// Saves the state between two steps, to go on from with options.resume: the same steps follow, bit for bit, but
+  /// where Method::begins_anew. Throws std::filesystem::filesystem_error.
   void save(const std::filesystem::path& checkpoint);
 
   /// Figures of now; complete once done().

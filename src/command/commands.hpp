@@ -17,8 +17,8 @@ struct SceneArguments {
 struct RunArguments {
   SceneArguments scene;
   std::filesystem::path resume;  // a run's folder or a checkpoint to go on from, in place of a scene
-  std::filesystem::path out;  // empty: out/<scene's stem>
-  int threads = 0;            // 0: as many as OpenMP would take
+  std::filesystem::path out;     // empty: out/<scene's stem>
+  int threads = 0;               // 0: as many as OpenMP would take
   bool quiet = false;
 };
 

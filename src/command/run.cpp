@@ -75,8 +75,7 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file)
 int run(const RunArguments& arguments) {
   const bool resumes = !arguments.resume.empty();
   const std::filesystem::path checkpoint = resumes ? checkpoint_of(arguments.resume) : std::filesystem::path();
-  const Scene scene =
-      resumes ? load_scene_of(checkpoint) : load_scene(arguments.scene.file, arguments.scene.overrides);
+  const Scene scene = resumes ? load_scene_of(checkpoint) : load_scene(arguments.scene.file, arguments.scene.overrides);
   const std::filesystem::path out = resumes                 ? checkpoint.parent_path()
                                     : arguments.out.empty() ? std::filesystem::path("out") / scene.name
                                                             : arguments.out;

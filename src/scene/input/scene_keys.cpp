@@ -175,8 +175,7 @@ void add_output(Tables& tables) {
   tables.add({"checkpoint", "saves the state, for run --resume"}, &Scene::checkpoint)
       .key("every", &CheckpointSpec::every, "time on the clock between them; 0: not by the clock",
            {.range = kNotNegative, .unit = "s"})
-      .key("every_steps", &CheckpointSpec::every_steps, "steps between them; 0: not by steps",
-           {.range = kNotNegative});
+      .key("every_steps", &CheckpointSpec::every_steps, "steps between them; 0: not by steps", {.range = kNotNegative});
 
   tables.add({"probe", "figures in each row of the history", Repeat::array}, &Scene::probes)
       .key("name", &ProbeSpec::name, "of its columns in history.csv", {.required = true})

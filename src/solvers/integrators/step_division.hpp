@@ -1,11 +1,11 @@
 // Equal steps that land on t_stop:  h = (t_stop − t)/m,  m = ⌈(t_stop − t)/max_step⌉.
 #pragma once
 
+#include <stillpoint/state_archive.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <stillpoint/state_archive.hpp>
 
 namespace stillpoint {
 

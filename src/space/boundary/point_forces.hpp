@@ -46,7 +46,8 @@ class PointForces final : public BoundaryCondition<B, K> {
     for (const Varying& load : varying_) add(load, t, F);
   }
   void archive(const StateArchive& state) override {
-    state.each("force_positions", at_, [](auto& at) -> auto& { return at.x; });
+    state.each(
+        "force_positions", at_, [](auto& at) -> auto& { return at.x; });
   }
   void end_phase(const double* u) override {
     for (auto& at : at_) at.move(u);

@@ -78,8 +78,10 @@ class Tractions final : public BoundaryCondition<B, K> {
     }
   }
   void archive(const StateArchive& state) override {
-    state.each("traction_positions", pieces_, [](Piece& piece) -> auto& { return piece.at.x; });
-    state.each("traction_areas", pieces_, [](Piece& piece) -> auto& { return piece.vector; });
+    state.each(
+        "traction_positions", pieces_, [](Piece & piece) -> auto& { return piece.at.x; });
+    state.each(
+        "traction_areas", pieces_, [](Piece & piece) -> auto& { return piece.vector; });
   }
   // The pieces go with the body.
   void end_phase(const double* u) override {

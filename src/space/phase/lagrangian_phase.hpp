@@ -7,8 +7,8 @@
 #pragma once
 
 #include <stillpoint/scene.hpp>
-#include <stillpoint/state_archive.hpp>
 #include <stillpoint/semi_discrete.hpp>
+#include <stillpoint/state_archive.hpp>
 
 #include <memory>
 #include <optional>
