@@ -7,10 +7,10 @@
 namespace stillpoint {
 
 struct PlaceInBody {
-  std::string what;                 // "material point 12", "the node"
-  std::vector<double> position{};   // [m], (dim); empty: it has none
-  std::vector<int> cell{};          // of the grid, counted from 1, (dim); empty: it is in none
-  std::string material_point = "";  // the nearest one, of something that is none
+  std::string what;                // "material point 12", "the node"
+  std::vector<double> position{};  // [m], (dim); empty: it has none
+  std::vector<int> cell{};         // of the grid, counted from 1, (dim); empty: it is in none
+  std::string material_point{};    // the nearest one, of something that is none
 };
 
 /// "material point 12 at (0.5, 0.25) in cell (3, 1)", "the node at x = 0.5 beside material point 12 in cell 3"

@@ -112,7 +112,7 @@ class Writer {
     check(H5Pset_create_intermediate_group(links, 1));
     Handle file(check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT)), H5Fclose);
     for (const auto& [name, value] : state) {
-      std::visit([&](const auto& of_kind) { write(file, links, name, of_kind); }, value);
+      std::visit([&, &path = name](const auto& of_kind) { write(file, links, path, of_kind); }, value);
     }
     check(file.close());
   }

@@ -1,5 +1,7 @@
 #include <stillpoint/summary.hpp>
 
+#include <utility>
+
 #include "base/json.hpp"
 
 namespace stillpoint {
@@ -41,9 +43,11 @@ std::string to_json(const Summary& s) {
              {"u_rel_max", number(s.error->u_rel_max)},
              {"stress_rel_l2", number(s.error->stress_rel_l2)}};
   }
-  Json probes = Json::object();
+  Json::object_t probes;  // names differ, and to look for each among all before it would take long
   for (const auto& [name, fields] : s.probes) {
-    for (const auto& [field, value] : fields) probes[name][field] = number(value);
+    Json of_probe = Json::object();
+    for (const auto& [field, value] : fields) of_probe[field] = number(value);
+    probes.emplace_back(name, std::move(of_probe));
   }
   Json stages = Json::array();
   for (const Snapshot& stage : s.snapshots)

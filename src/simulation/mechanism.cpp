@@ -16,7 +16,7 @@
 namespace stillpoint {
 namespace {
 
-constexpr double small = 1e-6;  // of the largest, beside a rounding
+constexpr double negligible = 1e-6;  // of the largest, beside a rounding
 constexpr double alike = 1e-3;  // the same motion, but for what a factor of a nearly singular matrix leaves of others
 
 /// A motion x at the points.
@@ -97,7 +97,7 @@ bool strains_nothing(const LagrangianPhase& phase, double t, ConstVec x, const P
   const std::vector<double> gradient = change_of(phase, PointQuantity::strain, t, x);
   double largest = 0;
   for (const double component : gradient) largest = std::max(largest, std::abs(component));
-  return largest * extent_of(motion) <= small * motion.largest;
+  return largest * extent_of(motion) <= negligible * motion.largest;
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ std::optional<Mechanism> find_mechanism(const LagrangianPhase& phase, double t, 
   if (!phase.internal_force(t, u, R, *phase.make_trial())) return std::nullopt;
   for (std::size_t k = 0; k < Q.size(); ++k) Q[k] -= R[k];
   const DrivenMode mode = driven_mode(phase.tangents().matrix(Tangent::elastic, t, u), phase.mass(), Q);
-  if (!mode.found || mode.share <= small) return std::nullopt;
+  if (!mode.found || mode.share <= negligible) return std::nullopt;
   const PointMotion motion = motion_of(phase, t, u, mode.x);
   if (phase.info().nonlinear && !strains_nothing(phase, t, mode.x, motion)) return std::nullopt;
   const std::string rigid = motion.largest > 0 ? rigid_motion(motion) : "";

@@ -203,6 +203,32 @@ TEST_CASE("a folder that cannot be written is bad input, found before anything r
   CHECK_THROWS_WITH(run(bar(), {.out = "/proc/nowhere"}), Catch::Contains("--out /proc/nowhere: cannot be written"));
 }
 
+TEST_CASE("a folder in the place of an output file is bad input, found before anything runs") {
+  for (const char* name : {"history.csv", "summary.json", "history.csv.partial", "checkpoint.h5", "fields.h5"}) {
+    const TemporaryFolder folder;
+    run(bar({"stop.steps=10"}), {.out = folder.path() / "earlier"});
+    const auto out = folder.path() / "out";
+    std::filesystem::copy(folder.path() / "earlier", out);
+    std::filesystem::remove(out / name);
+    std::filesystem::create_directories(out / name / "in the way");
+    CAPTURE(name);
+    CHECK_THROWS_WITH(run(bar(), {.out = out}), Catch::Contains("cannot be written: Is a directory"));
+    for (const char* kept : {"history.csv", "summary.json"}) CHECK(std::filesystem::exists(out / kept));
+  }
+}
+
+TEST_CASE("nothing of an earlier run stands beside what a run that breaks down has left") {
+  const TemporaryFolder folder;
+  run(bar({"output.stages=[0.1]", "stop.steps=100"}), {.out = folder.path()});
+  for (const char* name : {"summary.json", "fields.h5", "fields.xdmf"})
+    CHECK(std::filesystem::exists(folder.path() / name));
+  const auto breaks_down = []() -> bool { throw std::runtime_error("the disk is full"); };
+  CHECK_THROWS_WITH(run(bar(), {.out = folder.path(), .interrupted = breaks_down}), "the disk is full");
+  for (const char* name : {"summary.json", "fields.h5", "fields.xdmf"})
+    CHECK_FALSE(std::filesystem::exists(folder.path() / name));
+  CHECK(lines(folder.path() / "history.csv.partial").size() > 1);
+}
+
 TEST_CASE("a row that rounding puts next to the end is the row at the end") {
   const TemporaryFolder folder;
   for (const char* method : {"erk:sofroniou-spaletta-5-3-4", "leapfrog"}) {  // 7 times 0.7 is not 4.9

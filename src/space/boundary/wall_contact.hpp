@@ -53,7 +53,7 @@ class WallContact {
   double square_of_forces() const;
 
  private:
-  enum class Tangential : signed char { slip_down = -1, stick = 0, slip_up = 1 };
+  enum class Tangential { slip_down = -1, stick = 0, slip_up = 1 };
 
   bool approaches(std::size_t k, double velocity, ConstVec v) const;
   bool close(std::size_t k, double velocity, Vec v);
