@@ -34,7 +34,7 @@ const ComparedRun& row(const Comparison& c, const std::string& label) {
   return *found;
 }
 
-const std::vector<std::string> crushed = {"material.bar.law=neo-hookean", "force=[{at=10.0, value=-50.0}]"};
+const std::vector<std::string> crushed = {"material.bar.law=neo-hookean", "force=[{at=10.0, value=-1000.0}]"};
 const std::vector<std::string> to_time_20 = {"stop.residual=0", "stop.time=20"};
 
 }  // namespace

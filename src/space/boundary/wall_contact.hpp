@@ -63,7 +63,7 @@ class WallContact {
   PrescribedMotion motion_;
   ConstVec mass_;
   std::vector<Node> nodes_;
-  std::vector<char> closed_;
+  std::vector<int> closed_;  // 1 or 0
   std::vector<Tangential> tangential_;
   // When the run begins, every node is taken for closed until the first forces show which ones the wall would have to
   // pull: a body that leans on a wall does so from the start, also on one that begins to give way.
