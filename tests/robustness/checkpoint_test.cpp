@@ -114,6 +114,8 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   check_same_bits(
       {"hard/pulled_in_phases", {"traction=[]", "force=[{at=[1.0, 0.5], value=[0.05, 0.0]}]", "stop.steps=400"}}, 290);
   check_same_bits({"hard/fast_wall", {"stop.steps=400"}}, 290);
+  // Domains of several sizes, which change places on their way.
+  check_same_bits({"hard/beam_in_phases", {"grid.cells=[13, 17]", "stop.steps=600"}}, 590);
 }
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with walls, and with what stiffens") {

@@ -43,6 +43,7 @@ void MaterialPointPhase<B, K>::archive_points(const StateArchive& state) {
   for (std::size_t ij = 0; ij < points.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), Vec(points.B_apic[ij]));
   if (points.has_domains()) {
     for (std::size_t c = 0; c < points.corner.size(); ++c) state(fmt::format("corner_{}", c), Vec(points.corner[c]));
+    for (std::size_t d = 0; d < points.half.size(); ++d) state(fmt::format("half_{}", d), Vec(points.half[d]));
   }
   state("volume", Vec(points.volume));
   state("mass", Vec(points.mass));
