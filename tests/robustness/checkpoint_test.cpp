@@ -3,6 +3,7 @@
 #include <stillpoint/relaxation.hpp>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
