@@ -12,6 +12,7 @@
 // ∇N_ip for a linear basis, N_ip (x_i − x_p)/D, D = Σ_i N_ip (x_i − x_p)², for smoother ones.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -29,15 +30,87 @@ class VelocityTransfer {
   using Basis = typename Weights::Basis;
 
  public:
-  explicit VelocityTransfer(const PhaseSpec& spec) : spec_(spec) {}
+  /// damped: whether the scene damps its motion, so that what a turn keeps of it does not matter.
+  VelocityTransfer(const PhaseSpec& spec, bool damped) : spec_(spec), damped_(damped) {}
 
-  /// v_i from the points, (functions × dim). A node whose mass is next to nothing takes the velocity of its cells'
-  /// points. mass: m_i, (functions).
+  /// Gives apic's points B_p where they have velocities v_p alone, when a run begins. mass: m_i, (functions).
+  void begin(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
+             const std::vector<double>& mass) const {
+    if (spec_.transfer != Transfer::apic || damped_) return;
+    for (auto& B_ij : points.B_apic) std::ranges::fill(B_ij, 0.0);
+    std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
+    make_velocity(points, weights, corner_sum, mass, v);
+    const std::vector<double> at_rest(v.size());
+    for_each_block(points.cells(), [&](std::size_t k) {
+      const Centres centre = centres(grid, points.cell[k]);
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p)
+        set_affine(points, weights, centre, k, p, at_rest.data(), v.data());
+    });
+  }
+
+  /// v_i from the points, (functions × dim). mass: m_i, (functions).
   std::vector<double> to_grid(const Grid<dim>& grid, const Points& points, const Weights& weights,
                               const CornerSum& corner_sum, const std::vector<double>& mass) {
-    constexpr double next_to_nothing = 1e-12;
     std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
+    if (spec_.transfer == Transfer::flip && !damped_ && B::partition_of_unity) {
+      std::vector<double> mean = v;
+      make_velocity(points, weights, corner_sum, mass, mean);
+      v = nodal_momentum(grid, points, weights, corner_sum, mean.data());
+    }
     conservation_.compare_momentum(ConservationCheck<dim>::of_points(points), v);
+    make_velocity(points, weights, corner_sum, mass, v);
+    return v;
+  }
+
+  const ConservationCheck<dim>& conservation() const { return conservation_; }
+  ConservationCheck<dim>& conservation() { return conservation_; }
+
+  /// Moves velocities to the points at a phase's end. u, v, v_start, and the impulse of the forces over the phase: over
+  /// the grid's functions, (functions × dim); mass: (functions). Positions are still those of the phase's start.
+  void to_points(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
+                 const std::vector<double>& mass, const double* u, const std::vector<double>& v_end,
+                 const std::vector<double>& v_start, const std::vector<double>& impulse) {
+    const auto before = ConservationCheck<dim>::of_points(points);
+    move(grid, points, weights, corner_sum, mass, u, v_end.data(), v_start.data());
+    check_momentum(before, points, mass, v_start, impulse);
+  }
+
+ private:
+  using Centres = std::array<std::array<double, per_cell>, dim>;
+  using AffineWeights = std::array<std::array<double, per_cell>, dim>;
+
+  // Σ_p m_p (N_ip v_p + …), (functions × dim) [kg m/s]. mean: v_j that ∇v_p is taken of, (functions × dim); or null.
+  std::vector<double> nodal_momentum(const Grid<dim>& grid, const Points& points, const Weights& weights,
+                                     const CornerSum& corner_sum, const double* mean = nullptr) const {
+    const bool affine = spec_.transfer == Transfer::apic;
+    return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
+      const auto centre = affine || mean ? centres(grid, points.cell[k]) : Centres{};
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        const auto N = weights.N(k, p);
+        const double m = points.mass[p];
+        const Point<dim> x = points.position(p);
+        // Σ_j A_ij w_j is what the motion about the point adds
+        const auto w = affine ? affine_weights(weights, centre, x, k, p)
+                       : mean ? distances_weighed(N, centre, x)
+                              : AffineWeights{};
+        const auto A = mean ? velocity_gradient(weights, mean, k, p) : affine ? B_of(points, p) : Gradient{};
+        for (int a = 0; a < per_cell; ++a) {
+          for (int i = 0; i < dim; ++i) {
+            double share = N[a] * points.v[i][p];
+            if (affine || mean) {
+              for (int j = 0; j < dim; ++j) share += A[dim * i + j] * w[j][a];
+            }
+            corner[dim * a + i] += m * share;
+          }
+        }
+      }
+    });
+  }
+
+  // v_i from momenta m_i v_i. A node whose mass is next to nothing takes the velocity of its cells' points.
+  void make_velocity(const Points& points, const Weights& weights, const CornerSum& corner_sum,
+                     const std::vector<double>& mass, std::vector<double>& v) const {
+    constexpr double next_to_nothing = 1e-12;
     const std::vector<double> of_cells =
         nodal_sum<dim + 1>(points, weights, corner_sum, [&](std::size_t k, Corners<dim + 1, per_cell>& corner) {
           std::array<double, dim + 1> of_cell{};
@@ -53,48 +126,29 @@ class VelocityTransfer {
       const double m = of_its_own ? mass[f] : cells[dim];
       for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? (of_its_own ? v[dim * f + i] : cells[i]) / m : 0;
     });
-    return v;
   }
 
-  const ConservationCheck<dim>& conservation() const { return conservation_; }
-  ConservationCheck<dim>& conservation() { return conservation_; }
+  using Gradient = std::array<double, dim * dim>;
 
-  /// Σ_p m_p (N_ip v_p + …), (functions × dim) [kg m/s].
-  std::vector<double> nodal_momentum(const Grid<dim>& grid, const Points& points, const Weights& weights,
-                                     const CornerSum& corner_sum) const {
-    const bool affine = spec_.transfer == Transfer::apic;
-    return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
-      const auto centre = affine ? centres(grid, points.cell[k]) : Centres{};
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        const auto N = weights.N(k, p);
-        const double m = points.mass[p];
-        const auto w = affine ? affine_weights(weights, centre, points.position(p), k, p) : AffineWeights{};
-        for (int a = 0; a < per_cell; ++a) {
-          for (int i = 0; i < dim; ++i) {
-            double share = N[a] * points.v[i][p];
-            if (affine) {
-              for (int j = 0; j < dim; ++j) share += points.B_apic[dim * i + j][p] * w[j][a];
-            }
-            corner[dim * a + i] += m * share;
-          }
-        }
-      }
-    });
+  static Gradient velocity_gradient(const Weights& weights, const double* v, std::size_t k, std::size_t p) {
+    const auto full = weights.gradient(v, k, p);
+    Gradient in_plane{};
+    std::copy_n(full.begin(), in_plane.size(), in_plane.begin());
+    return in_plane;
   }
-
-  /// Moves velocities to the points at a phase's end. u, v, v_start, and the impulse of the forces over the phase: over
-  /// the grid's functions, (functions × dim); mass: (functions). Positions are still those of the phase's start.
-  void to_points(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
-                 const std::vector<double>& mass, const double* u, const std::vector<double>& v_end,
-                 const std::vector<double>& v_start, const std::vector<double>& impulse) {
-    const auto before = ConservationCheck<dim>::of_points(points);
-    move(grid, points, weights, corner_sum, mass, u, v_end.data(), v_start.data());
-    check_momentum(before, points, mass, v_start, impulse);
+  static Gradient B_of(const Points& points, std::size_t p) {
+    Gradient B_p{};
+    for (int ij = 0; ij < dim * dim; ++ij) B_p[ij] = points.B_apic[ij][p];
+    return B_p;
   }
-
- private:
-  using Centres = std::array<std::array<double, per_cell>, dim>;
-  using AffineWeights = std::array<std::array<double, per_cell>, dim>;
+  // N_ip (x_i − x_p)
+  static AffineWeights distances_weighed(const auto& N, const Centres& centre, const Point<dim>& x) {
+    AffineWeights w;
+    for (int j = 0; j < dim; ++j) {
+      for (int a = 0; a < per_cell; ++a) w[j][a] = N[a] * (centre[j][a] - x[j]);
+    }
+    return w;
+  }
 
   void move(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
             const std::vector<double>& mass, const double* u, const double* v, const double* v_start) const {
@@ -228,6 +282,7 @@ class VelocityTransfer {
   }
 
   PhaseSpec spec_;
+  bool damped_;
   ConservationCheck<dim> conservation_;
 };
 

@@ -44,7 +44,7 @@ class MaterialPointPhase final : public LagrangianPhase,
       : scene_(scene),
         grid_(grid_at<Dim>(scene, 0)),
         body_(make_body<K>(scene, grid_, moves_on(scene))),
-        transfer_(scene.phase),
+        transfer_(scene.phase, !is_undamped(scene.damping.strategy)),
         inertia_(scene.mass, moves_on(scene)),
         boundary_(make_boundary_conditions<B, K>(scene_, grid_, time_scale())) {
     describe();

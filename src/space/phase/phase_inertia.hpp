@@ -71,6 +71,7 @@ std::vector<RelativeInertia> MaterialPointPhase<B, K>::relative_inertia() const 
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
   transfer_.conservation().compare_mass(info_.total_mass, inertia_.mass());
+  if (phase_ == 0) transfer_.begin(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
   if (is_free()) transfer_.conservation().compare_with_start(body_.points);
   const std::vector<double> grid_v =
       transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
