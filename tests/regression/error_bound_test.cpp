@@ -155,6 +155,19 @@ TEST_CASE("leapfrog with critical damping, and auto, are certified to 2.5 times 
   }
 }
 
+TEST_CASE("auto ends within 1.15 times the steps after which its error is what was asked", "[error bound]") {
+  for (const Case& problem : linear) {
+    const Values rest = equilibrium_of(with(problem, "viscous"));
+    const auto needed = static_cast<double>(relaxed(with(problem, "auto"), rest).size());
+    Simulation simulation(with(problem, "auto", {"stop.residual=0", "stop.distance=1e-6"}), {.records = false});
+    simulation.run();
+    CAPTURE(problem.name, needed, simulation.steps());
+    CHECK(simulation.status() == RunStatus::equilibrium);
+    CHECK(static_cast<double>(simulation.steps()) <= 1.15 * needed);
+    CHECK(relative_difference(measure_of(simulation), simulation.u(), rest) <= 1e-6);
+  }
+}
+
 TEST_CASE("an error that is left in high modes is certified too large: by conjugate gradients up to kappa times",
           "[error bound]") {
   const Case& chain = linear.front();
