@@ -1,4 +1,4 @@
-// The only file that calls ARKODE. What it takes care of, beside the calls (measured on 6.4.1):
+// The only file that calls ARKODE's integrators. What it takes care of, beside the calls (measured on 6.4.1):
 //
 //   - a table with c_s = 1 that is not first-same-as-last is integrated wrongly: post_process() below makes it right
 //   - a fixed step has error weights of DBL_MIN, so that norms run on denormals: constant weights of 1
@@ -13,7 +13,6 @@
 #include "solvers/integrators/arkode_erk.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -26,7 +25,7 @@
 #include <fmt/format.h>
 
 #include "linalg/sundials.hpp"
-#include "solvers/integrators/butcher.hpp"
+#include "solvers/integrators/arkode_tables.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
 
 namespace stillpoint {
@@ -34,82 +33,16 @@ namespace {
 
 namespace ark = sundials;
 
-// --- tables ---
-
-using ArkodeTable = std::unique_ptr<ARKodeButcherTableMem, decltype(&ARKodeButcherTable_Free)>;
-
-// "ARKODE_HEUN_EULER_2_1_2" → "heun-euler-2-1-2"
-std::string kebab_case(const std::string& name) {
-  std::string result = name.substr(name.find('_') + 1);
-  for (char& c : result) c = c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
-ButcherTable from_arkode(const std::string& name, const ARKodeButcherTableMem& table) {
-  const auto s = static_cast<std::size_t>(table.stages);
-  ButcherTable result;
-  result.name = name;
-  result.stages = table.stages;
-  result.order = table.q;
-  result.embedded_order = table.p;
-  for (std::size_t i = 0; i < s; ++i) result.A.insert(result.A.end(), table.A[i], table.A[i] + s);
-  result.b.assign(table.b, table.b + s);
-  result.c.assign(table.c, table.c + s);
-  if (table.d && table.p > 0) result.b_embedded.assign(table.d, table.d + s);
-  return result;
-}
-
-ArkodeTable to_arkode(ButcherTable table) {
-  double* embedding = table.b_embedded.empty() ? nullptr : table.b_embedded.data();
-  return {ARKodeButcherTable_Create(table.stages, table.order, table.embedded_order, table.c.data(), table.A.data(),
-                                    table.b.data(), embedding),
-          ARKodeButcherTable_Free};
-}
-
-struct NamedTable {
-  ButcherTable table;
-  std::string source;
-};
-
-// ARKODE's tables, then those of ours that it does not have.
-std::vector<NamedTable> all_tables() {
-  std::vector<NamedTable> tables;
-  const auto add = [&](ButcherTable table, const std::string& source) {
-    const auto same_name = [&](const NamedTable& other) { return other.table.name == table.name; };
-    if (std::ranges::none_of(tables, same_name)) tables.push_back({std::move(table), source});
-  };
-  for (int id = ARKODE_MIN_ERK_NUM; id <= ARKODE_MAX_ERK_NUM; ++id) {
-    const std::string name = ark::table_name(id);
-    const ArkodeTable table(ARKodeButcherTable_LoadERK(static_cast<ARKODE_ERKTableID>(id)), ARKodeButcherTable_Free);
-    if (!name.empty() && table) add(from_arkode(kebab_case(name), *table), "SUNDIALS' " + name);
-  }
-  add(classical_rk4(), "Kutta 1901");
-  add(sofroniou_spaletta_5_3_4(), "Sofroniou and Spaletta 2004");
-  ButcherTable jameson = jameson_5();
-  jameson.name = "jameson-5-2";  // stages-order, as the others
-  add(std::move(jameson), "Jameson, Schmidt and Turkel 1981");
-  return tables;
-}
-
-ButcherTable table_of(const std::string& method) {
-  for (NamedTable& named : all_tables()) {
-    if ("erk:" + named.table.name == method) return std::move(named.table);
-  }
-  throw std::invalid_argument("there is no method '" + method + "'");
-}
-
 // Taken by ARKODE for first-same-as-last though it is not.
 bool is_mistaken_for_fsal(const ButcherTable& table) {
   return ark::reuses_last_stage_wrongly && std::abs(table.c.back() - 1) < 1e-10 && !first_same_as_last(table);
 }
 
-// --- the integrator ---
-
 class Erk final : public SteppingIntegrator {
  public:
   Erk(const IntegratorOptions& options, RelaxationSystem& system)
       : SteppingIntegrator(options, system),
-        table_(table_of(options.method)),
+        table_(erk_table(options.method)),
         kinetic_(options.halts_at_energy_peaks),
         Q_(system.vectors().make(kinetic_ ? system.size() : 0)),
         v_(system.vectors().view(Q_.span())) {}
@@ -291,7 +224,7 @@ class Erk final : public SteppingIntegrator {
 
 std::vector<Method> erk_methods() {
   std::vector<Method> methods;
-  for (const auto& [table, source] : all_tables()) {
+  for (const auto& [table, source] : erk_tables()) {
     Method method;
     method.begins_anew = true;
     method.name = "erk:" + table.name;
