@@ -7,15 +7,22 @@
 //                  what m passes of averaging do not keep is noise [Hammerquist and Nairn 2017]
 //   apic           v_p  = Σ_i N_ip v_i,  B_p = Σ_i N_ip v_i ⊗ (x_i − x_p), as they are at the end [Jiang et al. 2015]
 //
-// x_i is the centre of function i, Σ_i N_i(x) x_i = x. B_p goes back to the grid by weights w_ip with Σ_i w_ip =
-// 0 and Σ_i x_i ⊗ w_ip = I, so that momentum and angular momentum Σ_p m_p x_p × v_p + m_p (B_p,yx − B_p,xy) are kept:
-// ∇N_ip for a linear basis, N_ip (x_i − x_p)/D, D = Σ_i N_ip (x_i − x_p)², for smoother ones.
+// x_i is the centre of function i, Σ_i N_i(x) x_i = x; affine_velocity.hpp has B_p and w_ip.
+//
+// A node at a surface has points on one side only, and their mean velocity is that of a place further inside: a body
+// that turns is strained there at the start of every phase, and 3 to 5 % of its angular momentum are gone after a turn.
+// In a motion that nothing damps, flip's points therefore bring their velocity to where the node is,
+//
+//   v_i = Σ_p m_p N_ip (v_p + ∇v_p (x_i − x_p))/m_i,   ∇v_p = Σ_j v_j ⊗ ∇N_jp of the means v_j,
+//
+// with the same sum of momenta, since Σ_i N_ip (x_i − x_p) = 0; and apic begins with B_p of the same means.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "space/kernels/affine_velocity.hpp"
 #include "space/kernels/conservation_check.hpp"
 #include "space/kernels/nodal_sum.hpp"
 
@@ -27,25 +34,30 @@ class VelocityTransfer {
   static constexpr int dim = Weights::dim;
   static constexpr int per_cell = Weights::per_cell;
   using Points = MaterialPoints<dim>;
-  using Basis = typename Weights::Basis;
+  using Affine = AffineVelocity<B, K>;
+  using Centres = typename Affine::Centres;
 
  public:
   /// damped: whether the scene damps its motion, so that what a turn keeps of it does not matter.
   VelocityTransfer(const PhaseSpec& spec, bool damped) : spec_(spec), damped_(damped) {}
 
-  /// Gives apic's points B_p where they have velocities v_p alone, when a run begins. mass: m_i, (functions).
-  void begin(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
-             const std::vector<double>& mass) const {
-    if (spec_.transfer != Transfer::apic || damped_) return;
-    for (auto& B_ij : points.B_apic) std::ranges::fill(B_ij, 0.0);
-    std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
-    make_velocity(points, weights, corner_sum, mass, v);
-    const std::vector<double> at_rest(v.size());
-    for_each_block(points.cells(), [&](std::size_t k) {
-      const Centres centre = centres(grid, points.cell[k]);
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p)
-        set_affine(points, weights, centre, k, p, at_rest.data(), v.data());
-    });
+  /// Makes B_p of apic's points ready for a phase: in the first, where they have velocities v_p alone, from those.
+  /// mass: m_i, (functions).
+  void begin_phase(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
+                   const std::vector<double>& mass, bool first) const {
+    if (spec_.transfer != Transfer::apic) return;
+    if (first && !damped_) begin(grid, points, weights, corner_sum, mass);
+    if constexpr (Affine::carries_gradient) {
+      for_each_block(points.cells(), [&](std::size_t k) {
+        const Centres centre = Affine::centres(grid, points.cell[k]);
+        for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+          const Point<dim> D = Affine::second_moments(weights.N(k, p), centre, points.position(p));
+          for (int i = 0; i < dim; ++i) {
+            for (int j = 0; j < dim; ++j) points.B_apic[dim * i + j][p] *= D[j];
+          }
+        }
+      });
+    }
   }
 
   /// v_i from the points, (functions × dim). mass: m_i, (functions).
@@ -76,24 +88,36 @@ class VelocityTransfer {
   }
 
  private:
-  using Centres = std::array<std::array<double, per_cell>, dim>;
-  using AffineWeights = std::array<std::array<double, per_cell>, dim>;
+  void begin(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
+             const std::vector<double>& mass) const {
+    for (auto& B_ij : points.B_apic) std::ranges::fill(B_ij, 0.0);
+    std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
+    make_velocity(points, weights, corner_sum, mass, v);
+    const std::vector<double> at_rest(v.size());
+    for_each_block(points.cells(), [&](std::size_t k) {
+      const Centres centre = Affine::centres(grid, points.cell[k]);
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p)
+        Affine::set(points, weights, centre, k, p, at_rest.data(), v.data());
+    });
+  }
 
   // Σ_p m_p (N_ip v_p + …), (functions × dim) [kg m/s]. mean: v_j that ∇v_p is taken of, (functions × dim); or null.
   std::vector<double> nodal_momentum(const Grid<dim>& grid, const Points& points, const Weights& weights,
                                      const CornerSum& corner_sum, const double* mean = nullptr) const {
     const bool affine = spec_.transfer == Transfer::apic;
     return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
-      const auto centre = affine || mean ? centres(grid, points.cell[k]) : Centres{};
+      const auto centre = affine || mean ? Affine::centres(grid, points.cell[k]) : Centres{};
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         const auto N = weights.N(k, p);
         const double m = points.mass[p];
         const Point<dim> x = points.position(p);
         // Σ_j A_ij w_j is what the motion about the point adds
-        const auto w = affine ? affine_weights(weights, centre, x, k, p)
-                       : mean ? distances_weighed(N, centre, x)
-                              : AffineWeights{};
-        const auto A = mean ? velocity_gradient(weights, mean, k, p) : affine ? B_of(points, p) : Gradient{};
+        const auto w = affine ? Affine::weights_of_B(weights, centre, x, k, p)
+                       : mean ? Affine::distances_weighed(N, centre, x)
+                              : typename Affine::WeightsOfPoint{};
+        const auto A = mean     ? Affine::velocity_gradient(weights, mean, k, p)
+                       : affine ? Affine::B_of(points, p)
+                                : typename Affine::Gradient{};
         for (int a = 0; a < per_cell; ++a) {
           for (int i = 0; i < dim; ++i) {
             double share = N[a] * points.v[i][p];
@@ -128,28 +152,6 @@ class VelocityTransfer {
     });
   }
 
-  using Gradient = std::array<double, dim * dim>;
-
-  static Gradient velocity_gradient(const Weights& weights, const double* v, std::size_t k, std::size_t p) {
-    const auto full = weights.gradient(v, k, p);
-    Gradient in_plane{};
-    std::copy_n(full.begin(), in_plane.size(), in_plane.begin());
-    return in_plane;
-  }
-  static Gradient B_of(const Points& points, std::size_t p) {
-    Gradient B_p{};
-    for (int ij = 0; ij < dim * dim; ++ij) B_p[ij] = points.B_apic[ij][p];
-    return B_p;
-  }
-  // N_ip (x_i − x_p)
-  static AffineWeights distances_weighed(const auto& N, const Centres& centre, const Point<dim>& x) {
-    AffineWeights w;
-    for (int j = 0; j < dim; ++j) {
-      for (int a = 0; a < per_cell; ++a) w[j][a] = N[a] * (centre[j][a] - x[j]);
-    }
-    return w;
-  }
-
   void move(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
             const std::vector<double>& mass, const double* u, const double* v, const double* v_start) const {
     const std::array<std::vector<double>, dim> noise =
@@ -157,7 +159,7 @@ class VelocityTransfer {
     // Share of the increment in flip; the rest is the velocity itself.
     const double share = spec_.transfer == Transfer::flip ? spec_.flip_share : 0;
     for_each_block(points.cells(), [&](std::size_t k) {
-      const auto centre = spec_.transfer == Transfer::apic ? centres(grid, points.cell[k]) : Centres{};
+      const auto centre = spec_.transfer == Transfer::apic ? Affine::centres(grid, points.cell[k]) : Centres{};
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         const auto now = weights.value(v, k, p), before = weights.value(v_start, k, p);
         for (int i = 0; i < dim; ++i) {
@@ -165,7 +167,7 @@ class VelocityTransfer {
           v_p = spec_.transfer == Transfer::xpic ? v_p - noise[i][p] + now[i] - before[i]
                                                  : share * (v_p + now[i] - before[i]) + (1 - share) * now[i];
         }
-        if (spec_.transfer == Transfer::apic) set_affine(points, weights, centre, k, p, u, v);
+        if (spec_.transfer == Transfer::apic) Affine::set(points, weights, centre, k, p, u, v);
       }
     });
   }
@@ -182,75 +184,6 @@ class VelocityTransfer {
     for (int i = 0; i < dim; ++i) change.sum[i] -= share * before.sum[i];
     change.scale = std::max(change.scale, before.scale);
     conservation_.compare_momentum(change, expected);
-  }
-
-  Centres centres(const Grid<dim>& grid, int cell_number) const {
-    Centres of_cell{};
-    if constexpr (B::partition_of_unity) {
-      const auto cell = grid.cell_at(cell_number);
-      for (int d = 0; d < dim; ++d) {
-        const Axis& axis = grid.axes[d];
-        for (int a = 0; a < per_cell; ++a) of_cell[d][a] = B::centre(axis, B::first(cell[d]) + Basis::axis_index(a, d));
-      }
-    }
-    return of_cell;
-  }
-
-  static AffineWeights affine_weights(const Weights& weights, const Centres& centre, const Point<dim>& x, std::size_t k,
-                                      std::size_t p) {
-    constexpr double singular = 1e-6;  // D if only one function acts, at a boundary; of the distances' squares
-    const auto N = weights.N(k, p);
-    const auto dN = weights.dN(k, p);
-    AffineWeights w;
-    for (int j = 0; j < dim; ++j) {
-      double D = 0, scale = 0;
-      for (int a = 0; a < per_cell; ++a) {
-        const double r = centre[j][a] - x[j];
-        D += N[a] * r * r;
-        scale = std::max(scale, r * r);
-      }
-      const bool by_gradient = B::degree == 1 || D < singular * scale;
-      for (int a = 0; a < per_cell; ++a) {
-        w[j][a] = by_gradient ? dN[per_cell * j + a] : N[a] * (centre[j][a] - x[j]) / D;
-      }
-    }
-    if constexpr (B::window > 1 && dim == 2) set_by_full_moments(N, centre, x, w);
-    return w;
-  }
-  // The mean of N over a domain is no product of functions of x and y: w = D⁻¹ N (x_a − x_p), D_ij with mixed terms.
-  static void set_by_full_moments(const double* N, const Centres& centre, const Point<dim>& x, AffineWeights& w) {
-    double D_xx = 0, D_xy = 0, D_yy = 0;
-    for (int a = 0; a < per_cell; ++a) {
-      const double r_x = centre[0][a] - x[0], r_y = centre[1][a] - x[1];
-      D_xx += N[a] * r_x * r_x;
-      D_xy += N[a] * r_x * r_y;
-      D_yy += N[a] * r_y * r_y;
-    }
-    const double det = D_xx * D_yy - D_xy * D_xy;
-    if (!(det > 1e-12 * (D_xx + D_yy) * (D_xx + D_yy))) return;
-    for (int a = 0; a < per_cell; ++a) {
-      const double r_x = centre[0][a] - x[0], r_y = centre[1][a] - x[1];
-      w[0][a] = N[a] * (D_yy * r_x - D_xy * r_y) / det;
-      w[1][a] = N[a] * (D_xx * r_y - D_xy * r_x) / det;
-    }
-  }
-
-  // B_p = Σ_a N_a v_a ⊗ (x_a + u_a − x_p − u_p)
-  static void set_affine(Points& points, const Weights& weights, const Centres& centre, std::size_t k, std::size_t p,
-                         const double* u, const double* v) {
-    const auto u_p = weights.value(u, k, p);
-    const auto N = weights.N(k, p);
-    const Point<dim> x = points.position(p);
-    std::array<double, dim * dim> B_p{};
-    for (int a = 0; a < per_cell; ++a) {
-      const int f = dim * weights.function(k, a);
-      for (int i = 0; i < dim; ++i) {
-        for (int j = 0; j < dim; ++j) {
-          B_p[dim * i + j] += N[a] * v[f + i] * (centre[j][a] + u[f + j] - x[j] - u_p[j]);
-        }
-      }
-    }
-    for (int ij = 0; ij < dim * dim; ++ij) points.B_apic[ij][p] = B_p[ij];
   }
 
   // (I − S S⁺)^m v_p

@@ -71,7 +71,7 @@ std::vector<RelativeInertia> MaterialPointPhase<B, K>::relative_inertia() const 
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
   transfer_.conservation().compare_mass(info_.total_mass, inertia_.mass());
-  if (phase_ == 0) transfer_.begin(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
+  transfer_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), phase_ == 0);
   if (is_free()) transfer_.conservation().compare_with_start(body_.points);
   const std::vector<double> grid_v =
       transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
@@ -121,11 +121,12 @@ std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>&
 }
 
 // The relative inertia δ_i has turned by Σ δ_i d_i × ḋ_i, d_i = u_i − Σ_k w_k u_k, when the phase ends: apic's points
-// take that over as spin, so that none of the angular momentum is lost.
+// take that over as spin, so that none of the angular momentum is lost. On a linear basis, where they
+// carry a gradient, it cannot be.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
   if constexpr (Dim == 2) {
-    if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
+    if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty() || B::degree == 1) return;
     std::vector<double> spin(inertia_.mass().size());  // δ_i (d_i × ḋ_i)/m_i
     for (const AddedInertia& added : inertia_.added()) {
       const auto i = static_cast<std::size_t>(added.function);

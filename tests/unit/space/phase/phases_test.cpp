@@ -180,7 +180,6 @@ TEST_CASE("a free body keeps its momentum through 200 phases, and with apic its 
   for (const std::string basis : {"linear", "quadratic", "cubic"}) {
     for (const std::string transfer : {"flip", "pic", "apic", "xpic"}) {
       CAPTURE(basis, transfer);
-      if (basis == "linear" && transfer == "apic") continue;  // gains energy, which a note says
       const Summary s =
           run(free_block({"grid={min=[-1, -1], max=[2, 1], cells=[24, 16], basis='" + basis + "'}",
                           "body={min=[-0.52, -0.31], max=[0.23, 0.44]}", "phase.transfer=" + transfer,
@@ -192,7 +191,7 @@ TEST_CASE("a free body keeps its momentum through 200 phases, and with apic its 
       CHECK(*s.added_mass > 0.01);
       CHECK(*s.momentum_error < 1e-12);
       REQUIRE(s.angular_momentum_error);
-      if (transfer == "apic") CHECK(*s.angular_momentum_error < 1e-10);
+      if (transfer == "apic") CHECK(*s.angular_momentum_error < (basis == "linear" ? 0.01 : 1e-10));
     }
   }
 }

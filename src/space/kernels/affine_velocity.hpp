@@ -1,0 +1,143 @@
+// The motion about a material point that APIC carries beside its velocity, B_p = Σ_i N_ip v_i ⊗ (x_i − x_p) [Jiang et
+// al. 2015].
+//
+// It goes back to the grid by weights w_ip with Σ_i w_ip = 0 and Σ_i x_i ⊗ w_ip = I, so that momentum and angular
+// momentum Σ_p m_p x_p × v_p + m_p (B_p,yx − B_p,xy) are kept:
+// w_ip = N_ip (x_i − x_p)/D_p, D_p = Σ_i N_ip (x_i − x_p)², which is ∇N_ip for a linear basis. There D_p vanishes at a
+// grid line, and a B_p that came near one would grow by the ratio of the two D_p without end: points of a linear basis
+// carry the velocity gradient B_p/D_p from phase to phase in its place, and angular momentum is kept nearly.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "space/kernels/point_weights.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+struct AffineVelocity {
+  using Weights = PointWeights<B, K>;
+  static constexpr int dim = Weights::dim;
+  static constexpr int per_cell = Weights::per_cell;
+  static constexpr bool carries_gradient = B::degree == 1 && B::window == 1;
+  using Points = MaterialPoints<dim>;
+  using Basis = typename Weights::Basis;
+  using Centres = std::array<std::array<double, per_cell>, dim>;         // x_a of a cell's functions
+  using WeightsOfPoint = std::array<std::array<double, per_cell>, dim>;  // w_a
+  using Gradient = std::array<double, dim * dim>;                        // ∂v_i/∂x_j at [dim i + j]
+
+  static Centres centres(const Grid<dim>& grid, int cell_number) {
+    Centres of_cell{};
+    if constexpr (B::partition_of_unity) {
+      const auto cell = grid.cell_at(cell_number);
+      for (int d = 0; d < dim; ++d) {
+        const Axis& axis = grid.axes[d];
+        for (int a = 0; a < per_cell; ++a) of_cell[d][a] = B::centre(axis, B::first(cell[d]) + Basis::axis_index(a, d));
+      }
+    }
+    return of_cell;
+  }
+
+  // D_j = Σ_a N_a (x_a − x_p)_j²
+  static Point<dim> second_moments(const auto& N, const Centres& centre, const Point<dim>& x) {
+    Point<dim> D{};
+    for (int j = 0; j < dim; ++j) {
+      for (int a = 0; a < per_cell; ++a) D[j] += N[a] * (centre[j][a] - x[j]) * (centre[j][a] - x[j]);
+    }
+    return D;
+  }
+
+  static WeightsOfPoint weights_of_B(const Weights& weights, const Centres& centre, const Point<dim>& x, std::size_t k,
+                                     std::size_t p) {
+    constexpr double singular = 1e-6;  // D if only one function acts, at a boundary; of the distances' squares
+    const auto N = weights.N(k, p);
+    const auto dN = weights.dN(k, p);
+    const Point<dim> D = second_moments(N, centre, x);
+    WeightsOfPoint w;
+    for (int j = 0; j < dim; ++j) {
+      double scale = 0;
+      for (int a = 0; a < per_cell; ++a) scale = std::max(scale, (centre[j][a] - x[j]) * (centre[j][a] - x[j]));
+      const bool by_gradient = B::degree == 1 || D[j] < singular * scale;
+      for (int a = 0; a < per_cell; ++a) {
+        w[j][a] = by_gradient ? dN[per_cell * j + a] : N[a] * (centre[j][a] - x[j]) / D[j];
+      }
+    }
+    if constexpr (B::window > 1 && dim == 2) set_by_full_moments(N, centre, x, w);
+    return w;
+  }
+  // The mean of N over a domain is no product of functions of x and y: w = D⁻¹ N (x_a − x_p), D_ij with mixed terms.
+  static void set_by_full_moments(const double* N, const Centres& centre, const Point<dim>& x, WeightsOfPoint& w) {
+    double D_xx = 0, D_xy = 0, D_yy = 0;
+    for (int a = 0; a < per_cell; ++a) {
+      const double r_x = centre[0][a] - x[0], r_y = centre[1][a] - x[1];
+      D_xx += N[a] * r_x * r_x;
+      D_xy += N[a] * r_x * r_y;
+      D_yy += N[a] * r_y * r_y;
+    }
+    const double det = D_xx * D_yy - D_xy * D_xy;
+    if (!(det > 1e-12 * (D_xx + D_yy) * (D_xx + D_yy))) return;
+    for (int a = 0; a < per_cell; ++a) {
+      const double r_x = centre[0][a] - x[0], r_y = centre[1][a] - x[1];
+      w[0][a] = N[a] * (D_yy * r_x - D_xy * r_y) / det;
+      w[1][a] = N[a] * (D_xx * r_y - D_xy * r_x) / det;
+    }
+  }
+
+  // Σ_a v_a ⊗ ∇N_a
+  static Gradient velocity_gradient(const Weights& weights, const double* v, std::size_t k, std::size_t p) {
+    const auto full = weights.gradient(v, k, p);
+    Gradient in_plane{};
+    std::copy_n(full.begin(), in_plane.size(), in_plane.begin());
+    return in_plane;
+  }
+  // H (I + G)⁻¹
+  static Gradient times_inverse(const Gradient& H, Gradient G) {
+    for (int i = 0; i < dim; ++i) G[dim * i + i] += 1;
+    if constexpr (dim == 1) {
+      return {H[0] / G[0]};
+    } else {
+      const double det = G[0] * G[3] - G[1] * G[2];
+      return {(H[0] * G[3] - H[1] * G[2]) / det, (H[1] * G[0] - H[0] * G[1]) / det, (H[2] * G[3] - H[3] * G[2]) / det,
+              (H[3] * G[0] - H[2] * G[1]) / det};
+    }
+  }
+  static Gradient B_of(const Points& points, std::size_t p) {
+    Gradient B_p{};
+    for (int ij = 0; ij < dim * dim; ++ij) B_p[ij] = points.B_apic[ij][p];
+    return B_p;
+  }
+  // N_ip (x_i − x_p)
+  static WeightsOfPoint distances_weighed(const auto& N, const Centres& centre, const Point<dim>& x) {
+    WeightsOfPoint w;
+    for (int j = 0; j < dim; ++j) {
+      for (int a = 0; a < per_cell; ++a) w[j][a] = N[a] * (centre[j][a] - x[j]);
+    }
+    return w;
+  }
+
+  // B_p = Σ_a N_a v_a ⊗ (x_a + u_a − x_p − u_p), or the gradient ∂v/∂(x + u)
+  static void set(Points& points, const Weights& weights, const Centres& centre, std::size_t k, std::size_t p,
+                  const double* u, const double* v) {
+    if constexpr (carries_gradient) {
+      const Gradient C = times_inverse(velocity_gradient(weights, v, k, p), velocity_gradient(weights, u, k, p));
+      for (int ij = 0; ij < dim * dim; ++ij) points.B_apic[ij][p] = C[ij];
+    } else {
+      const auto u_p = weights.value(u, k, p);
+      const auto N = weights.N(k, p);
+      const Point<dim> x = points.position(p);
+      Gradient B_p{};
+      for (int a = 0; a < per_cell; ++a) {
+        const int f = dim * weights.function(k, a);
+        for (int i = 0; i < dim; ++i) {
+          for (int j = 0; j < dim; ++j) {
+            B_p[dim * i + j] += N[a] * v[f + i] * (centre[j][a] + u[f + j] - x[j] - u_p[j]);
+          }
+        }
+      }
+      for (int ij = 0; ij < dim * dim; ++ij) points.B_apic[ij][p] = B_p[ij];
+    }
+  }
+};
+
+}  // namespace stillpoint
