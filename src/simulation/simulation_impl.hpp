@@ -68,6 +68,7 @@ class Simulation::Impl {
   void begin_phase(ConstVec u0, ConstVec v0);
   void take_step(double t_stop);
   double landing_time(double t_stop) const;
+  double end_of_fast_phase() const;
   void next_phase();
   bool try_next_phase();
   void tell_phase_change(bool begun) const;
