@@ -1,9 +1,12 @@
-// What yields because the motion goes too far is told by a number, and what a squeezed grid bears as well.
+// What yields because the motion goes too far, or along another way than a slow one, is told by a number, and what a
+// squeezed grid bears as well.
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "scenes.hpp"
 
@@ -14,7 +17,8 @@ namespace {
 bool says(const Summary& s, const std::string& part) {
   return std::ranges::any_of(s.notes, [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
-const std::string overshot = "inertia carried the body on", squeezed = "in a single phase";
+const std::string overshot = "inertia carried the body on", squeezed = "in a single phase",
+                  unbalanced = "plastic flow out of balance";
 
 Summary footing(const std::vector<std::string>& set) {
   Summary s = run(scenes::load("footing", set));
@@ -23,6 +27,25 @@ Summary footing(const std::vector<std::string>& set) {
   return s;
 }
 double settlement(const Summary& s) { return scenes::probe(s, "block", "u.y"); }
+
+// Ground under a load that leans; the longest period is 0.0987 s.
+Summary ground(const std::vector<std::string>& set) {
+  Summary s = run(scenes::load("hard/yielding_ground", set));
+  CAPTURE(set, s.reason);
+  CHECK(s.status == RunStatus::equilibrium);
+  REQUIRE(s.unbalanced_plastic_work);
+  return s;
+}
+std::vector<std::string> within(double T, std::vector<std::string> more = {}) {
+  more.push_back(fmt::format("traction[0].value=['0.3*q*min(t/{0}, 1)', '-q*min(t/{0}, 1)']", T));
+  more.push_back(fmt::format("stop.time={}", 10 * T + 20));
+  return more;
+}
+// Of the top's displacement, relative.
+double distance(const Summary& a, const Summary& b) {
+  const auto u = [](const Summary& s, const char* of) { return scenes::probe(s, "top", of); };
+  return std::hypot(u(a, "u.x") - u(b, "u.x"), u(a, "u.y") - u(b, "u.y")) / std::hypot(u(b, "u.x"), u(b, "u.y"));
+}
 
 const std::vector<std::string> ramp = {"body_force.value=['0', '-g*(y > 4)*min(t/5, 1)']", "stop.time=60"};
 
@@ -58,11 +81,54 @@ TEST_CASE("a slow ramp, critical damping and auto overshoot by less than one par
   }
 }
 
+TEST_CASE("ground that a sudden load makes yield along another way without overshooting says so") {
+  const Summary slow = ground(within(29)), sudden = ground({});
+  CHECK(distance(sudden, slow) > 0.02);
+  CHECK(sudden.plastic_overshoot.value() < 0.005);
+  CHECK_FALSE(says(sudden, overshot));
+  CHECK(*sudden.unbalanced_plastic_work == Approx(distance(sudden, slow)).epsilon(0.5));
+  CHECK(says(sudden, unbalanced));
+  CHECK(says(sudden, "min(t/T, 1) with T = 20 longest periods, 1.97 s"));
+}
+
+TEST_CASE("plastic work out of balance falls as a ramp gets longer, and bounds the difference from a slow one") {
+  const Summary slow = ground(within(29));
+  CHECK(*slow.unbalanced_plastic_work < 2e-4);
+  for (const char* strategy : {"viscous", "auto"}) {
+    double last_share = 1, last_difference = 1;
+    for (const double T : {0.1, 0.2, 0.5, 1.97}) {
+      const Summary s = ground(within(T, {std::string("damping={strategy='") + strategy + "'}"}));
+      CAPTURE(strategy, T, distance(s, slow), *s.unbalanced_plastic_work);
+      CHECK(*s.unbalanced_plastic_work < last_share);
+      CHECK(distance(s, slow) < 2 * *s.unbalanced_plastic_work);
+      last_difference = distance(s, slow);
+      last_share = *s.unbalanced_plastic_work;
+    }
+    CHECK(last_difference < 0.002);  // after the ramp that the note asks for
+  }
+  CHECK_FALSE(says(ground(within(1.97)), unbalanced));
+}
+
+TEST_CASE("a static solver, which puts the loads on at once, says what of their work went into plastic flow") {
+  for (const char* solver : {"newton", "cg", "lbfgs", "newton-cg"}) {
+    const Summary s = ground({std::string("solve.method=") + solver});
+    CAPTURE(solver);
+    CHECK(*s.unbalanced_plastic_work == Approx(0.0534).epsilon(0.02));  // half of W_p/W = 0.107
+    CHECK_FALSE(s.plastic_overshoot);
+    CHECK(says(s, unbalanced));
+    CHECK(says(s, "expected solve.method = \"relaxation\" and a ramp"));
+  }
+  CHECK_FALSE(run(scenes::load("hard/yielding_ground", {"solve.method=newton", "material.ground.c=1e5"}))
+                  .unbalanced_plastic_work);
+}
+
 TEST_CASE("a body that does not yield has no share of plastic strain, however it swings") {
   const Summary elastic = run(scenes::load("column", {"damping.c=1", "stop.steps=2000"}));
   CHECK_FALSE(elastic.plastic_overshoot);
+  CHECK_FALSE(elastic.unbalanced_plastic_work);
   const Summary strong = run(scenes::load("footing", {"damping.c=2", "material.ground.c=1e7", "stop.steps=500"}));
   CHECK_FALSE(strong.plastic_overshoot);
+  CHECK_FALSE(strong.unbalanced_plastic_work);
   CHECK_FALSE(says(strong, overshot));
 }
 
