@@ -163,3 +163,21 @@ TEST_CASE("what a yielding material bears because one phase squeezes the grid is
   }
   CHECK_FALSE(run(scenes::load("neo_hookean_bar")).single_phase_strain);
 }
+
+TEST_CASE(
+    "ground that is pressed until it yields and let go keeps the closed answer's stress, by any number of phases") {
+  const double right = -0.5 * std::sqrt(3) * 10e3;
+  for (const char* max_motion : {"none", "1e-3", "1e-4"}) {
+    for (const char* strategy : {"viscous", "auto"}) {
+      const Summary s = run(scenes::load("hard/load_cycle_in_phases", {std::string("phase.max_motion=") + max_motion,
+                                                                       std::string("damping.strategy=") + strategy}));
+      CAPTURE(max_motion, strategy, s.phases);
+      CHECK(s.status == RunStatus::equilibrium);
+      CHECK(scenes::probe(s, "middle", "stress.xx") == Approx(right).epsilon(0.004));
+      CHECK(scenes::probe(s, "middle", "stress.yy") == Approx(0).margin(0.03 * -right));
+      CHECK(scenes::probe(s, "middle", "plastic_strain") > 1e-3);
+      CHECK((std::string(max_motion) == "none") == (s.phases == 1));
+      CHECK_FALSE(says(s, unbalanced));
+    }
+  }
+}
