@@ -335,6 +335,6 @@ def variation(seed, k, folder):
         judge_settings=judge_settings,
         expected=[*RIGHT, *NAMED, "not judged"],
         judge=judge,
-        notes="cross the cells of a linear basis|K is singular|inertia carried",
+        notes="cross the cells of a linear basis|K is singular|inertia carried|out of balance",
         seconds=10,
     )

@@ -53,7 +53,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
       monitor_(monitor_options(scene_, model_)),
       error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
       schedule_(scene_, *model_.phase, scene_.stop.time),
-      overshoot_(scene_, model_),
+      plastic_path_(scene_, model_),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
   if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);
@@ -73,7 +73,7 @@ RunStatus Simulation::Impl::step(double t_stop) {
   const Stopwatch watch;
   if (!std::exchange(started_, true)) {
     motion_->accept(t_);
-    watch_overshoot();
+    if (plastic_path_.due(t_)) watch_plastic_path();
     sample(true);
     if (leaves_checkpoints()) leave_checkpoint();
   }
@@ -96,7 +96,7 @@ void Simulation::Impl::take_step(double t_stop) {
   step_ = report.h;
   measured_ = false;
   motion_->accept(t_);
-  watch_overshoot();
+  if (plastic_path_.due(t_)) watch_plastic_path();
   if (options_.stops) watch();
   sample(done());
   report_progress();
@@ -134,6 +134,10 @@ double Simulation::Impl::end_of_fast_phase() const {
 void Simulation::Impl::next_phase() {
   motion_->finish(t_);
   if (recorder_) recorder_->end_phase(t_, *motion_);
+  if (plastic_path_.watches()) {
+    measure();
+    plastic_path_.end_phase(t_, motion_->system, motion_->u_vector);
+  }
   tell_phase_change(false);
   try {
     const std::vector<double> v0 = model_.phase->control().begin_next(t_, motion_->u(), motion_->v());
@@ -214,10 +218,10 @@ void Simulation::Impl::watch() {
   if (!done() && schedule_.settled(t_)) look_for_mechanism();
 }
 
-void Simulation::Impl::watch_overshoot() {
-  if (!options_.stops || !overshoot_.due(t_)) return;
+void Simulation::Impl::watch_plastic_path() {
+  if (!options_.stops) return;
   measure();
-  overshoot_.sample(t_, power_);
+  plastic_path_.sample(t_, motion_->system, motion_->u_vector, residual_, power_);
 }
 
 void Simulation::Impl::look_for_mechanism() {
@@ -288,6 +292,7 @@ void Simulation::Impl::test_stability() {
 
 void Simulation::Impl::finish() {
   if (is_readable_) motion_->finish(t_);
+  if (is_readable_ && plastic_path_.watches()) watch_plastic_path();
   if (is_readable_) say_what_moves();
   test_stability();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);

@@ -17,8 +17,8 @@
 #include "simulation/mechanism.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
-#include "simulation/overshoot.hpp"
 #include "simulation/phase_motion.hpp"
+#include "simulation/plastic_path.hpp"
 #include "simulation/recorder.hpp"
 
 namespace stillpoint {
@@ -54,7 +54,7 @@ class Simulation::Impl {
   ErrorBound error_bound_;
   LoadSchedule schedule_;
   Chatter chatter_;
-  Overshoot overshoot_;
+  PlasticPath plastic_path_;
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1};
   std::optional<Recorder> recorder_;
 
@@ -75,7 +75,7 @@ class Simulation::Impl {
 
   bool watches_chatter() const;
   void watch_chatter(double share, double residual);
-  void watch_overshoot();
+  void watch_plastic_path();
   void look_for_mechanism();
   void watch();
   void follow_period();

@@ -128,7 +128,7 @@ void Simulation::Impl::archive(const StateArchive& state) {
   monitor_.archive(state.part("monitor"));
   error_bound_.archive(state.part("error_bound"));
   chatter_.archive(state.part("chatter"));
-  overshoot_.archive(state.part("overshoot"));
+  plastic_path_.archive(state.part("plastic_path"));
   mechanism_.archive(state.part("mechanism"));
   if (recorder_) recorder_->archive(state.part("records"));
 }

@@ -41,8 +41,8 @@ Summary Simulation::Impl::summary() {
   s.notes = model_.notes;
   fill_model(s);
   fill_effort(s);
-  s.plastic_overshoot = overshoot_.share();
-  add_note(s, overshoot_.note());
+  s.plastic_overshoot = plastic_path_.overshoot();
+  add_note(s, note_on_overshoot(s.plastic_overshoot));
   s.residual = s.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
   if (is_readable_) fill_state(s);
   return s;
@@ -86,6 +86,8 @@ void Simulation::Impl::fill_state(Summary& s) {
   add_note(s, distance_note(status_, distance_to_go()));
   s.single_phase_strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
   add_note(s, note_on_single_phase(s.single_phase_strain));
+  if (plastic_path_.watches()) s.unbalanced_plastic_work = plastic_path_.unbalanced_work(t_, motion_->u());
+  add_note(s, note_on_unbalanced_work(s.unbalanced_plastic_work, model_));
   s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
   if (model_.phase->info().updated_lagrangian) {
     const auto transfer = model_.phase->control().transfer_errors();
