@@ -10,15 +10,18 @@
 
 namespace stillpoint {
 
-/// ‖F‖. If F = 0, the largest ‖F‖ or ‖reactions‖ seen so far: those of the moment fall with the out-of-balance force
-/// itself when a body is unloaded. Without any, as in a free body that vibrates, the largest ‖R‖.
+/// ‖F‖. If F = 0, or what rounding leaves of a load that comes back to nothing, the largest ‖F‖ or ‖reactions‖ seen so
+/// far: those of the moment fall with the out-of-balance force itself when a body is unloaded. Without any, as in a
+/// free body that vibrates, the largest ‖R‖.
 class ForceScale {
  public:
   /// Of an evaluation of F and R, (n); trial, contact: the reactions that belong to it.
   double of(const Vector& F, const Vector& R, const TrialState& trial, const Contact* contact) {
+    constexpr double rounding = 1e-12;  // of the largest load
     const double loads = norm(F);
-    force_ = std::max(force_, loads > 0 ? loads : reactions(trial, contact));
-    if (force_ > 0) return loads > 0 ? loads : force_;
+    const bool is_loaded = loads > rounding * force_;
+    force_ = std::max(force_, is_loaded ? loads : reactions(trial, contact));
+    if (force_ > 0) return is_loaded ? loads : force_;
     internal_ = std::max(internal_, norm(R));
     return internal_;
   }
