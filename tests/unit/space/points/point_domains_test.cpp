@@ -152,6 +152,19 @@ TEST_CASE("elastic boxes of uniform points take domains, all others points; doma
                     Contains("phase.quadrature") && Contains("goes with phases only"));
 }
 
+TEST_CASE("elastic bodies of domains take affine velocities, all others flip, and whoever says how is heard") {
+  const auto transfer = [](std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), "damping.strategy=cundall");
+    return free_block(overrides).phase.transfer;
+  };
+  CHECK(transfer({}) == Transfer::apic);
+  CHECK(transfer({"phase.transfer=flip"}) == Transfer::flip);
+  CHECK(transfer({"phase.flip_share=0.9"}) == Transfer::flip);
+  CHECK(transfer({"phase.quadrature=points"}) == Transfer::flip);
+  CHECK(transfer({"damping.strategy=none", "phase.quadrature=domains"}) == Transfer::flip);
+  CHECK(free_soil({"phase.quadrature=domains", "damping.strategy=cundall"}).phase.transfer == Transfer::flip);
+}
+
 TEST_CASE("domains stretched over more than a cell are halved until none is, and are in the same equilibrium") {
   const Scene scene = free_block({"phase.quadrature=domains", "grid.max=[10, 10]", "grid.cells=[40, 40]"});
   const Grid<2> grid = grid_at<2>(scene, 0);
