@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -36,6 +37,33 @@ bool sliver_shortens_the_step(const Scene& scene, const LagrangianPhase& phase, 
   return !light_nodes_get_inertia && (scene.grid.basis == BasisKind::linear || scene.grid.basis == BasisKind::hermite);
 }
 
+// The first body whose volumes the scene asks to be fitted, where that differs from equal ones: up to two uniform
+// points along an axis are alike by symmetry.
+std::string body_with_fitted_volumes(const Scene& scene) {
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const BodySpec& body = scene.bodies[k];
+    const std::string table = scene.where.contains("body[0]") ? fmt::format("body[{}]", k) : "body";
+    const bool by_symmetry = std::ranges::all_of(body.points_per_cell, [](int along) { return along <= 2; });
+    if (!by_symmetry && body.volumes == VolumeRule::consistent && scene.where.contains(table + ".volumes"))
+      return table;
+  }
+  return "";
+}
+
+// Of strains that differ within a domain their mean counts: of n domains across a body that bends
+// Σ_p V_p y_p² = (1 − 1/n²) ∫ y² dV. The fewest across a body of the plane.
+double fewest_domains_across(const Scene& scene) {
+  double fewest = std::numeric_limits<double>::infinity();
+  if (scene.dim < 2 || scene.phase.quadrature != Quadrature::domains) return fewest;
+  for (const BodySpec& body : scene.bodies) {
+    for (std::size_t d = 0; d < body.points_per_cell.size(); ++d) {
+      const double cell = (scene.grid.max[d] - scene.grid.min[d]) / scene.grid.cells[d];
+      fewest = std::min(fewest, (body.max[d] - body.min[d]) / cell * body.points_per_cell[d]);
+    }
+  }
+  return fewest;
+}
+
 // A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 [Strang and Fix
 // 1973, 4.3].
 std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
@@ -56,6 +84,19 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
         fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
                     "faces on grid lines",
                     quadrature.smallest_share));
+  }
+  if (const std::string body = body_with_fitted_volumes(scene);
+      scene.phase.quadrature == Quadrature::domains && !body.empty()) {
+    notes.push_back(fmt::format(
+        "{}.volumes = \"consistent\" is taken as equal: domains side by side fill their cells by equal volumes; "
+        "phase.quadrature = \"points\" takes fitted ones",
+        body));
+  }
+  if (const double n = fewest_domains_across(scene); n < 9.5) {
+    notes.push_back(fmt::format(
+        "{:.0f} domains lie across the body, of whose strains the means count: it bends by up to {:.1f} % too "
+        "easily; expected more points per cell or smaller cells where it bends",
+        n, 100 / (n * n)));
   }
   const int needed = 2 * degree_of(scene.grid.basis) - 2;
   // Domains integrate what is interpolated over them, wherever their points lie.

@@ -87,7 +87,7 @@ void Simulation::Impl::take_step(double t_stop) {
   const StepReport report = motion_->integrator->step(landing_time(t_stop));
   t_ = report.t;
   if (report.status != StepReport::Status::ok) {
-    if (report.status == StepReport::Status::inadmissible && try_next_phase()) return;
+    if (report.status == StepReport::Status::inadmissible && (try_next_phase() || done())) return;
     status_ = status_of(report.status);
     reason_ = failure_of_step(scene_, *model_.phase, now(), report);
     sample(true);  // the last good state

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "scenes.hpp"
@@ -115,7 +116,7 @@ basis = "quadratic"
 min = [0, 5]
 max = [10, 6]
 material = "m"
-points_per_cell = 9
+points_per_cell = 16
 [material.m]
 law = "neo-hookean"
 E = 12
@@ -133,9 +134,21 @@ at = [10, 5.5]
 fields = ["u.x", "u.y"]
 )";
 
-/// Bent by that load in one phase and in many: the same at the end, to 0.7 % of its deflection: the mean strains of
-/// twelve domains one above the other bend the more easily by 1/12² = 0.7 %. With phases it is taken
-/// for resting when it has no energy left: functions that hardly reach it go on to settle from phase to phase.
+/// A square with rollers on the left and below, 8 × 8 cells with four points each, under a force to the right.
+Summary point_force(const char* at, const char* value, const char* strategy) {
+  return run(
+      scenes::load("hard/pulled_in_phases",
+                   {"traction=[]", fmt::format("force=[{{at={}, value=[{}, 0]}}]", at, value), "grid.cells=[16, 8]",
+                    fmt::format("damping.strategy={}", strategy),
+                    "probe=[{name='corner', at=[1, 1], fields=['u.x']}, {name='load', at=[1, 0.5], fields=['u.x']}]"}),
+      {.threads = 1});
+}
+
+/// Bent by that load in one phase and in many: the same at the end, to 0.5 % of its deflection. Domains strain by their
+/// means, so that n of them one above the other bend more easily by about 1/n²: the deflection was off by 0.57, 0.32
+/// and 0.20 % with n = 12, 16 and 20, which is 0.82/n² each time, and none of it depends on the way. Here n = 16. With
+/// phases it is taken for resting when it has no energy left: functions that hardly reach it go on to settle from phase
+/// to phase.
 void check_bends_alike(const std::string& load) {
   const Summary one = run_text(beam, {load});
   const Summary many = run_text(beam, {load, "phase.max_motion=0.5", "stop={residual=0, time=300}"});
@@ -147,7 +160,7 @@ void check_bends_alike(const std::string& load) {
   CHECK(size > 2.5);
   CHECK(many.kinetic_energy < 1e-6 * size);
   for (const char* u : {"u.x", "u.y"})
-    CHECK_THAT(scenes::probe(many, "end", u), Catch::Matchers::WithinAbs(scenes::probe(one, "end", u), 0.007 * size));
+    CHECK_THAT(scenes::probe(many, "end", u), Catch::Matchers::WithinAbs(scenes::probe(one, "end", u), 0.005 * size));
 }
 
 }  // namespace
@@ -197,6 +210,50 @@ TEST_CASE("a square pulled until it is longer by a third is right, wherever its 
       }
     }
   }
+}
+
+TEST_CASE("a square pulled to three times its length is right though its domains come to be wider than cells") {
+  for (const char* basis : {"linear", "quadratic", "cubic"}) {
+    for (const char* points : {"4", "9"}) {
+      for (const std::string strategy : {"viscous", "kinetic", "auto"}) {
+        if (basis == std::string("cubic") && strategy != "auto") continue;
+        const Summary s = run(
+            scenes::load("hard/pulled_in_phases",
+                         {"constants.F=3", "grid.max=[6, 1]", "grid.cells=[24, 4]", std::string("grid.basis=") + basis,
+                          "damping.strategy=" + strategy, std::string("body.points_per_cell=") + points}),
+            {.threads = 1});
+        CAPTURE(basis, points, strategy, s.reason);
+        CHECK(s.status == RunStatus::equilibrium);
+        CHECK(scenes::probe(s, "corner", "u.x") ==
+              Approx(2 * (1 - 0.125 / std::sqrt(std::stod(points)))).epsilon(0.005));
+        CHECK(scenes::probe(s, "corner", "stress.xx") == Approx(0.5 * (3 - 1.0 / 3)).epsilon(0.005));
+      }
+    }
+  }
+}
+
+TEST_CASE("a point force that stretches its domain over a cell moves its body alike, sudden or slow, by any way") {
+  for (const char* value : {"0.05", "'0.05*min(t/40, 1)'"}) {
+    for (const char* strategy : {"viscous", "kinetic", "auto"}) {
+      const Summary s = point_force("[1.0, 0.5]", value, strategy);
+      CAPTURE(value, strategy, s.reason);
+      CHECK(s.status == RunStatus::equilibrium);
+      CHECK(scenes::probe(s, "load", "u.x") == Approx(0.1008).epsilon(0.01));
+      CHECK(scenes::probe(s, "corner", "u.x") == Approx(0.0221).epsilon(0.025));
+    }
+  }
+}
+
+TEST_CASE("a force that draws out the corner of a body until its domain folds finds no equilibrium, and that is said") {
+  int folded = 0;
+  for (const char* strategy : {"viscous", "kinetic", "auto"}) {
+    const Summary s = point_force("[1.0, 1.0]", "0.05", strategy);
+    CAPTURE(strategy, s.reason);
+    CHECK((s.status == RunStatus::failed || s.status == RunStatus::diverged || s.status == RunStatus::step_limit));
+    folded += s.reason.find("the domain of material point 256 at (") != std::string::npos &&
+              s.reason.find("folded") != std::string::npos && s.reason.find("[[traction]]") != std::string::npos;
+  }
+  CHECK(folded > 0);
 }
 
 TEST_CASE("a column under a sudden load stands on its roller for 100 000 steps and loses no point") {

@@ -118,6 +118,9 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   check_same_bits({"hard/fast_wall", {"stop.steps=400"}}, 290);
   // Domains of several sizes, which change places on their way.
   check_same_bits({"hard/beam_in_phases", {"grid.cells=[13, 17]", "stop.steps=600"}}, 590);
+  // Domains that are halved on their way.
+  check_same_bits(
+      {"hard/pulled_in_phases", {"constants.F=3", "grid.max=[6, 1]", "grid.cells=[24, 4]", "stop.steps=400"}}, 390);
 }
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with walls, and with what stiffens") {

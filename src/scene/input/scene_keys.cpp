@@ -250,7 +250,8 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("max_strain", &PhaseSpec::max_strain, "or a displacement gradient since the phase began",
            {.range = kPositive})
       .key("transfer", &PhaseSpec::transfer, "of velocities from grid to points",
-           {.words = {"flip", "pic", "apic", "xpic"}})
+           {.words = {"flip", "pic", "apic", "xpic"},
+            .fallback = "apic for elastic bodies of domains, if damped; otherwise flip"})
       .key("flip_share", &PhaseSpec::flip_share,
            "of flip: 1 takes increments of the nodal velocity, 0 the velocity itself", {.range = from(0, 1)})
       .key("xpic_order", &PhaseSpec::xpic_order, "of xpic", {.range = from(1, 20)})

@@ -69,13 +69,17 @@ std::string why_no_domains(const Scene& scene) {
 void choose_quadrature(SceneCheck& check, bool remembers) {
   Scene& scene = check.scene();
   const std::string why_not = why_no_domains(scene);
+  const StrategyInfo* const strategy = check.catalogue().strategy(scene.damping.strategy);
+  const bool rests = strategy && strategy->damps && scene.grid.basis != BasisKind::hermite && !remembers;
   if (!check.written("phase.quadrature")) {
-    const StrategyInfo* const strategy = check.catalogue().strategy(scene.damping.strategy);
-    const bool rests = strategy && strategy->damps && scene.grid.basis != BasisKind::hermite;
-    scene.phase.quadrature = rests && why_not.empty() && !remembers ? Quadrature::domains : Quadrature::points;
+    scene.phase.quadrature = rests && why_not.empty() ? Quadrature::domains : Quadrature::points;
   } else if (scene.phase.quadrature == Quadrature::domains && !why_not.empty()) {
     check.add("phase.quadrature", fmt::format("{}: there are no domains side by side; take \"points\"", why_not));
   }
+  // What of the points' velocities no function feels, flip keeps until the functions of a later phase do: that shakes a
+  // body that overshoots into a shape that no force takes back.
+  const bool says_how = check.written("phase.transfer") || check.written("phase.flip_share");
+  if (rests && scene.phase.quadrature == Quadrature::domains && !says_how) scene.phase.transfer = Transfer::apic;
 }
 
 }  // namespace

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "space/boundary/boundary_condition.hpp"
@@ -40,7 +43,7 @@ struct CarriedPoint {
   static constexpr int entries = 2 * per_cell;  // functions of two cells, which may be the same one
 
   Point<dim> x;                                     // when the phase begins [m]
-  Point<dim> xi;                                    // in its domain, −1 to 1
+  Point<dim> X;                                     // undeformed, of one that belongs to a domain [m]
   std::size_t carrier;                              // number of the point whose domain that is
   std::array<int, entries> function;                // −1: nothing
   std::array<double, entries> w;                    // weights
@@ -88,11 +91,16 @@ struct CarriedPoint {
     }
   }
 
-  /// Belongs to the domain of a point from now on, which is still a box.
+  /// Belongs to the domain of a point from now on, which is still undeformed.
   void attach(const PointInCell& nearest, const MaterialPoints<dim>& points) {
     carrier = static_cast<std::size_t>(points.number[nearest.p]);
-    const auto box = Domain<dim>::of(points, nearest.p);
-    for (int j = 0; j < dim; ++j) xi[j] = (2 * x[j] - box.x[0][j] - box.x.back()[j]) / (box.x.back()[j] - box.x[0][j]);
+    X = x;
+  }
+  /// In the domain of point p, −1 to 1.
+  Point<dim> position_in(std::size_t p, const MaterialPoints<dim>& points) const {
+    Point<dim> xi;
+    for (int j = 0; j < dim; ++j) xi[j] = (X[j] - points.rest[j][p]) / points.half[j][p];
+    return xi;
   }
   /// By the corners of that domain.
   void freeze_in_domain(const PointInCell& of, const PhaseParts<B, K>& phase) {
@@ -100,7 +108,7 @@ struct CarriedPoint {
     const auto [k, p] = of;
     const auto cell = phase.grid.cell_at(phase.points.cell[k]);
     const auto domain = Domain<dim>::of(phase.points, p), in_grid = Domain<dim>::in_grid(phase.points, p, phase.grid);
-    const auto share = Domain<dim>::weights(xi);
+    const auto share = Domain<dim>::weights(position_in(p, phase.points));
     x.fill(0);
     for (int c = 0; c < domain.corners; ++c) {
       const auto N = Basis::evaluate(phase.grid, cell, in_grid.x[c]).N;
@@ -162,6 +170,29 @@ struct CarriedPoint {
   }
 };
 
+/// The points whose domains hold the loads: of one in parts the part in which it is, or which is nearest.
+template <int Dim, class Loads, class PositionOf>
+std::vector<PointInCell> carriers_of(Loads& loads, const PositionOf& at_of, const MaterialPoints<Dim>& points) {
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> first(points.size(), none), next(loads.size());  // lists of the loads of each number
+  for (std::size_t l = loads.size(); l-- > 0;) next[l] = std::exchange(first[at_of(loads[l]).carrier], l);
+  std::vector<PointInCell> carriers(loads.size());
+  std::vector<double> nearest(loads.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < points.cells(); ++k) {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      for (std::size_t l = first[static_cast<std::size_t>(points.number[p])]; l != none; l = next[l]) {
+        double distance = 0;
+        for (const double along : at_of(loads[l]).position_in(p, points))
+          distance = std::max(distance, std::abs(along));
+        if (!(distance < nearest[l])) continue;
+        nearest[l] = distance;
+        carriers[l] = {k, p};
+      }
+    }
+  }
+  return carriers;
+}
+
 /// Lets material points carry the positions at_of(load) in the phase that begins.
 template <AxisBasis B, Kinematics K, class Loads, class PositionOf>
 void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const PhaseParts<B, K>& phase) {
@@ -173,12 +204,8 @@ void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const 
       const NearestPoint<dimensions(K)> nearest(phase.points, phase.grid);
       for (auto& load : loads) at_of(load).attach(nearest.to(at_of(load).x), phase.points);
     }
-    std::vector<PointInCell> with_number(phase.points.size());
-    for (std::size_t k = 0; k < phase.points.cells(); ++k) {
-      for (std::size_t p = phase.points.begin(k); p < phase.points.end(k); ++p)
-        with_number[static_cast<std::size_t>(phase.points.number[p])] = {k, p};
-    }
-    for (auto& load : loads) at_of(load).freeze_in_domain(with_number[at_of(load).carrier], phase);
+    const std::vector<PointInCell> carriers = carriers_of(loads, at_of, phase.points);
+    for (std::size_t l = 0; l < loads.size(); ++l) at_of(loads[l]).freeze_in_domain(carriers[l], phase);
   }
 }
 

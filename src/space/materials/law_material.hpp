@@ -78,6 +78,18 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
   }
 
+  // Of rows of values, (rows × points), those of points from[begin] … from[begin + count − 1].
+  void take_values(std::vector<double>& values, const std::vector<int>& from, std::size_t begin,
+                   std::size_t count) const {
+    const std::size_t rows = values.size() / count_;
+    std::vector<double> taken(rows * count);
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t k = 0; k < count; ++k)
+        taken[count * row + k] = values[count_ * row + static_cast<std::size_t>(from[begin + k]) - begin_];
+    }
+    values.swap(taken);
+  }
+
   Law law_;
   std::size_t begin_, count_;
 };
@@ -142,14 +154,12 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   }
   Vec memory() override { return F0_; }
   void reorder(const std::vector<int>& order, std::vector<double>&) override {
-    if (!moved()) return;
-    std::vector<double> sorted(F0_.size());
-    for (std::size_t c = 0; c < components; ++c) {
-      for (std::size_t k = 0; k < count_; ++k) {
-        sorted[count_ * c + k] = F0_[count_ * c + static_cast<std::size_t>(order[begin_ + k]) - begin_];
-      }
-    }
-    F0_.swap(sorted);
+    Base::take_values(F0_, order, begin_, count_);
+  }
+  void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
+    Base::take_values(F0_, from, begin, count);
+    begin_ = begin;
+    count_ = count;
   }
   void set_stress(const std::vector<Stresses>&) override {
     throw std::logic_error("an elastic law has no stress of its own");
@@ -245,6 +255,12 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
       });
     }
     committed_.swap(work);
+  }
+  void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
+    Base::take_values(committed_, from, begin, count);
+    begin_ = begin;
+    count_ = count;
+    this->set_history_size(Law::history * count);
   }
   void set_stress(const std::vector<Stresses>& stress) override {
     committed_.resize(Law::history * count_);

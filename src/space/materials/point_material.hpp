@@ -100,6 +100,8 @@ class PointMaterial {
   virtual Vec memory() = 0;
   /// Points are sorted anew: the one that was number order[k] becomes number begin + k. work: (history_size).
   virtual void reorder(const std::vector<int>& order, std::vector<double>& work) = 0;
+  /// The material has these points from now on; the one with number p is what the one with number from[p] was.
+  virtual void take(const std::vector<int>& from, std::size_t begin, std::size_t count) = 0;
   /// Points start under these Cauchy stresses, (points × stress components).
   virtual void set_stress(const std::vector<Stresses>& stress) = 0;
 
@@ -107,6 +109,9 @@ class PointMaterial {
   virtual std::vector<PointArray> arrays() const = 0;
   /// Committed history that a user may want to see: name and values in order of the points.
   virtual std::vector<std::pair<std::string, ConstVec>> shown_history() const = 0;
+
+ protected:
+  void set_history_size(std::size_t size) { info_.history_size = size; }
 
  private:
   PointMaterialInfo info_;

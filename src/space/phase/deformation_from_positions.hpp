@@ -181,7 +181,7 @@ class DeformationFromPositions {
         const auto number = static_cast<std::size_t>(points.number[p]);
         values.mass[p] = B::window > 1 ? points.volume[p] : points.mass[p];
         for (int i = 0; i < dim; ++i) {
-          values.value[p][i] = points.x[i][p] - origin[dim * number + i];
+          values.value[p][i] = points.x[i][p] - (B::window > 1 ? points.rest[i][p] : origin[dim * number + i]);
           for (int j = 0; j < dim; ++j) values.gradient[p][dim * i + j] = (i == j ? 1 : 0) - inverse_F[dim * i + j];
         }
       }

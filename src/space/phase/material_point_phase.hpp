@@ -140,6 +140,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void begin_phase(double t);
   void place_functions(double t);
   void make_forces(double t);
+  void archive_number_of_points(const StateArchive& state);
   void archive_points(const StateArchive& state);
   void archive_conditions(const StateArchive& state);
   void resume_phase(double t);
@@ -168,6 +169,9 @@ class MaterialPointPhase final : public LagrangianPhase,
   void keep_spin(const std::vector<double>& grid_v);
   void end_phase(double t, ConstVec u, ConstVec v);
   void move_corners(std::size_t k, std::size_t p);
+  void halve_domains();
+  void refuse_folded_domains() const;
+  void take_materials(const std::vector<int>& from);
   bool check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u) const;
 
   bool is_within_phase(ConstVec u, const double* grid_u) const;
@@ -200,12 +204,24 @@ class MaterialPointPhase final : public LagrangianPhase,
       }
     }
   }
-  /// out: what value_at(occupied cell, point) gives, an array, at each point's number.
+  /// out: what value_at(occupied cell, point) gives, an array, at each point's number; of one in parts their mean.
   template <class ValueAt>
   void write_points(Vec out, const ValueAt& value_at) const {
+    if (body_.points.size() > points()) return write_means(out, value_at);
     for_points([&](std::size_t k, std::size_t p, std::size_t number) {
       const auto value = value_at(k, p);
       std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(value.size() * number));
+    });
+  }
+  template <class ValueAt>
+  void write_means(Vec out, const ValueAt& value_at) const {
+    std::vector<double> mass(points(), 0);
+    for_points([&](std::size_t, std::size_t p, std::size_t number) { mass[number] += body_.points.mass[p]; });
+    std::ranges::fill(out, 0.0);
+    for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto value = value_at(k, p);
+      const double share = body_.points.mass[p] / mass[number];
+      for (std::size_t i = 0; i < value.size(); ++i) out[value.size() * number + i] += share * value[i];
     });
   }
   std::vector<double> point_positions() const;

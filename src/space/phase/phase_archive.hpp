@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "space/phase/material_point_phase.hpp"
+#include "space/points/domain_halving.hpp"
 
 namespace stillpoint {
 
@@ -14,6 +15,7 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   double t = held_.start();
   state("began_at", t);
   state("phase", phase_);
+  if (body_.points.has_domains()) archive_number_of_points(state);
   state("grid_moved", grid_moved_);
   for (std::size_t m = 0; m < body_.materials.size(); ++m)
     state(fmt::format("material_{}", m), body_.materials[m]->memory());
@@ -33,6 +35,23 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   transfer_.conservation().archive(state);
 }
 
+// Domains that were halved are more than there were when the body was placed.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::archive_number_of_points(const StateArchive& state) {
+  MaterialPoints<Dim>& points = body_.points;
+  const std::vector<int> before = points.material_begin;
+  state("material_begin", points.material_begin);
+  if (points.material_begin.size() != before.size() || points.material_begin.front() != 0 ||
+      !std::ranges::is_sorted(points.material_begin))
+    throw StateError("'material_begin' is not that of the materials of this scene");
+  if (points.material_begin == before) return;
+  std::vector<int> from;  // any of the same material: what they are is restored with the rest
+  for (std::size_t m = 0; m + 1 < before.size(); ++m)
+    from.resize(static_cast<std::size_t>(points.material_begin[m + 1]), before[m]);
+  take_points(points, from);
+  take_materials(from);
+}
+
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::archive_points(const StateArchive& state) {
   MaterialPoints<Dim>& points = body_.points;
@@ -43,7 +62,10 @@ void MaterialPointPhase<B, K>::archive_points(const StateArchive& state) {
   for (std::size_t ij = 0; ij < points.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), Vec(points.B_apic[ij]));
   if (points.has_domains()) {
     for (std::size_t c = 0; c < points.corner.size(); ++c) state(fmt::format("corner_{}", c), Vec(points.corner[c]));
-    for (std::size_t d = 0; d < points.half.size(); ++d) state(fmt::format("half_{}", d), Vec(points.half[d]));
+    for (std::size_t d = 0; d < points.half.size(); ++d) {
+      state(fmt::format("half_{}", d), Vec(points.half[d]));
+      state(fmt::format("rest_{}", d), Vec(points.rest[d]));
+    }
   }
   state("volume", Vec(points.volume));
   state("mass", Vec(points.mass));

@@ -3,6 +3,7 @@
 
 #include "space/phase/grid_faces.hpp"
 #include "space/phase/material_point_phase.hpp"
+#include "space/points/domain_halving.hpp"
 
 namespace stillpoint {
 
@@ -58,6 +59,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   ++phase_;
   grid_moved_ = grid_moves_to;
   grid_ = std::move(next_grid);
+  if constexpr (B::window > 1) halve_domains();
   order_.sort(body_.points, grid_);
   if (!spare_) make_trial();  // the trials of the phase are dead, and their arrays are free
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
@@ -203,6 +205,41 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
     }
   });
   for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::halve_domains() {
+  for (;;) {
+    const std::vector<int> from = halve_wide_domains(body_.points, grid_);
+    if (from.empty()) return;
+    refuse_folded_domains();
+    take_materials(from);
+    motion_since_deformation_ = std::numeric_limits<double>::infinity();  // halves are deformed as their corners say
+  }
+}
+
+// Under a point force a domain may have a corner that is drawn out by itself, until what is left of it is no convex
+// quadrilateral.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::refuse_folded_domains() const {
+  const auto folded = std::ranges::find_if(body_.points.volume, [](double V) { return !(V > 0); });
+  if (folded == body_.points.volume.end()) return;
+  const auto p = static_cast<std::size_t>(folded - body_.points.volume.begin());
+  throw_scene_error(
+      scene_, "phase",
+      fmt::format("the domain of material point {} at ({:.6g}) is stretched over more than a cell, and folded where it "
+                  "would be halved; expected a [[traction]] in the place of a force at a point, smaller loads or cells",
+                  body_.points.number[p] + 1, fmt::join(body_.points.position(p), ", ")));
+}
+
+// What the materials remember goes with the points, of which there are others now.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::take_materials(const std::vector<int>& from) {
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+    const auto begin = static_cast<std::size_t>(body_.points.material_begin[m]);
+    body_.materials[m]->take(from, begin, static_cast<std::size_t>(body_.points.material_begin[m + 1]) - begin);
+  }
+  spare_.reset();
 }
 
 // x_c += Σ_i N_i(x_c) u_i

@@ -1,8 +1,9 @@
-// make_phase_of() for one kinematics: the choice of the basis.
+// make_phase_of() and make_phase_of_domains() for one kinematics: the choice of the basis.
 #pragma once
 
 #include <stdexcept>
 
+#include "space/grid/domain_basis.hpp"
 #include "space/phase/null_space_stress.hpp"
 #include "space/phase/phase_archive.hpp"
 #include "space/phase/phase_change.hpp"
@@ -15,19 +16,31 @@
 
 namespace stillpoint {
 
-template <Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of(const Scene& scene) {
+/// Spline: the family of the basis, by its degree.
+template <template <int> class Spline, Kinematics K>
+std::unique_ptr<LagrangianPhase> make_phase_of_splines(const Scene& scene) {
   switch (scene.grid.basis) {
     case BasisKind::linear:
-      return std::make_unique<MaterialPointPhase<BSpline<1>, K>>(scene);
+      return std::make_unique<MaterialPointPhase<Spline<1>, K>>(scene);
     case BasisKind::quadratic:
-      return std::make_unique<MaterialPointPhase<BSpline<2>, K>>(scene);
+      return std::make_unique<MaterialPointPhase<Spline<2>, K>>(scene);
     case BasisKind::cubic:
-      return std::make_unique<MaterialPointPhase<BSpline<3>, K>>(scene);
+      return std::make_unique<MaterialPointPhase<Spline<3>, K>>(scene);
     case BasisKind::hermite:
-      return std::make_unique<MaterialPointPhase<CubicHermite, K>>(scene);
+      break;
   }
-  throw std::logic_error("a basis without an instantiation");
+  throw std::logic_error("a basis that is no spline, or without an instantiation");
+}
+
+template <Kinematics K>
+std::unique_ptr<LagrangianPhase> make_phase_of(const Scene& scene) {
+  if (scene.grid.basis == BasisKind::hermite) return std::make_unique<MaterialPointPhase<CubicHermite, K>>(scene);
+  return make_phase_of_splines<BSpline, K>(scene);
+}
+
+template <Kinematics K>
+std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Scene& scene) {
+  return make_phase_of_splines<DomainBSpline, K>(scene);
 }
 
 }  // namespace stillpoint

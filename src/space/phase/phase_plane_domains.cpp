@@ -1,4 +1,4 @@
-#include "space/phase/phase_of_domains.hpp"
+#include "space/phase/phase_of_basis.hpp"
 
 namespace stillpoint {
 

@@ -42,8 +42,8 @@ PointData MaterialPointPhase<B, K>::point_data() const {
   const std::vector<double> of_point(points());
   PointData data{point_positions(), origin_, of_point, of_point, std::vector<int>(points())};
   for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-    data.volumes[number] = body_.points.volume[p];
-    data.masses[number] = body_.points.mass[p];
+    data.volumes[number] += body_.points.volume[p];
+    data.masses[number] += body_.points.mass[p];
     data.materials[number] = body_.points.material_of_cell(k);
   });
   return data;
@@ -63,11 +63,12 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
     return write_points(
         out, [&](std::size_t k, std::size_t p) { return material_of(k).cauchy(weights_.gradient(u, k, p), p); });
   }
-  for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-    const auto u_p = weights_.value(u, k, p);
-    for (int i = 0; i < Dim; ++i) {
-      out[Dim * number + i] = updated_lagrangian() ? body_.points.x[i][p] - origin_[Dim * number + i] + u_p[i] : u_p[i];
-    }
+  write_points(out, [&](std::size_t k, std::size_t p) {
+    auto u_p = weights_.value(u, k, p);
+    if (!updated_lagrangian()) return u_p;
+    const auto number = static_cast<std::size_t>(body_.points.number[p]);
+    for (int i = 0; i < Dim; ++i) u_p[i] += body_.points.x[i][p] - origin_[Dim * number + i];
+    return u_p;
   });
 }
 
@@ -131,7 +132,7 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
     arrays.push_back({"velocity", Dim * real});
     arrays.push_back({"position at the start", Dim * real});
     if (scene_.phase.transfer == Transfer::apic) arrays.push_back({"affine velocity", Dim * Dim * real});
-    if (B::window > 1) arrays.push_back({"corners of the domain", ((Dim << Dim) + Dim) * real});
+    if (B::window > 1) arrays.push_back({"domain", ((Dim << Dim) + 2 * Dim) * real});
   }
   // What a law keeps counts for the share of points that have it.
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {

@@ -60,7 +60,10 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
       detail::append(points.volume, part.volume);
       detail::append(points.mass, part.mass);
       for (std::size_t c = 0; c < points.corner.size(); ++c) detail::append(points.corner[c], part.corner[c]);
-      for (int d = 0; d < dim; ++d) detail::append(points.half[d], part.half[d]);
+      for (int d = 0; d < dim; ++d) {
+        detail::append(points.half[d], part.half[d]);
+        detail::append(points.rest[d], part.rest[d]);
+      }
       for (std::size_t p = 0; p < part.size(); ++p) points.number.push_back(first_number + static_cast<int>(p));
     }
     const auto begin = static_cast<std::size_t>(points.material_begin.back());

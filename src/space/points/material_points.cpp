@@ -42,6 +42,7 @@ class PointCollector {
     for (int d = 0; d < Dim; ++d) {
       const double x = points_.x[d].back();
       points_.half[d].push_back(r[d]);
+      points_.rest[d].push_back(x);
       for (int c = 0; c < 1 << Dim; ++c) points_.corner[Dim * c + d].push_back(c >> d & 1 ? x + r[d] : x - r[d]);
     }
   }

@@ -22,13 +22,14 @@ struct MaterialPoints {
   std::vector<int> cell_begin;             // first point of occupied cell k, and n at its end: (occupied cells + 1)
   std::vector<int> cell;                   // grid number of occupied cell k
   std::vector<int> material_begin;         // first point of each material, and n at the end
-  std::vector<int> number;                 // of each point when the body was placed, (n)
+  std::vector<int> number;                 // of each point when the body was placed; of parts of one the same, (n)
   // Only in a body that moves on from phase to phase:
   std::array<std::vector<double>, Dim> v;             // velocity [m/s], each (n)
   std::array<std::vector<double>, Dim * Dim> B_apic;  // Σ_i N_ip v_i ⊗ (x_i − x_p) [m²/s], each (n); APIC alone
   // Only where the points stand for domains, see point_domains.hpp:
   std::array<std::vector<double>, (Dim << Dim)> corner;  // c along d at [Dim c + d] [m], each (n)
   std::array<std::vector<double>, Dim> half;             // undeformed half sides [m], each (n)
+  std::array<std::vector<double>, Dim> rest;             // undeformed positions [m], each (n)
   Point<Dim> widest{};                                   // a domain may be along each axis: the narrowest cell [m]
 
   std::size_t size() const { return volume.size(); }

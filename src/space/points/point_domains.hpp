@@ -69,6 +69,15 @@ struct Domain {
     return least;
   }
 
+  /// V of a thickness of 1.
+  double size() const {
+    if constexpr (Dim == 1) {
+      return x[1][0] - x[0][0];
+    } else {
+      return ((x[3][0] - x[0][0]) * (x[2][1] - x[1][1]) - (x[3][1] - x[0][1]) * (x[2][0] - x[1][0])) / 2;
+    }
+  }
+
   /// S_c/V
   std::array<Point<Dim>, corners> gradients() const {
     std::array<Point<Dim>, corners> S;
@@ -99,6 +108,18 @@ struct Domain {
     return weight;
   }
 };
+
+/// How wide a domain may be along each axis: the narrowest cell.
+template <int Dim>
+Point<Dim> widest_domain(const Grid<Dim>& grid) {
+  Point<Dim> widest;
+  for (int d = 0; d < Dim; ++d) {
+    const std::vector<double>& nodes = grid.axes[d].nodes;
+    widest[d] = nodes[1] - nodes[0];
+    for (std::size_t c = 1; c + 1 < nodes.size(); ++c) widest[d] = std::min(widest[d], nodes[c + 1] - nodes[c]);
+  }
+  return widest;
+}
 
 /// The cell whose window holds a domain: that of its lower corner.
 template <int Dim>

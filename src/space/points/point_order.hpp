@@ -14,8 +14,8 @@ namespace stillpoint {
 template <class T>
 void reorder(std::vector<T>& values, const std::vector<int>& order, std::vector<T>& work) {
   if (values.empty()) return;
-  work.resize(values.size());
-  for_each_index(values.size(), [&, from = values.data(), to = work.data(), at = order.data()](std::size_t k) {
+  work.resize(order.size());
+  for_each_index(order.size(), [&, from = values.data(), to = work.data(), at = order.data()](std::size_t k) {
     to[k] = from[at[k]];
   });
   values.swap(work);
@@ -37,7 +37,7 @@ class PointOrder {
       // of the first cell: the last may be wider or narrower, next to a wall that the grid follows
       cells_per_length[d] = 1 / (grid.axes[d].nodes[1] - grid.axes[d].nodes[0]);
     }
-    if (points.has_domains()) set_widest(points, grid);
+    if (points.has_domains()) points.widest = widest_domain(grid);
     for_each_index(n, [&](std::size_t p) {
       std::array<int, Dim> cell;
       if (points.has_domains()) {
@@ -60,6 +60,7 @@ class PointOrder {
     for (auto& B : points.B_apic) reorder(B, order_, work_);
     for (auto& x : points.corner) reorder(x, order_, work_);
     for (auto& r : points.half) reorder(r, order_, work_);
+    for (auto& X : points.rest) reorder(X, order_, work_);
     reorder(points.volume, order_, work_);
     reorder(points.mass, order_, work_);
     reorder(points.number, order_, integer_work_);
@@ -67,15 +68,6 @@ class PointOrder {
   const std::vector<int>& order() const { return order_; }
 
  private:
-  static void set_widest(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
-    for (int d = 0; d < Dim; ++d) {
-      const std::vector<double>& nodes = grid.axes[d].nodes;
-      points.widest[d] = nodes[1] - nodes[0];
-      for (std::size_t c = 1; c + 1 < nodes.size(); ++c)
-        points.widest[d] = std::min(points.widest[d], nodes[c + 1] - nodes[c]);
-    }
-  }
-
   // Counting sort, stable, and the list of cells with their first points.
   void sort_material(MaterialPoints<Dim>& points, int cells, int begin, int end) {
     next_.assign(static_cast<std::size_t>(cells) + 1, 0);

@@ -86,6 +86,30 @@ TEST_CASE("equal volumes are blamed where they integrate too little, and only th
              "more points per cell"));
 }
 
+TEST_CASE("consistent volumes that domains take as equal are said to be, where they were asked for and would differ") {
+  const auto notes = [](const char* volumes, const char* quadrature, const char* points) {
+    return notes_of(scenes::load("hard/pulled_in_phases", {volumes, std::string("phase.quadrature=") + quadrature,
+                                                           std::string("body.points_per_cell=") + points}));
+  };
+  const std::string taken = "body.volumes = \"consistent\" is taken as equal";
+  CHECK(says(notes("body.volumes=consistent", "domains", "9"), taken));
+  CHECK_FALSE(says(notes("body.volumes=equal", "domains", "9"), taken));
+  CHECK_FALSE(says(notes("body.volumes=consistent", "points", "9"), taken));
+  CHECK_FALSE(says(notes("body.volumes=consistent", "domains", "4"), taken));
+}
+
+TEST_CASE("few domains across a body are said to bend too easily, by their number") {
+  const auto notes = [](const char* cells, const char* quadrature) {
+    return notes_of(scenes::load("hard/pulled_in_phases",
+                                 {std::string("grid.cells=") + cells, std::string("phase.quadrature=") + quadrature}));
+  };
+  CHECK(says(notes("[8, 4]", "domains"), "8 domains lie across the body"));
+  CHECK(says(notes("[8, 4]", "domains"), "up to 1.6 % too easily"));
+  CHECK_FALSE(says(notes("[8, 4]", "points"), "too easily"));
+  CHECK_FALSE(says(notes("[16, 8]", "domains"), "too easily"));
+  CHECK_FALSE(says(notes_of(scenes::load("hard/fast_column")), "too easily"));
+}
+
 TEST_CASE("what points from a file integrate is not told, since it is not known") {
   const TemporaryFolder folder;
   const auto file = folder.write("points.csv", "x,y,volume\n0.3,0.3,0.2\n0.6,0.3,0.2\n0.3,0.6,0.2\n0.6,0.6,0.2\n");

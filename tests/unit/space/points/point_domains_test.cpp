@@ -10,6 +10,7 @@
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/points/body.hpp"
+#include "space/points/domain_halving.hpp"
 
 using namespace stillpoint;
 using Catch::Contains;
@@ -149,4 +150,100 @@ TEST_CASE("elastic boxes of uniform points take domains, all others points; doma
   }
   CHECK_THROWS_WITH(free_block({"phase={max_motion='none', quadrature='domains'}"}),
                     Contains("phase.quadrature") && Contains("goes with phases only"));
+}
+
+TEST_CASE("elastic bodies of domains take affine velocities, all others flip, and whoever says how is heard") {
+  const auto transfer = [](std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), "damping.strategy=cundall");
+    return free_block(overrides).phase.transfer;
+  };
+  CHECK(transfer({}) == Transfer::apic);
+  CHECK(transfer({"phase.transfer=flip"}) == Transfer::flip);
+  CHECK(transfer({"phase.flip_share=0.9"}) == Transfer::flip);
+  CHECK(transfer({"phase.quadrature=points"}) == Transfer::flip);
+  CHECK(transfer({"damping.strategy=none", "phase.quadrature=domains"}) == Transfer::flip);
+  CHECK(free_soil({"phase.quadrature=domains", "damping.strategy=cundall"}).phase.transfer == Transfer::flip);
+}
+
+TEST_CASE("domains stretched over more than a cell are halved until none is, and are in the same equilibrium") {
+  const Scene scene = free_block({"phase.quadrature=domains", "grid.max=[10, 10]", "grid.cells=[40, 40]"});
+  const Grid<2> grid = grid_at<2>(scene, 0);
+  auto body = body_of(scene);
+  MaterialPoints<2>& points = body.points;
+  const std::size_t before = points.size();
+  const auto map = [](Point<2> x) { return Point<2>{3 + 4.3 * x[0], 2 + 1.4 * x[0] + 2.6 * x[1]}; };
+  for (std::size_t p = 0; p < before; ++p) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Point<2> to = map({points.corner[2 * c][p], points.corner[2 * c + 1][p]});
+      for (std::size_t d = 0; d < 2; ++d) points.corner[2 * c + d][p] = to[d];
+    }
+    const Point<2> to = map(points.position(p));
+    for (std::size_t d = 0; d < 2; ++d) points.x[d][p] = to[d];
+    points.volume[p] *= 4.3 * 2.6;
+  }
+  int rounds = 0;
+  while (!halve_wide_domains(points, grid).empty()) ++rounds;
+  PointOrder<2>().sort(points, grid);
+  CHECK(rounds >= 3);
+  CHECK(points.size() >= 4 * before);
+
+  using Basis = TensorBasis<DomainBSpline<2>, 2>;
+  PointWeights<DomainBSpline<2>, Kinematics::plane> weights;
+  weights.rebuild(grid, points);
+  std::vector<double> sum(2 * static_cast<std::size_t>(Basis::count(grid)), 0), size(sum.size(), 0);
+  std::vector<double> mass(before, 0);
+  Largest too_wide, off_position;
+  for (std::size_t k = 0; k < points.cells(); ++k) {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      const auto domain = Domain<2>::of(points, p);
+      for (std::size_t c = 0; c < 4; ++c) {
+        const auto& x = domain.x[c];
+        for (std::size_t d = 0; d < 2; ++d) too_wide.take(std::abs(x[d] - domain.x[3 - c][d]) - 0.25);
+        const Point<2> to = map({points.rest[0][p] + (c & 1 ? 1 : -1) * points.half[0][p],
+                                 points.rest[1][p] + (c & 2 ? 1 : -1) * points.half[1][p]});
+        for (std::size_t d = 0; d < 2; ++d) off_position.take_magnitude(x[d] - to[d]);
+      }
+      mass[static_cast<std::size_t>(points.number[p])] += points.mass[p];
+      for (int a = 0; a < Basis::per_cell; ++a) {
+        const auto f = 2 * static_cast<std::size_t>(weights.function(k, a));
+        for (std::size_t j = 0; j < 2; ++j) {
+          const double share = points.volume[p] * weights.dN(k, p)[Basis::per_cell * static_cast<int>(j) + a];
+          sum[f + j] += share;
+          size[f + j] += std::abs(share);
+        }
+      }
+    }
+  }
+  CHECK(too_wide.value() < 1e-9);
+  CHECK(off_position.value() < 1e-12);
+  for (const double m : mass) CHECK(m == Approx(mass[0]).epsilon(1e-12));
+  // Σ_p V_p ∇N̄_ip = 0 of all functions that reach no surface: there are some.
+  int inside = 0;
+  for (std::size_t f = 0; f < sum.size(); ++f) inside += size[f] > 0.05 && std::abs(sum[f]) < 1e-13;
+  CHECK(inside > 40);
+}
+
+TEST_CASE(
+    "halves of a domain that is no parallelogram share its volume as they cover it, and one with a long edge stays "
+    "whole") {
+  const Scene scene = free_block({"phase.quadrature=domains"});
+  const Grid<2> grid = grid_at<2>(scene, 0);
+  const auto with_corners = [&](const std::array<Point<2>, 4>& x) {
+    auto points = body_of(scene).points;
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t d = 0; d < 2; ++d) points.corner[2 * c + d][0] = x[c][d];
+    }
+    points.volume[0] = 3 * Domain<2>::of(points, 0).size();
+    return points;
+  };
+  auto wedge = with_corners({{{1, 0.5}, {1.4, 0.5}, {1, 0.7}, {1.4, 0.55}}});
+  const std::size_t before = wedge.size();
+  CHECK(halve_wide_domains(wedge, grid).size() == before + 1);
+  CHECK(wedge.number[0] == wedge.number[1]);
+  CHECK(wedge.volume[0] == Approx(3 * 0.2 * (0.2 + 0.125) / 2).epsilon(1e-12));
+  CHECK(wedge.volume[1] == Approx(3 * 0.2 * (0.125 + 0.05) / 2).epsilon(1e-12));
+  CHECK(wedge.mass[0] == wedge.mass[1]);
+
+  auto trapezium = with_corners({{{1, 0.5}, {1.3, 0.5}, {1.1, 0.6}, {1.2, 0.6}}});
+  CHECK(halve_wide_domains(trapezium, grid).empty());
 }

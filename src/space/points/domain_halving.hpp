@@ -1,0 +1,107 @@
+// Domains that are stretched over more than a cell are halved, and go on as two.
+//
+// A domain takes the functions of the cell that its lower corner is in and of the next one, so it may be a cell wide.
+// Shrunk to that it would share no corners with its neighbours: Σ_p V_p ∇N̄_ip would not telescope there, and what is
+// pulled would give way without end, or rest on stresses that are in equilibrium with nothing. Its halves have its
+// velocity and its number, half of its mass, and of its volume what they cover of it.
+//
+// A neighbour beside the edge that is halved may stay whole. In the middle of that edge it takes the mean of the
+// functions at the ends, which is off by less than 1/8 of a quadratic one.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "space/points/point_domains.hpp"
+#include "space/points/point_order.hpp"
+
+namespace stillpoint {
+
+/// The axis of its own along which domain p has to be halved, or −1. By its mean sides: a corner that sticks out for
+/// itself is drawn in where functions are taken.
+template <int Dim>
+int axis_to_halve(const MaterialPoints<Dim>& points, std::size_t p) {
+  constexpr double rounding = 1e-9;
+  Point<Dim> ones;
+  ones.fill(0.5);
+  const auto sides = Domain<Dim>::of(points, p).deformation(ones);  // side j at [Dim i + j]
+  const auto share = [&](int d, int axis) { return std::abs(sides[Dim * d + axis]) / points.widest[d]; };
+  int along = -1;
+  double widest = 1 + rounding;
+  for (int d = 0; d < Dim; ++d) {
+    double width = 0;
+    int longest = 0;
+    for (int axis = 0; axis < Dim; ++axis) {
+      width += share(d, axis);
+      if (share(d, axis) > share(d, longest)) longest = axis;
+    }
+    if (!(width > widest) || !std::isfinite(width)) continue;
+    widest = width;
+    along = longest;
+  }
+  return along;
+}
+
+/// Leaves one half of domain p.
+template <int Dim>
+void keep_half(MaterialPoints<Dim>& points, std::size_t p, int axis, bool upper) {
+  const auto domain = Domain<Dim>::of(points, p);
+  const auto& whole = domain.x;
+  for (int d = 0; d < Dim; ++d) {
+    for (int c = 0; c < Domain<Dim>::corners; ++c) {
+      if (static_cast<bool>(c >> axis & 1) == upper) continue;
+      double& corner = points.corner[Dim * c + d][p];
+      corner = (whole[c][d] + whole[c ^ (1 << axis)][d]) / 2;
+      points.x[d][p] += (corner - whole[c][d]) / Domain<Dim>::corners;
+    }
+  }
+  points.half[axis][p] /= 2;
+  points.rest[axis][p] += upper ? points.half[axis][p] : -points.half[axis][p];
+  points.volume[p] *= Domain<Dim>::of(points, p).size() / domain.size();
+  points.mass[p] /= 2;
+}
+
+/// Point k is from now on what point from[k] was.
+template <int Dim>
+void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from) {
+  std::vector<double> work;
+  std::vector<int> integer_work;
+  for (auto& x : points.x) reorder(x, from, work);
+  for (auto& v : points.v) reorder(v, from, work);
+  for (auto& B : points.B_apic) reorder(B, from, work);
+  for (auto& x : points.corner) reorder(x, from, work);
+  for (auto& r : points.half) reorder(r, from, work);
+  for (auto& X : points.rest) reorder(X, from, work);
+  reorder(points.volume, from, work);
+  reorder(points.mass, from, work);
+  reorder(points.number, from, integer_work);
+}
+
+/// Halves every domain that is wider than a cell, once. Which point each one was; empty: there is none. The points have
+/// to be sorted anew. A half that is folded has no volume, or less.
+template <int Dim>
+std::vector<int> halve_wide_domains(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
+  points.widest = widest_domain(grid);
+  std::vector<int> axis(points.size());
+  for_each_index(axis.size(), [&](std::size_t p) { axis[p] = axis_to_halve(points, p); });
+  std::vector<int> from, material_begin;
+  for (std::size_t m = 0; m < points.materials(); ++m) {
+    material_begin.push_back(static_cast<int>(from.size()));
+    for (int p = points.material_begin[m]; p < points.material_begin[m + 1]; ++p) {
+      from.push_back(p);
+      if (axis[static_cast<std::size_t>(p)] >= 0) from.push_back(p);
+    }
+  }
+  if (from.size() == axis.size()) return {};
+  material_begin.push_back(static_cast<int>(from.size()));
+  points.material_begin = material_begin;
+  take_points(points, from);
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const int along = axis[static_cast<std::size_t>(from[k])];
+    if (along >= 0) keep_half(points, k, along, k > 0 && from[k] == from[k - 1]);
+  }
+  return from;
+}
+
+}  // namespace stillpoint
