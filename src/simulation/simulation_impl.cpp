@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
+#include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
 namespace {
@@ -22,8 +25,7 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
           .dwell = model.dwell,
           .must_last = model.equilibrium_must_last,
           .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
-          .steps = scene.stop.steps,
-          .wall_time = scene.stop.wall_time};
+          .steps = scene.stop.steps};
 }
 
 double largest_cell(const Scene& scene) {
@@ -49,7 +51,8 @@ RunStatus status_of(StepReport::Status status) {
 Simulation::Impl::Impl(Scene scene, SimulationOptions options)
     : scene_(std::move(scene)),
       options_(std::move(options)),
-      model_(make_model(scene_)),
+      end_request_(scene_.stop.wall_time, options_.interrupted),
+      model_(set_up()),
       monitor_(monitor_options(scene_, model_)),
       error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
       schedule_(scene_, *model_.phase, scene_.stop.time),
@@ -65,6 +68,22 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
   }
 }
 
+std::function<bool()> Simulation::Impl::asks_to_end() {
+  if (!options_.stops) return {};
+  return [this] { return end_request_.asked(); };
+}
+
+Model Simulation::Impl::set_up() {
+  const StopScope scope(asks_to_end());
+  try {
+    heed_stop_request();
+    return make_model(scene_);
+  } catch (const Stopped&) {
+    throw SetUpStopped(end_request_.status(), end_request_.reason() + " in the set-up; the run has not begun",
+                       wall_.seconds());
+  }
+}
+
 // What a phase begins with, the first like any other: the step that follows the stiffness is asked here.
 void Simulation::Impl::begin_phase(ConstVec u0, ConstVec v0) { motion_.emplace(model_, scene_, vectors_, t_, u0, v0); }
 
@@ -77,14 +96,20 @@ RunStatus Simulation::Impl::step(double t_stop) {
     sample(true);
     if (leaves_checkpoints()) leave_checkpoint();
   }
-  take_step(t_stop);
+  try {
+    take_step(t_stop);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(failure(now(), "no memory is left for what a step takes"));
+  }
   stepping_s_ += watch.seconds();
   if (done()) finish();
   return status_;
 }
 
 void Simulation::Impl::take_step(double t_stop) {
-  const StepReport report = motion_->integrator->step(landing_time(t_stop));
+  const std::optional<StepReport> taken = try_step(t_stop);
+  if (!taken) return;
+  const StepReport& report = *taken;
   t_ = report.t;
   if (report.status != StepReport::Status::ok) {
     if (report.status == StepReport::Status::inadmissible && try_next_phase()) return;
@@ -109,6 +134,20 @@ void Simulation::Impl::take_step(double t_stop) {
   const bool ends = is_to_end();
   if (leaves_checkpoints() && (checkpoint_is_due() || ends)) leave_checkpoint();
   if (ends) sample(true);
+}
+
+// One of a static solver may take long: it is broken off, at the last equilibrium on its way.
+std::optional<StepReport> Simulation::Impl::try_step(double t_stop) {
+  const StopScope scope(model_.static_method ? asks_to_end() : nullptr);
+  try {
+    return motion_->integrator->step(landing_time(t_stop));
+  } catch (const Stopped&) {
+    end_as_asked("the step was not finished");
+    measured_ = false;
+    sample(true);
+    if (leaves_checkpoints()) leave_checkpoint();
+    return std::nullopt;
+  }
 }
 
 // Where a step has to land. Without records to land on and an end: so far away that steps are what the method takes by
@@ -182,6 +221,16 @@ void Simulation::Impl::refresh_distance() {
   }
 }
 
+// Where that takes long and there is no time left, the distance is not known.
+void Simulation::Impl::refresh_distance_in_time() {
+  const StopScope scope(model_.phase->size() > direct_solver_limit ? asks_to_end() : nullptr);
+  try {
+    refresh_distance();
+  } catch (const Stopped&) {
+    distance_.reset();
+  }
+}
+
 // If omega_1 is not known before, the damping that is found on the way is 2 omega_1, nearly.
 void Simulation::Impl::follow_period() {
   if (model_.omega_1 || motion_->integrator->static_iteration()) return;
@@ -191,6 +240,16 @@ void Simulation::Impl::follow_period() {
 }
 
 void Simulation::Impl::watch() {
+  const StopScope scope(asks_to_end());
+  try {
+    look_for_end();
+  } catch (const Stopped&) {
+    end_as_asked("the step was finished");
+    if (leaves_checkpoints()) leave_checkpoint();
+  }
+}
+
+void Simulation::Impl::look_for_end() {
   if (monitor_.due(t_)) {
     follow_period();
     measure();
@@ -265,7 +324,15 @@ void Simulation::Impl::test_stability() {
   const bool writes = recorder_ && !options_.out.empty();
   if (writes) remove_mode(options_.out);
   if (status_ != RunStatus::equilibrium) return;
-  stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
+  try {
+    const StopScope scope(asks_to_end());
+    stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
+  } catch (const Stopped&) {
+    const std::string reached = reason_;
+    end_as_asked("before it was known whether the equilibrium is stable, after " + reached);
+    if (leaves_checkpoints()) leave_checkpoint();
+    return;
+  }
   const bool neutral = stability_.kind == EquilibriumStability::Kind::neutral;
   // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
   const bool softened_away = neutral && has_distance() && !distance_to_go();

@@ -148,14 +148,13 @@ void Simulation::Impl::archive_motion(const StateArchive& state) {
 
 // Whether the run ends here, though it could go on.
 bool Simulation::Impl::is_to_end() {
-  if (!options_.stops) return false;
-  status_ = monitor_.check_wall_time(wall_.seconds());
-  reason_ = monitor_.reason();
-  if (!done() && options_.interrupted && options_.interrupted()) {
-    status_ = RunStatus::interrupted;
-    reason_ = "interrupted by the user; the step was finished";
-  }
+  if (options_.stops && end_request_.asked()) end_as_asked("the step was finished");
   return done();
+}
+
+void Simulation::Impl::end_as_asked(const std::string& where) {
+  status_ = end_request_.status();
+  reason_ = end_request_.reason() + "; " + where;
 }
 
 // A method that begins anew when it is restored does so at fixed steps without that as well, and is saved there: with
