@@ -12,6 +12,7 @@
 #include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
+#include "simulation/memory_need.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
@@ -77,6 +78,7 @@ Model Simulation::Impl::set_up() {
   const StopScope scope(asks_to_end());
   try {
     heed_stop_request();
+    require_memory(scene_);
     return make_model(scene_);
   } catch (const Stopped&) {
     throw SetUpStopped(end_request_.status(), end_request_.reason() + " in the set-up; the run has not begun",
