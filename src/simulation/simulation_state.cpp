@@ -93,6 +93,8 @@ void Simulation::Impl::resume(const fs::path& from) {
     require_same(origin_of(saved), origin_of(scene_));
     archive(StateArchive::restoring(saved));
   });
+  last_checkpoint_ = steps();
+  next_checkpoint_s_ = wall_.seconds() + scene_.checkpoint.every;
 }
 
 void Simulation::Impl::archive(const StateArchive& state) {
