@@ -42,7 +42,7 @@ bool Child::look(int options) {
 }
 
 bool Child::wait_until(const std::function<bool()>& condition) {
-  for (int wait = 0; wait < 10'000 && !look(WNOHANG); ++wait) {
+  for (int wait = 0; wait < 30'000 && !look(WNOHANG); ++wait) {
     if (condition()) return true;
     usleep(2'000);
   }

@@ -22,7 +22,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Until the condition holds; false if the process has ended before, or after 20 s.
+  /// Until the condition holds; false if the process has ended before, or after a minute.
   bool wait_until(const std::function<bool()>& condition);
   void send(int signal) const;
   /// Its exit status, once it has ended by itself; empty if a signal ended it.

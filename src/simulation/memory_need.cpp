@@ -83,6 +83,14 @@ double entries_of_factor(const Scene& scene, const BodySize& size) {
   return std::min(std::max(0.5, growth) * of_basis[static_cast<std::size_t>(scene.grid.basis)], 2 * size.width);
 }
 
+double of_matrix(const Scene& scene, const BodySize& size) {
+  return of_entry * scene.dim * neighbours(scene) * size.unknowns;
+}
+
+double of_factor(const Scene& scene, const BodySize& size) {
+  return real * entries_of_factor(scene, size) * size.unknowns;
+}
+
 // The block of a column for every neighbour, of all functions of the grid, from which a matrix is made.
 double of_assembly(const Scene& scene, const BodySize& size) {
   const double along = 2 * functions_per_axis(scene.grid.basis) - 1;
@@ -127,15 +135,19 @@ MemoryNeed memory_need(const Scene& scene) {
   add("vectors of unknowns", vectors * real * size.unknowns, "grid.cells");
 
   const bool factor = factorises(scene, size), consistent = scene.mass.kind == MassKind::consistent;
-  const double of_matrix = of_entry * scene.dim * neighbours(scene) * size.unknowns;
-  const double of_factor = real * entries_of_factor(scene, size) * size.unknowns;
   if (factor || consistent || chooses_mass) add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
-  if (consistent) add("mass matrix and its factor", (of_matrix + of_factor) / scene.dim, "grid.cells");
+  if (consistent)
+    add("mass matrix and its factor", (of_matrix(scene, size) + of_factor(scene, size)) / scene.dim, "grid.cells");
   if (factor) {
-    add("stiffness matrix", (is_nonlinear(scene) ? 4 : 2) * of_matrix, "grid.cells");
-    add("factor of the stiffness", of_factor, "grid.cells");
+    add("stiffness matrix", (is_nonlinear(scene) ? 4 : 2) * of_matrix(scene, size), "grid.cells");
+    add("factor of the stiffness", of_factor(scene, size), "grid.cells");
   }
   return need;
+}
+
+bool has_room_for_factor(const Scene& scene) {
+  const BodySize size = body_size(scene);
+  return of_assembly(scene, size) + 2 * of_matrix(scene, size) + of_factor(scene, size) <= memory_room().bytes;
 }
 
 void require_memory(const Scene& scene) {

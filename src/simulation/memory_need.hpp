@@ -22,9 +22,11 @@ struct MemoryNeed {
   double total() const;     // beside what the program itself takes
 };
 
-/// To 30 %, and nothing that is small. What only comes up on the way, a factor that UMFPACK makes or that of the look
-/// for a mechanism in a large body, is not in it.
+/// To 30 %, and nothing that is small. What only comes up on the way, as a factor that UMFPACK makes, is not in it.
 MemoryNeed memory_need(const Scene& scene);
+
+/// Whether a run that can do without a factor of K may make one.
+bool has_room_for_factor(const Scene& scene);
 
 /// Throws SceneError at the key that sets the largest part, if the process may not take so much.
 void require_memory(const Scene& scene);

@@ -12,7 +12,6 @@
 #include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
-#include "simulation/memory_need.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {

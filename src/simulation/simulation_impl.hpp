@@ -17,6 +17,7 @@
 #include "simulation/failure.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/mechanism.hpp"
+#include "simulation/memory_need.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
 #include "simulation/overshoot.hpp"
@@ -58,7 +59,7 @@ class Simulation::Impl {
   LoadSchedule schedule_;
   Chatter chatter_;
   Overshoot overshoot_;
-  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1};
+  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::optional<Recorder> recorder_;
 
   std::optional<PhaseMotion> motion_;  // of the present phase

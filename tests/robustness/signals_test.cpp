@@ -21,7 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr double soon = 10;
+#else
 constexpr double soon = 2;  // [s] of the processor's time
+#endif
 const std::string header = "t,steps,rhs_evaluations,residual,kinetic_energy\n";
 
 std::vector<std::string> run_into(const fs::path& out, const std::string& scene, const std::vector<std::string>& set) {
@@ -59,8 +63,8 @@ struct Interrupted {
 }  // namespace
 
 TEST_CASE("a signal during the set-up ends it soon, whatever it is at, with a summary that says so") {
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
-    for (const double after : {0.1, 0.7, 1.5, 2.5}) {
+  for (const double after : {0.1, 0.7, 1.5, 2.5}) {
+    for (const int signal : {SIGTERM, after < 1 ? SIGINT : SIGHUP}) {
       const TemporaryFolder folder;
       Child child(run_into(folder.path(), "inclusion", large), {}, "/dev/null");
       CAPTURE(signal, after);
