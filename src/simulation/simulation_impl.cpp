@@ -12,7 +12,6 @@
 #include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
-#include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
 namespace {
@@ -68,23 +67,6 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
   }
 }
 
-std::function<bool()> Simulation::Impl::asks_to_end() {
-  if (!options_.stops) return {};
-  return [this] { return end_request_.asked(); };
-}
-
-Model Simulation::Impl::set_up() {
-  const StopScope scope(asks_to_end());
-  try {
-    heed_stop_request();
-    require_memory(scene_);
-    return make_model(scene_);
-  } catch (const Stopped&) {
-    throw SetUpStopped(end_request_.status(), end_request_.reason() + " in the set-up; the run has not begun",
-                       wall_.seconds());
-  }
-}
-
 // What a phase begins with, the first like any other: the step that follows the stiffness is asked here.
 void Simulation::Impl::begin_phase(ConstVec u0, ConstVec v0) { motion_.emplace(model_, scene_, vectors_, t_, u0, v0); }
 
@@ -135,20 +117,6 @@ void Simulation::Impl::take_step(double t_stop) {
   const bool ends = is_to_end();
   if (leaves_checkpoints() && (checkpoint_is_due() || ends)) leave_checkpoint();
   if (ends) sample(true);
-}
-
-// One of a static solver may take long: it is broken off, at the last equilibrium on its way.
-std::optional<StepReport> Simulation::Impl::try_step(double t_stop) {
-  const StopScope scope(model_.static_method ? asks_to_end() : nullptr);
-  try {
-    return motion_->integrator->step(landing_time(t_stop));
-  } catch (const Stopped&) {
-    end_as_asked("the step was not finished");
-    measured_ = false;
-    sample(true);
-    if (leaves_checkpoints()) leave_checkpoint();
-    return std::nullopt;
-  }
 }
 
 // Where a step has to land. Without records to land on and an end: so far away that steps are what the method takes by
@@ -219,16 +187,6 @@ void Simulation::Impl::refresh_distance() {
   if (error_bound_.refresh(t_, motion_->u(), residual_)) {
     motion_->system.residual(t_, motion_->u());
     distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
-  }
-}
-
-// Where that takes long and there is no time left, the distance is not known.
-void Simulation::Impl::refresh_distance_in_time() {
-  const StopScope scope(model_.phase->size() > direct_solver_limit ? asks_to_end() : nullptr);
-  try {
-    refresh_distance();
-  } catch (const Stopped&) {
-    distance_.reset();
   }
 }
 
@@ -311,44 +269,6 @@ void Simulation::Impl::report_progress() {
   if (!options_.progress || wall_.seconds() < next_progress_) return;
   next_progress_ = wall_.seconds() + seconds_between;
   options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
-}
-
-// Limits that came before equilibrium say no more than that.
-void Simulation::Impl::say_what_moves() {
-  const bool is_limit =
-      status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
-  if (is_limit && exit_status() != 0) reason_ += "; " + furthest_from_rest(*motion_, t_);
-}
-
-// What claims to be an equilibrium may be one that the least disturbance ends.
-void Simulation::Impl::test_stability() {
-  const bool writes = recorder_ && !options_.out.empty();
-  if (writes) remove_mode(options_.out);
-  if (status_ != RunStatus::equilibrium) return;
-  try {
-    const StopScope scope(asks_to_end());
-    stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
-  } catch (const Stopped&) {
-    const std::string reached = reason_;
-    end_as_asked("before it was known whether the equilibrium is stable, after " + reached);
-    if (leaves_checkpoints()) leave_checkpoint();
-    return;
-  }
-  const bool neutral = stability_.kind == EquilibriumStability::Kind::neutral;
-  // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
-  const bool softened_away = neutral && has_distance() && !distance_to_go();
-  if (neutral && !softened_away) model_.notes.push_back(description(stability_));
-  if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
-  status_ = RunStatus::unstable_equilibrium;
-  reason_ = fmt::format("{}; {}", reason_, description(stability_));
-  if (writes) write_mode(stability_, *model_.phase, t_, motion_->u(), options_.out);
-}
-
-void Simulation::Impl::finish() {
-  if (is_readable_) motion_->finish(t_);
-  if (is_readable_) say_what_moves();
-  test_stability();
-  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
 }
 
 }  // namespace stillpoint

@@ -148,17 +148,6 @@ void Simulation::Impl::archive_motion(const StateArchive& state) {
 
 // --- when one is left ---
 
-// Whether the run ends here, though it could go on.
-bool Simulation::Impl::is_to_end() {
-  if (options_.stops && end_request_.asked()) end_as_asked("the step was finished");
-  return done();
-}
-
-void Simulation::Impl::end_as_asked(const std::string& where) {
-  status_ = end_request_.status();
-  reason_ = end_request_.reason() + "; " + where;
-}
-
 // A method that begins anew when it is restored does so at fixed steps without that as well, and is saved there: with
 // checkpoints a run has the same bits whether it was resumed or not.
 bool Simulation::Impl::checkpoint_is_due() {
