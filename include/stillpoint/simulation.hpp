@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,10 +44,25 @@ struct SimulationOptions {
   bool records = true;
   /// Whether the scene's stop tests end it; otherwise only a failure does.
   bool stops = true;
-  std::function<bool()> interrupted{};              // asked after every step; true ends the run in good order
+  /// Asked after every step, and often while no step is taken: in the set-up, within Newton's method and in the tests
+  /// at the end. True ends the run in good order.
+  std::function<bool()> interrupted{};
   std::function<void(const Progress&)> progress{};  // told a few times a second
   /// Told before a phase ends (false) and when the next has begun (true); the Simulation shows that state.
   std::function<void(bool begun)> at_phase_change{};
+};
+
+/// The set-up of a simulation was interrupted, or took longer than stop.wall_time; what() says which.
+class SetUpStopped : public std::runtime_error {
+ public:
+  SetUpStopped(RunStatus status, const std::string& reason, double wall_s)
+      : std::runtime_error(reason), status_(status), wall_s_(wall_s) {}
+  RunStatus status() const { return status_; }  // interrupted or time_limit
+  double wall_s() const { return wall_s_; }
+
+ private:
+  RunStatus status_;
+  double wall_s_;
 };
 
 /// The scene of a checkpoint, from its text. Throws StateError, or SceneError if what the text refers to has changed.
@@ -57,6 +73,8 @@ class Simulation {
   /// Sets the scene up at its start. Throws SceneError if it cannot be, or if out cannot be written; nothing is written
   /// then.
   /// StateError if the checkpoint cannot be gone on from: it is damaged, or of another scene, body or version.
+  /// SetUpStopped if it is to end before it has begun; a factorisation that cannot be stopped may then go on in a
+  /// thread of its own until it is done.
   explicit Simulation(Scene scene, SimulationOptions options = {});
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

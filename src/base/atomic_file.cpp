@@ -2,9 +2,8 @@
 
 #include <stillpoint/state_archive.hpp>
 
-#include <cerrno>
+#include <fstream>
 #include <string>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -13,33 +12,45 @@
 namespace stillpoint {
 namespace {
 
-[[noreturn]] void fail(const char* what, const std::filesystem::path& file) {
-  throw std::filesystem::filesystem_error(what, file, std::error_code(errno, std::generic_category()));
+namespace fs = std::filesystem;
+
+fs::path partial_in_new_folder(const fs::path& file) {
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  return partial_name(file);
+}
+
+// A copy that was cut short would stand in the way of the whole file: it has a name of its own until it is whole.
+fs::path partial_of_earlier(const fs::path& file) {
+  const fs::path partial = partial_name(file), copy = partial_name(partial);
+  if (fs::exists(partial)) return partial;
+  if (!fs::exists(file)) throw StateError(fmt::format("{}: is not there", file.string()));
+  fs::copy_file(file, copy, fs::copy_options::overwrite_existing);
+  fs::rename(copy, partial);
+  return partial;
+}
+
+// The first bytes of a file, which are to be there.
+std::string beginning_of(const fs::path& file, std::uint64_t size) {
+  std::ifstream earlier(file, std::ios::binary);
+  std::string text(size, '\0');
+  earlier.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!earlier) throw StateError(fmt::format("{}: is not what was written so far", file.string()));
+  return text;
 }
 
 }  // namespace
 
-std::filesystem::path partial_name(std::filesystem::path file) { return file += ".partial"; }
+fs::path partial_name(fs::path file) { return file += ".partial"; }
 
-AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), partial_(partial_name(file_)) {
-  if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
-  stream_.open(partial_, std::ios::trunc | std::ios::binary);
-  if (!stream_) fail("cannot write", partial_);
-}
+AtomicFile::AtomicFile(const fs::path& file)
+    : file_(file), partial_(partial_in_new_folder(file), OutputFile::Contents::none) {}
 
-AtomicFile::AtomicFile(std::filesystem::path file, const FileContents& contents)
-    : file_(std::move(file)), partial_(partial_name(file_)) {
-  if (!std::filesystem::exists(partial_) && std::filesystem::exists(file_)) std::filesystem::copy_file(file_, partial_);
-  std::ifstream earlier(partial_, std::ios::binary);
-  std::string text(contents.size, '\0');
-  earlier.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!earlier) throw StateError(fmt::format("{}: is not what was written so far", partial_.string()));
-  count(text);
+AtomicFile::AtomicFile(const fs::path& file, const FileContents& contents)
+    : file_(file), partial_(partial_of_earlier(file), OutputFile::Contents::kept) {
+  count(beginning_of(partial_.path(), contents.size));
   if (contents_.crc != contents.crc)
-    throw StateError(fmt::format("{}: was altered since it was written", partial_.string()));
-  std::filesystem::resize_file(partial_, contents.size);
-  stream_.open(partial_, std::ios::app | std::ios::binary);
-  if (!stream_) fail("cannot write", partial_);
+    throw StateError(fmt::format("{}: was altered since it was written", partial_.path().string()));
+  partial_.resize(contents.size);
 }
 
 void AtomicFile::count(std::string_view text) {
@@ -48,15 +59,24 @@ void AtomicFile::count(std::string_view text) {
 }
 
 void AtomicFile::write(std::string_view text) {
-  stream_ << text << std::flush;
-  if (!stream_) fail("cannot write", partial_);
+  constexpr double longest_off_disk = 2;  // [s]
+  try {
+    partial_.write(text, contents_.size);
+  } catch (const fs::filesystem_error&) {
+    std::error_code ignored;
+    fs::resize_file(partial_.path(), contents_.size, ignored);
+    throw;
+  }
   count(text);
+  if (since_made_.seconds() < on_disk_at_ + longest_off_disk) return;
+  partial_.bring_to_disk();
+  on_disk_at_ = since_made_.seconds();
 }
 
 void AtomicFile::finish() {
-  stream_.close();
-  if (!stream_) fail("cannot write", partial_);
-  std::filesystem::rename(partial_, file_);
+  partial_.bring_to_disk();
+  partial_.close();
+  fs::rename(partial_.path(), file_);
 }
 
 }  // namespace stillpoint

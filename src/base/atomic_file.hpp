@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
+
+#include "base/output_file.hpp"
+#include "base/stopwatch.hpp"
 
 namespace stillpoint {
 
@@ -20,22 +22,25 @@ struct FileContents {
 class AtomicFile {
  public:
   /// Creates the folder if need be. Throws std::filesystem::filesystem_error if the file cannot be written.
-  explicit AtomicFile(std::filesystem::path file);
+  explicit AtomicFile(const std::filesystem::path& file);
   /// Goes on with NAME.partial, or NAME if there is none, after its first bytes; the rest is taken away. Throws
   /// StateError if these are not `contents`.
-  AtomicFile(std::filesystem::path file, const FileContents& contents);
+  AtomicFile(const std::filesystem::path& file, const FileContents& contents);
   const FileContents& contents() const { return contents_; }
-  /// Appends and flushes, so that NAME.partial keeps what there was even if the process is killed.
+  /// Appends the whole text or nothing, so that NAME.partial keeps what there was if the process is killed, or the disk
+  /// is full; what was appended a few seconds ago is on the disk, and stays if the machine breaks down.
   void write(std::string_view text);
-  /// Renames to the final name.
+  /// Brings it to the disk and renames it to the final name.
   void finish();
 
  private:
   void count(std::string_view text);
 
-  std::filesystem::path file_, partial_;
-  std::ofstream stream_;
+  std::filesystem::path file_;
+  OutputFile partial_;
   FileContents contents_;
+  Stopwatch since_made_;
+  double on_disk_at_ = 0;  // [s]
 };
 
 }  // namespace stillpoint

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "base/memory_room.hpp"
 #include "command/commands.hpp"
 #include "simulation/catalogue.hpp"
+#include "simulation/memory_need.hpp"
 #include "simulation/model.hpp"
 
 namespace stillpoint::command {
@@ -14,10 +16,23 @@ namespace {
 
 constexpr std::array basis_names{"linear B-spline", "quadratic B-spline", "cubic B-spline", "cubic Hermite"};
 
+void print_memory(const MemoryNeed& need) {
+  const auto row = [](const std::string& what, double bytes) {
+    fmt::print("    {:<28}{:9.3g} MB\n", what, bytes / 1e6);
+  };
+  const MemoryRoom room = memory_room();
+  fmt::print("  memory, when a run takes most\n");
+  for (const auto& part : need.parts) row(part.what, part.bytes);
+  row("together", need.total());
+  row("there is", room.bytes);
+  fmt::print("      by {}\n", room.set_by);
+}
+
 }  // namespace
 
 int check(const SceneArguments& arguments) {
   const Scene scene = load_scene(arguments.file, arguments.overrides);
+  require_memory(scene);
   const Model model = make_model(scene);
   const LagrangianPhase& phase = *model.phase;
 
@@ -61,6 +76,7 @@ int check(const SceneArguments& arguments) {
   const double total = phase.bytes_per_point();
   fmt::print("    {:<17}{:4.0f}   {:.3g} MB for all points\n", "together", total,
              total * static_cast<double>(phase.points()) / 1e6);
+  print_memory(memory_need(scene));
   return 0;
 }
 

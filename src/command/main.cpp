@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/work_apart.hpp"
 #include "command/commands.hpp"
 
 namespace {
@@ -140,9 +142,7 @@ int dispatch(int argc, char** argv) {
   return list(topic, format);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int exit_status(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
   } catch (const stillpoint::SceneError& error) {
@@ -151,8 +151,21 @@ int main(int argc, char** argv) {
   } catch (const stillpoint::StateError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
+  } catch (const std::bad_alloc&) {
+    std::fputs("stillpoint: no memory is left\n", stderr);
+    return failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "stillpoint: {}\n", error.what());
     return failed;
   }
+}
+
+}  // namespace
+
+// What still works in a thread that nobody waits for must find all that it uses, to the last moment.
+int main(int argc, char** argv) {
+  const int status = exit_status(argc, argv);
+  if (!stillpoint::work_was_left()) return status;
+  std::fflush(nullptr);
+  std::_Exit(status);
 }

@@ -9,6 +9,7 @@
 
 #include "command/commands.hpp"
 #include "command/terminal.hpp"
+#include "output/checkpoint_file.hpp"
 #include "simulation/catalogue.hpp"
 
 namespace stillpoint::command {
@@ -67,19 +68,20 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
 
 std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file) {
   if (!std::filesystem::is_directory(folder_or_file)) return folder_or_file;
-  return folder_or_file / "checkpoint.h5";
+  const std::filesystem::path last = folder_or_file / "checkpoint.h5", previous = previous_checkpoint(last);
+  return !std::filesystem::exists(last) && std::filesystem::exists(previous) ? previous : last;
 }
 
 }  // namespace
 
 int run(const RunArguments& arguments) {
+  watch_for_interrupt();
   const bool resumes = !arguments.resume.empty();
   const std::filesystem::path checkpoint = resumes ? checkpoint_of(arguments.resume) : std::filesystem::path();
   const Scene scene = resumes ? load_scene_of(checkpoint) : load_scene(arguments.scene.file, arguments.scene.overrides);
   const std::filesystem::path out = resumes                 ? checkpoint.parent_path()
                                     : arguments.out.empty() ? std::filesystem::path("out") / scene.name
                                                             : arguments.out;
-  watch_for_interrupt();
   ProgressLine line;
   SimulationOptions options{.out = out, .resume = checkpoint, .threads = arguments.threads, .interrupted = interrupted};
   if (!arguments.quiet) options.progress = [&line](const Progress& progress) { line.show(progress); };

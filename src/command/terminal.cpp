@@ -1,10 +1,12 @@
 #include "command/terminal.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,11 +14,29 @@
 namespace stillpoint::command {
 namespace {
 
-volatile std::sig_atomic_t interrupt_count = 0;
+std::atomic<bool> was_interrupted = false;
 
-extern "C" void on_interrupt(int signal_number) {
-  interrupt_count = interrupt_count + 1;
-  std::signal(signal_number, SIG_DFL);
+// The signals among these that whoever started the process does not want it to ignore, as nohup does.
+sigset_t heeded_signals() {
+  sigset_t heeded;
+  sigemptyset(&heeded);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction given {};
+    sigaction(number, nullptr, &given);
+    if (given.sa_handler != SIG_IGN) sigaddset(&heeded, number);
+  }
+  return heeded;
+}
+
+// The second one ends the process, as it would have without us.
+void wait_for_signals(const sigset_t& heeded) {
+  int number = 0;
+  sigwait(&heeded, &number);
+  was_interrupted = true;
+  sigwait(&heeded, &number);
+  std::signal(number, SIG_DFL);
+  pthread_sigmask(SIG_UNBLOCK, &heeded, nullptr);
+  raise(number);
 }
 
 // Share of the way done: of the time to the end, or of the fall of the residual on a logarithmic scale.
@@ -31,9 +51,14 @@ std::optional<double> share_done(const Progress& p, double start_residual) {
 
 }  // namespace
 
-bool interrupted() { return interrupt_count > 0; }
+bool interrupted() { return was_interrupted; }
+
+// A thread waits for the signals, and all others are closed to them: METIS, which orders the unknowns for a factor,
+// puts a handler of its own in the place of any for SIGTERM, and jumps away from what it was doing.
 void watch_for_interrupt() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, on_interrupt);
+  const sigset_t heeded = heeded_signals();
+  pthread_sigmask(SIG_BLOCK, &heeded, nullptr);
+  std::thread(wait_for_signals, heeded).detach();
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}

@@ -21,9 +21,10 @@ class ProgressLine {
   double start_residual_ = 0;
 };
 
-/// Whether Ctrl-C was pressed since watch_for_interrupt(), or the process asked to end by SIGTERM or SIGHUP; the same
-/// once more ends it at once.
+/// Whether Ctrl-C was pressed since watch_for_interrupt(), or the process asked to end by SIGTERM or SIGHUP; once more
+/// ends it at once.
 bool interrupted();
+/// To be called while there is one thread.
 void watch_for_interrupt();
 
 }  // namespace stillpoint::command

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/parallel_loop.hpp"
+#include "base/stop_request.hpp"
 
 namespace stillpoint {
 
@@ -24,6 +25,7 @@ ConjugateGradientResult conjugate_gradients(const LinearMap& A, ConstVec D, Cons
     for_each_index(n, [=](std::size_t i) { z_i[i] = r_i[i] / D[i]; });
     const double rz = dot(r, z), beta = result.iterations > 0 ? rz / rz_before : 0;
     for_each_index(n, [=](std::size_t i) { p_i[i] = z_i[i] + beta * p_i[i]; });
+    heed_stop_request();
     A(p.span(), Ap.span());
     ++result.iterations;
     const double curvature = dot(p, Ap);

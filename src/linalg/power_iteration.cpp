@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel_loop.hpp"
+#include "base/stop_request.hpp"
 
 namespace stillpoint {
 namespace {
@@ -68,6 +69,7 @@ PowerIterationResult power_iteration(std::size_t n, const LinearMap& apply_A, co
   std::ranges::copy(start_vector(n), Bx.span().begin());
   solve_B(Bx.span(), x.span());
   while (result.iterations < max_iterations) {
+    heed_stop_request();
     const double norm = std::sqrt(dot(x, Bx));  // ‖x‖_B
     if (norm == 0) {                            // A x = 0 for a random x: A = 0
       result = {0, 0, result.iterations, true};

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCore>
 #include <suitesparse/cholmod.h>
 
+#include "base/stop_request.hpp"
+#include "base/work_apart.hpp"
 #include "linalg/one_blas_thread.hpp"
 
 namespace stillpoint {
@@ -43,11 +46,9 @@ cholmod_dense column(ConstVec b) {
   return view;
 }
 
-}  // namespace
-
-// Owns every CHOLMOD object of one factorisation; its address never changes, so moves of the owner are safe.
-struct SparseCholesky::Impl {
-  Impl() {
+// Owns every CHOLMOD object of one factorisation; its address never changes.
+struct Factor {
+  Factor() {
     cholmod_start(&common);
     common.print = 0;  // a matrix that is not positive definite is an answer, not a message
     common.quick_return_if_not_posdef = 1;
@@ -57,9 +58,9 @@ struct SparseCholesky::Impl {
     common.final_super = 1;
     common.final_pack = common.final_monotonic = 1;
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() {
+  Factor(const Factor&) = delete;
+  Factor& operator=(const Factor&) = delete;
+  ~Factor() {
     cholmod_free_dense(&X, &common);
     cholmod_free_dense(&Y, &common);
     cholmod_free_dense(&E, &common);
@@ -110,18 +111,30 @@ struct SparseCholesky::Impl {
   bool positive_definite = false;
 };
 
+void factorise(const std::shared_ptr<Factor>& factor, const SparseMatrix& A) {
+  constexpr Eigen::Index takes_long = 5000;  // unknowns, some hundredths of a second
+  if (A.rows() < takes_long || !may_be_stopped()) return factor->factorise(A);
+  work_apart([factor, own = std::make_shared<const SparseMatrix>(A)] { factor->factorise(*own); });
+}
+
+}  // namespace
+
+struct SparseCholesky::Impl {
+  std::shared_ptr<Factor> factor = std::make_shared<Factor>();  // its factorisation may be left to itself
+};
+
 SparseCholesky::SparseCholesky(const SparseMatrix& A) : impl_(std::make_unique<Impl>()) {
   if (A.rows() != A.cols()) throw std::invalid_argument("Cholesky factor of a matrix that is not square");
   if (A.rows() == 0) {
-    impl_->positive_definite = true;
+    impl_->factor->positive_definite = true;
     return;
   }
   if (A.isCompressed()) {
-    impl_->factorise(A);
+    factorise(impl_->factor, A);
   } else {
     SparseMatrix compressed = A;
     compressed.makeCompressed();
-    impl_->factorise(compressed);
+    factorise(impl_->factor, compressed);
   }
   if (positive_definite()) {  // a first solve makes the workspaces
     std::vector<double> zero(size(), 0.0);
@@ -133,16 +146,16 @@ SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 SparseCholesky::~SparseCholesky() = default;
 
-bool SparseCholesky::positive_definite() const { return impl_->positive_definite; }
+bool SparseCholesky::positive_definite() const { return impl_->factor->positive_definite; }
 
 void SparseCholesky::solve(ConstVec b, Vec x) const {
   if (!positive_definite()) throw std::logic_error("solve() with a matrix that is not positive definite");
   if (b.size() != size() || x.size() != size())
     throw std::invalid_argument("solve(): b or x is not of the factor's size");
-  if (size() > 0) impl_->solve(b, x);
+  if (size() > 0) impl_->factor->solve(b, x);
 }
 
-std::size_t SparseCholesky::size() const { return impl_->n; }
-std::size_t SparseCholesky::bytes() const { return impl_->common.memory_inuse; }
+std::size_t SparseCholesky::size() const { return impl_->factor->n; }
+std::size_t SparseCholesky::bytes() const { return impl_->factor->common.memory_inuse; }
 
 }  // namespace stillpoint

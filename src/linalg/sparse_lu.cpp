@@ -13,19 +13,21 @@
 #include <Eigen/SparseCore>
 #include <suitesparse/umfpack.h>
 
+#include "base/work_apart.hpp"
 #include "linalg/one_blas_thread.hpp"
 
 namespace stillpoint {
+namespace {
 
-struct SparseLu::Impl {
-  explicit Impl(const SparseMatrix& matrix)
+struct LuFactor {
+  explicit LuFactor(const SparseMatrix& matrix)
       : A(matrix), n(static_cast<std::size_t>(A.rows())), integers(n), reals(5 * n), solution(n) {
     A.makeCompressed();
     umfpack_di_defaults(control.data());
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() { umfpack_di_free_numeric(&numeric); }
+  LuFactor(const LuFactor&) = delete;
+  LuFactor& operator=(const LuFactor&) = delete;
+  ~LuFactor() { umfpack_di_free_numeric(&numeric); }
 
   void factorise() {
     const OneBlasThread same_bits;
@@ -76,26 +78,38 @@ struct SparseLu::Impl {
   std::vector<double> reals, solution;  // its W; and x, which must not be b
 };
 
+void factorise(const std::shared_ptr<LuFactor>& factor) {
+  constexpr std::size_t takes_long = 2000;  // unknowns, some hundredths of a second
+  if (factor->n < takes_long) return factor->factorise();
+  work_apart([factor] { factor->factorise(); });
+}
+
+}  // namespace
+
+struct SparseLu::Impl {
+  std::shared_ptr<LuFactor> factor;  // its factorisation may be left to itself
+};
+
 SparseLu::SparseLu(const SparseMatrix& A) {
   if (A.rows() != A.cols()) throw std::invalid_argument("LU factor of a matrix that is not square");
-  impl_ = std::make_unique<Impl>(A);
-  impl_->factorise();
+  impl_ = std::make_unique<Impl>(std::make_shared<LuFactor>(A));
+  factorise(impl_->factor);
 }
 
 SparseLu::SparseLu(SparseLu&&) noexcept = default;
 SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 SparseLu::~SparseLu() = default;
 
-bool SparseLu::regular() const { return impl_->regular; }
+bool SparseLu::regular() const { return impl_->factor->regular; }
 
 void SparseLu::solve(ConstVec b, Vec x) const {
   if (!regular()) throw std::logic_error("solve() with a matrix that is singular");
   if (b.size() != size() || x.size() != size())
     throw std::invalid_argument("solve(): b or x is not of the factor's size");
-  if (size() > 0) impl_->solve(b, x);
+  if (size() > 0) impl_->factor->solve(b, x);
 }
 
-std::size_t SparseLu::size() const { return impl_->n; }
-std::size_t SparseLu::bytes() const { return impl_->bytes(); }
+std::size_t SparseLu::size() const { return impl_->factor->n; }
+std::size_t SparseLu::bytes() const { return impl_->factor->bytes(); }
 
 }  // namespace stillpoint

@@ -1,25 +1,20 @@
 #include "output/checkpoint_file.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cinttypes>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
-#include <limits>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "base/atomic_file.hpp"
 #include "base/checksum.hpp"
-#include "base/disk_room.hpp"
 #include "output/hdf5_handle.hpp"
+#include "output/hdf5_output.hpp"
 
 namespace stillpoint {
 namespace {
@@ -30,10 +25,6 @@ using hdf5::Handle, hdf5::Quiet;
 constexpr std::size_t head_size = 512;  // the least that HDF5 allows
 constexpr const char* head_format =
     "Stillpoint checkpoint, format 1\nCRC-32 %" PRIx64 " of the %" PRIu64 " bytes after these 512\n";
-
-[[noreturn]] void fail_to_write(const fs::path& file, int number, const std::string& what = "cannot write") {
-  throw fs::filesystem_error(what, file, std::error_code(number != 0 ? number : EIO, std::generic_category()));
-}
 
 // --- the head --------------------------------------------------------------------------------------------------------
 
@@ -58,18 +49,13 @@ Head head_of(std::istream& file) {
   return head;
 }
 
-void write_head(const fs::path& path) {
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  const Head head = head_of(file);
-  file.clear();
-  std::array<char, head_size> text;
-  text.fill('\n');
+void write_head(OutputFile& file) {
+  std::ifstream written(file.path(), std::ios::binary);
+  const Head head = head_of(written);
+  std::string text(head_size, '\n');
   const int length = std::snprintf(text.data(), text.size(), head_format, head.crc, head.size);
   text[static_cast<std::size_t>(length)] = '\n';
-  file.seekp(0);
-  file.write(text.data(), text.size());
-  file.close();
-  if (!file) fail_to_write(path, errno);
+  file.write(text, 0);
 }
 
 // Why the file is not to be read; empty: it is whole.
@@ -89,58 +75,53 @@ std::string fault_of(const fs::path& path) {
 
 // --- the datasets ----------------------------------------------------------------------------------------------------
 
-// No fewer bytes than the file has.
-std::uint64_t most_bytes(const SavedState& state) {
-  constexpr std::uint64_t of_file = 1 << 16, of_dataset = 1 << 11, of_number = 8;
-  std::uint64_t bytes = of_file;
-  for (const auto& [name, value] : state) {
-    bytes += of_dataset + 4 * name.size() +
-             std::visit([](const auto& values) { return of_number * std::uint64_t{values.size()}; }, value);
-  }
-  return bytes;
-}
-
 class Writer {
  public:
-  explicit Writer(const fs::path& path) : path_(path) {}
+  explicit Writer(const fs::path& path) : output_(path, head_size), path_(path) {}
 
   void write(const SavedState& state) {
     const Quiet quiet;
-    const Handle creation(check(H5Pcreate(H5P_FILE_CREATE)), H5Pclose);
-    check(H5Pset_userblock(creation, head_size));
     const Handle links(check(H5Pcreate(H5P_LINK_CREATE)), H5Pclose);
     check(H5Pset_create_intermediate_group(links, 1));
-    Handle file(check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT)), H5Fclose);
     for (const auto& [name, value] : state) {
-      std::visit([&, &path = name](const auto& of_kind) { write(file, links, path, of_kind); }, value);
+      std::visit([&, &path = name](const auto& of_kind) { write(links, path, of_kind); }, value);
     }
-    check(file.close());
+  }
+  void finish() {
+    OutputFile& file = output_.close();
+    write_head(file);
+    file.bring_to_disk();
+    file.close();
   }
 
  private:
-  void write(hid_t file, hid_t links, const std::string& name, const std::vector<double>& values) {
-    write(file, links, name, H5T_NATIVE_DOUBLE, values.size(), values.data());
+  void write(hid_t links, const std::string& name, const std::vector<double>& values) {
+    write(links, name, H5T_NATIVE_DOUBLE, values.size(), values.data());
   }
-  void write(hid_t file, hid_t links, const std::string& name, const std::vector<std::int64_t>& values) {
-    write(file, links, name, H5T_NATIVE_INT64, values.size(), values.data());
+  void write(hid_t links, const std::string& name, const std::vector<std::int64_t>& values) {
+    write(links, name, H5T_NATIVE_INT64, values.size(), values.data());
   }
   // As its bytes: a text may be empty, and may hold any.
-  void write(hid_t file, hid_t links, const std::string& name, const std::string& text) {
-    write(file, links, name, H5T_NATIVE_UCHAR, text.size(), text.data());
+  void write(hid_t links, const std::string& name, const std::string& text) {
+    write(links, name, H5T_NATIVE_UCHAR, text.size(), text.data());
   }
-  void write(hid_t file, hid_t links, const std::string& name, hid_t type, hsize_t size, const void* data) {
+  void write(hid_t links, const std::string& name, hid_t type, hsize_t size, const void* data) {
     const Handle space(check(H5Screate_simple(1, &size, nullptr)), H5Sclose);
-    Handle dataset(check(H5Dcreate2(file, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT)), H5Dclose);
+    Handle dataset(check(H5Dcreate2(output_.id(), name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT)),
+                   H5Dclose);
     if (size > 0) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
     check(dataset.close());
   }
 
   template <class Code>
   Code check(Code code) const {
-    if (code < 0) fail_to_write(path_, errno, fmt::format("cannot write: {}", hdf5::error_text()));
-    return code;
+    output_.throw_failure();
+    if (code >= 0) return code;
+    throw fs::filesystem_error(fmt::format("cannot write: {}", hdf5::error_text()), path_,
+                               std::make_error_code(std::errc::io_error));
   }
 
+  Hdf5Output output_;
   const fs::path& path_;
 };
 
@@ -188,14 +169,6 @@ class Reader {
   const fs::path& path_;
 };
 
-void bring_to_disk(const fs::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool done = file >= 0 && fsync(file) == 0;
-  const int number = errno;
-  if (file >= 0) close(file);
-  if (!done) fail_to_write(path, number);
-}
-
 // There is a checkpoint at any moment: the one before gets its second name while it has the first.
 void keep_previous(const fs::path& file) {
   std::error_code no_links;
@@ -215,17 +188,16 @@ fs::path previous_checkpoint(const fs::path& file) {
 void write_checkpoint(const fs::path& file, const SavedState& state) {
   const fs::path partial = partial_name(file);
   try {
-    require_room(partial, most_bytes(state));
-    Writer(partial).write(state);
-    write_head(partial);
-    bring_to_disk(partial);
+    Writer writer(partial);
+    writer.write(state);
+    writer.finish();
+    keep_previous(file);
+    fs::rename(partial, file);
   } catch (...) {
     std::error_code ignored;
     fs::remove(partial, ignored);
     throw;
   }
-  keep_previous(file);
-  fs::rename(partial, file);
 }
 
 SavedState read_checkpoint(const fs::path& file) {

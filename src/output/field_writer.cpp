@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include "base/atomic_file.hpp"
-#include "base/disk_room.hpp"
 #include "output/hdf5_file.hpp"
 
 namespace stillpoint {
@@ -153,18 +152,6 @@ std::string text_of(const fs::path& path) {
   return text;
 }
 
-// No fewer bytes than the file of a frame has, compressed or not.
-std::uint64_t most_bytes(const FieldFrame& frame) {
-  constexpr std::uint64_t of_file = 1 << 16, of_dataset = 1 << 12;
-  std::uint64_t values = 3 + 1 + 1, datasets = 3;  // place, material, vertex
-  for (const PointField& field : frame.fields) {
-    values += static_cast<std::uint64_t>(field.components == 2 ? 3 : field.components);
-    datasets += static_cast<std::uint64_t>(field.components);
-  }
-  const std::uint64_t raw = sizeof(double) * values * frame.points;
-  return of_file + of_dataset * datasets + raw + raw / 64;
-}
-
 void remove_quietly(const fs::path& path) {
   std::error_code ignored;
   fs::remove_all(path, ignored);
@@ -187,7 +174,6 @@ class FieldWriter::Files {
   void add(const FieldFrame& frame) {
     const fs::path partial = partial_name(part(frames_));
     try {
-      require_room(partial, most_bytes(frame));
       Hdf5File file(partial);
       const std::string text = write(frame, "/" + frame_name(frames_), file);
       file.close();
@@ -205,9 +191,6 @@ class FieldWriter::Files {
   void finish() {
     const fs::path whole = folder_ / "fields.h5";
     try {
-      std::uint64_t bytes = 1 << 16;
-      for (std::size_t k = 0; k < frames_; ++k) bytes += (1 << 12) + fs::file_size(part(k));
-      require_room(partial_name(whole), bytes);
       join(partial_name(whole));
       AtomicFile xdmf(folder_ / "fields.xdmf");
       xdmf.write(head);

@@ -18,18 +18,17 @@ using hdf5::Handle, hdf5::Quiet;
 // Every return code of the library comes here: a negative one is its failure.
 template <class Code>
 Code Hdf5File::check(Code code, const char* failed) const {
+  if (output_) output_->throw_failure();
   if (code >= 0) return code;
   const int number = errno != 0 ? errno : EIO;
   throw std::filesystem::filesystem_error(fmt::format("{}: {}", failed, hdf5::error_text()), path_,
                                           std::error_code(number, std::generic_category()));
 }
 
-Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), file_(H5I_INVALID_HID) {
+Hdf5File::Hdf5File(std::filesystem::path path)
+    : path_(std::move(path)), output_(std::in_place, path_), file_(output_->id()) {
   const Quiet quiet;
-  const Handle access(check(H5Pcreate(H5P_FILE_ACCESS)), H5Pclose);
-  check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));  // closed is closed, even after a failure
   can_deflate_ = check(H5Zfilter_avail(H5Z_FILTER_DEFLATE)) > 0;
-  file_ = check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
 }
 
 Hdf5File::Hdf5File(Existing existing) : path_(std::move(existing.path)), file_(H5I_INVALID_HID) {
@@ -39,7 +38,7 @@ Hdf5File::Hdf5File(Existing existing) : path_(std::move(existing.path)), file_(H
 
 Hdf5File::~Hdf5File() {
   const Quiet quiet;
-  if (file_ >= 0) H5Fclose(file_);
+  if (!output_ && file_ >= 0) H5Fclose(file_);
 }
 
 void Hdf5File::make_group(const std::string& name) {
@@ -129,7 +128,10 @@ void Hdf5File::write(const std::string& name, hid_t type, hid_t native_type, con
 
 void Hdf5File::close() {
   const Quiet quiet;
-  check(H5Fclose(std::exchange(file_, H5I_INVALID_HID)));
+  if (!output_) return static_cast<void>(check(H5Fclose(std::exchange(file_, H5I_INVALID_HID))));
+  OutputFile& file = output_->close();
+  file.bring_to_disk();
+  file.close();
 }
 
 }  // namespace stillpoint

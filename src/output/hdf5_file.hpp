@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "output/hdf5_output.hpp"
 
 namespace stillpoint {
 
@@ -41,7 +44,7 @@ class Hdf5File {
   void write(const std::string& name, const std::vector<double>& values, const Columns& columns);
   void write(const std::string& name, const std::vector<int>& values);
 
-  /// Whatever could not be written throws here at the latest.
+  /// Whatever could not be written throws here at the latest; the disk has the file then.
   void close();
 
  private:
@@ -54,7 +57,8 @@ class Hdf5File {
              const Columns& columns);
 
   std::filesystem::path path_;
-  std::int64_t file_;  // HDF5's hid_t; negative when closed
+  std::optional<Hdf5Output> output_;  // if it is written
+  std::int64_t file_;                 // HDF5's hid_t; negative when closed
   bool can_deflate_ = false;
 };
 

@@ -11,9 +11,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* summary = "summary.json";
-constexpr const char* gone_on_from[] = {"fields.h5", "fields.xdmf", "checkpoint.h5", "checkpoint-previous.h5"};
-constexpr const char* written[] = {summary,       "history.csv",   "fields.h5",
-                                   "fields.xdmf", "checkpoint.h5", "checkpoint-previous.h5"};
+constexpr const char* gone_on_from[] = {
+    "history.csv", "fields.h5", "fields.xdmf", "checkpoint.h5", "checkpoint-previous.h5", "unstable_mode.csv"};
+constexpr const char* frames = "fields.partial";
 
 void require_file(const fs::path& path) {
   if (!fs::is_directory(path)) return;
@@ -22,19 +22,28 @@ void require_file(const fs::path& path) {
 
 }  // namespace
 
+void throw_unless_of_disk(const fs::path& folder, const fs::filesystem_error& error) {
+  for (const std::errc of_disk : {std::errc::no_space_on_device, std::errc::io_error, std::errc::file_too_large}) {
+    if (error.code() == of_disk) throw fs::filesystem_error(error);
+  }
+  throw_folder_error(folder, error);
+}
+
 void prepare_folder(const fs::path& folder, bool resumes) {
   try {
     fs::create_directories(folder);
-    for (const char* name : written) {
+    require_file(folder / summary);
+    require_file(partial_name(folder / summary));
+    for (const char* name : gone_on_from) {
       require_file(folder / name);
       require_file(partial_name(folder / name));
     }
     fs::remove(folder / summary);
-    for (const char* name : gone_on_from) {
-      if (!resumes) fs::remove(folder / name);
-    }
+    if (resumes) return;
+    for (const char* name : gone_on_from) fs::remove(folder / name);
+    fs::remove_all(folder / frames);
   } catch (const fs::filesystem_error& error) {
-    throw_folder_error(folder, error);
+    throw_unless_of_disk(folder, error);
   }
 }
 

@@ -37,16 +37,17 @@ void ErrorBound::loads_have_settled(double kinetic_energy) {
 bool ErrorBound::refresh(double t, ConstVec u, double residual) {
   constexpr double much_nearer = 0.25;
   if (!omega_1_ || !phase_.info().nonlinear || !(residual < much_nearer * refreshed_at_)) return false;
-  refreshed_at_ = residual;
   // What is consistent with the body at u, yielding included.
   const SparseMatrix K = phase_.tangents().matrix(Tangent::consistent, t, u), K_transposed = K.transpose();
   const auto frequency = [&, symmetric = SparseMatrix(0.5 * (K + K_transposed))](const Mass& mass) {
     const FrequencyEstimate lowest = lowest_frequency(symmetric, mass);
     return lowest.converged ? std::optional(lowest.omega) : std::nullopt;
   };
-  omega_1_ = frequency(phase_.mass());
+  const std::optional<double> of_mass = frequency(phase_.mass());
+  const std::optional<double> of_volume = of_mass && volume_ ? frequency(volume_->V) : std::nullopt;
+  refreshed_at_ = residual;
+  omega_1_ = of_mass;
   if (!omega_1_ || !volume_) return true;
-  const std::optional<double> of_volume = frequency(volume_->V);
   if (!of_volume) omega_1_.reset();
   volume_->omega_1 = of_volume.value_or(0);
   return true;

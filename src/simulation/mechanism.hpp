@@ -36,8 +36,9 @@ class MechanismWatch {
   std::optional<Mechanism> look(const LagrangianPhase& phase, double t, ConstVec u, long evaluations) {
     constexpr long patience = 1000;
     if (!looks_ || evaluations < patience) return std::nullopt;
+    auto found = find_mechanism(phase, t, u);
     looks_ = false;
-    return find_mechanism(phase, t, u);
+    return found;
   }
 
   void archive(const StateArchive& state) { state("looks", looks_); }

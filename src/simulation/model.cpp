@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
+#include "base/stop_request.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
@@ -20,6 +23,7 @@
 #include "simulation/load_schedule.hpp"
 #include "simulation/mechanism.hpp"
 #include "simulation/notes.hpp"
+#include "simulation/omega_1_needs.hpp"
 #include "simulation/stiffening_step.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/spectrum/local_damping_gain.hpp"
@@ -138,25 +142,6 @@ void choose_step(const Scene& scene, Model& model) {
   }
 }
 
-// Why ω₁ is asked for.
-struct Omega1Needs {
-  bool critical_damping, tolerances, relaxation, distance;
-  bool useful;  // it makes an answer better, and costs little
-  bool any() const { return critical_damping || tolerances || relaxation || useful; }
-};
-
-Omega1Needs omega_1_needs(const Scene& scene, const Model& model, bool takes_c) {
-  const bool finds_its_own = model.relaxation && model.relaxation->chooses_mass;
-  // auto works without, and of a large body the factor alone would cost more than the way to rest.
-  const bool cheap = !finds_its_own || model.phase->size() <= direct_solver_limit;
-  return {.critical_damping = takes_c && !scene.damping.c,
-          .tolerances =
-              !model.static_method && scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v),
-          .relaxation = model.relaxation && model.relaxation->needs_omega_1,
-          .distance = scene.stop.distance > 0,
-          .useful = scene.stop.wants_equilibrium() && (cheap || scene.stop.distance > 0)};
-}
-
 // ω₁ by inverse iteration. Throws if something cannot do without; a note if equilibrium can.
 void find_omega_1(const Scene& scene, const Omega1Needs& needs, Model& model) {
   const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
@@ -230,27 +215,33 @@ void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
                     .steady = wants_equilibrium_only(scene)};
 }
 
-}  // namespace
-
-Model make_model(const Scene& scene) {
+// begin(what) is told of each part before it is made.
+template <class Begin>
+Model make_parts(const Scene& scene, const Begin& begin) {
   Model model;
   const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
   model.static_method = catalogue().static_method(scene.solve.method);
   if (!model.static_method) model.relaxation = find_relaxation(strategy.name);
   const bool takes_c = !model.static_method && strategy.uses("c");
   model.method = find_method(scene.integrator.method, scene.integrator.treatment);
+  begin("the material points, their weights and the mass");
   model.phase = make_phase(scene);
+  begin("the choice of a mass");
   const bool chooses_mass = model.relaxation && model.relaxation->chooses_mass;
   const bool scaled = chooses_mass && choose_mass(scene, model);
   std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
+  begin("the initial state");
   model.u = model.phase->initial_displacement(0);
   model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);
   check_initial_state(scene, *model.phase, model.u);
   std::ranges::move(load_notes(scene, *model.phase, model.u), std::back_inserter(model.notes));
+  begin("the highest frequency");
   if (!chooses_mass) model.omega_max = highest_frequency(scene, *model.phase, model.u);
-  const Omega1Needs needs = omega_1_needs(scene, model, takes_c);
+  const Omega1Needs needs = omega_1_needs(scene, model.phase->size());
+  begin("the lowest frequency, with a factor of the stiffness");
   if (needs.any()) find_omega_1(scene, needs, model);
+  begin("the norm of errors");
   if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian)
     model.volume_norm = volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);
   if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
@@ -259,6 +250,7 @@ Model make_model(const Scene& scene) {
         "equilibrium");
   }
   if (model.static_method && model.static_method->takes_end_of_loads) model.t = scene.stop.time;
+  begin("the damping and the step");
   model.dwell = dwell_of(scene, model);
   model.distance_goal = distance_goal_of(scene, model);
   model.equilibrium_must_last = !model.static_method && !residual_bounds_error(scene, model);
@@ -275,6 +267,21 @@ Model make_model(const Scene& scene) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);
   }
   return model;
+}
+
+}  // namespace
+
+Model make_model(const Scene& scene) {
+  const char* part = "";
+  try {
+    return make_parts(scene, [&](const char* what) {
+      heed_stop_request();
+      part = what;
+    });
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(
+        fmt::format("no memory is left in the set-up for {}; expected fewer cells or points", part));
+  }
 }
 
 }  // namespace stillpoint

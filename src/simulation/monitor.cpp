@@ -61,12 +61,4 @@ RunStatus Monitor::check_limits(double t, long steps) {
   return RunStatus::running;
 }
 
-RunStatus Monitor::check_wall_time(double wall_time) {
-  if (options_.wall_time > 0 && wall_time >= options_.wall_time) {
-    reason_ = fmt::format("{:.3g} s of wall time reached stop.wall_time", wall_time);
-    return RunStatus::time_limit;
-  }
-  return RunStatus::running;
-}
-
 }  // namespace stillpoint

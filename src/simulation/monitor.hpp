@@ -17,9 +17,8 @@ struct MonitorOptions {
   double dwell = 0;               // all held for this long [s]: a kinetic energy alone is small at every turning point
   /// Whether it has to last. If the residual bounds the error at every moment the dwell only says how often to test.
   bool must_last = true;
-  double end_time = 0;   // [s]; 0: none
-  long steps = 0;        // 0: no limit
-  double wall_time = 0;  // [s]; 0: no limit
+  double end_time = 0;  // [s]; 0: none
+  long steps = 0;       // 0: no limit
 };
 
 class Monitor {
@@ -38,7 +37,6 @@ class Monitor {
                     std::optional<double> distance = std::nullopt);
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps);
-  RunStatus check_wall_time(double wall_time);
 
   /// The inequality that ended the run.
   const std::string& reason() const { return reason_; }

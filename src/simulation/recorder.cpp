@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "scene/throw_scene_error.hpp"
+#include "output/run_folder.hpp"
 
 namespace stillpoint {
 namespace {
@@ -33,7 +33,7 @@ auto open_output(const std::filesystem::path& out, const Open& open) {
   try {
     return open();
   } catch (const std::filesystem::filesystem_error& error) {
-    throw_folder_error(out, error);
+    throw_unless_of_disk(out, error);
   }
 }
 

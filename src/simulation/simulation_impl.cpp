@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
 
@@ -22,8 +24,7 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
           .dwell = model.dwell,
           .must_last = model.equilibrium_must_last,
           .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
-          .steps = scene.stop.steps,
-          .wall_time = scene.stop.wall_time};
+          .steps = scene.stop.steps};
 }
 
 double largest_cell(const Scene& scene) {
@@ -49,7 +50,8 @@ RunStatus status_of(StepReport::Status status) {
 Simulation::Impl::Impl(Scene scene, SimulationOptions options)
     : scene_(std::move(scene)),
       options_(std::move(options)),
-      model_(make_model(scene_)),
+      end_request_(scene_.stop.wall_time, options_.interrupted),
+      model_(set_up()),
       monitor_(monitor_options(scene_, model_)),
       error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
       schedule_(scene_, *model_.phase, scene_.stop.time),
@@ -77,14 +79,20 @@ RunStatus Simulation::Impl::step(double t_stop) {
     sample(true);
     if (leaves_checkpoints()) leave_checkpoint();
   }
-  take_step(t_stop);
+  try {
+    take_step(t_stop);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(failure(now(), "no memory is left for what a step takes"));
+  }
   stepping_s_ += watch.seconds();
   if (done()) finish();
   return status_;
 }
 
 void Simulation::Impl::take_step(double t_stop) {
-  const StepReport report = motion_->integrator->step(landing_time(t_stop));
+  const std::optional<StepReport> taken = try_step(t_stop);
+  if (!taken) return;
+  const StepReport& report = *taken;
   t_ = report.t;
   if (report.status != StepReport::Status::ok) {
     if (report.status == StepReport::Status::inadmissible && (try_next_phase() || done())) return;
@@ -205,6 +213,16 @@ void Simulation::Impl::follow_period() {
 }
 
 void Simulation::Impl::watch() {
+  const StopScope scope(asks_to_end());
+  try {
+    look_for_end();
+  } catch (const Stopped&) {
+    end_as_asked("the step was finished");
+    if (leaves_checkpoints()) leave_checkpoint();
+  }
+}
+
+void Simulation::Impl::look_for_end() {
   if (monitor_.due(t_)) {
     follow_period();
     measure();
@@ -265,37 +283,6 @@ void Simulation::Impl::report_progress() {
   if (!options_.progress || wall_.seconds() < next_progress_) return;
   next_progress_ = wall_.seconds() + seconds_between;
   options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
-}
-
-// Limits that came before equilibrium say no more than that.
-void Simulation::Impl::say_what_moves() {
-  const bool is_limit =
-      status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
-  if (is_limit && exit_status() != 0) reason_ += "; " + furthest_from_rest(*motion_, t_);
-}
-
-// What claims to be an equilibrium may be one that the least disturbance ends.
-void Simulation::Impl::test_stability() {
-  const bool writes = recorder_ && !options_.out.empty();
-  if (writes) remove_mode(options_.out);
-  if (status_ != RunStatus::equilibrium) return;
-  stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
-  const bool neutral = stability_.kind == EquilibriumStability::Kind::neutral;
-  // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
-  const bool softened_away = neutral && has_distance() && !distance_to_go();
-  if (neutral && !softened_away) model_.notes.push_back(description(stability_));
-  if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
-  status_ = RunStatus::unstable_equilibrium;
-  reason_ = fmt::format("{}; {}", reason_, description(stability_));
-  if (writes) write_mode(stability_, *model_.phase, t_, motion_->u(), options_.out);
-}
-
-void Simulation::Impl::finish() {
-  if (is_readable_) motion_->finish(t_);
-  if (is_readable_ && plastic_path_.watches()) watch_plastic_path();
-  if (is_readable_) say_what_moves();
-  test_stability();
-  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
 }
 
 }  // namespace stillpoint

@@ -3,6 +3,7 @@
 
 #include <stillpoint/simulation.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,11 +11,13 @@
 
 #include "base/stopwatch.hpp"
 #include "simulation/chatter.hpp"
+#include "simulation/end_request.hpp"
 #include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
 #include "simulation/failure.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/mechanism.hpp"
+#include "simulation/memory_need.hpp"
 #include "simulation/model.hpp"
 #include "simulation/monitor.hpp"
 #include "simulation/phase_motion.hpp"
@@ -47,6 +50,7 @@ class Simulation::Impl {
 
   Scene scene_;
   SimulationOptions options_;
+  EndRequest end_request_;
   Stopwatch wall_;
   VectorSpace vectors_;
   Model model_;
@@ -55,7 +59,7 @@ class Simulation::Impl {
   LoadSchedule schedule_;
   Chatter chatter_;
   PlasticPath plastic_path_;
-  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1};
+  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::optional<Recorder> recorder_;
 
   std::optional<PhaseMotion> motion_;  // of the present phase
@@ -65,8 +69,11 @@ class Simulation::Impl {
   std::string reason_;
 
  private:
+  Model set_up();
+  std::function<bool()> asks_to_end();
   void begin_phase(ConstVec u0, ConstVec v0);
   void take_step(double t_stop);
+  std::optional<StepReport> try_step(double t_stop);
   double landing_time(double t_stop) const;
   double end_of_fast_phase() const;
   void next_phase();
@@ -78,17 +85,20 @@ class Simulation::Impl {
   void watch_plastic_path();
   void look_for_mechanism();
   void watch();
+  void look_for_end();
   void follow_period();
 
   void measure();
   bool has_distance() const { return model_.omega_1 && !model_.phase->info().updated_lagrangian; }
   std::optional<double> distance_to_go() const;
   void refresh_distance();
+  void refresh_distance_in_time();
 
   bool leaves_checkpoints() const { return recorder_ && !options_.out.empty() && scene_.checkpoint.wanted(); }
   bool checkpoint_is_due();
   void leave_checkpoint();
   bool is_to_end();
+  void end_as_asked(const std::string& where);
   void archive(const StateArchive& state);
   void archive_motion(const StateArchive& state);
   void resume(const std::filesystem::path& from);

@@ -93,6 +93,8 @@ void Simulation::Impl::resume(const fs::path& from) {
     require_same(origin_of(saved), origin_of(scene_));
     archive(StateArchive::restoring(saved));
   });
+  last_checkpoint_ = steps();
+  next_checkpoint_s_ = wall_.seconds() + scene_.checkpoint.every;
 }
 
 void Simulation::Impl::archive(const StateArchive& state) {
@@ -145,18 +147,6 @@ void Simulation::Impl::archive_motion(const StateArchive& state) {
 }
 
 // --- when one is left ---
-
-// Whether the run ends here, though it could go on.
-bool Simulation::Impl::is_to_end() {
-  if (!options_.stops) return false;
-  status_ = monitor_.check_wall_time(wall_.seconds());
-  reason_ = monitor_.reason();
-  if (!done() && options_.interrupted && options_.interrupted()) {
-    status_ = RunStatus::interrupted;
-    reason_ = "interrupted by the user; the step was finished";
-  }
-  return done();
-}
 
 // A method that begins anew when it is restored does so at fixed steps without that as well, and is saved there: with
 // checkpoints a run has the same bits whether it was resumed or not.

@@ -81,7 +81,7 @@ void Simulation::Impl::fill_state(Summary& s) {
   if (stability_.kind == EquilibriumStability::Kind::unstable) s.unstable_omega_squared = stability_.omega_squared;
   s.residual = residual();
   s.kinetic_energy = kinetic_energy_;
-  if (scene_.stop.wants_equilibrium()) refresh_distance();
+  if (scene_.stop.wants_equilibrium()) refresh_distance_in_time();
   s.distance = distance_;
   add_note(s, distance_note(status_, distance_to_go()));
   s.single_phase_strain = strain_in_single_phase(*model_.phase, t_, motion_->u());

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
 #include "simulation/thread_scope.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
@@ -84,13 +85,7 @@ class Comparing {
   Comparison compare() {
     const ThreadScope threads(result_.threads);
     total_ = static_cast<int>(candidates_.size());
-    if (result_.transient) {
-      find_transient_reference();
-    } else {
-      find_equilibrium();
-      measure_spectrum();
-      if (options_.overshoot) find_ramp();
-    }
+    find_reference();
     count();
     time();
     for (Candidate& candidate : candidates_) result_.runs.push_back(std::move(candidate.run));
@@ -113,6 +108,19 @@ class Comparing {
     return load_scene(file_, all);
   }
   double end_time() const { return scene_.stop.time; }
+
+  // Without one nothing is compared: whoever interrupts this interrupts every candidate.
+  void find_reference() {
+    const StopScope scope(options_.interrupted);
+    try {
+      if (result_.transient) return find_transient_reference();
+      find_equilibrium();
+      measure_spectrum();
+      if (options_.overshoot) find_ramp();
+    } catch (const Stopped&) {
+      result_.notes.push_back("interrupted by the user before there was a solution to compare with");
+    }
+  }
 
   void find_equilibrium() {
     Equilibrium found = stillpoint::find_equilibrium(scene_, result_.threads, options_.interrupted);
@@ -178,6 +186,7 @@ class Comparing {
       candidate.run.status = ComparedStatus::interrupted;
       return;
     }
+    const StopScope scope(options_.interrupted);
     try {
       const Scene scene = load_for(candidate);
       if (result_.transient) {
@@ -193,6 +202,9 @@ class Comparing {
     } catch (const std::invalid_argument& error) {  // as Newton's method, if walls touch
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.what();
+    } catch (const Stopped&) {
+      candidate.run.status = ComparedStatus::interrupted;
+      candidate.run.reason = "by the user";
     } catch (const std::exception& error) {
       candidate.run.status = ComparedStatus::diverged;
       candidate.run.reason = error.what();

@@ -2,11 +2,13 @@
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/relaxation.hpp>
 
+#include <csignal>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "child.hpp"
 #include "files.hpp"
 #include "output/checkpoint_file.hpp"
 #include "scenes.hpp"
@@ -149,7 +151,9 @@ TEST_CASE("a run that was interrupted goes on where it was, from the step of the
       scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=1000", "output.stages=[1e-3, 1e3]"});
   const TemporaryFolder folder;
   int asked = 0;
-  const Summary s = run(scene, {.out = folder.path(), .interrupted = [&] { return ++asked == 77; }});
+  const Summary s = run(scene, {.out = folder.path(), .interrupted = [&] {
+                                  return fs::exists(folder.path() / "history.csv.partial") && ++asked == 77;
+                                }});
   CHECK(s.status == RunStatus::interrupted);
   CHECK(s.steps == 77);
   const fs::path checkpoint = folder.path() / "checkpoint.h5";
@@ -265,20 +269,12 @@ TEST_CASE("SIGTERM and SIGHUP end the command in good order, and --resume goes o
   for (const int signal : {SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     const std::string out = folder.path().string();
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-      execl(STILLPOINT_BINARY, "stillpoint", "run", STILLPOINT_PROBLEMS "/bar.toml", "--set", "damping.strategy=none",
-            "--set", "stop.steps=400000", "--set", "checkpoint.every=60", "--quiet", "--out", out.c_str(), nullptr);
-      _exit(127);
-    }
-    for (int wait = 0; wait < 500 && !fs::exists(folder.path() / "checkpoint.h5"); ++wait) usleep(20'000);
+    test::Child child({"run", STILLPOINT_PROBLEMS "/bar.toml", "--set", "damping.strategy=none", "--set",
+                       "stop.steps=400000", "--set", "checkpoint.every=60", "--quiet", "--out", out});
+    CHECK(child.wait_until([&] { return fs::exists(folder.path() / "checkpoint.h5"); }));
     usleep(50'000);
-    kill(child, signal);
-    int status = 0;
-    waitpid(child, &status, 0);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 3);
+    child.send(signal);
+    CHECK(child.wait() == 3);
     CHECK(json_of(folder.path() / "summary.json")["status"] == "interrupted");
     const long steps = json_of(folder.path() / "summary.json")["steps"];
     CHECK(steps > 0);

@@ -1,10 +1,10 @@
 // How runs end: each way has its status, its exit status and its files.
+#include <csignal>
 #include <sstream>
 
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "child.hpp"
 #include "files.hpp"
 #include "scenes.hpp"
 #include "simulation/model.hpp"
@@ -36,6 +36,8 @@ std::vector<std::string> crushed() {
           "stop.time=20",
           "stop.residual=0"};
 }
+
+bool is_stepping(const std::filesystem::path& out) { return std::filesystem::exists(out / "history.csv.partial"); }
 
 bool leftovers(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -169,7 +171,8 @@ TEST_CASE("an interrupt finishes the step, writes what there is and says so") {
   const TemporaryFolder folder;
   int asked = 0;
   const Summary s =
-      run(bar({"damping.strategy=none"}), {.out = folder.path(), .interrupted = [&] { return ++asked == 100; }});
+      run(bar({"damping.strategy=none"}),
+          {.out = folder.path(), .interrupted = [&] { return is_stepping(folder.path()) && ++asked == 100; }});
   CHECK(s.status == RunStatus::interrupted);
   CHECK(s.exit_status == 3);
   CHECK(s.steps == 100);
@@ -178,22 +181,14 @@ TEST_CASE("an interrupt finishes the step, writes what there is and says so") {
 
 TEST_CASE("Ctrl-C ends the command in good order with status 3") {
   const TemporaryFolder folder;
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    const std::string out = folder.path().string();
-    execl(STILLPOINT_BINARY, "stillpoint", "run", STILLPOINT_PROBLEMS "/bar.toml", "--set", "damping.strategy=none",
-          "--quiet", "--out", out.c_str(), nullptr);
-    _exit(127);
-  }
-  for (int wait = 0; wait < 500 && !std::filesystem::exists(folder.path() / "history.csv.partial"); ++wait)
-    usleep(20'000);
-  usleep(200'000);
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  REQUIRE(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 3);
+  test::Child child({"run", STILLPOINT_PROBLEMS "/bar.toml", "--set", "damping.strategy=none", "--quiet", "--out",
+                     folder.path().string()});
+  CHECK(child.wait_until([&] {
+    const auto history = folder.path() / "history.csv.partial";
+    return std::filesystem::exists(history) && lines(history).size() > 2;
+  }));
+  child.send(SIGINT);
+  CHECK(child.wait() == 3);
   CHECK(json_of(folder.path() / "summary.json")["status"] == "interrupted");
   CHECK(lines(folder.path() / "history.csv").size() > 2);
   CHECK_FALSE(leftovers(folder.path()));
@@ -220,12 +215,15 @@ TEST_CASE("a folder in the place of an output file is bad input, found before an
 TEST_CASE("nothing of an earlier run stands beside what a run that breaks down has left") {
   const TemporaryFolder folder;
   run(bar({"output.stages=[0.1]", "stop.steps=100"}), {.out = folder.path()});
-  for (const char* name : {"summary.json", "fields.h5", "fields.xdmf"})
-    CHECK(std::filesystem::exists(folder.path() / name));
-  const auto breaks_down = []() -> bool { throw std::runtime_error("the disk is full"); };
+  folder.write("unstable_mode.csv", "point,x,mode\n");
+  const auto names = {"summary.json", "fields.h5", "fields.xdmf", "history.csv", "unstable_mode.csv"};
+  for (const char* name : names) CHECK(std::filesystem::exists(folder.path() / name));
+  const auto breaks_down = [&] {
+    if (is_stepping(folder.path())) throw std::runtime_error("the disk is full");
+    return false;
+  };
   CHECK_THROWS_WITH(run(bar(), {.out = folder.path(), .interrupted = breaks_down}), "the disk is full");
-  for (const char* name : {"summary.json", "fields.h5", "fields.xdmf"})
-    CHECK_FALSE(std::filesystem::exists(folder.path() / name));
+  for (const char* name : names) CHECK_FALSE(std::filesystem::exists(folder.path() / name));
   CHECK(lines(folder.path() / "history.csv.partial").size() > 1);
 }
 

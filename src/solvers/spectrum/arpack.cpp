@@ -13,6 +13,7 @@
 #include <arpack/arpack.h>
 #include <fmt/format.h>
 
+#include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
 #include "linalg/one_blas_thread.hpp"
 #include "linalg/power_iteration.hpp"
@@ -54,6 +55,7 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
   NearestEigenvalue result;
   std::vector<double> Mx(n);
   while (true) {
+    heed_stop_request();
     dsaupd_c(&ido, "G", size, "LM", nev, options.tolerance, residual.data(), ncv, basis.data(), size, iparam.data(),
              ipntr.data(), workd.data(), workl.data(), lworkl, &info);
     if (ido == -1) {  // y = OP x
@@ -89,7 +91,8 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
 
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
   const Stopwatch watch;
-  const FactorisedStiffness K(system.mass(), system.tangents().matrix(Tangent::elastic, t, u));
+  const SparseMatrix of_body = system.tangents().matrix(Tangent::elastic, t, u);
+  const FactorisedStiffness K(system.mass(), of_body);
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
   const LinearMap solve = [&](ConstVec b, Vec x) { K.solve(b, x); };
   const auto [lambda, applications, converged, status, mode] = nearest_eigenvalue(solve, system.mass(), 0, options);

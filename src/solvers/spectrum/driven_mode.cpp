@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "base/stop_request.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "solvers/spectrum/largest_entry.hpp"
 
@@ -28,6 +29,7 @@ DrivenMode driven_mode(const SparseMatrix& K, const Mass& mass, ConstVec Q) {
   if (!factor.positive_definite()) return mode;
   double change = 1;
   for (int iteration = 0; iteration < most_iterations && !(mode.found && change <= same); ++iteration) {
+    heed_stop_request();
     const Eigen::VectorXd before = x;
     factor.solve({Mx.data(), Q.size()}, {x.data(), Q.size()});
     mass.apply({x.data(), Q.size()}, {Mx.data(), Q.size()});

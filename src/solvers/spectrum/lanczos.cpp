@@ -24,6 +24,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
+#include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
 #include "linalg/power_iteration.hpp"
 
@@ -43,6 +44,7 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
   double last_beta = 0, bound = 0;
   constexpr double rounding = 1e-12;
   for (int j = 0; j < applications; ++j) {
+    heed_stop_request();
     system.tangents().apply(Tangent::elastic, t, u, q.span(), Kq.span());
     alpha.push_back(dot(q, Kq));
     mass.solve(Kq.span(), z.span());

@@ -19,7 +19,7 @@ double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass) {
 }  // namespace
 
 FactorisedStiffness::FactorisedStiffness(const Mass& mass, const SparseMatrix& K)
-    : mass_(mass), K_(K), factor_(K_), scale_(largest_diagonal_ratio(K_, mass_)) {}
+    : mass_(mass), K_(K), factor_(K), scale_(largest_diagonal_ratio(K_, mass_)) {}
 
 std::string FactorisedStiffness::refusal(double omega_squared) const {
   if (mass_.size() == 0) return "no free degrees of freedom";

@@ -11,7 +11,7 @@
 
 namespace stillpoint {
 
-/// A symmetric K, assembled and factorised. Throws std::runtime_error if CHOLMOD itself fails.
+/// A symmetric K with its factor; M and K outlive it. Throws std::runtime_error if CHOLMOD itself fails.
 class FactorisedStiffness {
  public:
   FactorisedStiffness(const Mass& mass, const SparseMatrix& K);
@@ -26,7 +26,7 @@ class FactorisedStiffness {
 
  private:
   const Mass& mass_;
-  SparseMatrix K_;
+  const SparseMatrix& K_;
   SparseCholesky factor_;
   double scale_;  // max K_ii/M_ii, at most ω_max² and of its size
 };

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
 #include "linalg/conjugate_gradients.hpp"
 #include "linalg/sparse_cholesky.hpp"
@@ -96,6 +97,7 @@ class Newton {
                                      options_.tolerance, iteration);
         return false;
       }
+      heed_stop_request();
       ++report_.iterations;
       if (!(consistent_direction(step.to, u) && descend(step.to, u, residual))) {
         // Open or just yielding points may leave K singular; K_e never is in a body that is held.

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "base/stop_request.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/kernels/point_weights.hpp"
 
@@ -69,7 +70,10 @@ class NeighbourMatrix {
       return entries;
     };
     int* begin = matrix.outerIndexPtr();
-    for (std::size_t c = 0; c < unknowns.size(); ++c) begin[c + 1] = begin[c] + count(c);
+    for (std::size_t c = 0; c < unknowns.size(); ++c) {
+      heed_stop_request();
+      begin[c + 1] = begin[c] + count(c);
+    }
     matrix.resizeNonZeros(begin[unknowns.size()]);
     for (std::size_t c = 0; c < unknowns.size(); ++c) {
       int next = begin[c];
@@ -114,6 +118,7 @@ SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   NeighbourMatrix<B, dim> sum(grid);
   for (std::size_t k = 0; k < points.cells(); ++k) {
+    heed_stop_request();
     CellMatrix<dim, per_cell> matrix{};
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
     sum.add(matrix, [&](int a) { return weights.function(k, a); });

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/polygon.hpp"
+#include "base/stop_request.hpp"
 #include "scene/point_file.hpp"
 #include "space/points/cell_positions.hpp"
 #include "space/points/moment_fit.hpp"
@@ -89,6 +90,7 @@ class Filling {
 
   QuadratureReport run() {
     for (int number = 0; number < grid_.cells(); ++number) {
+      heed_stop_request();
       const Box<Dim> cell = box_of(number);
       Box<Dim> part = cell;
       for (int d = 0; d < Dim; ++d) {

@@ -1,0 +1,170 @@
+// The bytes a point are those of the arrays that a phase has; what unknowns take was measured on plates of 8e4 to 1e6
+// of them, and on lines.
+#include "simulation/memory_need.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/memory_room.hpp"
+#include "scene/throw_scene_error.hpp"
+#include "simulation/catalogue.hpp"
+#include "simulation/highest_frequency.hpp"
+#include "simulation/omega_1_needs.hpp"
+#include "solvers/statics/static_methods.hpp"
+#include "space/materials/point_material.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr double real = sizeof(double);
+constexpr double of_entry = sizeof(double) + sizeof(int);  // of a sparse matrix
+
+bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
+
+// --- the points ------------------------------------------------------------------------------------------------------
+
+// What a law keeps of a point.
+double of_law(const Scene& scene, const MaterialSpec& material) {
+  const auto bytes = [&](const auto& made) {
+    double sum = 0;
+    for (const PointArray& array : made->arrays()) sum += array.bytes_per_point;
+    return sum;
+  };
+  switch (kinematics(scene.state)) {
+    case Kinematics::line:
+      return bytes(make_point_material<Kinematics::line>(material, scene.state, 0, 1, moves_on(scene)));
+    case Kinematics::plane:
+      return bytes(make_point_material<Kinematics::plane>(material, scene.state, 0, 1, moves_on(scene)));
+    default:
+      return bytes(make_point_material<Kinematics::axisymmetric>(material, scene.state, 0, 1, moves_on(scene)));
+  }
+}
+
+double of_weights(const Scene& scene) {
+  const bool of_domains = scene.phase.quadrature == Quadrature::domains;
+  if (scene.dim == 2 && scene.grid.basis == BasisKind::linear && !of_domains) return scene.dim * real;
+  const double functions = std::pow(functions_per_axis(scene.grid.basis) + (of_domains ? 1 : 0), scene.dim);
+  return functions * (1 + scene.dim + (scene.state == StressState::axisymmetric ? 1 : 0)) * real;
+}
+
+double of_motion(const Scene& scene) {
+  if (!moves_on(scene)) return 0;
+  double numbers = 2 * scene.dim;  // velocity, and position at the start
+  if (scene.phase.transfer == Transfer::apic) numbers += scene.dim * scene.dim;
+  if (scene.phase.quadrature == Quadrature::domains) numbers += (scene.dim << scene.dim) + scene.dim;
+  return numbers * real;
+}
+
+double bytes_per_point(const Scene& scene, const BodySize& size) {
+  double laws = 0;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    laws += size.body_points[k] / size.points * of_law(scene, scene.materials.at(scene.bodies[k].material));
+  const double of_any = (scene.dim + 2) * real + sizeof(int);  // position, mass, volume; number
+  return of_any + of_weights(scene) + of_motion(scene) + laws;
+}
+
+// --- the unknowns ----------------------------------------------------------------------------------------------------
+
+// Neighbours of a function, itself included: those that share a cell with it.
+double neighbours(const Scene& scene) {
+  const double along = scene.grid.basis == BasisKind::hermite ? 6 : 2 * functions_per_axis(scene.grid.basis) - 1;
+  return std::pow(along, scene.dim);
+}
+
+// Entries of a column of L. In the plane nested dissection gives a number that grows with log n; no more than the band.
+double entries_of_factor(const Scene& scene, const BodySize& size) {
+  if (scene.dim == 1) return scene.dim * neighbours(scene);
+  constexpr double measured_at = 1e5, by_octave = 0.03;
+  const double of_basis[] = {125, 340, 620, 760};
+  const double growth = 1 + by_octave * std::log2(std::max(size.unknowns, 1.0) / measured_at);
+  return std::min(std::max(0.5, growth) * of_basis[static_cast<std::size_t>(scene.grid.basis)], 2 * size.width);
+}
+
+double of_matrix(const Scene& scene, const BodySize& size) {
+  return of_entry * scene.dim * neighbours(scene) * size.unknowns;
+}
+
+double of_factor(const Scene& scene, const BodySize& size) {
+  return real * entries_of_factor(scene, size) * size.unknowns;
+}
+
+// The block of a column for every neighbour, of all functions of the grid, from which a matrix is made.
+double of_assembly(const Scene& scene, const BodySize& size) {
+  const double along = 2 * functions_per_axis(scene.grid.basis) - 1;
+  return size.grid_functions * std::pow(along, scene.dim) * scene.dim * scene.dim * real;
+}
+
+bool is_nonlinear(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
+    const LawInfo& law = *catalogue().law(scene.materials.at(body.material).law);
+    return law.finite_strain || law.history_dependent;
+  });
+}
+
+bool factorises(const Scene& scene, const BodySize& size) {
+  const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
+  const bool solves =
+      method && method->is_newton && linear_solver_of(scene.solve.method) != LinearSolver::conjugate_gradients;
+  return solves || omega_1_needs(scene, static_cast<std::size_t>(size.unknowns)).any();
+}
+
+}  // namespace
+
+double MemoryNeed::total() const {
+  return std::accumulate(parts.begin(), parts.end(), 0.0,
+                         [](double sum, const Part& part) { return sum + part.bytes; });
+}
+
+MemoryNeed memory_need(const Scene& scene) {
+  const BodySize size = body_size(scene);
+  MemoryNeed need{.size = size, .bytes_per_point = bytes_per_point(scene, size), .parts = {}};
+  const auto add = [&](const char* what, double bytes, const std::string& key) {
+    if (bytes > 0) need.parts.push_back({what, bytes, key});
+  };
+  const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
+  const bool chooses_mass = relaxation && relaxation->chooses_mass && wants_equilibrium_only(scene);
+  constexpr double while_placed = 60, while_moving = 100;  // bytes a point of copies, for a while
+  add("material points", size.points * need.bytes_per_point, size.most_points);
+  if (chooses_mass) add("the same with another mass", size.points * need.bytes_per_point, size.most_points);
+  add("points as they are placed", size.points * (while_placed + (moves_on(scene) ? while_moving : 0)),
+      size.most_points);
+  constexpr double vectors = 25;
+  add("vectors of unknowns", vectors * real * size.unknowns, "grid.cells");
+
+  const bool factor = factorises(scene, size), consistent = scene.mass.kind == MassKind::consistent;
+  if (factor || consistent || chooses_mass) add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
+  if (consistent)
+    add("mass matrix and its factor", (of_matrix(scene, size) + of_factor(scene, size)) / scene.dim, "grid.cells");
+  if (factor) {
+    add("stiffness matrix", (is_nonlinear(scene) ? 4 : 2) * of_matrix(scene, size), "grid.cells");
+    add("factor of the stiffness", of_factor(scene, size), "grid.cells");
+  }
+  return need;
+}
+
+bool has_room_for_factor(const Scene& scene) {
+  const BodySize size = body_size(scene);
+  return of_assembly(scene, size) + 2 * of_matrix(scene, size) + of_factor(scene, size) <= memory_room().bytes;
+}
+
+void require_memory(const Scene& scene) {
+  const MemoryNeed need = memory_need(scene);
+  const MemoryRoom room = memory_room();
+  if (need.total() <= room.bytes) return;
+  std::vector<std::string> parts;
+  for (const auto& part : need.parts) parts.push_back(fmt::format("{} {:.3g} GB", part.what, part.bytes / 1e9));
+  const auto largest = std::ranges::max_element(need.parts, {}, &MemoryNeed::Part::bytes);
+  throw_scene_error(
+      scene, largest->key,
+      fmt::format("the run needs about {:.3g} GB of memory ({}), and {} leaves {:.3g} GB; expected fewer "
+                  "cells or points, or a basis of lower degree{}",
+                  need.total() / 1e9, fmt::join(parts, ", "), room.set_by, room.bytes / 1e9,
+                  factorises(scene, need.size) ? ", or damping.strategy = \"auto\", which makes no factor "
+                                                 "of a large body"
+                                               : ""));
+}
+
+}  // namespace stillpoint

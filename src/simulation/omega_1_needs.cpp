@@ -1,0 +1,24 @@
+#include "simulation/omega_1_needs.hpp"
+
+#include <stillpoint/relaxation.hpp>
+
+#include "simulation/catalogue.hpp"
+#include "solvers/spectrum/direct_solver_limit.hpp"
+
+namespace stillpoint {
+
+Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns) {
+  const bool is_static = scene.solve.is_static();
+  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
+  const RelaxationInfo* relaxation = is_static ? nullptr : find_relaxation(strategy.name);
+  const bool finds_its_own = relaxation && relaxation->chooses_mass;
+  // auto works without, and of a large body the factor alone would cost more than the way to rest.
+  const bool cheap = !finds_its_own || unknowns <= direct_solver_limit;
+  return {.critical_damping = !is_static && strategy.uses("c") && !scene.damping.c,
+          .tolerances = !is_static && scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v),
+          .relaxation = relaxation && relaxation->needs_omega_1,
+          .distance = scene.stop.distance > 0,
+          .useful = scene.stop.wants_equilibrium() && (cheap || scene.stop.distance > 0)};
+}
+
+}  // namespace stillpoint

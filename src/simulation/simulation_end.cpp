@@ -1,0 +1,108 @@
+// How a simulation ends: as it is asked to, wherever it is at, or by itself.
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/stop_request.hpp"
+#include "simulation/simulation_impl.hpp"
+#include "solvers/spectrum/direct_solver_limit.hpp"
+
+namespace stillpoint {
+
+// --- because it is asked to ---
+
+std::function<bool()> Simulation::Impl::asks_to_end() {
+  if (!options_.stops) return {};
+  return [this] { return end_request_.asked(); };
+}
+
+Model Simulation::Impl::set_up() {
+  const StopScope scope(asks_to_end());
+  try {
+    heed_stop_request();
+    require_memory(scene_);
+    return make_model(scene_);
+  } catch (const Stopped&) {
+    throw SetUpStopped(end_request_.status(), end_request_.reason() + " in the set-up; the run has not begun",
+                       wall_.seconds());
+  }
+}
+
+// One of a static solver may take long: it is broken off, at the last equilibrium on its way.
+std::optional<StepReport> Simulation::Impl::try_step(double t_stop) {
+  const StopScope scope(model_.static_method ? asks_to_end() : nullptr);
+  try {
+    return motion_->integrator->step(landing_time(t_stop));
+  } catch (const Stopped&) {
+    end_as_asked("the step was not finished");
+    measured_ = false;
+    sample(true);
+    if (leaves_checkpoints()) leave_checkpoint();
+    return std::nullopt;
+  }
+}
+
+// Where that takes long and there is no time left, the distance is not known.
+void Simulation::Impl::refresh_distance_in_time() {
+  const StopScope scope(model_.phase->size() > direct_solver_limit ? asks_to_end() : nullptr);
+  try {
+    refresh_distance();
+  } catch (const Stopped&) {
+    distance_.reset();
+  }
+}
+
+// Whether the run ends here, though it could go on.
+bool Simulation::Impl::is_to_end() {
+  if (options_.stops && end_request_.asked()) end_as_asked("the step was finished");
+  return done();
+}
+
+void Simulation::Impl::end_as_asked(const std::string& where) {
+  status_ = end_request_.status();
+  reason_ = end_request_.reason() + "; " + where;
+}
+
+// --- by itself ---
+
+// Limits that came before equilibrium say no more than that.
+void Simulation::Impl::say_what_moves() {
+  const bool is_limit =
+      status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
+  if (is_limit && exit_status() != 0) reason_ += "; " + furthest_from_rest(*motion_, t_);
+}
+
+// What claims to be an equilibrium may be one that the least disturbance ends.
+void Simulation::Impl::test_stability() {
+  const bool writes = recorder_ && !options_.out.empty();
+  if (writes) remove_mode(options_.out);
+  if (status_ != RunStatus::equilibrium) return;
+  try {
+    const StopScope scope(asks_to_end());
+    stability_ = stability_of(*model_.phase, t_, motion_->u(), residual_);
+  } catch (const Stopped&) {
+    const std::string reached = reason_;
+    end_as_asked("before it was known whether the equilibrium is stable, after " + reached);
+    if (leaves_checkpoints()) leave_checkpoint();
+    return;
+  }
+  const bool neutral = stability_.kind == EquilibriumStability::Kind::neutral;
+  // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
+  const bool softened_away = neutral && has_distance() && !distance_to_go();
+  if (neutral && !softened_away) model_.notes.push_back(description(stability_));
+  if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
+  status_ = RunStatus::unstable_equilibrium;
+  reason_ = fmt::format("{}; {}", reason_, description(stability_));
+  if (writes) write_mode(stability_, *model_.phase, t_, motion_->u(), options_.out);
+}
+
+void Simulation::Impl::finish() {
+  if (is_readable_) motion_->finish(t_);
+  if (is_readable_ && plastic_path_.watches()) watch_plastic_path();
+  if (is_readable_) say_what_moves();
+  test_stability();
+  if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,113 @@
+// What a run takes of memory beside what is said beforehand.
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "child.hpp"
+#include "files.hpp"
+#include "scenes.hpp"
+#include "simulation/memory_need.hpp"
+#include "simulation/model.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using stillpoint::test::Child;
+using stillpoint::test::contents;
+using stillpoint::testing::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> words_for(const std::string& scene, const std::vector<std::string>& set, const fs::path& out) {
+  std::vector<std::string> words = {
+      "run", STILLPOINT_PROBLEMS + ("/" + scene + ".toml"), "--quiet", "--threads", "1", "--out", out.string()};
+  for (const std::string& one : set) words.insert(words.end(), {"--set", one});
+  return words;
+}
+
+double peak_of(const std::string& scene, const std::vector<std::string>& set) {
+  const TemporaryFolder folder;
+  Child child(words_for(scene, set, folder.path()), {}, (folder.path() / "messages").string());
+  const auto status = child.wait();
+  CHECK((status == 0 || status == 3));
+  return child.peak_memory();
+}
+
+}  // namespace
+
+TEST_CASE("cells, points, unknowns and bytes a point are known before a body is placed") {
+  for (const auto& entry : fs::directory_iterator(STILLPOINT_PROBLEMS)) {
+    if (entry.path().extension() != ".toml") continue;
+    CAPTURE(entry.path());
+    const Scene scene = load_scene(entry.path());
+    const MemoryNeed need = memory_need(scene);
+    const auto phase = make_phase(scene);
+    CHECK(need.bytes_per_point == Approx(phase->bytes_per_point()).epsilon(0.02));
+    CHECK(need.size.points == Approx(static_cast<double>(phase->points())).epsilon(0.1));
+    CHECK(need.size.cells == Approx(static_cast<double>(phase->discretisation().occupied_cells)).epsilon(0.1));
+    const Discretisation of_phase = phase->discretisation();
+    CHECK(need.size.unknowns ==
+          Approx(static_cast<double>(phase->size() + of_phase.supported_degrees_of_freedom)).epsilon(0.15));
+  }
+}
+
+// A sanitizer's memory is its own.
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("the memory that a run is said to need is what it takes at its peak, to 30 %") {
+  struct Case {
+    const char* scene;
+    std::vector<std::string> set;
+  };
+  const std::vector<Case> cases = {
+      {"inclusion", {"grid.cells=[200, 200]"}},
+      {"inclusion", {"grid.cells=[200, 200]", "damping.strategy=auto"}},
+      {"inclusion", {"grid.cells=[150, 150]", "grid.basis=quadratic"}},
+      {"inclusion", {"grid.cells=[120, 120]", "grid.basis=cubic"}},
+      {"inclusion", {"grid.cells=[250, 250]", "grid.basis=quadratic", "damping.strategy=auto"}},
+      {"inclusion", {"grid.cells=[200, 200]", "solve.method=newton"}},
+      {"column", {"grid.cells=[16, 2500]"}},
+      {"cantilever", {"grid.cells=[800, 20]"}},
+      {"footing", {"grid.cells=[150, 150]"}},
+      {"slope", {"grid.cells=[400, 160]", "output.stages=[]"}},
+      {"bar", {"grid.cells=100000"}},
+  };
+  const double program = peak_of("chain", {"stop.steps=3"});
+  for (Case one : cases) {
+    one.set.emplace_back("stop.steps=3");
+    CAPTURE(one.scene, one.set);
+    const double peak = peak_of(one.scene, one.set) - program;
+    CHECK(memory_need(scenes::load(one.scene, one.set)).total() == Approx(peak).epsilon(0.3));
+  }
+}
+#endif
+
+TEST_CASE("a run that needs more memory than the process may take is refused with the key that asks for it") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out", messages = folder.path() / "messages";
+  const auto refusal = [&](const std::vector<std::string>& set, const std::function<void()>& limits) {
+    CHECK(Child(words_for("inclusion", set, out), {}, messages.string(), limits).wait() == 2);
+    CHECK_FALSE(fs::exists(out));
+    return contents(messages);
+  };
+  const auto limited = [](auto resource) {
+    return [resource] {
+      const rlimit limit{rlim_t{700} << 20, rlim_t{700} << 20};
+      setrlimit(resource, &limit);
+    };
+  };
+  const std::vector<std::string> large = {"grid.cells=[700, 700]", "grid.basis=quadratic"};
+  CHECK_THAT(refusal(large, limited(RLIMIT_AS)),
+             Catch::StartsWith("--set grid.cells=[700, 700]: the run needs about ") &&
+                 Catch::Contains("factor of the stiffness") && Catch::Contains("ulimit -v leaves 0."));
+  CHECK_THAT(refusal(large, limited(RLIMIT_DATA)), Catch::Contains("ulimit -d leaves 0."));
+  std::string text = contents(STILLPOINT_PROBLEMS "/inclusion.toml");
+  const std::string cells = "cells = [24, 24]", vast = "cells = [3000, 3000]";
+  const std::size_t at = text.find(cells);
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+  const fs::path file = folder.write("vast.toml", text.replace(at, cells.size(), vast));
+  CHECK(Child({"run", file.string(), "--out", out.string()}, {}, messages.string(), limited(RLIMIT_AS)).wait() == 2);
+  CHECK_THAT(contents(messages), Catch::Contains(fmt::format("vast.toml:{}:9: the run needs about ", line)));
+  CHECK_FALSE(fs::exists(out));
+}
