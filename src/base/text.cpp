@@ -1,7 +1,6 @@
 #include "base/text.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -34,32 +33,37 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string in_quotes(std::string_view word) {
-  constexpr std::size_t longest = 80;
-  const bool cut = word.size() > longest;
-  if (cut) {
-    word = word.substr(0, longest);
-    // Never in the middle of a UTF-8 character.
-    while (!word.empty() && (static_cast<unsigned char>(word.back()) & 0xC0) == 0x80) word.remove_suffix(1);
-    if (!word.empty() && static_cast<unsigned char>(word.back()) >= 0xC0) word.remove_suffix(1);
-  }
-  std::string result = "'";
-  for (const char letter : word) {
+std::string one_line(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
     const auto code = static_cast<unsigned char>(letter);
     if (code < 0x20 || code == 0x7f) {
-      char escape[8];
-      std::snprintf(escape, sizeof escape, "\\x%02x", static_cast<unsigned>(code));
-      result += escape;
+      result += fmt::format("\\x{:02x}", code);
     } else {
       result += letter;
     }
   }
-  return result + (cut ? "…'" : "'");
+  return result;
+}
+
+std::string shortened(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  text = text.substr(0, longest);
+  // Never in the middle of a UTF-8 character.
+  while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.remove_suffix(1);
+  if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0) text.remove_suffix(1);
+  return std::string(text) + "…";
+}
+
+std::string in_quotes(std::string_view word) {
+  constexpr std::size_t longest = 80;
+  return fmt::format("'{}'", one_line(shortened(word, longest)));
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 100;  // longer words are no slips of the pen
-  if (word.size() > longest) return {};
+  constexpr std::size_t most = 1000;    // among more it would take long
+  if (word.size() > longest || candidates.size() > most) return {};
   // A third of the letters may differ, but never all of them.
   std::size_t best = word.size() < 2 ? 1 : std::min(word.size(), std::max<std::size_t>(2, word.size() / 3 + 1));
   std::string result;

@@ -7,8 +7,13 @@
 
 namespace stillpoint {
 
-/// 'word' for a message: control characters are escaped, so that no scene can drive a terminal, and the end of a very
-/// long word is left out.
+/// A text with its control characters escaped: one line, with which no scene can drive a terminal.
+std::string one_line(std::string_view text);
+
+/// A text whose end is replaced by "…" if it is longer, in bytes.
+std::string shortened(std::string_view text, std::size_t longest);
+
+/// 'word' for a message, one line without the end of a very long word.
 std::string in_quotes(std::string_view word);
 
 /// The candidate with the smallest edit distance to word, for "did you mean"; empty if none is near.

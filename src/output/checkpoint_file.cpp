@@ -1,12 +1,20 @@
 #include "output/checkpoint_file.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <charconv>
 #include <cinttypes>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
+#include <limits>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,14 +30,14 @@ namespace {
 namespace fs = std::filesystem;
 using hdf5::Handle, hdf5::Quiet;
 
-constexpr std::size_t head_size = 512;  // the least that HDF5 allows
+constexpr std::size_t head_size = 512;  // no more than the least block that HDF5 leaves free
 constexpr const char* head_format =
-    "Stillpoint checkpoint, format 1\nCRC-32 %" PRIx64 " of the %" PRIu64 " bytes after these 512\n";
+    "Stillpoint checkpoint, format 2\nCRC-32 %" PRIx64 " of the %" PRIu64 " bytes after these 512\n";
 
 // --- the head --------------------------------------------------------------------------------------------------------
 
 constexpr const char* scan_format =
-    "Stillpoint checkpoint, format 1\nCRC-32 %" SCNx64 " of the %" SCNu64 " bytes after these 512\n";
+    "Stillpoint checkpoint, format 2\nCRC-32 %" SCNx64 " of the %" SCNu64 " bytes after these 512\n";
 
 struct Head {
   std::uint64_t crc = 0;
@@ -39,7 +47,7 @@ struct Head {
 // Of what follows the head.
 Head head_of(std::istream& file) {
   Head head;
-  std::vector<char> block(1 << 20);
+  std::vector<char> block(1 << 16);
   file.seekg(head_size);
   while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
     const auto count = static_cast<std::size_t>(file.gcount());
@@ -73,100 +81,158 @@ std::string fault_of(const fs::path& path) {
   return "";
 }
 
-// --- the datasets ----------------------------------------------------------------------------------------------------
+// --- the table -------------------------------------------------------------------------------------------------------
+
+// A line of it for each value: its kind, the byte of the file where it begins, how many numbers it has, its name.
+enum class Kind { real, whole, text };
+constexpr std::array<std::string_view, 3> kind_names = {"real", "whole", "text"};
+
+Kind kind_of(const SavedValue& value) {
+  return std::holds_alternative<std::string>(value)           ? Kind::text
+         : std::holds_alternative<std::vector<double>>(value) ? Kind::real
+                                                              : Kind::whole;
+}
+
+std::string line_of(Kind kind, std::uint64_t begin, std::uint64_t count, const std::string& name) {
+  return fmt::format("{} {} {} {}\n", kind_names[static_cast<std::size_t>(kind)], begin, count, name);
+}
+
+// The bytes before HDF5's own, of which there is a power of two: the head, the table, whatever it says, and an empty
+// line.
+std::uint64_t bytes_before(const SavedState& state) {
+  constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t bytes = head_size + 1;
+  for (const auto& [name, value] : state) bytes += line_of(Kind::whole, largest, largest, name).size();
+  return std::bit_ceil(bytes);
+}
+
+// --- writing, by HDF5 ------------------------------------------------------------------------------------------------
 
 class Writer {
  public:
-  explicit Writer(const fs::path& path) : output_(path, head_size), path_(path) {}
-
-  void write(const SavedState& state) {
+  Writer(const fs::path& path, const SavedState& state)
+      : path_(path), before_(bytes_before(state)), output_(path, before_) {
     const Quiet quiet;
     const Handle links(check(H5Pcreate(H5P_LINK_CREATE)), H5Pclose);
     check(H5Pset_create_intermediate_group(links, 1));
     for (const auto& [name, value] : state) {
-      std::visit([&, &path = name](const auto& of_kind) { write(links, path, of_kind); }, value);
+      if (name.find('\n') != std::string::npos) throw std::logic_error("the name of a value of a state has two lines");
+      table_ += std::visit(
+          [&, &path_of_value = name, kind = kind_of(value)](const auto& values) {
+            const std::uint64_t begin = write(links, path_of_value, kind, values.size(), values.data());
+            return line_of(kind, begin, values.size(), path_of_value);
+          },
+          value);
     }
   }
   void finish() {
     OutputFile& file = output_.close();
+    table_.resize(before_ - head_size, '\n');
+    file.write(table_, head_size);
     write_head(file);
     file.bring_to_disk();
     file.close();
   }
 
  private:
-  void write(hid_t links, const std::string& name, const std::vector<double>& values) {
-    write(links, name, H5T_NATIVE_DOUBLE, values.size(), values.data());
-  }
-  void write(hid_t links, const std::string& name, const std::vector<std::int64_t>& values) {
-    write(links, name, H5T_NATIVE_INT64, values.size(), values.data());
-  }
-  // As its bytes: a text may be empty, and may hold any.
-  void write(hid_t links, const std::string& name, const std::string& text) {
-    write(links, name, H5T_NATIVE_UCHAR, text.size(), text.data());
-  }
-  void write(hid_t links, const std::string& name, hid_t type, hsize_t size, const void* data) {
-    const Handle space(check(H5Screate_simple(1, &size, nullptr)), H5Sclose);
+  // Returns where the numbers begin in the file. A text is written as its bytes: it may be empty, and may hold any.
+  std::uint64_t write(hid_t links, const std::string& name, Kind kind, hsize_t count, const void* data) {
+    const hid_t type = kind == Kind::real    ? H5T_NATIVE_DOUBLE
+                       : kind == Kind::whole ? H5T_NATIVE_INT64
+                                             : H5T_NATIVE_UCHAR;
+    const Handle space(check(H5Screate_simple(1, &count, nullptr)), H5Sclose);
     Handle dataset(check(H5Dcreate2(output_.id(), name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT)),
                    H5Dclose);
-    if (size > 0) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+    std::uint64_t begin = 0;
+    if (count > 0) {
+      check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+      begin = H5Dget_offset(dataset);
+      if (begin == HADDR_UNDEF) fail();
+    }
     check(dataset.close());
+    return begin;
   }
 
   template <class Code>
   Code check(Code code) const {
     output_.throw_failure();
-    if (code >= 0) return code;
+    if (code < 0) fail();
+    return code;
+  }
+  [[noreturn]] void fail() const {
     throw fs::filesystem_error(fmt::format("cannot write: {}", hdf5::error_text()), path_,
                                std::make_error_code(std::errc::io_error));
   }
 
-  Hdf5Output output_;
   const fs::path& path_;
+  std::uint64_t before_;  // bytes before those of HDF5
+  Hdf5Output output_;
+  std::string table_;
 };
+
+// --- reading, without HDF5, which trusts what it reads ---------------------------------------------------------------
 
 class Reader {
  public:
-  explicit Reader(const fs::path& path) : path_(path) {}
+  explicit Reader(const fs::path& path) : path_(path), file_(path, std::ios::binary), left_(fs::file_size(path)) {}
 
   SavedState read() {
-    const Quiet quiet;
-    const Handle file(check(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)), H5Fclose);
-    std::vector<std::string> names;
-    const auto keep_dataset = [](hid_t, const char* name, const H5O_info_t* info, void* kept) -> herr_t {
-      if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(kept)->emplace_back(name);
-      return 0;
-    };
-    check(H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, keep_dataset, &names));
+    std::vector<std::string> lines;
+    file_.seekg(head_size);
+    for (std::string line; std::getline(file_, line) && !line.empty();) lines.push_back(std::move(line));
+    if (!file_) fail();
     SavedState state;
-    for (const std::string& name : names) state.emplace(name, value(file, name));
+    for (const std::string& line : lines)
+      if (!std::apply([&](auto&&... entry) { return state.emplace(std::move(entry)...).second; }, entry_of(line)))
+        fail();
     return state;
   }
 
  private:
-  SavedValue value(hid_t file, const std::string& name) {
-    const Handle dataset(check(H5Dopen2(file, name.c_str(), H5P_DEFAULT)), H5Dclose);
-    const Handle space(check(H5Dget_space(dataset)), H5Sclose), type(check(H5Dget_type(dataset)), H5Tclose);
-    const auto size = static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space)));
-    const bool is_real = H5Tget_class(type) == H5T_FLOAT, is_text = H5Tget_size(type) == 1;
-    if (is_real) return read<std::vector<double>>(dataset, H5T_NATIVE_DOUBLE, size);
-    if (is_text) return read<std::string>(dataset, H5T_NATIVE_UCHAR, size);
-    return read<std::vector<std::int64_t>>(dataset, H5T_NATIVE_INT64, size);
-  }
-  template <class Values>
-  Values read(hid_t dataset, hid_t type, std::size_t size) {
-    Values values(size, {});
-    if (size > 0) check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-    return values;
+  std::pair<std::string, SavedValue> entry_of(std::string_view line) {
+    const auto next_word = [&] {
+      const std::string_view word = line.substr(0, line.find(' '));
+      line.remove_prefix(std::min(word.size() + 1, line.size()));
+      return word;
+    };
+    const auto next_number = [&] {
+      const std::string_view word = next_word();
+      std::uint64_t number = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+      if (error != std::errc() || end != word.data() + word.size()) fail();
+      return number;
+    };
+    const auto kind = static_cast<std::size_t>(std::ranges::find(kind_names, next_word()) - kind_names.begin());
+    if (kind == kind_names.size()) fail();
+    const std::uint64_t begin = next_number(), count = next_number();
+    const std::string name(line);
+    if (static_cast<Kind>(kind) == Kind::real) return {name, values<std::vector<double>>(begin, count)};
+    if (static_cast<Kind>(kind) == Kind::whole) return {name, values<std::vector<std::int64_t>>(begin, count)};
+    return {name, values<std::string>(begin, count)};
   }
 
-  template <class Code>
-  Code check(Code code) const {
-    if (code < 0) throw StateError(fmt::format("{}: cannot be read: {}", path_.string(), hdf5::error_text()));
-    return code;
+  // No byte belongs to two values, so that all of them are no larger than the file, whatever the table says.
+  template <class Values>
+  Values values(std::uint64_t begin, std::uint64_t count) {
+    constexpr std::size_t size = sizeof(typename Values::value_type);
+    if (count > left_ / size) fail();
+    left_ -= count * size;
+    Values read(count, {});
+    if (count > 0) {
+      file_.seekg(static_cast<std::streamoff>(begin));
+      file_.read(reinterpret_cast<char*>(read.data()), static_cast<std::streamsize>(count * size));
+    }
+    if (!file_) fail();
+    return read;
+  }
+
+  [[noreturn]] void fail() const {
+    throw StateError(fmt::format("{}: cannot be read: its table is not that of its values", path_.string()));
   }
 
   const fs::path& path_;
+  std::ifstream file_;
+  std::uint64_t left_;  // bytes of the file that are not yet those of a value
 };
 
 // There is a checkpoint at any moment: the one before gets its second name while it has the first.
@@ -188,8 +254,7 @@ fs::path previous_checkpoint(const fs::path& file) {
 void write_checkpoint(const fs::path& file, const SavedState& state) {
   const fs::path partial = partial_name(file);
   try {
-    Writer writer(partial);
-    writer.write(state);
+    Writer writer(partial, state);
     writer.finish();
     keep_previous(file);
     fs::rename(partial, file);

@@ -1,8 +1,9 @@
 // checkpoint.h5: the state of a run on disk, whole or not there.
 //
-// A block of 512 bytes of text comes first, HDF5's user block, with the length and the CRC-32 of all that follows: a
-// file that was cut short or altered is told before HDF5 reads it. Then a dataset for each value of the state, at its
-// path; h5dump and h5py read them.
+// A block of 512 bytes of text comes first, with the length and the CRC-32 of all that follows: a file that was cut
+// short or altered is told. Then the table of the values, and behind these two, which are HDF5's user block, a dataset
+// for each value of the state, at its path; h5dump and h5py read them. This program reads by the table and leaves HDF5
+// out of it, which a file that was made to harm could crash.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>

@@ -1,33 +1,20 @@
 #include "output/history.hpp"
 
-#include <algorithm>
-#include <limits>
+#include <iterator>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "output/nearest_position.hpp"
 #include "output/point_fields.hpp"
 #include "output/snapshots.hpp"
 
 namespace stillpoint {
-namespace {
-
-std::size_t nearest_point(const std::vector<double>& positions, std::size_t dim, const std::vector<double>& at) {
-  std::size_t best = 0;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < positions.size() / dim; ++p) {
-    double square = 0;
-    for (std::size_t d = 0; d < dim; ++d) square += (positions[dim * p + d] - at[d]) * (positions[dim * p + d] - at[d]);
-    if (square < smallest) smallest = square, best = p;
-  }
-  return best;
-}
-
-}  // namespace
-
 Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase), specs_(scene.probes) {
   const std::vector<double> positions = phase.positions();
   const auto dim = static_cast<std::size_t>(phase.dim());
+  const NearestPosition nearest(positions, dim);
   for (const ProbeSpec& probe : specs_) {
     if (probe.kind == ProbeKind::slope_angle) {
       position_.emplace_back();
@@ -35,8 +22,7 @@ Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene)
       sources_.push_back({"slope_angle", 0, 0, 0});
       continue;
     }
-    const std::size_t point =
-        probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest_point(positions, dim, probe.at);
+    const std::size_t point = probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest.to(probe.at);
     position_.emplace_back(positions.begin() + static_cast<std::ptrdiff_t>(dim * point),
                            positions.begin() + static_cast<std::ptrdiff_t>(dim * (point + 1)));
     for (const std::string& field : probe.fields) {
@@ -53,10 +39,12 @@ Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene)
 
 std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
   std::map<std::string, std::vector<double>> fields;  // each asked for once
+  std::optional<double> slope_angle;
   std::vector<double> values;
   for (const Source& source : sources_) {
     if (source.components == 0) {
-      values.push_back(slope_angle_of(scene_, phase_, t, u));
+      if (!slope_angle) slope_angle = slope_angle_of(scene_, phase_, t, u);
+      values.push_back(*slope_angle);
       continue;
     }
     auto [field, missing] = fields.try_emplace(source.field);
@@ -85,7 +73,7 @@ void History::add(const HistoryRow& row, const std::vector<double>& probes) {
   // 17 significant digits bring every double back
   std::string line = fmt::format("{:.17g},{},{},{:.17g},{:.17g}", row.t, row.steps, row.rhs_evaluations, row.residual,
                                  row.kinetic_energy);
-  for (const double value : probes) line += fmt::format(",{:.17g}", value);
+  for (const double value : probes) fmt::format_to(std::back_inserter(line), ",{:.17g}", value);
   file_->write(line + "\n");
 }
 

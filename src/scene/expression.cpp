@@ -19,6 +19,16 @@ namespace stillpoint {
 namespace {
 
 constexpr std::string_view kVariables = "xyzt";
+/// muParser's time grows with the square of the length; a formula this long takes it about 5 ms.
+constexpr std::size_t kLongest = 4000;
+/// Of muParser's operators; by its default letters are as well, and it reads on to the end of x+x+x… at each of them.
+constexpr const char* kOperatorCharacters = "+-*/^?<>=#!$%&|~";
+
+/// Known in every formula, if the scene has no others of these names.
+const Constants& default_constants() {
+  static const Constants constants = {{"pi", std::numbers::pi}, {"e", std::numbers::e}};
+  return constants;
+}
 
 /// The value of a text that is nothing but a decimal number; muParser is not needed for it.
 std::optional<double> plain_number(std::string_view text) {
@@ -35,6 +45,8 @@ std::optional<double> plain_number(std::string_view text) {
 /// Refuses what muParser would accept although no formula here means it: strings, assignments to x, several results.
 void check_characters(const std::string& text) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw ExpressionError("the formula is empty", 0);
+  if (text.size() > kLongest)
+    throw ExpressionError(fmt::format("a formula has {} characters at most, not {}", kLongest, text.size()), -1);
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char letter = text[k];
     const bool printable = letter >= 0x20 && letter < 0x7f;
@@ -54,8 +66,8 @@ void check_characters(const std::string& text) {
 }
 
 /// muParser's error in this program's words, with the position of the offending token.
-ExpressionError in_our_words(const mu::ParserError& error, const std::string& text,
-                             const std::vector<std::string>& names, const std::string& variables) {
+ExpressionError in_our_words(const mu::ParserError& error, const std::string& text, const Constants& constants,
+                             const std::string& variables) {
   std::string token = error.GetToken();
   while (!token.empty() && token.back() == ' ') token.pop_back();
   // After an unexpected end muParser counts a space that it appended.
@@ -70,8 +82,12 @@ ExpressionError in_our_words(const mu::ParserError& error, const std::string& te
                             variables.empty() ? "number, the same everywhere and at all times"
                                               : fmt::format("formula of {}", fmt::join(variables, ", "))),
                 position};
-      const std::string meant = nearest(token, names);
+      std::vector<std::string> names = expression_functions();
       const bool is_function = std::find(names.begin(), names.end(), token) != names.end();
+      for (const Constants* const known : {&constants, &default_constants()})
+        for (const auto& constant : *known) names.push_back(constant.first);
+      for (const char name : variables) names.emplace_back(1, name);
+      const std::string meant = nearest(token, names);
       if (is_function) return {fmt::format("the function {} needs its arguments in ( )", in_quotes(token)), position};
       return {
           fmt::format("unknown name {}{}", in_quotes(token), meant.empty() ? "" : "; did you mean '" + meant + "'?"),
@@ -115,38 +131,69 @@ const std::vector<std::string>& expression_functions() {
   return names;
 }
 
+std::vector<std::string> names_in(std::string_view formula) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < formula.size();) {
+    const std::size_t begin = k;
+    if (is_letter(formula[k])) {
+      while (k < formula.size() && (is_letter(formula[k]) || is_digit(formula[k]))) ++k;
+      names.emplace_back(formula.substr(begin, k - begin));
+    } else if (is_digit(formula[k])) {
+      while (k < formula.size() && (is_digit(formula[k]) || formula[k] == '.')) ++k;
+      // The e of 1e-3 is no name, but that of 2e is.
+      if (k < formula.size() && (formula[k] == 'e' || formula[k] == 'E')) {
+        std::size_t digits = k + 1;
+        if (digits < formula.size() && (formula[digits] == '+' || formula[digits] == '-')) ++digits;
+        if (digits < formula.size() && is_digit(formula[digits])) k = digits;
+        while (k < formula.size() && is_digit(formula[k])) ++k;
+      }
+    } else {
+      ++k;
+    }
+  }
+  return names;
+}
+
 /// A compiled formula. It keeps what it was made of, since a copy needs a parser bound to its own variables.
 struct Expression::Impl {
   std::string text, variables;
-  Constants constants;
+  Constants constants;             // those that the formula names
   std::array<double, 4> values{};  // of x, y, z, t; the parser reads them in place
   std::string used;                // those of x, y, z, t that the formula depends on
   mu::Parser parser;
 
-  Impl(std::string text_, const Constants& constants_, std::string variables_)
-      : text(std::move(text_)), variables(std::move(variables_)), constants(constants_) {
+  Impl(std::string text_, const Constants& all, std::string variables_)
+      : text(std::move(text_)), variables(std::move(variables_)) {
     check_characters(text);
-    constants.try_emplace("pi", std::numbers::pi);
-    constants.try_emplace("e", std::numbers::e);
+    for (const char name : variables)
+      if (all.contains(std::string(1, name)))
+        throw ExpressionError(fmt::format("the constant '{}' has the name of a variable", name), -1);
     parser.ClearConst();  // muParser's own are called _pi and _e
-    std::vector<std::string> names = expression_functions();
+    parser.DefineOprtChars(kOperatorCharacters);
     try {
-      for (const auto& [name, value] : constants) {
-        if (name.size() == 1 && variables.find(name) != std::string::npos)
-          throw ExpressionError(fmt::format("the constant '{}' has the name of a variable", name), -1);
-        parser.DefineConst(name, value);
-        names.push_back(name);
-      }
-      for (const char name : variables) {
-        parser.DefineVar(std::string(1, name), &values.at(kVariables.find(name)));
-        names.emplace_back(1, name);
-      }
+      for (const std::string& name : names_in(text)) define(name, all);
       parser.SetExpr(text);
       parser.Eval();
       if (parser.GetNumResults() != 1) throw ExpressionError("a formula has one value; ',' makes more of them", -1);
-      for (const auto& variable : parser.GetUsedVar()) used += variable.first;
     } catch (const mu::ParserError& error) {
-      throw in_our_words(error, text, names, variables);
+      throw in_our_words(error, text, all, variables);
+    }
+  }
+
+  void define(const std::string& name, const Constants& all) {
+    if (name.size() == 1 && variables.find(name) != std::string::npos) {
+      if (used.find(name) != std::string::npos) return;
+      parser.DefineVar(name, &values.at(kVariables.find(name)));
+      used += name;
+      return;
+    }
+    for (const Constants* const known : {&all, &default_constants()}) {
+      const auto found = known->find(name);
+      if (found == known->end()) continue;
+      if (constants.insert(*found).second) parser.DefineConst(name, found->second);
+      return;
     }
   }
 

@@ -46,7 +46,8 @@ Location Scene::location(const std::string& key) const {
     const auto end = around.find_last_of(".[");
     around.resize(end == std::string::npos ? 0 : end);
   }
-  return {file.string(), 0, 0};
+  if (where.empty()) return {file.string(), 0, 0};  // a program's own scene
+  return {file.string(), 1, 1};
 }
 
 bool loads_vary(const Scene& scene) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,12 +19,15 @@ using Notes = std::vector<std::string>;
 
 // Whether a load is zero wherever there are points, until stop.time; empty: not known, as that would take too long to
 // see or the load has no end.
-std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const std::vector<double>& positions) {
+// `of` many loads this is one.
+std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const std::vector<double>& positions,
+                            std::size_t of) {
   const auto dim = static_cast<std::size_t>(scene.dim);
   const bool varies = formula.uses('t');
   if (varies && !(scene.stop.time > 0)) return std::nullopt;
   const std::size_t places = uses_position(formula) ? positions.size() / dim : 1;
-  constexpr std::size_t most = 2'000'000, most_moments = 20'000, fewest_moments = 200;
+  const std::size_t most = 2'000'000 / std::max<std::size_t>(1, of / 100);
+  constexpr std::size_t most_moments = 20'000, fewest_moments = 200;
   const std::size_t moments = varies ? std::min(most_moments, most / places) : 1;
   const bool thoroughly = !varies || moments >= fewest_moments;
   for (std::size_t p = 0; p < places; ++p) {
@@ -35,17 +40,21 @@ std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const
   return thoroughly ? std::optional(true) : std::nullopt;
 }
 
-// The loads of a scene by their keys, each with the formulas of its components.
-std::vector<std::pair<std::string, std::vector<Expression>>> loads_of(const Scene& scene) {
-  std::vector<std::pair<std::string, std::vector<Expression>>> loads;
+struct Load {
+  std::string key;
+  std::span<const Expression> components;
+};
+
+std::vector<Load> loads_of(const Scene& scene) {
+  std::vector<Load> loads;
   for (std::size_t k = 0; k < scene.forces.size(); ++k)
-    loads.emplace_back(fmt::format("force[{}]", k), scene.forces[k].value);
+    loads.push_back({fmt::format("force[{}]", k), scene.forces[k].value});
   for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
     const TractionSpec& traction = scene.tractions[k];
-    loads.emplace_back(fmt::format("traction[{}]", k),
-                       traction.pressure ? std::vector{*traction.pressure} : traction.value);
+    loads.push_back({fmt::format("traction[{}]", k),
+                     traction.pressure ? std::span(&*traction.pressure, 1) : std::span(traction.value)});
   }
-  if (!scene.body_force.empty()) loads.emplace_back("body_force", scene.body_force);
+  if (!scene.body_force.empty()) loads.push_back({"body_force", scene.body_force});
   return loads;
 }
 
@@ -58,16 +67,22 @@ bool is_still(const Scene& scene) {
 
 void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
   const std::vector<double> positions = phase.positions();
+  const std::vector<Load> loads = loads_of(scene);
+  constexpr std::size_t most_told = 20;
+  std::size_t zeros = 0;
   bool some_act = false;
-  for (const auto& [key, components] : loads_of(scene)) {
-    bool zero = true;
-    for (const Expression& component : components) zero = zero && is_zero(scene, component, positions).value_or(false);
-    if (zero)
+  for (const auto& [key, components] : loads) {
+    const bool zero = std::ranges::all_of(components, [&](const Expression& component) {
+      return is_zero(scene, component, positions, loads.size()).value_or(false);
+    });
+    zeros += zero;
+    if (zero && zeros <= most_told)
       notes.push_back(fmt::format("{} is zero{}{}: it loads nothing", key,
                                   key == "body_force" ? " at every material point" : "",
                                   scene.stop.time > 0 ? ", all the time" : ""));
     some_act = some_act || !zero;
   }
+  if (zeros > most_told) notes.push_back(fmt::format("so are {} loads more", zeros - most_told));
   if (!some_act && is_still(scene)) notes.emplace_back("no load acts and nothing moves: the body stays as it is");
   if (!some_act || loads_vary(scene)) return;
   std::vector<double> F(phase.size());

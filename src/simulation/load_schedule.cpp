@@ -51,7 +51,11 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end) {
   is_open_ = !(end > 0) && loads_vary(scene);
   if (!(end > 0)) return;
-  constexpr int moments = 20'000, moments_at_a_point = 2'000;
+  // All that vary are looked at closely, unless there are more than a thousand.
+  long varying = 0;
+  scene.for_each_formula([&](const std::string&, const Expression& formula) { varying += formula.uses('t'); });
+  const int share = static_cast<int>(std::max(1L, varying / 1000));
+  const int moments = std::max(20'000 / share, 100), moments_at_a_point = std::max(2'000 / share, 100);
   const auto dim = static_cast<std::size_t>(scene.dim);
   scene.for_each_formula([&](const std::string& key, const Expression& formula) {
     if (!formula.uses('t')) return;

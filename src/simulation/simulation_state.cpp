@@ -10,6 +10,7 @@
 #include "base/checksum.hpp"
 #include "output/checkpoint_file.hpp"
 #include "simulation/simulation_impl.hpp"
+#include "space/points/saved_points.hpp"
 
 namespace stillpoint {
 namespace {
@@ -27,6 +28,8 @@ struct Origin {
     state("scene", text);
     std::size_t count = overrides.size();
     state("overrides", count);
+    constexpr std::size_t most = 100'000;  // more than a command line has
+    if (count > most) throw StateError(fmt::format("it has {} settings: it was altered", count));
     overrides.resize(count);
     for (std::size_t k = 0; k < count; ++k) state(fmt::format("override_{}", k), overrides[k]);
   }
@@ -91,6 +94,10 @@ void Simulation::Impl::save(const fs::path& to) {
 void Simulation::Impl::resume(const fs::path& from) {
   restoring(from, [this](const SavedState& saved) {
     require_same(origin_of(saved), origin_of(scene_));
+    std::int64_t cells = 1;
+    for (const int along : scene_.grid.cells) cells *= along;
+    const auto points = static_cast<std::int64_t>(model_.phase->points());
+    if (const std::string fault = fault_of_saved_points(saved, points, cells); !fault.empty()) throw StateError(fault);
     archive(StateArchive::restoring(saved));
   });
   last_checkpoint_ = steps();

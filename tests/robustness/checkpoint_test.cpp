@@ -2,12 +2,15 @@
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/relaxation.hpp>
 
+#include <cmath>
 #include <csignal>
+#include <random>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/checksum.hpp"
 #include "child.hpp"
 #include "files.hpp"
 #include "output/checkpoint_file.hpp"
@@ -252,6 +255,75 @@ TEST_CASE("a checkpoint that lacks a value, or has one of another kind or size, 
     write_checkpoint(file, spoilt);
     CHECK_THROWS_WITH(Simulation(scene, {.resume = file}), Catch::Contains("'" + name + "' is of another kind"));
   }
+}
+
+TEST_CASE("a checkpoint whose table is not that of its values is refused, whatever it asks for") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "checkpoint.h5";
+  const auto read = [&](const std::string& rest) {  // under a head that goes with it
+    std::string head = fmt::format("Stillpoint checkpoint, format 2\nCRC-32 {:x} of the {} bytes after these 512\n",
+                                   checksum(0, rest.data(), rest.size()), rest.size());
+    head.resize(512, '\n');
+    folder.write("checkpoint.h5", head + rest);
+    return read_checkpoint(file);
+  };
+  const SavedState whole = read("text 539 2 a b\ntext 0 0 c\n\nhi!");
+  REQUIRE(whole.size() == 2);
+  CHECK(std::get<std::string>(whole.at("a b")) == "hi");
+  CHECK(std::get<std::string>(whole.at("c")).empty());
+  for (const char* table :
+       {"text 520 9 a\n\n", "real 512 1000000000000 a\n\n", "real 512 2305843009213693953 a\n\n",
+        "whole 512 18446744073709551617 a\n\n", "text 18446744073709551615 1 a\n\n", "text -1 1 a\n\n", "text 512 1",
+        "text 512 1 a\ntext 512 1 a\n\n", "word 512 1 a\n\n", "real 512\n\n", "text 512 300 a\ntext 512 300 b\n\n"}) {
+    CAPTURE(table);
+    CHECK_THROWS_WITH(read(table), Catch::Contains("checkpoint.h5: cannot be read: its table is not that of"));
+  }
+}
+
+TEST_CASE("a state with spoilt values is refused, or gone on from as far as that goes, and crashes nothing") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "checkpoint.h5";
+  // Points that change cells beside a wall that they rub against.
+  const Scene scene = scenes::load("slope", {"grid.cells=[8, 4]", "stop.steps=60", "phase.max_motion=0.001"});
+  Simulation first(scene);
+  while (first.steps() < 40) first.step();
+  first.save(file);
+  const SavedState whole = read_checkpoint(file);
+  std::mt19937 random(1);
+  const std::vector<double> hard = {0, -1, 1, 2, 1e300, -1e300, 1e9, -1e9, std::nan(""), HUGE_VAL, 255, 2147483648.0};
+  int refused = 0;
+  for (int k = 0; k < 400; ++k) {
+    SavedState spoilt = whole;
+    const auto entry = std::next(spoilt.begin(), static_cast<std::ptrdiff_t>(random() % spoilt.size()));
+    const double value = hard[random() % hard.size()];
+    const std::uint32_t way = random() % 4;
+    std::visit(
+        [&]<class Values>(Values& values) {
+          using Number = typename Values::value_type;
+          constexpr bool real = std::is_same_v<Number, double>;
+          const auto number = [&]() -> Number {
+            if constexpr (real) return value;
+            return static_cast<Number>(std::abs(value) < 1e18 ? static_cast<std::int64_t>(value) : -7);
+          }();
+          if (way == 0) values.resize(values.size() + random() % 3);
+          if (way == 1) values.resize(values.size() / 2);
+          if (way == 2 && !values.empty()) values[random() % values.size()] = number;
+          if (way == 3) std::ranges::fill(values, number);
+        },
+        entry->second);
+    CAPTURE(k, entry->first, value, way);
+    write_checkpoint(file, spoilt);
+    try {
+      Simulation second(scene, {.resume = file});
+      for (int step = 0; step < 10; ++step) second.step();
+      CHECK(second.steps() >= 0);
+    } catch (const StateError&) {
+      ++refused;
+    } catch (const std::exception& error) {  // which the command reports
+      CHECK(!std::string(error.what()).empty());
+    }
+  }
+  CHECK(refused > 50);
 }
 
 TEST_CASE("a history that was altered since the checkpoint is not appended to") {

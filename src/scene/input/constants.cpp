@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,7 +15,13 @@
 namespace stillpoint {
 namespace {
 
-using Pending = std::map<std::string, const toml::node*>;
+/// A constant that is not yet computed.
+struct Pending {
+  const toml::node* node;
+  std::set<std::string> needs{};  // those of the pending ones that its formula names
+  std::vector<std::string> needed_by{};
+};
+using AllPending = std::map<std::string, Pending>;
 
 /// Why a constant cannot have this name; empty if it can.
 std::string fault_of_name(const std::string& name) {
@@ -24,29 +33,40 @@ std::string fault_of_name(const std::string& name) {
   return {};
 }
 
-/// A constant, not yet computed, that this one needs; empty if there is none.
-std::string unmet_need(const toml::node& node, const Pending& pending) {
-  if (const auto* text = node.as_string())
-    for (const std::string& name : names_in(text->get()))
-      if (pending.contains(name)) return name;
-  return {};
+void find_needs(AllPending& pending) {
+  for (auto& [name, constant] : pending) {
+    const auto* const text = constant.node->as_string();
+    if (!text) continue;
+    for (const std::string& other : names_in(text->get())) {
+      const auto found = pending.find(other);
+      if (found != pending.end() && constant.needs.insert(other).second) found->second.needed_by.push_back(name);
+    }
+  }
 }
 
 /// Every pending constant needs another pending one, so following the needs from any of them ends in a circle.
-std::vector<std::string> find_circle(const Pending& pending) {
+std::vector<std::string> find_circle(const AllPending& pending) {
   std::vector<std::string> chain = {pending.begin()->first};
+  std::map<std::string, std::ptrdiff_t> seen = {{chain.front(), 0}};
   while (true) {
-    const std::string next = unmet_need(*pending.at(chain.back()), pending);
-    const auto seen = std::find(chain.begin(), chain.end(), next) - chain.begin();
+    const std::string& next = *pending.at(chain.back()).needs.begin();
+    const auto [before, is_new] = seen.try_emplace(next, std::ssize(chain));
     chain.push_back(next);
-    if (seen + 1 < std::ssize(chain)) return {chain.begin() + seen, chain.end()};
+    if (!is_new) return {chain.begin() + before->second, chain.end()};
   }
+}
+
+/// "a → b → a"
+std::string told(const std::vector<std::string>& circle) {
+  constexpr std::ptrdiff_t most = 20;
+  if (std::ssize(circle) <= most) return fmt::format("{}", fmt::join(circle, " → "));
+  return fmt::format("{} → … ({} in all)", fmt::join(circle.begin(), circle.begin() + most, " → "), circle.size() - 1);
 }
 
 }  // namespace
 
 void resolve_constants(const toml::table& table, Reading& reading) {
-  Pending pending;
+  AllPending pending;
   for (auto&& [key, node] : table) {
     const std::string name(key.str());
     if (const std::string fault = fault_of_name(name); !fault.empty()) {
@@ -54,33 +74,42 @@ void resolve_constants(const toml::table& table, Reading& reading) {
                       fmt::format("{} cannot be a constant's name: {}", in_quotes(name), fault));
       reading.broken.insert(name);
     } else {
-      pending[name] = &node;
+      pending[name].node = &node;
     }
   }
+  find_needs(pending);
+  std::vector<std::string> ready;
+  const auto settle = [&](const std::string& name) {
+    const auto settled = pending.extract(name);
+    for (const std::string& other : settled.mapped().needed_by) {
+      const auto found = pending.find(other);
+      if (found == pending.end()) continue;  // of the same circle
+      found->second.needs.erase(name);
+      if (found->second.needs.empty()) ready.push_back(other);
+    }
+  };
+  for (const auto& [name, constant] : pending)
+    if (constant.needs.empty()) ready.push_back(name);
   while (!pending.empty()) {
-    bool progress = false;
-    for (auto entry = pending.begin(); entry != pending.end();) {
-      const auto& [name, node] = *entry;
-      if (!unmet_need(*node, pending).empty()) {
-        ++entry;
-        continue;
-      }
-      if (const auto value = read_number({*node, "constants." + name, reading})) {
+    while (!ready.empty()) {
+      const std::string name = std::move(ready.back());
+      ready.pop_back();
+      if (const auto value = read_number({*pending.at(name).node, "constants." + name, reading})) {
         reading.constants[name] = *value;
       } else {
         reading.broken.insert(name);
       }
-      entry = pending.erase(entry);
-      progress = true;
+      settle(name);
     }
-    if (progress) continue;
-    const std::vector<std::string> circle = find_circle(pending);
-    reading.problem(location_of(pending.at(circle.front())->source()), "constants." + circle.front(),
-                    fmt::format("is defined by itself: {}", fmt::join(circle, " → ")));
-    for (const std::string& name : circle) {
-      reading.broken.insert(name);
-      pending.erase(name);
-    }
+    if (pending.empty()) return;
+    std::vector<std::string> circle = find_circle(pending);
+    reading.problem(location_of(pending.at(circle.front()).node->source()), "constants." + circle.front(),
+                    fmt::format("is defined by itself: {}", told(circle)));
+    circle.pop_back();
+    reading.broken.insert(circle.begin(), circle.end());
+    for (const std::string& name : circle) settle(name);
+    // Settling one may have made another of them ready, which is settled by now.
+    std::erase_if(ready, [&](const std::string& name) { return !pending.contains(name); });
   }
 }
 

@@ -80,7 +80,10 @@ class SceneText {
     drop_keys_of_other_choices(*root, catalogue_);
     scene.where = locations_of(*root);
     Reading reading;
-    if (read_tables(tables_, *root, scene, reading)) validate(scene, reading, catalogue_);
+    try {
+      if (read_tables(tables_, *root, scene, reading)) validate(scene, reading, catalogue_);
+    } catch (const EnoughProblems&) {
+    }
     problems.insert(problems.end(), reading.problems.begin(), reading.problems.end());
     return scene;
   }
@@ -88,9 +91,13 @@ class SceneText {
   /// Reads the file once for each variant, and reports at the variant what the file itself does not suffer from.
   /// Overrides stay out of it: a variant that does not go with them is no fault of the scene that was asked for.
   void check_variants(const Scene& scene, std::vector<Problem>& problems) const {
-    constexpr std::size_t most = 1000;
+    constexpr std::size_t most = 1000, most_bytes = std::size_t{32} << 20;
     if (scene.variants.size() > most)
       return problems.push_back({scene.location("variant"), fmt::format("more than {} variants", most)});
+    if (scene.variants.size() * text_.size() > most_bytes)
+      return problems.push_back(
+          {scene.location("variant"), fmt::format("{} variants of a scene of {} bytes are more than this program reads",
+                                                  scene.variants.size(), text_.size())});
     std::vector<Problem> own;
     if (!scene.variants.empty()) read({}, own);
     for (std::size_t k = 0; k < scene.variants.size(); ++k) {
@@ -137,6 +144,8 @@ Scene read_scene(const std::filesystem::path& file, std::string text, const std:
     return std::tuple(where.line > 0 && where.file != file.string(), where.line, where.column);
   };
   std::ranges::stable_sort(problems, {}, position);
+  for (Problem& problem : problems)
+    problem.message = one_line(problem.message);  // keys and TOML's own words may be more
   throw SceneError(std::move(problems));
 }
 

@@ -24,10 +24,12 @@ class SceneCheck {
 
   const Catalogue& catalogue() const { return catalogue_; }
   Scene& scene() { return scene_; }
-  std::vector<Problem>& problems() { return reading_.problems; }
+  const std::vector<Problem>& problems() const { return reading_.problems; }
 
   /// Reports a key, or a table, as wrong.
   void add(const std::string& key, const std::string& message) { reading_.problem(scene_.location(key), key, message); }
+  /// Reports what is wrong in another file.
+  void add(Problem problem) { reading_.add(std::move(problem)); }
   bool written(const std::string& key) const { return scene_.where.contains(key); }
   /// Not written, or written and in order.
   bool sound(const std::string& key) const {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,6 +27,14 @@ std::optional<std::size_t> too_deep_a_key(std::string_view text) {
     if (text[k] == '.' && (k == 0 || text[k - 1] != '.') && ++dots > most) return k;
   }
   return std::nullopt;
+}
+
+/// Whether a text may hold more values than fit into a GB or two once they are parsed: each has one of these characters
+/// before it.
+bool holds_too_many_values(std::string_view text) {
+  constexpr std::ptrdiff_t most = 4'000'000;
+  return std::ranges::count_if(text, [](char c) { return c == '[' || c == '{' || c == '.' || c == '=' || c == ','; }) >
+         most;
 }
 
 /// A TOML string that holds text.
@@ -112,12 +122,23 @@ Target follow_indices(toml::table& root, std::string_view key) {
   return target;
 }
 
-void collect(const toml::node& node, const std::string& path, std::map<std::string, Location>& found) {
-  found[path] = location_of(node.source());
+/// path is that of the node, and again what it was when this is done.
+void collect(const toml::node& node, std::string& path, std::vector<std::pair<std::string, Location>>& found) {
+  found.emplace_back(path, location_of(node.source()));
+  const std::size_t length = path.size();
   if (const auto* table = node.as_table()) {
-    for (auto&& [key, value] : *table) collect(value, path + "." + std::string(key.str()), found);
+    for (auto&& [key, value] : *table) {
+      path += '.';
+      path += key.str();
+      collect(value, path, found);
+      path.resize(length);
+    }
   } else if (const auto* array = node.as_array()) {
-    for (std::size_t k = 0; k < array->size(); ++k) collect(*array->get(k), fmt::format("{}[{}]", path, k), found);
+    for (std::size_t k = 0; k < array->size(); ++k) {
+      fmt::format_to(std::back_inserter(path), "[{}]", k);
+      collect(*array->get(k), path, found);
+      path.resize(length);
+    }
   }
 }
 
@@ -152,6 +173,10 @@ std::optional<std::string> read_file(const std::filesystem::path& file, std::vec
 }
 
 std::optional<toml::table> parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems) {
+  if (holds_too_many_values(text)) {
+    problems.push_back({{name, 1, 1}, "holds more than 4 million values: not a scene"});
+    return std::nullopt;
+  }
   if (const auto dot = too_deep_a_key(text)) {
     const auto line_start = text.substr(0, *dot).rfind('\n') + 1;  // npos + 1 = 0: the first line
     const int line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(*dot), '\n'));
@@ -195,9 +220,14 @@ void apply_override(toml::table& table, const std::string& text, std::vector<Pro
 }
 
 std::map<std::string, Location> locations_of(const toml::table& table) {
-  std::map<std::string, Location> found;
-  for (auto&& [key, value] : table) collect(value, std::string(key.str()), found);
-  return found;
+  std::vector<std::pair<std::string, Location>> found;
+  for (auto&& [key, value] : table) {
+    std::string path(key.str());
+    collect(value, path, found);
+  }
+  // A map of what is sorted is made in a time that is proportional to its size.
+  std::ranges::sort(found, {}, &std::pair<std::string, Location>::first);
+  return {std::make_move_iterator(found.begin()), std::make_move_iterator(found.end())};
 }
 
 }  // namespace stillpoint

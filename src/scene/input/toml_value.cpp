@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/expression_functions.hpp"
 #include "scene/input/toml_source.hpp"
 
 namespace stillpoint {
@@ -49,8 +50,18 @@ std::optional<Expression> compile(const toml::value<std::string>& text, const Va
 }  // namespace
 
 void Reading::problem(const Location& where, const std::string& path, const std::string& message) {
-  problems.push_back({where, path.empty() ? message : path + ": " + message});
   wrong.insert(path);
+  constexpr std::size_t longest = 200;  // of a path with the names of users in it
+  add({where, path.empty() ? message : shortened(path, longest) + ": " + message});
+}
+
+void Reading::add(Problem problem) {
+  constexpr std::size_t most = 200;
+  if (problems.size() == most) {
+    problems.push_back({problem.where, "from here on, more is wrong than is listed"});
+    throw EnoughProblems();
+  }
+  problems.push_back(std::move(problem));
 }
 
 void Value::problem(const std::string& message) const { reading.problem(location_of(node.source()), path, message); }
@@ -84,25 +95,6 @@ std::string kind_of(const toml::node& node) {
     default:
       return "a date or time";
   }
-}
-
-std::vector<std::string> names_in(std::string_view formula) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < formula.size();) {
-    const std::size_t begin = k;
-    if (is_letter(formula[k])) {
-      while (k < formula.size() && (is_letter(formula[k]) || is_digit(formula[k]))) ++k;
-      names.emplace_back(formula.substr(begin, k - begin));
-    } else if (is_digit(formula[k])) {
-      // The e of 1e-3 is no name.
-      while (k < formula.size() && (is_letter(formula[k]) || is_digit(formula[k]) || formula[k] == '.')) ++k;
-    } else {
-      ++k;
-    }
-  }
-  return names;
 }
 
 std::optional<double> read_number(const Value& value, const Range& range) {

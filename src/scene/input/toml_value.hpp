@@ -26,7 +26,12 @@ struct Reading {
 
   /// Records that the value of the dotted key path is wrong.
   void problem(const Location& where, const std::string& path, const std::string& message);
+  /// Records what is wrong. Throws EnoughProblems after the last that is listed.
+  void add(Problem problem);
 };
+
+/// More is wrong with a scene than anybody reads, or than it is worth to look for.
+struct EnoughProblems {};
 
 /// A TOML node, and the dotted key under which it stands ("support[0].at").
 struct Value {
@@ -55,9 +60,6 @@ inline constexpr Range from(double lower, double upper) { return {lower, upper, 
 
 /// "a number", "a string", "an array" …
 std::string kind_of(const toml::node& node);
-
-/// The names in a formula: constants, variables, functions.
-std::vector<std::string> names_in(std::string_view formula);
 
 /// A finite number in range: an integer, a float, or a string with a formula of the constants.
 std::optional<double> read_number(const Value& value, const Range& range = kAnyNumber);

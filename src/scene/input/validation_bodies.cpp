@@ -93,7 +93,7 @@ bool check_file(SceneCheck& check, std::size_t k, bool grid) {
     if (problem.where.line == 0) {  // the file as a whole: said where it is named
       check.add(check.body_key(k, "file"), fmt::format("{} {}", in_quotes(body.file.string()), problem.message));
     } else {
-      check.problems().push_back(std::move(problem));
+      check.add(std::move(problem));
     }
   }
   if (!problems.empty() || !grid) return false;
@@ -138,12 +138,10 @@ void check_material(SceneCheck& check, std::size_t k) {
   if (found == scene.materials.end()) {
     std::vector<std::string> names;
     for (const auto& material : scene.materials) names.push_back(material.first);
-    const std::string meant = nearest(name, names);
     check.add(check.body_key(k, "material"),
-              fmt::format("there is no material {}{}", in_quotes(name),
-                          !meant.empty()  ? "; did you mean '" + meant + "'?"
-                          : names.empty() ? "; describe it in a table [material.<name>]"
-                                          : fmt::format("; there is {}", fmt::join(names, ", "))));
+              names.empty()
+                  ? fmt::format("there is no material {}; describe it in a table [material.<name>]", in_quotes(name))
+                  : unknown_word("there is no material", name, names));
     return;
   }
   const LawInfo* const law = law_of(check, found->second);

@@ -38,6 +38,7 @@ void check_faces(SceneCheck& check) {
 
 void check_supports(SceneCheck& check, bool grid) {
   Scene& scene = check.scene();
+  std::map<std::pair<std::vector<double>, int>, std::size_t> owners;  // of positions and components
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     SupportSpec& support = scene.supports[k];
     const std::string name = fmt::format("support[{}]", k);
@@ -49,9 +50,8 @@ void check_supports(SceneCheck& check, bool grid) {
                    "goes with a face as a whole; component says what is held otherwise, or at a position");
     if (!grid || support.at.empty()) continue;
     check.inside(support.at, scene.grid.min, scene.grid.max, "grid", name + ".at");
-    for (std::size_t before = 0; before < k; ++before)
-      if (scene.supports[before].at == support.at && scene.supports[before].component == support.component)
-        check.add(name + ".at", fmt::format("support[{}] holds this position already", before));
+    const auto [owner, is_first] = owners.try_emplace({support.at, support.component}, k);
+    if (!is_first) check.add(name + ".at", fmt::format("support[{}] holds this position already", owner->second));
   }
 }
 

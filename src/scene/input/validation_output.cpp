@@ -55,16 +55,15 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
 void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
   Scene& scene = check.scene();
   const std::set<std::string> names = check.unique_names("probe", scene.probes);
+  const bool by_number =
+      std::ranges::any_of(scene.probes, [](const ProbeSpec& probe) { return probe.point.has_value(); });
+  const long points = body && by_number ? known_points(check) : 0;
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
     ProbeSpec& probe = scene.probes[k];
     const std::string key = fmt::format("probe[{}]", k);
     if (body) check.inside(probe.at, body->min, body->max, body->name, key + ".at");
-    if (body && probe.point) {
-      const long points = known_points(check);
-      if (points > 0 && *probe.point > points)
-        check.add(key + ".point",
-                  fmt::format("there are {} material points, so {} is too large", points, *probe.point));
-    }
+    if (points > 0 && probe.point && *probe.point > points)
+      check.add(key + ".point", fmt::format("there are {} material points, so {} is too large", points, *probe.point));
     check_name(check, probe.name, key + ".name");
     check_kind(check, probe, key);
   }

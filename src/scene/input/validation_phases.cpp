@@ -1,5 +1,7 @@
 // When phases end, and what scenes of more than one phase can have.
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,11 +15,13 @@ namespace {
 std::vector<const MaterialSpec*> materials_in_use(SceneCheck& check) {
   const Scene& scene = check.scene();
   std::vector<const MaterialSpec*> materials;
+  std::set<std::string_view> seen;
   for (const BodySpec& body : scene.bodies) {
+    if (!seen.insert(body.material).second) continue;
     const auto found = scene.materials.find(body.material);
     const LawInfo* const law = found == scene.materials.end() ? nullptr : law_of(check, found->second);
     if (!law || std::ranges::find(law->states, scene.state) == law->states.end()) continue;
-    if (std::ranges::find(materials, &found->second) == materials.end()) materials.push_back(&found->second);
+    materials.push_back(&found->second);
   }
   return materials;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace stillpoint {
 
 WallContact::WallContact(std::string name, bool upper, double friction, PrescribedMotion motion)
@@ -147,6 +149,16 @@ void WallContact::archive(const StateArchive& state) {
   state("held", held_);
   state("normal_force", normal_force_);
   state("shear_force", shear_force_);
+  if (!state.restores()) return;
+  const std::size_t saved = closed_.size();
+  for (const std::size_t size : {tangential_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
+    if (size != saved) throw StateError(fmt::format("of the wall '{}' the numbers of nodes differ", name_));
+  // The nodes are those of the phase that is restored, or before it begins some others.
+  closed_.resize(nodes_.size(), 0);
+  tangential_.resize(nodes_.size(), Tangential::stick);
+  for (auto* const forces : {&held_, &normal_force_, &shear_force_}) forces->resize(nodes_.size(), 0);
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (nodes_[k].normal < 0) closed_[k] = 0;
 }
 
 double WallContact::square_of_forces() const {

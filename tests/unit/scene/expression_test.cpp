@@ -9,6 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "allocation_count.hpp"
+
 using stillpoint::Constants;
 using stillpoint::Expression;
 using stillpoint::ExpressionError;
@@ -128,6 +130,43 @@ TEST_CASE("a formula without variables is a finite number") {
   CHECK(error_of("sqrt(-1)").first.find("is not a finite number") != std::string::npos);
   CHECK(error_of("1e999").second != -2);
   CHECK(error_of("1/x") == Error("no error", -2));  // x decides
+}
+
+TEST_CASE("a formula is no longer than 4000 characters, however it gets there") {
+  const auto repeated = [](const std::string& part, std::size_t size) {
+    std::string text;
+    while (text.size() < size) text += part;
+    return text;
+  };
+  const auto is_refused = [](const std::string& text) {
+    return error_of(text).first == "a formula has 4000 characters at most, not " + std::to_string(text.size());
+  };
+  for (const char* part : {"x+", "x^", "2^", "sin(x)*", "x?t:", "x>"}) {
+    CAPTURE(part);
+    CHECK(error_of(repeated(part, 3900) + "x") == Error("no error", -2));
+    CHECK(is_refused(repeated(part, 4001)));
+    CHECK(is_refused(repeated(part, 1'000'000)));
+  }
+  CHECK(error_of(repeated("(", 1999) + "x" + repeated(")", 1999)) == Error("no error", -2));
+  CHECK(error_of(repeated("sin(", 3192) + "x" + repeated(")", 798)) == Error("no error", -2));
+  CHECK(is_refused(repeated("(", 3000) + "x" + repeated(")", 3000)));
+  CHECK(is_refused(repeated("x?", 4000) + "1" + repeated(":1", 4000)));
+  CHECK(is_refused(repeated("1", 5000)));
+  CHECK(is_refused(repeated(" ", 5000) + "x"));
+  CHECK(is_refused("max(" + repeated("x,", 4000) + "x)"));
+}
+
+TEST_CASE("a formula takes memory for the constants that it names, not for all of a scene") {
+  Constants many = kConstants;
+  for (int k = 0; k < 1000; ++k) many["constant_" + std::to_string(k)] = k;
+  const auto allocations = [](const Constants& constants) {
+    const long before = stillpoint::test::allocation_count();
+    const Expression formula("P0*x + l*t", constants);
+    const Expression copy = formula;
+    return stillpoint::test::allocation_count() - before;
+  };
+  allocations(kConstants);  // what is made once
+  CHECK(allocations(many) == allocations(kConstants));
 }
 
 TEST_CASE("endless formulas are refused or computed, without harm") {
