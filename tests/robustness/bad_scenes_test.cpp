@@ -314,6 +314,17 @@ TEST_CASE("a support at the position of another is refused, also among a hundred
   CHECK(problems[0].message == "support[100001].at: support[50000] holds this position already");
 }
 
+TEST_CASE("more bodies than can be compared two by two are refused") {
+  const TemporaryFolder folder;
+  std::string bodies;
+  for (int k = 0; k <= 10'000; ++k)
+    bodies += fmt::format("[[body]]\nmin = {}e-4\nmax = {}e-4\nmaterial = \"steel\"\n", 10 * k, 10 * k + 5);
+  const auto problems =
+      problems_of(folder.write("bad.toml", broken("[body]\nmaterial = \"steel\"\npoints_per_cell = 3\n", bodies)));
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].message == "body: 10001 bodies are more than this program takes (10000)");
+}
+
 TEST_CASE("more values than a scene has are refused before they take memory") {
   const TemporaryFolder folder;
   std::string deep, wide = "stages = [";

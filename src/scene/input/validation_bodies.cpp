@@ -186,6 +186,11 @@ void check_keys(SceneCheck& check, std::size_t k) {
 std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
   Scene& scene = check.scene();
   const std::size_t count = scene.bodies.size();
+  constexpr std::size_t most = 10'000;  // that can be compared two by two
+  if (count > most) {
+    check.add("body", fmt::format("{} bodies are more than this program takes ({})", count, most));
+    return std::nullopt;
+  }
   std::vector<bool> in_order(count, false);
   for (std::size_t k = 0; k < count; ++k) {
     if (!scene.bodies[k].file.empty()) {
