@@ -190,8 +190,10 @@ TEST_CASE("domains stretched over more than a cell are halved until none is, and
   using Basis = TensorBasis<DomainBSpline<2>, 2>;
   PointWeights<DomainBSpline<2>, Kinematics::plane> weights;
   weights.rebuild(grid, points);
-  std::vector<double> sum(2 * static_cast<std::size_t>(Basis::count(grid)), 0), size(sum.size(), 0);
-  std::vector<double> mass(before, 0);
+  const std::size_t unknowns = 2 * static_cast<std::size_t>(Basis::count(grid));
+  std::vector<double> sum(unknowns);
+  std::vector<double> size(unknowns);
+  std::vector<double> mass(before);
   Largest too_wide, off_position;
   for (std::size_t k = 0; k < points.cells(); ++k) {
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
