@@ -126,17 +126,7 @@ double Simulation::Impl::landing_time(double t_stop) const {
   double landing = std::min(t_stop, std::max({horizon, 2 * t_, model_.dwell}));
   if (recorder_) landing = std::min(landing, recorder_->next_time());
   if (options_.stops && scene_.stop.time > 0) landing = std::min(landing, scene_.stop.time);
-  return std::min(landing, end_of_fast_phase());
-}
-
-// Where the velocity at a phase's start would carry its first step so far that it is refused and halved, that step ends
-// with the phase, or a little later, so that the phase has ended then.
-double Simulation::Impl::end_of_fast_phase() const {
-  constexpr double far = 1.25, a_little = 1.05;
-  const double never = std::numeric_limits<double>::infinity();
-  if (motion_->integrator->steps() > 0 || !model_.phase->info().updated_lagrangian) return never;
-  const double lasts = model_.phase->control().lasts(motion_->v());
-  return far * lasts < model_.integrator.max_step ? t_ + a_little * lasts : never;
+  return landing;
 }
 
 void Simulation::Impl::next_phase() {

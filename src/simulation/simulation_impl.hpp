@@ -75,7 +75,6 @@ class Simulation::Impl {
   void take_step(double t_stop);
   std::optional<StepReport> try_step(double t_stop);
   double landing_time(double t_stop) const;
-  double end_of_fast_phase() const;
   void next_phase();
   bool try_next_phase();
   void tell_phase_change(bool begun) const;

@@ -84,9 +84,6 @@ class PhaseControl {
   virtual ~PhaseControl() = default;
   /// How far the phase has come: 1 if it should end (phase.max_motion or phase.max_strain is reached).
   virtual double progress(double t, ConstVec u) = 0;
-  /// After what time the phase would end if it went on with the nodal velocity v, (n); infinite without
-  /// phase.max_motion [s].
-  virtual double lasts(ConstVec v) const = 0;
   /// Ends the phase at t with u and v, and begins the next, with other unknowns: size() and everything else may change.
   /// Returns v, (size()); u is 0. Throws PointLost; std::logic_error if the scene has a single phase, or if
   /// initial_velocity() has not begun the first.

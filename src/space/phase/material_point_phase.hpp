@@ -115,7 +115,6 @@ class MaterialPointPhase final : public LagrangianPhase,
 
   // --- PhaseControl, see phase_change.hpp ----------------------------------------------------------
   double progress(double t, ConstVec u) override;
-  double lasts(ConstVec v) const override;
   std::vector<double> begin_next(double t, ConstVec u, ConstVec v) override;
   TransferErrors transfer_errors() const override {
     const auto& kept = transfer_.conservation();

@@ -7,9 +7,6 @@
 
 namespace stillpoint {
 
-// A step may lead past the end of its phase by half, and half a cell far where every step is one.
-inline constexpr double too_far = 1.5, of_remapping_every_step = 0.5;
-
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   if (!updated_lagrangian()) return 0;
@@ -24,21 +21,15 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   return share;
 }
 
-template <AxisBasis B, Kinematics K>
-double MaterialPointPhase<B, K>::lasts(ConstVec v) const {
-  if (!updated_lagrangian() || !scene_.phase.max_motion) return std::numeric_limits<double>::infinity();
-  const double motion = *scene_.phase.max_motion > 0 ? *scene_.phase.max_motion : of_remapping_every_step / too_far;
-  return motion / largest_motion(v);
-}
-
 // A step that leads past 3/2 of where the phase was to end is too long for its frozen weights.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::is_within_phase(ConstVec u, const double* grid_u) const {
+  constexpr double most = 1.5, of_remapping_every_step = 0.5;
   if (scene_.phase.max_motion) {
-    const double allowed = *scene_.phase.max_motion > 0 ? too_far * *scene_.phase.max_motion : of_remapping_every_step;
+    const double allowed = *scene_.phase.max_motion > 0 ? most * *scene_.phase.max_motion : of_remapping_every_step;
     if (!(largest_motion(u) <= allowed)) return false;
   }
-  return !scene_.phase.max_strain || largest_strain(grid_u) <= too_far * *scene_.phase.max_strain;
+  return !scene_.phase.max_strain || largest_strain(grid_u) <= most * *scene_.phase.max_strain;
 }
 
 template <AxisBasis B, Kinematics K>
