@@ -142,6 +142,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void archive_number_of_points(const StateArchive& state);
   void archive_points(const StateArchive& state);
   void archive_conditions(const StateArchive& state);
+  void take_saved_grid();
   void resume_phase(double t);
   std::vector<char> active_functions() const;
   bool follows_positions();

@@ -7,6 +7,7 @@
 
 #include "space/phase/material_point_phase.hpp"
 #include "space/points/domain_halving.hpp"
+#include "space/points/saved_points.hpp"
 
 namespace stillpoint {
 
@@ -22,7 +23,7 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   if (updated_lagrangian()) archive_points(state);
   archive_conditions(state);
   if (state.restores() && updated_lagrangian()) {
-    grid_ = grid_at<Dim>(scene_, grid_moved_);
+    take_saved_grid();
     resume_phase(t);
     archive_conditions(state);  // what they remember, in place of what a phase begins with
   }
@@ -45,6 +46,10 @@ void MaterialPointPhase<B, K>::archive_number_of_points(const StateArchive& stat
       !std::ranges::is_sorted(points.material_begin))
     throw StateError("'material_begin' is not that of the materials of this scene");
   if (points.material_begin == before) return;
+  std::vector<int> number;
+  state("number", number);
+  if (number.size() != static_cast<std::size_t>(points.material_begin.back()))
+    throw StateError("'material_begin' is not that of its points");
   std::vector<int> from;  // any of the same material: what they are is restored with the rest
   for (std::size_t m = 0; m + 1 < before.size(); ++m)
     from.resize(static_cast<std::size_t>(points.material_begin[m + 1]), before[m]);
@@ -77,6 +82,19 @@ void MaterialPointPhase<B, K>::archive_points(const StateArchive& state) {
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::archive_conditions(const StateArchive& state) {
   for (std::size_t k = 0; k < boundary_.size(); ++k) boundary_[k]->archive(state.part(fmt::format("condition_{}", k)));
+}
+
+// Where the points and the wall that it follows were when the phase began.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::take_saved_grid() {
+  constexpr double furthest = 1000;  // of the grid's own size; a wall that went further is none that a run could follow
+  double size = 0;
+  for (std::size_t d = 0; d < Dim; ++d) size = std::max(size, scene_.grid.max[d] - scene_.grid.min[d]);
+  if (!(std::abs(grid_moved_) <= furthest * size)) throw StateError("its grid has gone too far");
+  grid_ = grid_at<Dim>(scene_, grid_moved_);
+  long cells = 1;
+  for (const Axis& axis : grid_.axes) cells *= axis.cells();
+  if (const std::string fault = disorder_of(body_.points, cells, points()); !fault.empty()) throw StateError(fault);
 }
 
 // The phase that began at t, with the points as they were then.

@@ -8,44 +8,38 @@
 namespace stillpoint {
 namespace {
 
-using Numbers = std::vector<std::int64_t>;
-
-/// Null if there is none, or one of another kind, which restoring reports.
-const Numbers* numbers_of(const SavedState& saved, const char* name) {
-  const auto found = saved.find(name);
-  return found == saved.end() ? nullptr : std::get_if<Numbers>(&found->second);
-}
-
-bool are_sorted(const Numbers& cell, const Numbers& cell_begin, std::int64_t n, std::int64_t cells) {
-  return cell_begin.size() == cell.size() + 1 && cell_begin.front() == 0 && cell_begin.back() == n &&
+bool are_sorted(const std::vector<int>& cell, const std::vector<int>& cell_begin, std::size_t n, long cells) {
+  return cell_begin.size() == cell.size() + 1 && cell_begin.front() == 0 && cell_begin.back() == static_cast<int>(n) &&
          std::ranges::adjacent_find(cell_begin, std::ranges::greater_equal()) == cell_begin.end() &&
-         std::ranges::all_of(cell, [cells](std::int64_t c) { return c >= 0 && c < cells; });
+         std::ranges::all_of(cell, [cells](int c) { return c >= 0 && c < cells; });
 }
 
-bool are_numbered(Numbers number, std::int64_t n) {
-  std::ranges::sort(number);
-  return std::ssize(number) == n && (n == 0 || (number.front() == 0 && number.back() == n - 1)) &&
-         std::ranges::adjacent_find(number) == number.end();
+bool are_numbered(const std::vector<int>& number, std::size_t n, std::size_t numbers) {
+  std::vector<char> has_point(numbers);
+  for (const int k : number) {
+    if (k < 0 || static_cast<std::size_t>(k) >= numbers) return false;
+    has_point[static_cast<std::size_t>(k)] = 1;
+  }
+  return number.size() == n && std::ranges::find(has_point, 0) == has_point.end();
 }
 
-bool is_position(const std::string& name) {
-  return name.starts_with("phase/x_") || name.starts_with("phase/corner_") || name.starts_with("phase/half_");
+bool are_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
 }
 
 }  // namespace
 
-std::string fault_of_saved_points(const SavedState& saved, std::int64_t n, std::int64_t cells) {
-  const Numbers *const cell = numbers_of(saved, "phase/cell"), *const begin = numbers_of(saved, "phase/cell_begin");
-  const Numbers* const number = numbers_of(saved, "phase/number");
-  if (cell && begin && !are_sorted(*cell, *begin, n, cells))
+template <int Dim>
+std::string disorder_of(const MaterialPoints<Dim>& points, long cells, std::size_t numbers) {
+  if (!are_sorted(points.cell, points.cell_begin, points.size(), cells))
     return "its points are not sorted by the cells of the grid";
-  if (number && !are_numbered(*number, n)) return "its points are not numbered";
-  for (const auto& [name, value] : saved) {
-    const auto* const positions = std::get_if<std::vector<double>>(&value);
-    if (positions && is_position(name) && !std::ranges::all_of(*positions, [](double x) { return std::isfinite(x); }))
-      return "'" + name + "' is not finite";
-  }
-  return "";
+  if (!are_numbered(points.number, points.size(), numbers)) return "its points are not numbered";
+  const bool finite = std::ranges::all_of(points.x, are_finite) && std::ranges::all_of(points.corner, are_finite) &&
+                      std::ranges::all_of(points.half, are_finite);
+  return finite ? "" : "a position is not finite";
 }
+
+template std::string disorder_of(const MaterialPoints<1>&, long, std::size_t);
+template std::string disorder_of(const MaterialPoints<2>&, long, std::size_t);
 
 }  // namespace stillpoint

@@ -1,15 +1,15 @@
-// Whether the points of a saved phase are in an order that loops over them can take.
+// Whether points that were restored are in an order that loops over them can take.
 #pragma once
 
-#include <stillpoint/state_archive.hpp>
-
-#include <cstdint>
 #include <string>
+
+#include "space/points/material_points.hpp"
 
 namespace stillpoint {
 
-/// What of the points, as a phase saves them, would send a loop elsewhere than to n points in a grid of `cells`; empty:
-/// nothing does, or none are saved, as in a single phase.
-std::string fault_of_saved_points(const SavedState& saved, std::int64_t n, std::int64_t cells);
+/// What would send a loop elsewhere than to these points in a grid of `cells`, or to other numbers than 0 … numbers −
+/// 1, of which each has a point at least; empty: nothing does.
+template <int Dim>
+std::string disorder_of(const MaterialPoints<Dim>& points, long cells, std::size_t numbers);
 
 }  // namespace stillpoint
