@@ -21,7 +21,8 @@ fs::path partial_in_new_folder(const fs::path& file) {
 
 // A copy that was cut short would stand in the way of the whole file: it has a name of its own until it is whole.
 fs::path partial_of_earlier(const fs::path& file) {
-  const fs::path partial = partial_name(file), copy = partial_name(partial);
+  fs::path partial = partial_name(file);
+  const fs::path copy = partial_name(partial);
   if (fs::exists(partial)) return partial;
   if (!fs::exists(file)) throw StateError(fmt::format("{}: is not there", file.string()));
   fs::copy_file(file, copy, fs::copy_options::overwrite_existing);

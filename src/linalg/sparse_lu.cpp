@@ -87,12 +87,13 @@ void factorise(const std::shared_ptr<LuFactor>& factor) {
 }  // namespace
 
 struct SparseLu::Impl {
+  explicit Impl(const SparseMatrix& A) : factor(std::make_shared<LuFactor>(A)) {}
   std::shared_ptr<LuFactor> factor;  // its factorisation may be left to itself
 };
 
 SparseLu::SparseLu(const SparseMatrix& A) {
   if (A.rows() != A.cols()) throw std::invalid_argument("LU factor of a matrix that is not square");
-  impl_ = std::make_unique<Impl>(std::make_shared<LuFactor>(A));
+  impl_ = std::make_unique<Impl>(A);
   factorise(impl_->factor);
 }
 

@@ -53,7 +53,7 @@ void validate(const FieldFrame& frame) {
 
 // --- the text of fields.xdmf ---------------------------------------------------------------------
 
-constexpr std::string_view head = R"(<?xml version="1.0"?>
+constexpr std::string_view xdmf_head = R"(<?xml version="1.0"?>
 <Xdmf Version="3.0">
   <Domain>
     <Grid Name="run" GridType="Collection" CollectionType="Temporal">
@@ -193,7 +193,7 @@ class FieldWriter::Files {
     try {
       join(partial_name(whole));
       AtomicFile xdmf(folder_ / "fields.xdmf");
-      xdmf.write(head);
+      xdmf.write(xdmf_head);
       for (std::size_t k = 0; k < frames_; ++k) xdmf.write(text_of(part(k).replace_extension(".xdmf")));
       xdmf.write(foot);
       fs::rename(partial_name(whole), whole);  // before the other, which refers to it

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 constexpr const char* summary = "summary.json";
 constexpr const char* gone_on_from[] = {
     "history.csv", "fields.h5", "fields.xdmf", "checkpoint.h5", "checkpoint-previous.h5", "unstable_mode.csv"};
-constexpr const char* frames = "fields.partial";
+constexpr const char* frames_folder = "fields.partial";
 
 void require_file(const fs::path& path) {
   if (!fs::is_directory(path)) return;
@@ -41,7 +41,7 @@ void prepare_folder(const fs::path& folder, bool resumes) {
     fs::remove(folder / summary);
     if (resumes) return;
     for (const char* name : gone_on_from) fs::remove(folder / name);
-    fs::remove_all(folder / frames);
+    fs::remove_all(folder / frames_folder);
   } catch (const fs::filesystem_error& error) {
     throw_unless_of_disk(folder, error);
   }

@@ -42,7 +42,7 @@ bool sliver_shortens_the_step(const Scene& scene, const LagrangianPhase& phase, 
 std::string body_with_fitted_volumes(const Scene& scene) {
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     const BodySpec& body = scene.bodies[k];
-    const std::string table = scene.where.contains("body[0]") ? fmt::format("body[{}]", k) : "body";
+    std::string table = scene.where.contains("body[0]") ? fmt::format("body[{}]", k) : "body";
     const bool by_symmetry = std::ranges::all_of(body.points_per_cell, [](int along) { return along <= 2; });
     if (!by_symmetry && body.volumes == VolumeRule::consistent && scene.where.contains(table + ".volumes"))
       return table;
