@@ -27,6 +27,8 @@ std::vector<std::string> words_for(const std::string& scene, const std::vector<s
   return words;
 }
 
+// A sanitizer's memory is its own.
+#ifndef __SANITIZE_ADDRESS__
 double peak_of(const std::string& scene, const std::vector<std::string>& set) {
   const TemporaryFolder folder;
   Child child(words_for(scene, set, folder.path()), {}, (folder.path() / "messages").string());
@@ -34,6 +36,7 @@ double peak_of(const std::string& scene, const std::vector<std::string>& set) {
   CHECK((status == 0 || status == 3));
   return child.peak_memory();
 }
+#endif
 
 }  // namespace
 
@@ -53,7 +56,6 @@ TEST_CASE("cells, points, unknowns and bytes a point are known before a body is 
   }
 }
 
-// A sanitizer's memory is its own.
 #ifndef __SANITIZE_ADDRESS__
 TEST_CASE("the memory that a run is said to need is what it takes at its peak, to 30 %") {
   struct Case {
