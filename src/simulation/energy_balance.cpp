@@ -65,6 +65,11 @@ void EnergyBalance::archive(const StateArchive& state) {
   state("u", last_.u);
   state("reactions", last_.reactions);
   state("support", last_.support);
+  const std::size_t n = last_.u.empty() ? 0 : phase_.size();
+  const std::size_t supports = last_.u.empty() ? 0 : phase_.support_displacements(t_).size();
+  if (last_.u.size() != n || last_.F.size() != n || last_.reactions.size() != supports ||
+      last_.support.size() != supports)
+    throw StateError("the forces of its energy balance are not those of its phase");
 }
 
 double EnergyBalance::wall_power(double t) const {

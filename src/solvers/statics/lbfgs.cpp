@@ -88,6 +88,7 @@ class LimitedMemoryBfgs final : public StaticIteration {
     state("scale", scale_);
     state("newest", newest_);
     state("kept", kept_);
+    if (newest_ >= memory || kept_ > memory) throw StateError("its pairs of steps are not in the ring of 'lbfgs'");
   }
 
   std::size_t slot(std::size_t age) const { return (newest_ + memory - age) % memory; }

@@ -27,9 +27,11 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
     resume_phase(t);
     archive_conditions(state);  // what they remember, in place of what a phase begins with
   }
-  state("committed_u", committed_u_);
+  state("committed_u", Vec(committed_u_));
   state("committed_t", committed_t_);
   state("start_velocity", start_velocity_);
+  if (!start_velocity_.empty() && start_velocity_.size() != grid_u_.size())
+    throw StateError("'start_velocity' is not that of its grid");
   state("looks", looks_);
   state("motion_since_deformation", motion_since_deformation_);
   inertia_.archive(state);
