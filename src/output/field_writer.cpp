@@ -166,8 +166,9 @@ class FieldWriter::Files {
   Files(const fs::path& folder, std::size_t frames) : folder_(folder), frames_(frames) {
     if (frames == 0) fs::remove_all(parts());
     fs::create_directories(parts());
+    // A run that is killed while it removes the parts leaves either file of one.
     for (std::size_t k = 0; k < frames; ++k) {
-      if (!fs::exists(part(k))) split(k);
+      if (!fs::exists(part(k)) || !fs::exists(part(k).replace_extension(".xdmf"))) split(k);
     }
   }
 
