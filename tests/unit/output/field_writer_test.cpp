@@ -232,6 +232,26 @@ TEST_CASE("equal frames give equal bytes") {
   }
 }
 
+TEST_CASE("frames that were joined are gone on from, whichever of their parts a kill has left") {
+  const TemporaryFolder folder;
+  const auto finish_after_two = [&] { FieldWriter(folder.path(), 2).finish(); };
+  {
+    FieldWriter writer(folder.path());
+    writer.add(a_frame(0));
+    writer.add(a_frame(0.1));
+    writer.finish();
+  }
+  const auto whole = bytes_of(folder.path() / "fields.h5"), text = bytes_of(folder.path() / "fields.xdmf");
+  for (const char* gone : {"frame_0000.h5", "frame_0000.xdmf", "frame_0001.xdmf"}) {
+    CAPTURE(gone);
+    { const FieldWriter takes_the_parts_again(folder.path(), 2); }
+    REQUIRE(fs::remove(folder.path() / "fields.partial" / gone));
+    finish_after_two();
+    CHECK(bytes_of(folder.path() / "fields.h5") == whole);
+    CHECK(bytes_of(folder.path() / "fields.xdmf") == text);
+  }
+}
+
 TEST_CASE("a frame whose parts do not fit is refused, and nothing of it is written") {
   const TemporaryFolder folder, other;
   FieldWriter writer(folder.path()), expected(other.path());
