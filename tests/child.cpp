@@ -11,6 +11,14 @@
 
 namespace stillpoint::test {
 
+std::vector<std::string> run_of(const std::string& scene, const std::vector<std::string>& settings,
+                                const std::filesystem::path& out) {
+  std::vector<std::string> words = {
+      "run", STILLPOINT_PROBLEMS + ("/" + scene + ".toml"), "--quiet", "--threads", "1", "--out", out.string()};
+  for (const std::string& one : settings) words.insert(words.end(), {"--set", one});
+  return words;
+}
+
 Child::Child(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
              const std::string& messages, const std::function<void()>& limits)
     : process_(fork()) {

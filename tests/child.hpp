@@ -1,6 +1,7 @@
 // The command as a process of its own, which a test waits for, sends signals to, and judges by what it leaves.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,6 +11,10 @@
 #include <sys/types.h>
 
 namespace stillpoint::test {
+
+/// `run` of a scene of problems/ with these settings, by one thread, into a folder.
+std::vector<std::string> run_of(const std::string& scene, const std::vector<std::string>& settings,
+                                const std::filesystem::path& out);
 
 class Child {
  public:

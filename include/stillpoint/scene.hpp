@@ -24,6 +24,9 @@ struct GridSpec {                // [grid]
   std::vector<int> cells;
   BasisKind basis = BasisKind::linear;
   std::string follow;  // the [[wall]] whose face of the grid moves with it; empty: the grid stays where it is
+
+  /// Of the grid at the start, along an axis [m].
+  double cell_length(std::size_t axis) const { return (max[axis] - min[axis]) / cells[axis]; }
 };
 
 struct BodySpec {                // [body], or several [[body]]: material points in a box, in a polygon or from a file

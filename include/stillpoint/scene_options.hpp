@@ -6,6 +6,10 @@
 namespace stillpoint {
 
 enum class BasisKind { linear, quadratic, cubic, hermite };
+/// Of its polynomials; a cell has one function more along an axis.
+constexpr int degree_of(BasisKind basis) {
+  return basis == BasisKind::linear ? 1 : basis == BasisKind::quadratic ? 2 : 3;
+}
 /// What happens across the coordinates that are computed: the first two in one dimension, the others in two. The
 /// coordinates of an axisymmetric scene are the radius r and the axis z.
 enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric };

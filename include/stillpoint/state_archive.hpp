@@ -58,6 +58,12 @@ class StateArchive {
   }
   /// Of a fixed size.
   void operator()(std::string_view name, Vec values) const;
+  /// Of n values, or of none.
+  template <class T>
+  void none_or(std::size_t n, std::string_view name, std::vector<T>& values) const {
+    all(name, values);
+    if (!values.empty()) expect_size(name, values.size(), n);
+  }
   /// What array_of(item), a std::array of numbers, is for each item, as one value.
   template <class Items, class ArrayOf>
   void each(std::string_view name, Items& items, const ArrayOf& array_of) const {

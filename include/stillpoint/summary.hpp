@@ -73,8 +73,9 @@ struct Summary {
   /// Share of the plastic strain that came about while the out-of-balance force was against the motion, where
   /// equilibrium is asked for.
   std::optional<double> plastic_overshoot;
-  /// ∫ r dκ / ∫ dκ · W_p/W, r = ‖F − R‖/‖F‖, κ the plastic strain: the share of the loads' work that went into plastic
-  /// flow out of balance, where equilibrium is asked for. About how far from a slow path the displacement may be.
+  /// ∫ r dκ / ∫ dκ · W_p/W, r the part of ‖F − R‖/‖F‖ across the loads F, κ the plastic strain, W_p its work: the share
+  /// of the loads' work W that went into plastic flow out of balance, where equilibrium is asked for. About how far
+  /// from a slow path the displacement may be.
   std::optional<double> unbalanced_plastic_work;
   std::optional<double> single_phase_strain;  // largest component of ∂u/∂x, if a body that yields has one phase
   std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]

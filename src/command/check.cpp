@@ -32,7 +32,7 @@ void print_memory(const MemoryNeed& need) {
 
 int check(const SceneArguments& arguments) {
   const Scene scene = load_scene(arguments.file, arguments.overrides);
-  require_memory(scene);
+  const MemoryNeed memory = require_memory(scene);
   const Model model = make_model(scene);
   const LagrangianPhase& phase = *model.phase;
 
@@ -76,7 +76,7 @@ int check(const SceneArguments& arguments) {
   const double total = phase.bytes_per_point();
   fmt::print("    {:<17}{:4.0f}   {:.3g} MB for all points\n", "together", total,
              total * static_cast<double>(phase.points()) / 1e6);
-  print_memory(memory_need(scene));
+  print_memory(memory);
   return 0;
 }
 

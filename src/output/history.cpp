@@ -14,7 +14,7 @@ namespace stillpoint {
 Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase), specs_(scene.probes) {
   const std::vector<double> positions = phase.positions();
   const auto dim = static_cast<std::size_t>(phase.dim());
-  const NearestPosition nearest(positions, dim);
+  std::optional<NearestPosition> nearest;  // made if a probe asks for it
   for (const ProbeSpec& probe : specs_) {
     if (probe.kind == ProbeKind::slope_angle) {
       position_.emplace_back();
@@ -22,7 +22,8 @@ Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene)
       sources_.push_back({"slope_angle", 0, 0, 0});
       continue;
     }
-    const std::size_t point = probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest.to(probe.at);
+    if (!probe.point && !nearest) nearest.emplace(positions, dim);
+    const std::size_t point = probe.point ? static_cast<std::size_t>(*probe.point - 1) : nearest->to(probe.at);
     position_.emplace_back(positions.begin() + static_cast<std::ptrdiff_t>(dim * point),
                            positions.begin() + static_cast<std::ptrdiff_t>(dim * (point + 1)));
     for (const std::string& field : probe.fields) {

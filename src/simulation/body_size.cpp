@@ -22,7 +22,7 @@ struct Range {
 
 Range cells_between(const GridSpec& grid, std::size_t axis, double low, double high) {
   constexpr double rounding = 1e-9;
-  const double h = (grid.max[axis] - grid.min[axis]) / grid.cells[axis];
+  const double h = grid.cell_length(axis);
   return {std::floor((low - grid.min[axis]) / h + rounding), std::ceil((high - grid.min[axis]) / h - rounding)};
 }
 
@@ -42,21 +42,10 @@ double share_of_box(const BodySpec& body) {
 }
 
 double functions_along(BasisKind basis, double cells) {
-  return basis == BasisKind::hermite ? 2 * (cells + 1) : cells + functions_per_axis(basis) - 1;
+  return basis == BasisKind::hermite ? 2 * (cells + 1) : cells + degree_of(basis);
 }
 
 }  // namespace
-
-int functions_per_axis(BasisKind basis) {
-  switch (basis) {
-    case BasisKind::linear:
-      return 2;
-    case BasisKind::quadratic:
-      return 3;
-    default:
-      return 4;
-  }
-}
 
 BodySize body_size(const Scene& scene) {
   BodySize size;

@@ -20,7 +20,4 @@ struct BodySize {
 /// To a few per cent. Bodies that meet in a cell count it twice, and the cells of a file's points fill its box.
 BodySize body_size(const Scene& scene);
 
-/// Functions of the basis in a cell along an axis.
-int functions_per_axis(BasisKind basis);
-
 }  // namespace stillpoint

@@ -16,8 +16,7 @@ std::optional<std::string> Chatter::observe(const LagrangianPhase& phase, double
   if (!position_.empty() && way_ < long_way) return std::nullopt;
   const std::vector<double> now = phase.positions();
   double furthest = 0;
-  for (std::size_t i = 0; i < std::min(now.size(), position_.size()); ++i)
-    furthest = std::max(furthest, std::abs(now[i] - position_[i]));
+  for (std::size_t i = 0; i < position_.size(); ++i) furthest = std::max(furthest, std::abs(now[i] - position_[i]));
   const bool chatters = !position_.empty() && furthest <= nowhere * way_ * cell && residual > smaller * residual_;
   const std::string said = fmt::format(
       "in {} phases nodes have moved by {:.0f} cells back and forth and no point by more than {:.2g}, the "

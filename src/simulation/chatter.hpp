@@ -17,10 +17,11 @@ class Chatter {
   /// the largest side of the grid's cells [m].
   std::optional<std::string> observe(const LagrangianPhase& phase, double way, double residual, double cell);
 
-  void archive(const StateArchive& state) {
+  /// coordinates: P × dim.
+  void archive(const StateArchive& state, std::size_t coordinates) {
     state("way", way_);
     state("residual", residual_);
-    state("position", position_);
+    state.none_or(coordinates, "position", position_);
     state("phases", phases_);
   }
 

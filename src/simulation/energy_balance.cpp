@@ -61,15 +61,14 @@ void EnergyBalance::archive(const StateArchive& state) {
   state("work", work_);
   state("t", t_);
   state("power", power_);
-  state("F", last_.F);
-  state("u", last_.u);
-  state("reactions", last_.reactions);
-  state("support", last_.support);
-  const std::size_t n = last_.u.empty() ? 0 : phase_.size();
-  const std::size_t supports = last_.u.empty() ? 0 : phase_.support_displacements(t_).size();
-  if (last_.u.size() != n || last_.F.size() != n || last_.reactions.size() != supports ||
-      last_.support.size() != supports)
-    throw StateError("the forces of its energy balance are not those of its phase");
+  state.none_or(phase_.size(), "u", last_.u);
+  const std::size_t n = last_.u.size(), supports = n > 0 ? phase_.support_displacements(t_).size() : 0;
+  last_.F.resize(n);
+  last_.reactions.resize(supports);
+  last_.support.resize(supports);
+  state("F", Vec(last_.F));
+  state("reactions", Vec(last_.reactions));
+  state("support", Vec(last_.support));
 }
 
 double EnergyBalance::wall_power(double t) const {

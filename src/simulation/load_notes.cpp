@@ -96,7 +96,7 @@ void note_supports(const Scene& scene, Notes& notes) {
     if (!scene.supports[k].face) continue;
     const Face face = *scene.supports[k].face;
     const auto axis = static_cast<std::size_t>(axis_of(face));
-    const double h = (scene.grid.max[axis] - scene.grid.min[axis]) / scene.grid.cells[axis];
+    const double h = scene.grid.cell_length(axis);
     const bool reached = std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
       return is_upper(face) ? body.max[axis] > scene.grid.max[axis] - h : body.min[axis] < scene.grid.min[axis] + h;
     });

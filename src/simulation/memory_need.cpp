@@ -46,7 +46,7 @@ double of_law(const Scene& scene, const MaterialSpec& material) {
 double of_weights(const Scene& scene) {
   const bool of_domains = scene.phase.quadrature == Quadrature::domains;
   if (scene.dim == 2 && scene.grid.basis == BasisKind::linear && !of_domains) return scene.dim * real;
-  const double functions = std::pow(functions_per_axis(scene.grid.basis) + (of_domains ? 1 : 0), scene.dim);
+  const double functions = std::pow(degree_of(scene.grid.basis) + (of_domains ? 2 : 1), scene.dim);
   return functions * (1 + scene.dim + (scene.state == StressState::axisymmetric ? 1 : 0)) * real;
 }
 
@@ -70,7 +70,7 @@ double bytes_per_point(const Scene& scene, const BodySize& size) {
 
 // Neighbours of a function, itself included: those that share a cell with it.
 double neighbours(const Scene& scene) {
-  const double along = scene.grid.basis == BasisKind::hermite ? 6 : 2 * functions_per_axis(scene.grid.basis) - 1;
+  const double along = scene.grid.basis == BasisKind::hermite ? 6 : 2 * degree_of(scene.grid.basis) + 1;
   return std::pow(along, scene.dim);
 }
 
@@ -93,7 +93,7 @@ double of_factor(const Scene& scene, const BodySize& size) {
 
 // The block of a column for every neighbour, of all functions of the grid, from which a matrix is made.
 double of_assembly(const Scene& scene, const BodySize& size) {
-  const double along = 2 * functions_per_axis(scene.grid.basis) - 1;
+  const double along = 2 * degree_of(scene.grid.basis) + 1;
   return size.grid_functions * std::pow(along, scene.dim) * scene.dim * scene.dim * real;
 }
 
@@ -150,10 +150,10 @@ bool has_room_for_factor(const Scene& scene) {
   return of_assembly(scene, size) + 2 * of_matrix(scene, size) + of_factor(scene, size) <= memory_room().bytes;
 }
 
-void require_memory(const Scene& scene) {
-  const MemoryNeed need = memory_need(scene);
+MemoryNeed require_memory(const Scene& scene) {
+  MemoryNeed need = memory_need(scene);
   const MemoryRoom room = memory_room();
-  if (need.total() <= room.bytes) return;
+  if (need.total() <= room.bytes) return need;
   std::vector<std::string> parts;
   for (const auto& part : need.parts) parts.push_back(fmt::format("{} {:.3g} GB", part.what, part.bytes / 1e9));
   const auto largest = std::ranges::max_element(need.parts, {}, &MemoryNeed::Part::bytes);

@@ -28,7 +28,7 @@ MemoryNeed memory_need(const Scene& scene);
 /// Whether a run that can do without a factor of K may make one.
 bool has_room_for_factor(const Scene& scene);
 
-/// Throws SceneError at the key that sets the largest part, if the process may not take so much.
-void require_memory(const Scene& scene);
+/// The same. Throws SceneError at the key that sets the largest part, if the process may not take so much.
+MemoryNeed require_memory(const Scene& scene);
 
 }  // namespace stillpoint

@@ -6,25 +6,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace stillpoint {
 namespace {
-
-int degree_of(BasisKind basis) {
-  switch (basis) {
-    case BasisKind::linear:
-      return 1;
-    case BasisKind::quadratic:
-      return 2;
-    case BasisKind::cubic:
-    case BasisKind::hermite:
-      return 3;
-  }
-  throw std::logic_error("a basis without a degree");
-}
 
 // A basis of degree p reaches into a share s of a cell with one function N ~ s^p, N' ~ s^(p−1), that is outside but for
 // that. Its frequency, ω² = ∫N'²/∫N², grows as 1/s; with a lumped mass, ω² = ∫N'²/∫N ~ s^(p−2), as 1/√s for p = 1 and
@@ -57,8 +43,7 @@ double fewest_domains_across(const Scene& scene) {
   if (scene.dim < 2 || scene.phase.quadrature != Quadrature::domains) return fewest;
   for (const BodySpec& body : scene.bodies) {
     for (std::size_t d = 0; d < body.points_per_cell.size(); ++d) {
-      const double cell = (scene.grid.max[d] - scene.grid.min[d]) / scene.grid.cells[d];
-      fewest = std::min(fewest, (body.max[d] - body.min[d]) / cell * body.points_per_cell[d]);
+      fewest = std::min(fewest, (body.max[d] - body.min[d]) / scene.grid.cell_length(d) * body.points_per_cell[d]);
     }
   }
   return fewest;

@@ -142,8 +142,7 @@ std::string note_on_unbalanced_work(std::optional<double> unbalanced_work, const
   if (model.static_method) ramp = "solve.method = \"relaxation\" and " + ramp;
   return fmt::format(
       "{:.2g} % of the work of the loads went into plastic flow out of balance: under a load that grows slowly the "
-      "body "
-      "may yield along another way, and its displacement differ by 1 % and more; expected {}",
+      "body may yield along another way, and its displacement differ by 1 % and more; expected {}",
       100 * *unbalanced_work, ramp);
 }
 

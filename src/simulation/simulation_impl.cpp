@@ -29,8 +29,7 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
 
 double largest_cell(const Scene& scene) {
   double h = 0;
-  for (std::size_t d = 0; d < scene.grid.cells.size(); ++d)
-    h = std::max(h, (scene.grid.max[d] - scene.grid.min[d]) / scene.grid.cells[d]);
+  for (std::size_t d = 0; d < scene.grid.cells.size(); ++d) h = std::max(h, scene.grid.cell_length(d));
   return h;
 }
 

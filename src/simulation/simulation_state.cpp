@@ -132,7 +132,7 @@ void Simulation::Impl::archive(const StateArchive& state) {
   state("distance", distance_);
   monitor_.archive(state.part("monitor"));
   error_bound_.archive(state.part("error_bound"));
-  chatter_.archive(state.part("chatter"));
+  chatter_.archive(state.part("chatter"), model_.phase->points() * static_cast<std::size_t>(model_.phase->dim()));
   plastic_path_.archive(state.part("plastic_path"));
   mechanism_.archive(state.part("mechanism"));
   if (recorder_) recorder_->archive(state.part("records"));

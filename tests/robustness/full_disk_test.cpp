@@ -16,31 +16,18 @@ using namespace stillpoint;
 using stillpoint::test::Child;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
+using stillpoint::test::run_of;
 using stillpoint::testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
 
 // History, probes, three frames of fields, three checkpoints and a summary.
-const std::vector<std::string> scene = {STILLPOINT_PROBLEMS "/block_on_wall.toml",
-                                        "--set",
-                                        "grid.cells=[8, 8]",
-                                        "--set",
-                                        "stop.steps=60",
-                                        "--set",
-                                        "checkpoint.every_steps=40",
-                                        "--set",
-                                        "output.stages=[1e-3, 1e-2]",
-                                        "--quiet",
-                                        "--threads",
-                                        "1"};
+const std::vector<std::string> settings = {"grid.cells=[8, 8]", "stop.steps=60", "checkpoint.every_steps=40",
+                                           "output.stages=[1e-3, 1e-2]"};
 constexpr int not_in_equilibrium = 3, failed = 4;
 
-std::vector<std::string> run_into(const fs::path& out) {
-  std::vector<std::string> words = {"run", "--out", out.string()};
-  words.insert(words.end(), scene.begin(), scene.end());
-  return words;
-}
+std::vector<std::string> run_into(const fs::path& out) { return run_of("block_on_wall", settings, out); }
 
 std::vector<std::string> full(const fs::path& out, int from, bool once) {
   std::vector<std::string> variables = {

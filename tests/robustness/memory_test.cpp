@@ -15,6 +15,7 @@
 using namespace stillpoint;
 using stillpoint::test::Child;
 using stillpoint::test::contents;
+using stillpoint::test::run_of;
 using stillpoint::testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
@@ -38,16 +39,9 @@ TEST_CASE("cells, points, unknowns and bytes a point are known before a body is 
 #ifndef __SANITIZE_ADDRESS__
 namespace {
 
-std::vector<std::string> words_for(const std::string& scene, const std::vector<std::string>& set, const fs::path& out) {
-  std::vector<std::string> words = {
-      "run", STILLPOINT_PROBLEMS + ("/" + scene + ".toml"), "--quiet", "--threads", "1", "--out", out.string()};
-  for (const std::string& one : set) words.insert(words.end(), {"--set", one});
-  return words;
-}
-
 double peak_of(const std::string& scene, const std::vector<std::string>& set) {
   const TemporaryFolder folder;
-  Child child(words_for(scene, set, folder.path()), {}, (folder.path() / "messages").string());
+  Child child(run_of(scene, set, folder.path()), {}, (folder.path() / "messages").string());
   const auto status = child.wait();
   CHECK((status == 0 || status == 3));
   return child.peak_memory();
@@ -86,7 +80,7 @@ TEST_CASE("a run that needs more memory than the process may take is refused wit
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out", messages = folder.path() / "messages";
   const auto refusal = [&](const std::vector<std::string>& set, const std::function<void()>& limits) {
-    CHECK(Child(words_for("inclusion", set, out), {}, messages.string(), limits).wait() == 2);
+    CHECK(Child(run_of("inclusion", set, out), {}, messages.string(), limits).wait() == 2);
     CHECK_FALSE(fs::exists(out));
     return contents(messages);
   };

@@ -16,6 +16,7 @@ using namespace stillpoint;
 using stillpoint::test::Child;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
+using stillpoint::test::run_of;
 using stillpoint::testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
@@ -27,13 +28,6 @@ constexpr double soon = 10;
 constexpr double soon = 2;  // [s] of the processor's time
 #endif
 const std::string header = "t,steps,rhs_evaluations,residual,kinetic_energy\n";
-
-std::vector<std::string> run_into(const fs::path& out, const std::string& scene, const std::vector<std::string>& set) {
-  std::vector<std::string> words = {
-      "run", STILLPOINT_PROBLEMS + ("/" + scene + ".toml"), "--quiet", "--threads", "1", "--out", out.string()};
-  for (const std::string& one : set) words.insert(words.end(), {"--set", one});
-  return words;
-}
 
 // A set-up of many seconds.
 const std::vector<std::string> large = {"grid.cells=[300, 300]", "grid.basis=quadratic"};
@@ -66,7 +60,7 @@ TEST_CASE("a signal during the set-up ends it soon, whatever it is at, with a su
   for (const double after : {0.1, 0.7, 1.5, 2.5}) {
     for (const int signal : {SIGTERM, after < 1 ? SIGINT : SIGHUP}) {
       const TemporaryFolder folder;
-      Child child(run_into(folder.path(), "inclusion", large), {}, "/dev/null");
+      Child child(run_of("inclusion", large, folder.path()), {}, "/dev/null");
       CAPTURE(signal, after);
       CHECK(child.wait_until([&] { return child.seconds() > after; }));
       CHECK_FALSE(fs::exists(folder.path() / "history.csv.partial"));
@@ -83,7 +77,7 @@ TEST_CASE("stop.wall_time ends a set-up that takes longer") {
   const TemporaryFolder folder;
   std::vector<std::string> set = large;
   set.emplace_back("stop.wall_time=0.5");
-  Child child(run_into(folder.path(), "inclusion", set), {}, "/dev/null");
+  Child child(run_of("inclusion", set, folder.path()), {}, "/dev/null");
   CHECK(child.wait() == 3);
   CHECK(child.seconds() < 0.5 + soon);
   const auto summary = json_of(folder.path() / "summary.json");
@@ -122,7 +116,7 @@ TEST_CASE("a signal between phases, or while fields are written, ends the run in
   for (const auto* set : {&in_phases, &writing}) {
     for (const int signal : {SIGTERM, SIGHUP}) {
       const TemporaryFolder folder;
-      Child child(run_into(folder.path(), "slope", *set), {}, "/dev/null");
+      Child child(run_of("slope", *set, folder.path()), {}, "/dev/null");
       CHECK(child.wait_until([&] { return fs::exists(folder.path() / "history.csv.partial"); }));
       const double begun = child.seconds();
       CHECK(child.wait_until([&] { return child.seconds() > begun + 0.3; }));
@@ -136,8 +130,7 @@ TEST_CASE("a signal between phases, or while fields are written, ends the run in
 
 TEST_CASE("a second signal ends the process at once") {
   const TemporaryFolder folder;
-  Child child(
-      run_into(folder.path(), "slope", {"grid.cells=[120, 50]", "output.stages=[]", "output.fields_every=1e-6"}));
+  Child child(run_of("slope", {"grid.cells=[120, 50]", "output.stages=[]", "output.fields_every=1e-6"}, folder.path()));
   CHECK(child.wait_until([&] { return fs::exists(folder.path() / "fields.partial" / "frame_0020.h5"); }));
   child.send(SIGTERM);
   usleep(1000);
@@ -172,7 +165,7 @@ TEST_CASE("an equilibrium whose stability is not known, as the test was interrup
 TEST_CASE("rows of the history are there within seconds, and stay if the process is killed") {
   const TemporaryFolder folder;
   const fs::path history = folder.path() / "history.csv.partial";
-  Child child(run_into(folder.path(), "bar", {"damping.strategy=none"}), {}, "/dev/null");
+  Child child(run_of("bar", {"damping.strategy=none"}, folder.path()), {}, "/dev/null");
   const auto rows = [&] { return fs::exists(history) ? std::ranges::count(contents(history), '\n') : 0; };
   CHECK(child.wait_until([&] { return rows() > 10; }));
   const auto before = rows();

@@ -17,7 +17,7 @@ std::string SceneCheck::axis_key(const std::string& key, std::size_t axis) const
 
 double SceneCheck::cell_length(std::size_t axis) const {
   const GridSpec& grid = scene_.grid;
-  return axis < grid.cells.size() ? (grid.max[axis] - grid.min[axis]) / grid.cells[axis] : 0;
+  return axis < grid.cells.size() ? grid.cell_length(axis) : 0;
 }
 
 void SceneCheck::snap_to_grid(std::vector<double>& position) const {

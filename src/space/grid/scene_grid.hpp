@@ -21,7 +21,7 @@ Grid<Dim> grid_at(const Scene& scene, double moved) {
   if (spec.follow.empty() || wall == scene.walls.end()) return grid;
 
   const auto d = static_cast<std::size_t>(axis_of(wall->face));
-  const double h = (spec.max[d] - spec.min[d]) / spec.cells[d];
+  const double h = spec.cell_length(d);
   const double length = spec.max[d] - spec.min[d] + (is_upper(wall->face) ? moved : -moved);
   const int cells = std::max(1, static_cast<int>(std::floor(length / h + 0.5)));
   std::vector<double> nodes;

@@ -27,6 +27,12 @@ struct AffineVelocity {
   using WeightsOfPoint = std::array<std::array<double, per_cell>, dim>;  // w_a
   using Gradient = std::array<double, dim * dim>;                        // ∂v_i/∂x_j at [dim i + j]
 
+  /// What a point brings to function a beside N_a v_p: Σ_j A_ij w_ja.
+  struct MotionAbout {
+    Gradient A;
+    WeightsOfPoint w;
+  };
+
   static Centres centres(const Grid<dim>& grid, int cell_number) {
     Centres of_cell{};
     if constexpr (B::partition_of_unity) {

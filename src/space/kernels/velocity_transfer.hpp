@@ -19,7 +19,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "space/kernels/affine_velocity.hpp"
@@ -36,6 +37,7 @@ class VelocityTransfer {
   using Points = MaterialPoints<dim>;
   using Affine = AffineVelocity<B, K>;
   using Centres = typename Affine::Centres;
+  using MotionAbout = typename Affine::MotionAbout;
 
  public:
   /// damped: whether the scene damps its motion, so that what a turn keeps of it does not matter.
@@ -63,14 +65,19 @@ class VelocityTransfer {
   /// v_i from the points, (functions × dim). mass: m_i, (functions).
   std::vector<double> to_grid(const Grid<dim>& grid, const Points& points, const Weights& weights,
                               const CornerSum& corner_sum, const std::vector<double>& mass) {
-    std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
+    const std::vector<double> of_cells = momentum_of_cells(points, weights, corner_sum);
+    std::vector<double> v = spec_.transfer == Transfer::apic ? affine_momentum(grid, points, weights, corner_sum)
+                                                             : nodal_momentum(points, weights, corner_sum);
     if (spec_.transfer == Transfer::flip && !damped_ && B::partition_of_unity) {
-      std::vector<double> mean = v;
-      make_velocity(points, weights, corner_sum, mass, mean);
-      v = nodal_momentum(grid, points, weights, corner_sum, mean.data());
+      make_velocity(of_cells, mass, v);
+      v = momentum_about(grid, points, weights, corner_sum,
+                         [&, mean = std::move(v)](const Centres& centre, std::size_t k, std::size_t p) {
+                           return MotionAbout{Affine::velocity_gradient(weights, mean.data(), k, p),
+                                              Affine::distances_weighed(weights.N(k, p), centre, points.position(p))};
+                         });
     }
     conservation_.compare_momentum(ConservationCheck<dim>::of_points(points), v);
-    make_velocity(points, weights, corner_sum, mass, v);
+    make_velocity(of_cells, mass, v);
     return v;
   }
 
@@ -90,9 +97,8 @@ class VelocityTransfer {
  private:
   void begin(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
              const std::vector<double>& mass) const {
-    for (auto& B_ij : points.B_apic) std::ranges::fill(B_ij, 0.0);
-    std::vector<double> v = nodal_momentum(grid, points, weights, corner_sum);
-    make_velocity(points, weights, corner_sum, mass, v);
+    std::vector<double> v = nodal_momentum(points, weights, corner_sum);
+    make_velocity(momentum_of_cells(points, weights, corner_sum), mass, v);
     const std::vector<double> at_rest(v.size());
     for_each_block(points.cells(), [&](std::size_t k) {
       const Centres centre = Affine::centres(grid, points.cell[k]);
@@ -101,29 +107,15 @@ class VelocityTransfer {
     });
   }
 
-  // Σ_p m_p (N_ip v_p + …), (functions × dim) [kg m/s]. mean: v_j that ∇v_p is taken of, (functions × dim); or null.
-  std::vector<double> nodal_momentum(const Grid<dim>& grid, const Points& points, const Weights& weights,
-                                     const CornerSum& corner_sum, const double* mean = nullptr) const {
-    const bool affine = spec_.transfer == Transfer::apic;
+  // Σ_p m_p N_ip v_p, (functions × dim) [kg m/s].
+  std::vector<double> nodal_momentum(const Points& points, const Weights& weights, const CornerSum& corner_sum) const {
     return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
-      const auto centre = affine || mean ? Affine::centres(grid, points.cell[k]) : Centres{};
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         const auto N = weights.N(k, p);
         const double m = points.mass[p];
-        const Point<dim> x = points.position(p);
-        // Σ_j A_ij w_j is what the motion about the point adds
-        const auto w = affine ? Affine::weights_of_B(weights, centre, x, k, p)
-                       : mean ? Affine::distances_weighed(N, centre, x)
-                              : typename Affine::WeightsOfPoint{};
-        const auto A = mean     ? Affine::velocity_gradient(weights, mean, k, p)
-                       : affine ? Affine::B_of(points, p)
-                                : typename Affine::Gradient{};
         for (int a = 0; a < per_cell; ++a) {
           for (int i = 0; i < dim; ++i) {
-            double share = N[a] * points.v[i][p];
-            if (affine || mean) {
-              for (int j = 0; j < dim; ++j) share += A[dim * i + j] * w[j][a];
-            }
+            const double share = N[a] * points.v[i][p];
             corner[dim * a + i] += m * share;
           }
         }
@@ -131,19 +123,50 @@ class VelocityTransfer {
     });
   }
 
-  // v_i from momenta m_i v_i. A node whose mass is next to nothing takes the velocity of its cells' points.
-  void make_velocity(const Points& points, const Weights& weights, const CornerSum& corner_sum,
-                     const std::vector<double>& mass, std::vector<double>& v) const {
-    constexpr double next_to_nothing = 1e-12;
-    const std::vector<double> of_cells =
-        nodal_sum<dim + 1>(points, weights, corner_sum, [&](std::size_t k, Corners<dim + 1, per_cell>& corner) {
-          std::array<double, dim + 1> of_cell{};
-          for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-            of_cell[dim] += points.mass[p];
-            for (int i = 0; i < dim; ++i) of_cell[i] += points.mass[p] * points.v[i][p];
+  // Σ_p m_p (N_ip v_p + Σ_j A_ij w_j), likewise. about(centres of the cell, cell, point): A and w.
+  template <class About>
+  std::vector<double> momentum_about(const Grid<dim>& grid, const Points& points, const Weights& weights,
+                                     const CornerSum& corner_sum, const About& about) const {
+    return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
+      const Centres centre = Affine::centres(grid, points.cell[k]);
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        const auto N = weights.N(k, p);
+        const double m = points.mass[p];
+        const auto [A, w] = about(centre, k, p);
+        for (int a = 0; a < per_cell; ++a) {
+          for (int i = 0; i < dim; ++i) {
+            double share = N[a] * points.v[i][p];
+            for (int j = 0; j < dim; ++j) share += A[dim * i + j] * w[j][a];
+            corner[dim * a + i] += m * share;
           }
-          for (int a = 0; a < per_cell; ++a) std::copy(of_cell.begin(), of_cell.end(), corner.begin() + (dim + 1) * a);
-        });
+        }
+      }
+    });
+  }
+  std::vector<double> affine_momentum(const Grid<dim>& grid, const Points& points, const Weights& weights,
+                                      const CornerSum& corner_sum) const {
+    return momentum_about(grid, points, weights, corner_sum, [&](const Centres& centre, std::size_t k, std::size_t p) {
+      return MotionAbout{Affine::B_of(points, p), Affine::weights_of_B(weights, centre, points.position(p), k, p)};
+    });
+  }
+
+  // Σ m_p v_p and Σ m_p of all points in the cells that a function acts in, (functions × (dim + 1)).
+  std::vector<double> momentum_of_cells(const Points& points, const Weights& weights,
+                                        const CornerSum& corner_sum) const {
+    return nodal_sum<dim + 1>(points, weights, corner_sum, [&](std::size_t k, Corners<dim + 1, per_cell>& corner) {
+      std::array<double, dim + 1> of_cell{};
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+        of_cell[dim] += points.mass[p];
+        for (int i = 0; i < dim; ++i) of_cell[i] += points.mass[p] * points.v[i][p];
+      }
+      for (int a = 0; a < per_cell; ++a) std::copy(of_cell.begin(), of_cell.end(), corner.begin() + (dim + 1) * a);
+    });
+  }
+
+  // v_i from momenta m_i v_i. A node whose mass is next to nothing takes the velocity of its cells' points.
+  static void make_velocity(const std::vector<double>& of_cells, const std::vector<double>& mass,
+                            std::vector<double>& v) {
+    constexpr double next_to_nothing = 1e-12;
     for_each_block(mass.size(), [&](std::size_t f) {
       const double* cells = of_cells.data() + (dim + 1) * f;
       const bool of_its_own = mass[f] > next_to_nothing * cells[dim];

@@ -29,9 +29,7 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   }
   state("committed_u", Vec(committed_u_));
   state("committed_t", committed_t_);
-  state("start_velocity", start_velocity_);
-  if (!start_velocity_.empty() && start_velocity_.size() != grid_u_.size())
-    throw StateError("'start_velocity' is not that of its grid");
+  state.none_or(grid_u_.size(), "start_velocity", start_velocity_);
   state("looks", looks_);
   state("motion_since_deformation", motion_since_deformation_);
   inertia_.archive(state);

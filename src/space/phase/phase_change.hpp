@@ -3,7 +3,6 @@
 
 #include "space/phase/grid_faces.hpp"
 #include "space/phase/material_point_phase.hpp"
-#include "space/points/domain_halving.hpp"
 
 namespace stillpoint {
 
@@ -198,57 +197,6 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
 }
 
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::halve_domains() {
-  for (;;) {
-    const std::vector<int> from = halve_wide_domains(body_.points, grid_);
-    if (from.empty()) return;
-    refuse_folded_domains();
-    take_materials(from);
-    motion_since_deformation_ = std::numeric_limits<double>::infinity();  // halves are deformed as their corners say
-  }
-}
-
-// Under a point force a domain may have a corner that is drawn out by itself, until what is left of it is no convex
-// quadrilateral.
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::refuse_folded_domains() const {
-  const auto folded = std::ranges::find_if(body_.points.volume, [](double V) { return !(V > 0); });
-  if (folded == body_.points.volume.end()) return;
-  const auto p = static_cast<std::size_t>(folded - body_.points.volume.begin());
-  throw_scene_error(
-      scene_, "phase",
-      fmt::format("the domain of material point {} at ({:.6g}) is stretched over more than a cell, and folded where it "
-                  "would be halved; expected a [[traction]] in the place of a force at a point, smaller loads or cells",
-                  body_.points.number[p] + 1, fmt::join(body_.points.position(p), ", ")));
-}
-
-// What the materials remember goes with the points, of which there are others now.
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::take_materials(const std::vector<int>& from) {
-  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
-    const auto begin = static_cast<std::size_t>(body_.points.material_begin[m]);
-    body_.materials[m]->take(from, begin, static_cast<std::size_t>(body_.points.material_begin[m + 1]) - begin);
-  }
-  spare_.reset();
-}
-
-// x_c += Σ_i N_i(x_c) u_i
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::move_corners(std::size_t k, std::size_t p) {
-  const auto cell = grid_.cell_at(body_.points.cell[k]);
-  const auto domain = Domain<Dim>::in_grid(body_.points, p, grid_);
-  for (int c = 0; c < domain.corners; ++c) {
-    const auto at_corner = Basis::evaluate(grid_, cell, domain.x[c]);
-    for (int d = 0; d < Dim; ++d) {
-      double u_c = 0;
-      for (int a = 0; a < per_cell; ++a)
-        u_c += at_corner.N[a] * grid_u_[static_cast<std::size_t>(Dim * weights_.function(k, a) + d)];
-      body_.points.corner[Dim * c + d][p] += u_c;
-    }
-  }
-}
-
 // Throws PointLost if u takes a point out of the next grid. Whether one has to be put back onto a face.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces,
@@ -291,7 +239,7 @@ bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const Gr
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
   std::array<double, Dim> h;
-  for (std::size_t d = 0; d < Dim; ++d) h[d] = (scene_.grid.max[d] - scene_.grid.min[d]) / scene_.grid.cells[d];
+  for (std::size_t d = 0; d < Dim; ++d) h[d] = scene_.grid.cell_length(d);
   const int* number = dofs_->free.data();
   const auto largest = [&](const auto& share_of) {
     return reduce(

@@ -121,12 +121,12 @@ std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>&
 }
 
 // The relative inertia δ_i has turned by Σ δ_i d_i × ḋ_i, d_i = u_i − Σ_k w_k u_k, when the phase ends: apic's points
-// take that over as spin, so that none of the angular momentum is lost. On a linear basis, where they
-// carry a gradient, it cannot be.
+// take that over as spin, so that none of the angular momentum is lost. Points that carry a gradient cannot take it.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
   if constexpr (Dim == 2) {
-    if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty() || B::degree == 1) return;
+    if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
+    if (AffineVelocity<B, K>::carries_gradient) return;
     std::vector<double> spin(inertia_.mass().size());  // δ_i (d_i × ḋ_i)/m_i
     for (const AddedInertia& added : inertia_.added()) {
       const auto i = static_cast<std::size_t>(added.function);

@@ -62,22 +62,6 @@ void keep_half(MaterialPoints<Dim>& points, std::size_t p, int axis, bool upper)
   points.mass[p] /= 2;
 }
 
-/// Point k is from now on what point from[k] was.
-template <int Dim>
-void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from) {
-  std::vector<double> work;
-  std::vector<int> integer_work;
-  for (auto& x : points.x) reorder(x, from, work);
-  for (auto& v : points.v) reorder(v, from, work);
-  for (auto& B : points.B_apic) reorder(B, from, work);
-  for (auto& x : points.corner) reorder(x, from, work);
-  for (auto& r : points.half) reorder(r, from, work);
-  for (auto& X : points.rest) reorder(X, from, work);
-  reorder(points.volume, from, work);
-  reorder(points.mass, from, work);
-  reorder(points.number, from, integer_work);
-}
-
 /// Halves every domain that is wider than a cell, once. Which point each one was; empty: there is none. The points have
 /// to be sorted anew. A half that is folded has no volume, or less.
 template <int Dim>

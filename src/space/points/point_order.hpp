@@ -21,6 +21,28 @@ void reorder(std::vector<T>& values, const std::vector<int>& order, std::vector<
   values.swap(work);
 }
 
+/// Point k is from now on what point from[k] was: all that is kept of one goes with it.
+template <int Dim>
+void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from, std::vector<double>& work,
+                 std::vector<int>& integer_work) {
+  for (auto& x : points.x) reorder(x, from, work);
+  for (auto& v : points.v) reorder(v, from, work);
+  for (auto& B : points.B_apic) reorder(B, from, work);
+  for (auto& x : points.corner) reorder(x, from, work);
+  for (auto& r : points.half) reorder(r, from, work);
+  for (auto& X : points.rest) reorder(X, from, work);
+  reorder(points.volume, from, work);
+  reorder(points.mass, from, work);
+  reorder(points.number, from, integer_work);
+}
+
+template <int Dim>
+void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from) {
+  std::vector<double> work;
+  std::vector<int> integer_work;
+  take_points(points, from, work, integer_work);
+}
+
 template <int Dim>
 class PointOrder {
  public:
@@ -55,15 +77,7 @@ class PointOrder {
       sort_material(points, grid.cells(), points.material_begin[m], points.material_begin[m + 1]);
     }
     points.cell_begin.push_back(static_cast<int>(n));
-    for (auto& x : points.x) reorder(x, order_, work_);
-    for (auto& v : points.v) reorder(v, order_, work_);
-    for (auto& B : points.B_apic) reorder(B, order_, work_);
-    for (auto& x : points.corner) reorder(x, order_, work_);
-    for (auto& r : points.half) reorder(r, order_, work_);
-    for (auto& X : points.rest) reorder(X, order_, work_);
-    reorder(points.volume, order_, work_);
-    reorder(points.mass, order_, work_);
-    reorder(points.number, order_, integer_work_);
+    take_points(points, order_, work_, integer_work_);
   }
   const std::vector<int>& order() const { return order_; }
 
