@@ -42,6 +42,15 @@ std::string failure_of_step(const Scene& scene, const LagrangianPhase& phase, co
   return failure(moment, formula.empty() ? report.message : formula + "; expected a finite number at any time");
 }
 
+std::string most_stressed(const LagrangianPhase& phase, double t, ConstVec u) {
+  const auto components = static_cast<std::size_t>(phase.info().stress_components);
+  std::vector<double> stress(components * phase.points());
+  phase.point_stress(t, u, stress);
+  const std::size_t largest = largest_entry(stress);
+  return fmt::format("{} is stressed most, by {:.3g} Pa", to_string(phase.diagnosis().of_point(largest / components)),
+                     std::abs(stress[largest]));
+}
+
 std::string furthest_from_rest(PhaseMotion& motion, double t) {
   const ConstVec v = motion.v();
   motion.residual(t);

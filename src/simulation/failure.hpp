@@ -24,6 +24,9 @@ std::string failure(const Moment& moment, const std::string& what);
 std::string failure_of_step(const Scene& scene, const LagrangianPhase& phase, const Moment& moment,
                             const StepReport& report);
 
+/// "material point 12 at (0.5, 0.25) in cell (3, 1) is stressed most, by 3e+08 Pa" at (t, u).
+std::string most_stressed(const LagrangianPhase& phase, double t, ConstVec u);
+
 /// Where a run that has not come to rest at t is furthest from it: the node with the largest out-of-balance force, and
 /// the one that is fastest.
 std::string furthest_from_rest(PhaseMotion& motion, double t);

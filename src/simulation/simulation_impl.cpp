@@ -55,6 +55,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
       error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
       schedule_(scene_, *model_.phase, scene_.stop.time),
       plastic_path_(scene_, model_),
+      standstill_(model_.integrator.max_step),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
   if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);
@@ -101,6 +102,7 @@ void Simulation::Impl::take_step(double t_stop) {
     return;
   }
   step_ = report.h;
+  standstill_.observe(step_, t_ >= landing_time(t_stop));
   measured_ = false;
   motion_->accept(t_);
   if (plastic_path_.due(t_)) watch_plastic_path();
@@ -223,6 +225,7 @@ void Simulation::Impl::look_for_end() {
   if (!done()) status_ = monitor_.check_limits(t_, steps());
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
   if (!done() && schedule_.settled(t_)) look_for_mechanism();
+  if (!done()) look_for_standstill();
 }
 
 void Simulation::Impl::watch_plastic_path() {
@@ -236,6 +239,12 @@ void Simulation::Impl::look_for_mechanism() {
   if (!found) return;
   status_ = RunStatus::failed;
   reason_ = failure(now(), to_string(*found));
+}
+
+void Simulation::Impl::look_for_standstill() {
+  if (!standstill_.lasts()) return;
+  status_ = RunStatus::failed;
+  reason_ = failure(now(), standstill_.description(*model_.phase, *motion_, t_));
 }
 
 bool Simulation::Impl::watches_chatter() const {

@@ -23,6 +23,7 @@
 #include "simulation/phase_motion.hpp"
 #include "simulation/plastic_path.hpp"
 #include "simulation/recorder.hpp"
+#include "simulation/standstill.hpp"
 
 namespace stillpoint {
 
@@ -59,6 +60,7 @@ class Simulation::Impl {
   LoadSchedule schedule_;
   Chatter chatter_;
   PlasticPath plastic_path_;
+  Standstill standstill_;
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::optional<Recorder> recorder_;
 
@@ -83,6 +85,7 @@ class Simulation::Impl {
   void watch_chatter(double share, double residual);
   void watch_plastic_path();
   void look_for_mechanism();
+  void look_for_standstill();
   void watch();
   void look_for_end();
   void follow_period();

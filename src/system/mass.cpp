@@ -59,6 +59,13 @@ class Mass::Relative {
     block.setFromTriplets(entries.begin(), entries.end());
     factor_.emplace(block);
     work_.resize(dofs_.size());
+    if (!factor_->positive_definite()) {
+      const Eigen::VectorXd M = block.diagonal();
+      throw std::invalid_argument(fmt::format(
+          "the lumped mass is not positive definite to rounding: light nodes were given so much inertia that its "
+          "diagonal reaches from {:.1e} to {:.1e}; expected smaller loads or cells, or more points per cell",
+          M.minCoeff(), M.maxCoeff()));
+    }
   }
 
   /// M_ii += inertia q_i²

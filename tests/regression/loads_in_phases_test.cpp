@@ -135,11 +135,11 @@ fields = ["u.x", "u.y"]
 )";
 
 /// A square with rollers on the left and below, 8 × 8 cells with four points each, under a force to the right.
-Summary point_force(const char* at, const char* value, const char* strategy) {
+Summary point_force(const char* at, const char* value, const char* strategy, const char* method = "leapfrog") {
   return run(
       scenes::load("hard/pulled_in_phases",
                    {"traction=[]", fmt::format("force=[{{at={}, value=[{}, 0]}}]", at, value), "grid.cells=[16, 8]",
-                    fmt::format("damping.strategy={}", strategy),
+                    fmt::format("damping.strategy={}", strategy), fmt::format("integrator.method={}", method),
                     "probe=[{name='corner', at=[1, 1], fields=['u.x']}, {name='load', at=[1, 0.5], fields=['u.x']}]"}),
       {.threads = 1});
 }
@@ -244,14 +244,22 @@ TEST_CASE("a point force that stretches its domain over a cell moves its body al
   }
 }
 
+// What the corner does in the end is chance: it folds, or is drawn out until its stiffness, or the inertia that holds
+// it back, is beyond all others'. None of it may take for ever.
 TEST_CASE("a force that draws out the corner of a body until its domain folds finds no equilibrium, and that is said") {
   int folded = 0;
-  for (const char* strategy : {"viscous", "kinetic", "auto"}) {
-    const Summary s = point_force("[1.0, 1.0]", "0.05", strategy);
-    CAPTURE(strategy, s.reason);
-    CHECK((s.status == RunStatus::failed || s.status == RunStatus::diverged || s.status == RunStatus::step_limit));
+  const auto ends_by_name = [&](const char* strategy, const char* method) {
+    const Summary s = point_force("[1.0, 1.0]", "0.05", strategy, method);
+    CAPTURE(strategy, method, s.reason);
+    CHECK((s.status == RunStatus::failed || s.status == RunStatus::diverged));
+    CHECK_THAT(s.reason, Catch::Contains("expected"));
+    CHECK(s.steps < 100'000);
     folded += s.reason.find("the domain of material point 256 at (") != std::string::npos &&
               s.reason.find("folded") != std::string::npos && s.reason.find("[[traction]]") != std::string::npos;
+  };
+  for (const char* strategy : {"kinetic", "auto"}) ends_by_name(strategy, "leapfrog");
+  for (const char* method : {"leapfrog", "symplectic-euler", "erk:rk4"}) {
+    for (const char* strategy : {"viscous", "cundall", "one-sided"}) ends_by_name(strategy, method);
   }
   CHECK(folded > 0);
 }

@@ -190,7 +190,10 @@ class Gsl final : public SteppingIntegrator {
 
   Attempt failure(int code, double h) const {
     if (code == GSL_EBADFUNC) return {.status = StepReport::Status::inadmissible, .h = h};
-    return {.status = StepReport::Status::failed, .h = h, .message = fmt::format("GSL: {}", gsl_strerror(code))};
+    // That of the step control, which GSL calls no more than "failure".
+    const std::string said =
+        code == GSL_FAILURE ? "no step that t can tell from none meets integrator.rtol and atol_*" : gsl_strerror(code);
+    return {.status = StepReport::Status::failed, .h = h, .message = "GSL: " + said};
   }
 
   void rethrow() {

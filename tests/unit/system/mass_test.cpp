@@ -81,6 +81,12 @@ TEST_CASE("relative inertia resists what deviates from the extrapolation, and no
   CHECK_THROWS_AS(Mass::lumped({0, 0, 1, 0}, {relative.front()}), std::invalid_argument);
 }
 
+TEST_CASE("relative inertia so large that the rest of the mass is lost in rounding is refused, not factorised") {
+  const std::vector<stillpoint::RelativeInertia> relative = {
+      {.dof = 0, .inertia = 1e20, .masters = 1, .master = {1}, .weight = {1}}};  // [[1e20, -1e20], [-1e20, 1e20]]
+  CHECK_THROWS_WITH(Mass::lumped({1e-3, 1}, relative), Contains("not positive definite to rounding"));
+}
+
 TEST_CASE("a consistent mass solves what it multiplies, in place as well") {
   const Chain chain({.masses = {1, 3, 2, 0.01, 5}, .consistent = true});
   const Mass& mass = chain.mass();
