@@ -57,6 +57,22 @@ TEST_CASE("a sliver is not said to shorten the step where light nodes are given 
                    "shortens the critical step"));
 }
 
+TEST_CASE("local damping of a plane body whose consistent mass couples smooth functions is said to promise no step") {
+  const auto warns = [](const char* basis, const char* mass, const char* strategy) {
+    return says(notes_of(scenes::load("hard/light_nodes",
+                                      {std::string("grid.basis=") + basis, "body.points_per_cell=9",
+                                       std::string("mass.kind=") + mass, std::string("damping.strategy=") + strategy})),
+                "no step is known to be stable");
+  };
+  for (const char* basis : {"quadratic", "cubic"}) {
+    CAPTURE(basis);
+    for (const char* strategy : {"cundall", "one-sided", "combined"}) CHECK(warns(basis, "consistent", strategy));
+    CHECK_FALSE(warns(basis, "consistent", "viscous"));
+    CHECK_FALSE(warns(basis, "lumped", "cundall"));
+  }
+  CHECK_FALSE(warns("linear", "consistent", "cundall"));
+}
+
 TEST_CASE("what the points of a polygon integrate is said by where its border cuts cells, not by its volumes") {
   const std::vector<std::string> quadratic = {"grid.basis=quadratic", "body.volumes=consistent",
                                               "body.points_per_cell=9"};
