@@ -5,6 +5,7 @@
 //   bar     the paper's bar, neo-Hookean, P0 = 0.05 cos 2t at its end, from a rough state in motion,  0 ≤ t ≤ 2
 #include <stillpoint/integrator.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -99,7 +100,12 @@ int first_steps(int order) {
   }
 }
 
-double observed_order(Problem& problem, const std::string& method, DampingTreatment treatment, double c, int order) {
+// Below it the error of the reference shows.
+constexpr double rounding = 2e-13;
+
+// Errors of ever halved steps, the largest first, as long as they are above rounding; at most eight.
+std::vector<double> errors_of_halved_steps(Problem& problem, const std::string& method, DampingTreatment treatment,
+                                           double c, int order) {
   const std::vector<double> exact = reference(problem, method == "gsl:rk8pd" ? "erk:fehlberg-13-7-8" : "gsl:rk8pd", c);
   const auto error = [&](int steps) {
     IntegratorOptions options;
@@ -108,19 +114,45 @@ double observed_order(Problem& problem, const std::string& method, DampingTreatm
     options.max_step = problem.end_time / steps;
     return distance(state_at_end(problem, options, c), exact);
   };
-  // Steps are halved as long as the error is above rounding, at most seven times.
-  constexpr double rounding = 2e-13;
-  std::vector<double> errors{error(first_steps(order)), error(2 * first_steps(order))};
-  for (int steps = 4 * first_steps(order); errors.size() < 8; steps *= 2) {
-    const double next = error(steps);
-    if (next < rounding) break;
+  int steps = first_steps(order);
+  std::vector<double> errors{error(steps)};
+  while (steps > 4 && errors.front() < 1e6 * rounding) errors.front() = error(steps /= 2);
+  while (errors.size() < 8) {
+    const double next = error(steps *= 2);
+    if (!(next >= rounding)) break;
     errors.push_back(next);
   }
-  const auto order_from = [&](std::size_t k) { return std::log2(errors[k - 1] / errors[k]); };
-  const std::size_t last = errors.size() - 1;
-  // An observed order nears its limit like h, p(h) = p + O(h), so 2 p(h/2) − p(h) is nearer; order 8 leaves no room for
-  // it.
-  return order < 8 ? 2 * order_from(last) - order_from(last - 1) : order_from(last);
+  return errors;
+}
+
+struct ObservedOrder {
+  double value;
+  bool is_asymptotic;  // whether it hardly changes any more from step to half a step
+};
+
+// An observed order nears its limit like h, p(h) = p + O(h), so 2 p(h/2) − p(h) is nearer; order 8 leaves no room for
+// it. Tables that were made to have a small leading term show the order of the next one until rounding hides both: then
+// the median is told.
+ObservedOrder observed_order(Problem& problem, const std::string& method, DampingTreatment treatment, double c,
+                             int order) {
+  const std::vector<double> errors = errors_of_halved_steps(problem, method, treatment, c, order);
+  REQUIRE(errors.size() >= 3);
+  std::vector<double> orders;
+  for (std::size_t k = 1; k < errors.size(); ++k) orders.push_back(std::log2(errors[k - 1] / errors[k]));
+  const double last = orders.back(), before = orders[orders.size() - 2];
+  if (std::abs(last - before) < 0.25) return {order < 8 ? 2 * last - before : last, true};
+  std::ranges::sort(orders);
+  return {orders[orders.size() / 2], false};
+}
+
+void check_order(Problem& problem, const std::string& method, DampingTreatment treatment, double c, int order) {
+  const ObservedOrder observed = observed_order(problem, method, treatment, c, order);
+  CAPTURE(observed.value);
+  if (observed.is_asymptotic) {
+    CHECK(observed.value == Approx(order).margin(0.15));
+  } else {
+    CHECK(observed.value > order - 0.15);
+  }
 }
 
 TEST_CASE("every method shows its order in time, undamped and damped", "[integrator]") {
@@ -130,12 +162,7 @@ TEST_CASE("every method shows its order in time, undamped and damped", "[integra
       if (!method.fixed_step) continue;
       for (const double c : {0.0, 0.4}) {
         CAPTURE(problem.name, method.name, c);
-        const double order = observed_order(problem, method.name, DampingTreatment::automatic, c, method.order);
-        if (method.name == "gsl:rk8pd" && problem.name == "bar") {
-          CHECK(order > method.order - 0.15);  // its term of order 8 is so small that rounding hides it here
-        } else {
-          CHECK(order == Approx(method.order).margin(0.15));
-        }
+        check_order(problem, method.name, DampingTreatment::automatic, c, method.order);
       }
     }
   }
@@ -143,14 +170,14 @@ TEST_CASE("every method shows its order in time, undamped and damped", "[integra
 
 TEST_CASE("leapfrog with lagged damping is of second order undamped and of first order damped", "[integrator]") {
   Problem chain = driven_chain();
-  CHECK(observed_order(chain, "leapfrog", DampingTreatment::lagged, 0, 2) == Approx(2).margin(0.15));
-  CHECK(observed_order(chain, "leapfrog", DampingTreatment::lagged, 0.4, 1) == Approx(1).margin(0.15));
+  check_order(chain, "leapfrog", DampingTreatment::lagged, 0, 2);
+  check_order(chain, "leapfrog", DampingTreatment::lagged, 0.4, 1);
 }
 
 TEST_CASE("symplectic Euler is of first order with every treatment of damping", "[integrator]") {
   Problem chain = driven_chain();
   for (const auto treatment : {DampingTreatment::lagged, DampingTreatment::implicit, DampingTreatment::exact}) {
-    CHECK(observed_order(chain, "symplectic-euler", treatment, 0.4, 1) == Approx(1).margin(0.15));
+    check_order(chain, "symplectic-euler", treatment, 0.4, 1);
   }
 }
 
