@@ -118,41 +118,28 @@ std::vector<double> errors_of_halved_steps(Problem& problem, const std::string& 
   std::vector<double> errors{error(steps)};
   while (steps > 4 && errors.front() < 1e6 * rounding) errors.front() = error(steps /= 2);
   while (errors.size() < 8) {
-    const double next = error(steps *= 2);
-    if (!(next >= rounding)) break;
+    const double next = error(steps *= 2), last = errors.back();
+    // SUNDIALS 7 writes a table, verner-9-5-6, with fewer digits than a number has: its error ends at 1e-12.
+    const bool at_rounding_of_table = last < 1e-11 && next > last * std::exp2(-order / 2.0);
+    if (!(next >= rounding) || at_rounding_of_table) break;
     errors.push_back(next);
   }
   return errors;
 }
 
-struct ObservedOrder {
-  double value;
-  bool is_asymptotic;  // whether it hardly changes any more from step to half a step
-};
-
 // An observed order nears its limit like h, p(h) = p + O(h), so 2 p(h/2) − p(h) is nearer; order 8 leaves no room for
-// it. Tables that were made to have a small leading term show the order of the next one until rounding hides both: then
-// the median is told.
-ObservedOrder observed_order(Problem& problem, const std::string& method, DampingTreatment treatment, double c,
-                             int order) {
+// it. Tables that were made to have a small leading term show the order of the next one until rounding hides both: they
+// are at least as good as they say.
+void check_order(Problem& problem, const std::string& method, DampingTreatment treatment, double c, int order) {
   const std::vector<double> errors = errors_of_halved_steps(problem, method, treatment, c, order);
   REQUIRE(errors.size() >= 3);
   std::vector<double> orders;
   for (std::size_t k = 1; k < errors.size(); ++k) orders.push_back(std::log2(errors[k - 1] / errors[k]));
-  const double last = orders.back(), before = orders[orders.size() - 2];
-  if (std::abs(last - before) < 0.25) return {order < 8 ? 2 * last - before : last, true};
-  std::ranges::sort(orders);
-  return {orders[orders.size() / 2], false};
-}
-
-void check_order(Problem& problem, const std::string& method, DampingTreatment treatment, double c, int order) {
-  const ObservedOrder observed = observed_order(problem, method, treatment, c, order);
-  CAPTURE(observed.value);
-  if (observed.is_asymptotic) {
-    CHECK(observed.value == Approx(order).margin(0.15));
-  } else {
-    CHECK(observed.value > order - 0.15);
-  }
+  const double last = orders.back(), limit = order < 8 ? 2 * last - orders[orders.size() - 2] : last;
+  const double mean = std::log2(errors.front() / errors.back()) / static_cast<double>(orders.size());
+  CAPTURE(orders, limit, mean);
+  const bool shows_it = std::abs(limit - order) < 0.15;
+  CHECK((shows_it || (order >= 5 && mean > order - 0.15)));
 }
 
 TEST_CASE("every method shows its order in time, undamped and damped", "[integrator]") {
