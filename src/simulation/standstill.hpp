@@ -13,7 +13,7 @@ namespace stillpoint {
 
 class Standstill {
  public:
-  static constexpr int patience = 1000;            // steps
+  static constexpr int patience = 30'000;          // steps, in which a body that is crushed turns inside out by name
   static constexpr double next_to_nothing = 1e-6;  // of a full step: a body stiffened by 1e12
 
   /// full_step: the longest that a step may be at the start [s].

@@ -146,7 +146,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void resume_phase(double t);
   std::vector<char> active_functions() const;
   bool follows_positions();
-  std::vector<double> share_of_motion() const;
+  void weigh_motion();
   void take_deformation_from_positions();
   double time_scale() const;
 
@@ -240,13 +240,13 @@ class MaterialPointPhase final : public LagrangianPhase,
   long looks_ = 0;              // of progress() at the strain
   DeformationFromPositions<B, K> deformation_;
   double motion_since_deformation_ = 0;  // was taken from the positions, at most [cells]
-  std::vector<double> share_of_motion_;  // of each function in that of the points, (functions) or empty: 1
 
   // Of the present phase:
   long phase_ = 0;
   PointWeights<B, K> weights_;
   HeldUnknowns held_;
   std::optional<DegreesOfFreedom> dofs_;
+  std::vector<double> motion_weight_;      // cells that a unit of each unknown moves points by, at most, (n) [1/m]
   std::vector<double> constant_force_;     // part of F, (n)
   std::optional<SplitMatrix> consistent_;  // M as assembled, if projections or moving supports need it
   std::optional<Mass> mass_;

@@ -101,7 +101,7 @@ void MaterialPointPhase<B, K>::take_saved_grid() {
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::resume_phase(double t) {
   place_functions(t);
-  if (follows_positions()) share_of_motion_ = share_of_motion();
+  weigh_motion();
   make_forces(t);
   std::vector<double> v(size());
   begin_motion(t, v);

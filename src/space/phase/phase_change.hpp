@@ -1,6 +1,9 @@
 // How a phase begins and ends.
 #pragma once
 
+#include <array>
+#include <cstdlib>
+
 #include "space/phase/grid_faces.hpp"
 #include "space/phase/material_point_phase.hpp"
 
@@ -62,6 +65,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::begin_phase(double t) {
   place_functions(t);
+  weigh_motion();
   take_deformation_from_positions();
   make_forces(t);
 }
@@ -96,9 +100,19 @@ bool MaterialPointPhase<B, K>::follows_positions() {
          DeformationFromPositions<B, K>::applies(body_);
 }
 
+// A function that hardly reaches a point moves none by what it does.
 template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::share_of_motion() const {
-  return deformation_.share_of_motion(body_, weights_, static_cast<std::size_t>(Basis::count(grid_)));
+void MaterialPointPhase<B, K>::weigh_motion() {
+  const auto functions = static_cast<std::size_t>(Basis::count(grid_));
+  const std::vector<double> share = follows_positions()
+                                        ? DeformationFromPositions<B, K>::share_of_motion(body_, weights_, functions)
+                                        : std::vector<double>(functions, 1.0);
+  motion_weight_.resize(size());
+  for (std::size_t k = 0; k < size(); ++k) {
+    const auto [function, axis] = std::div(dofs_->free[k], Dim);
+    motion_weight_[k] =
+        share[static_cast<std::size_t>(function)] / scene_.grid.cell_length(static_cast<std::size_t>(axis));
+  }
 }
 
 // Not after every phase if they are short: what the grid does not feel grows with the way of the points.
@@ -106,7 +120,6 @@ template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_deformation_from_positions() {
   constexpr double cells_between = 0.1;
   if (!follows_positions()) return;
-  share_of_motion_ = share_of_motion();
   if (phase_ == 0) return deformation_.begin(body_, weights_, held_, static_cast<std::size_t>(Basis::count(grid_)));
   if (motion_since_deformation_ < cells_between) return;
   motion_since_deformation_ = 0;
@@ -118,14 +131,19 @@ template <AxisBasis B, Kinematics K>
 std::vector<char> MaterialPointPhase<B, K>::active_functions() const {
   std::vector<char> reached(static_cast<std::size_t>(Basis::count(grid_)), 0);
   for (std::size_t k = 0; k < body_.points.cells(); ++k) {
-    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+    std::array<char, per_cell> acts{};
+    int acting = 0;
+    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k) && acting < per_cell; ++p) {
       const auto N = weights_.N(k, p);
       const auto dN = weights_.dN(k, p);
+      acting = 0;
       for (int a = 0; a < per_cell; ++a) {
-        bool acts = N[a] != 0;
-        for (int j = 0; j < Dim; ++j) acts = acts || dN[per_cell * j + a] != 0;
-        if (acts) reached[static_cast<std::size_t>(weights_.function(k, a))] = 1;
+        for (int j = 0; j < Dim; ++j) acts[a] |= static_cast<char>(N[a] != 0 || dN[per_cell * j + a] != 0);
+        acting += acts[a];
       }
+    }
+    for (int a = 0; a < per_cell; ++a) {
+      if (acts[a]) reached[static_cast<std::size_t>(weights_.function(k, a))] = 1;
     }
   }
   return reached;
@@ -238,16 +256,10 @@ bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const Gr
 // Largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
-  std::array<double, Dim> h;
-  for (std::size_t d = 0; d < Dim; ++d) h[d] = scene_.grid.cell_length(d);
-  const int* number = dofs_->free.data();
-  const auto largest = [&](const auto& share_of) {
-    return reduce(
-        u.size(), 0.0, [&](std::size_t k) { return std::abs(u[k]) / h[number[k] % Dim] * share_of(k); },
-        [](double a, double b) { return a > b ? a : b; });
-  };
-  if (share_of_motion_.empty()) return largest([](std::size_t) { return 1.0; });
-  return largest([&](std::size_t k) { return share_of_motion_[number[k] / Dim]; });
+  return reduce(
+      u.size(), 0.0,
+      [u = u.data(), weight = motion_weight_.data()](std::size_t k) { return std::abs(u[k]) * weight[k]; },
+      [](double a, double b) { return a > b ? a : b; });
 }
 
 template <AxisBasis B, Kinematics K>

@@ -12,7 +12,7 @@ void take(Standstill& standstill, int steps, double h, bool is_cut = false) {
 
 }  // namespace
 
-TEST_CASE("a run stands still after a thousand steps on end that are next to nothing") {
+TEST_CASE("a run stands still after thousands of steps on end that are next to nothing") {
   Standstill standstill(2.0);
   take(standstill, Standstill::patience - 1, 1e-6);
   CHECK_FALSE(standstill.lasts());
