@@ -3,6 +3,7 @@
 
 #include <stillpoint/semi_discrete.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,11 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
                                                const SpectrumOptions& = {});
 /// ω_max from above, guaranteed: Gershgorin's circles of the scaled K (see the source for consistent M).
 FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, double t, ConstVec u);
-/// ω_max to about a per cent, mostly from above, for a few applications of K: Lanczos with the residual added.
-FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications = 12);
+/// ω_max, mostly from above, by Lanczos with the residual added: to about a per cent for a dozen applications of K; or,
+/// for as many as it takes up to that number, to a tolerance, the share of ω that the residual is, and not converged if
+/// they did not do.
+FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications = 12,
+                                       std::optional<double> tolerance = std::nullopt);
 /// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K, and ARPACK with that factor if rounding keeps it from converging. Not
 /// converged, ω = 0, if K is singular: the body is not held.
 FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,

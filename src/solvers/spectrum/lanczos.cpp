@@ -29,7 +29,30 @@
 #include "linalg/power_iteration.hpp"
 
 namespace stillpoint {
-FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications) {
+namespace {
+
+struct LargestEigenvalue {
+  double theta;    // of T
+  double missing;  // β_m |s_m|
+};
+
+LargestEigenvalue largest_eigenvalue(const std::vector<double>& alpha, const std::vector<double>& beta) {
+  const auto m = static_cast<Eigen::Index>(alpha.size());
+  const Eigen::Map<const Eigen::VectorXd> diagonal(alpha.data(), m), off_diagonal(beta.data(), m - 1);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> T;
+  T.computeFromTridiagonal(diagonal, off_diagonal);
+  return {T.eigenvalues()(m - 1), beta.back() * std::abs(T.eigenvectors()(m - 1, m - 1))};
+}
+
+// Of ω² twice the share of ω.
+bool is_found(const LargestEigenvalue& largest, double tolerance) {
+  return largest.missing <= 2 * tolerance * largest.theta;
+}
+
+}  // namespace
+
+FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications,
+                                       std::optional<double> tolerance) {
   if (applications < 1) throw std::invalid_argument("Lanczos' method needs at least one application of K");
   const Stopwatch watch;
   const Mass& mass = system.mass();
@@ -58,20 +81,20 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
     }
     bound = std::max(bound, std::abs(alpha.back()) + last_beta + norm);
     if (norm <= rounding * bound) break;  // the start lies in what has been seen
+    constexpr int between_looks = 8;
+    if (tolerance && j % between_looks == 0 && is_found(largest_eigenvalue(alpha, beta), *tolerance)) break;
     last_beta = norm;
     std::swap(last_q, q);
     for_each_index(n, [q = q.span().data(), z = z.span().data(), norm](std::size_t i) { q[i] = z[i] / norm; });
   }
 
-  const auto m = static_cast<Eigen::Index>(alpha.size());
-  const Eigen::Map<const Eigen::VectorXd> diagonal(alpha.data(), m), off_diagonal(beta.data(), m - 1);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> T;
-  T.computeFromTridiagonal(diagonal, off_diagonal);
-  const double theta = T.eigenvalues()(m - 1), missing = beta.back() * std::abs(T.eigenvectors()(m - 1, m - 1));
-  if (!(theta > 0)) return {0, static_cast<int>(m), watch.seconds(), false, "K has no positive eigenvalue"};
-  return {std::sqrt(theta + missing), static_cast<int>(m), watch.seconds(), true,
-          fmt::format("ω² between {:.6g} and {:.6g}, in all likelihood, by {} applications of K", theta,
-                      theta + missing, m)};
+  const LargestEigenvalue largest = largest_eigenvalue(alpha, beta);
+  const auto m = static_cast<int>(alpha.size());
+  if (!(largest.theta > 0)) return {0, m, watch.seconds(), false, "K has no positive eigenvalue"};
+  const double from_above = largest.theta + largest.missing;
+  return {std::sqrt(from_above), m, watch.seconds(), !tolerance || is_found(largest, *tolerance),
+          fmt::format("ω² between {:.6g} and {:.6g}, in all likelihood, by {} applications of K", largest.theta,
+                      from_above, m)};
 }
 
 }  // namespace stillpoint

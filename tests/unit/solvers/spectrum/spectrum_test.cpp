@@ -71,6 +71,24 @@ TEST_CASE("every method agrees with the dense solution to 1e-8 at its default op
   }
 }
 
+TEST_CASE("Lanczos' method with a tolerance is above omega_max by no more than that, or says that it is not there") {
+  for (const ChainOptions& options : held_chains()) {
+    const Chain chain(options);
+    const std::vector<double> u = at_rest(chain);
+    const double exact = dense_frequencies(chain, u).maxCoeff();
+    for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+      const FrequencyEstimate estimate = omega_max_by_lanczos(chain, 0, u, 400, tolerance);
+      INFO("n = " << chain.size() << ", tolerance " << tolerance << ": " << estimate.status);
+      CHECK(estimate.converged);
+      CHECK(estimate.omega == Approx(exact).epsilon(1.01 * tolerance));
+      CHECK(estimate.omega > exact * (1 - 1e-12));
+    }
+  }
+  const Chain crowded({.n = 2000});  // whose highest frequencies are 1e-6 apart
+  CHECK_FALSE(omega_max_by_lanczos(crowded, 0, at_rest(crowded), 40, 1e-7).converged);
+  CHECK(omega_max_by_lanczos(crowded, 0, at_rest(crowded), 40).converged);
+}
+
 TEST_CASE("the frequencies of an equal chain are the exact ones") {
   const Chain chain({.n = 200, .mass = 0.5, .stiffness = 8});
   const std::vector<double> u = at_rest(chain);
