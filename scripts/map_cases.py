@@ -19,6 +19,7 @@ A [[case]] has
   notes      what a run that succeeds has to say in one of its notes, and one that is wrong if "noted" is expected
   seconds    of processor time that a run may take, 20 if not given
   quick      false: not in the quick form
+  chance     true: rounding decides which of the expected outcomes it is, so that it may be another than the last time
 and may have [[case.fault]], what is known to be wrong and is not mended yet:
   where      a pattern, or an array of them, of "values of vary: way" (*, ?, [abc]); all if not given
   reason     what is wrong
@@ -34,9 +35,10 @@ from pathlib import Path
 STATIC = {"newton", "newton-cg", "cg", "lbfgs"}
 OF_CASE = {
     "name", "scene", "about", "set", "vary", "ways", "expected", "judge", "judge_set", "figures", "tolerance",
-    "figures_tolerance", "says", "notes", "seconds", "quick", "fault",
+    "figures_tolerance", "says", "notes", "seconds", "quick", "chance", "fault",
 }  # fmt: skip
-AS_IT_IS = {"judge", "figures", "tolerance", "says", "notes", "seconds", "quick"}  # what a row takes from its case
+# what a row takes from its case
+AS_IT_IS = {"judge", "figures", "tolerance", "says", "notes", "seconds", "quick", "chance"}
 
 
 class BadMap(Exception):
@@ -59,6 +61,7 @@ class Row:
     notes: str = ""
     seconds: float = 20
     quick: bool = True
+    chance: bool = False
     fault: str = ""  # the reason of a known one
 
     @property

@@ -80,7 +80,7 @@ def changes(row, found, last):
         return "", "is not in the last map: accept it with --accept"
     if before["outcome"] != found.outcome:
         change = f"was {before['outcome']} in the last map"
-        return ("", change) if row.fault else (change, "")  # what comes of a fault may be chance
+        return ("", change) if row.fault or row.chance else (change, "")  # what comes of a fault may be chance
     if found.outcome in SUCCESS and before["evaluations"] and found.evaluations:
         share = found.evaluations / int(before["evaluations"]) - 1
         if abs(share) > LARGE_CHANGE:

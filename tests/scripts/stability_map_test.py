@@ -117,6 +117,15 @@ def _(folder):
     assert result.returncode == 0 and "100 evaluations, 50 in the last map (+100%)" in result.stdout, result
 
 
+@claim("an outcome that chance decides may be another than in the last map, but only one that is expected")
+def _(folder):
+    last = "it,auto,failed | equilibrium,failed,50,,\n"
+    result = the_map(folder, RIGHT, "chance = true\n", last, expected='["failed", "equilibrium"]')
+    assert result.returncode == 0 and "was failed in the last map" in result.stdout, result
+    result = the_map(folder, RIGHT, "chance = true\n", last, expected='["failed", "diverged"]')
+    assert result.returncode == 1, result
+
+
 @claim("what is accepted takes the place of its row in the last map, and rows that are no more go")
 def _(folder):
     last = "it,auto,equilibrium,equilibrium,50,,\ngone,auto,equilibrium,equilibrium,50,,\n"
