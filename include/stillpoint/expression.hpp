@@ -1,4 +1,4 @@
-// A formula in x, y, z, t and the scene's constants, compiled once by muParser.
+// A formula in x, y, z, t and the scene's constants, compiled by muParser.
 #pragma once
 
 #include <map>
@@ -43,8 +43,10 @@ class Expression {
   const std::string& text() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;  // null: a plain number
+  struct Source;
+  struct Compiled;
+  std::shared_ptr<const Source> source_;  // null: a plain number
+  mutable std::unique_ptr<Compiled> compiled_;
   double value_ = 0;
   std::string text_;
 };

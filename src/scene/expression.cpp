@@ -156,46 +156,52 @@ std::vector<std::string> names_in(std::string_view formula) {
   return names;
 }
 
-/// A compiled formula. It keeps what it was made of, since a copy needs a parser bound to its own variables.
-struct Expression::Impl {
+/// What a formula is made of. Copies share it.
+struct Expression::Source {
   std::string text, variables;
-  Constants constants;             // those that the formula names
-  std::array<double, 4> values{};  // of x, y, z, t; the parser reads them in place
-  std::string used;                // those of x, y, z, t that the formula depends on
-  mu::Parser parser;
+  Constants constants;  // those that the formula names
+  std::string used;     // those of x, y, z, t that it depends on
 
-  Impl(std::string text_, const Constants& all, std::string variables_)
+  Source(std::string text_, const Constants& all, std::string variables_)
       : text(std::move(text_)), variables(std::move(variables_)) {
     check_characters(text);
     for (const char name : variables)
       if (all.contains(std::string(1, name)))
         throw ExpressionError(fmt::format("the constant '{}' has the name of a variable", name), -1);
-    parser.ClearConst();  // muParser's own are called _pi and _e
-    parser.DefineOprtChars(kOperatorCharacters);
-    try {
-      for (const std::string& name : names_in(text)) define(name, all);
-      parser.SetExpr(text);
-      parser.Eval();
-      if (parser.GetNumResults() != 1) throw ExpressionError("a formula has one value; ',' makes more of them", -1);
-    } catch (const mu::ParserError& error) {
-      throw in_our_words(error, text, all, variables);
-    }
+    for (const std::string& name : names_in(text)) look_up(name, all);
   }
 
-  void define(const std::string& name, const Constants& all) {
+ private:
+  void look_up(const std::string& name, const Constants& all) {
     if (name.size() == 1 && variables.find(name) != std::string::npos) {
-      if (used.find(name) != std::string::npos) return;
-      parser.DefineVar(name, &values.at(kVariables.find(name)));
-      used += name;
+      if (used.find(name) == std::string::npos) used += name;
       return;
     }
     for (const Constants* const known : {&all, &default_constants()}) {
       const auto found = known->find(name);
       if (found == known->end()) continue;
-      if (constants.insert(*found).second) parser.DefineConst(name, found->second);
+      constants.insert(*found);
       return;
     }
   }
+};
+
+/// muParser's form of it, some 5 kB, with variables of its own. It is not there before somebody wants a value: scenes
+/// are copied, and may have hundreds of thousands of formulas.
+struct Expression::Compiled {
+  std::array<double, 4> values{};  // of x, y, z, t; the parser reads them in place
+  mu::Parser parser;
+
+  explicit Compiled(const Source& source) {
+    parser.ClearConst();  // muParser's own are called _pi and _e
+    parser.DefineOprtChars(kOperatorCharacters);
+    for (const char name : source.used) parser.DefineVar(std::string(1, name), &values.at(kVariables.find(name)));
+    for (const auto& [name, value] : source.constants) parser.DefineConst(name, value);
+    parser.SetExpr(source.text);
+    parser.Eval();
+  }
+  Compiled(const Compiled&) = delete;
+  Compiled& operator=(const Compiled&) = delete;
 
   double evaluate() {
     try {
@@ -216,18 +222,23 @@ Expression::Expression(const std::string& text, const Constants& constants, cons
     value_ = *number;
     return;
   }
-  impl_ = std::make_unique<Impl>(text, constants, variables);
-  if (!impl_->used.empty()) return;
-  value_ = impl_->evaluate();
-  impl_.reset();
-  if (!std::isfinite(value_)) throw ExpressionError(fmt::format("the value {} is not a finite number", value_), -1);
+  const auto source = std::make_shared<const Source>(text, constants, variables);
+  try {
+    Compiled compiled(*source);
+    if (compiled.parser.GetNumResults() != 1)
+      throw ExpressionError("a formula has one value; ',' makes more of them", -1);
+    value_ = compiled.evaluate();
+  } catch (const mu::ParserError& error) {
+    throw in_our_words(error, text, constants, variables);
+  }
+  if (!source->used.empty()) {
+    source_ = source;
+  } else if (!std::isfinite(value_)) {
+    throw ExpressionError(fmt::format("the value {} is not a finite number", value_), -1);
+  }
 }
 
-Expression::Expression(const Expression& other)
-    : impl_(other.impl_ ? std::make_unique<Impl>(other.impl_->text, other.impl_->constants, other.impl_->variables)
-                        : nullptr),
-      value_(other.value_),
-      text_(other.text_) {}
+Expression::Expression(const Expression& other) : source_(other.source_), value_(other.value_), text_(other.text_) {}
 
 Expression& Expression::operator=(const Expression& other) {
   if (this != &other) *this = Expression(other);
@@ -239,13 +250,14 @@ Expression& Expression::operator=(Expression&&) noexcept = default;
 Expression::~Expression() = default;
 
 double Expression::operator()(std::span<const double> x, double t) const {
-  if (!impl_) return value_;
-  for (std::size_t axis = 0; axis < 3; ++axis) impl_->values[axis] = axis < x.size() ? x[axis] : 0;
-  impl_->values[3] = t;
-  return impl_->evaluate();
+  if (!source_) return value_;
+  if (!compiled_) compiled_ = std::make_unique<Compiled>(*source_);
+  for (std::size_t axis = 0; axis < 3; ++axis) compiled_->values[axis] = axis < x.size() ? x[axis] : 0;
+  compiled_->values[3] = t;
+  return compiled_->evaluate();
 }
 
-bool Expression::uses(char variable) const { return impl_ && impl_->used.find(variable) != std::string::npos; }
+bool Expression::uses(char variable) const { return source_ && source_->used.find(variable) != std::string::npos; }
 
 const std::string& Expression::text() const { return text_; }
 

@@ -104,6 +104,18 @@ bool is_nonlinear(const Scene& scene) {
   });
 }
 
+// Those of loads and supports that vary, as muParser has them: one for the schedule of the loads, one for the phase.
+MemoryNeed::Part formulas(const Scene& scene) {
+  constexpr double of_one = 5000;
+  MemoryNeed::Part part{.what = "formulas", .bytes = 0, .key = ""};
+  scene.for_each_formula([&](const std::string& key, const Expression& formula) {
+    if (formula.constant()) return;
+    part.bytes += 2 * of_one;
+    if (part.key.empty()) part.key = key;
+  });
+  return part;
+}
+
 bool factorises(const Scene& scene, const BodySize& size) {
   const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
   const bool solves =
@@ -134,6 +146,8 @@ MemoryNeed memory_need(const Scene& scene) {
   constexpr double vectors = 25;
   add("vectors of unknowns", vectors * real * size.unknowns, "grid.cells");
 
+  constexpr double little = 1e7;
+  if (const MemoryNeed::Part of_loads = formulas(scene); of_loads.bytes > little) need.parts.push_back(of_loads);
   const bool factor = factorises(scene, size), consistent = scene.mass.kind == MassKind::consistent;
   if (factor || consistent || chooses_mass) add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
   if (consistent)

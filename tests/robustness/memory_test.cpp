@@ -35,6 +35,19 @@ TEST_CASE("cells, points, unknowns and bytes a point are known before a body is 
   }
 }
 
+TEST_CASE("formulas that are so many that they need memory are in the table, and constants and a few are not") {
+  const auto bytes_of_formulas = [](const char* value, int count) {
+    std::string forces = "force=[";
+    for (int k = 0; k < count; ++k) forces += fmt::format("{{at=10.0, value='{}'}},", value);
+    const MemoryNeed need = memory_need(scenes::bar({forces + "]"}));
+    const auto found = std::ranges::find(need.parts, "formulas", &MemoryNeed::Part::what);
+    return found == need.parts.end() ? 0 : found->bytes;
+  };
+  CHECK(bytes_of_formulas("1e-9*sin(t)", 3000) == Approx(3e7).epsilon(0.3));
+  CHECK(bytes_of_formulas("1e-9*sin(1)", 3000) == 0);
+  CHECK(bytes_of_formulas("1e-9*sin(t)", 3) == 0);
+}
+
 // A sanitizer's memory is its own, and more address space than a limit leaves.
 #ifndef __SANITIZE_ADDRESS__
 namespace {
