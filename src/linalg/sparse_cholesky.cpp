@@ -4,6 +4,7 @@
 #include "linalg/sparse_cholesky.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -82,7 +83,8 @@ struct Factor {
   }
 
   void solve(ConstVec b, Vec x) {
-    const OneBlasThread same_bits;
+    std::optional<OneBlasThread> same_bits;  // of a supernodal factor: to set it takes longer than a small solve
+    if (L->is_super) same_bits.emplace();
     cholmod_dense B = column(b);
     if (Y && !L->is_super) {  // a simplicial solve asks for Y (4 × n), but leaves the header at (1 × n): allocated anew
                               // if left

@@ -1,5 +1,6 @@
 // What a run takes of memory beside what is said beforehand.
 #include <algorithm>
+#include <optional>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -116,5 +117,38 @@ TEST_CASE("a run that needs more memory than the process may take is refused wit
   CHECK(Child({"run", file.string(), "--out", out.string()}, {}, messages.string(), limited(RLIMIT_AS)).wait() == 2);
   CHECK_THAT(contents(messages), Catch::Contains(fmt::format("vast.toml:{}:9: the run needs about ", line)));
   CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE("a run whose memory ends at any large object says so in a line, with status 4, and keeps what it had") {
+  struct Case {
+    const char* scene;
+    std::vector<std::string> set;
+  };
+  const std::vector<Case> cases = {
+      {"block_on_wall", {"grid.cells=[30, 30]", "stop.steps=60", "output.stages=[1e-3, 1e-2]"}},
+      {"hard/beam_in_phases", {"grid.cells=[33, 36]", "phase.max_motion=0.03", "stop.steps=20"}},
+      {"inclusion", {"grid.cells=[30, 30]", "solve.method=newton", "damping={}", "integrator={}"}}};
+  for (const auto& [scene, set] : cases) {
+    std::optional<int> status;
+    int refusals = 0;
+    for (int from = 1; status != 0 && status != 3; from += from < 12 ? 1 : 19) {
+      const TemporaryFolder folder;
+      const fs::path out = folder.path() / "out", messages = folder.path() / "messages";
+      CAPTURE(scene, from);
+      status = Child(run_of(scene, set, out),
+                     {"LD_PRELOAD=" + (fs::path(STILLPOINT_BINARY).parent_path() / "libno_memory.so").string(),
+                      "NO_MEMORY_BYTES=4096", fmt::format("NO_MEMORY_FROM={}", from)},
+                     messages.string())
+                   .wait();
+      REQUIRE((status == 0 || status == 3 || status == 4));
+      if (status != 4) break;
+      ++refusals;
+      const std::string said = contents(messages);
+      CHECK_THAT(said, Catch::Contains("no memory is left"));
+      CHECK(std::ranges::count(said, '\n') == 1);
+      CHECK_FALSE(fs::exists(out / "summary.json"));
+    }
+    CHECK(refusals > 12);
+  }
 }
 #endif
