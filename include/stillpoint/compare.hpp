@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stillpoint/scene.hpp>
+#include <stillpoint/study_progress.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -12,12 +13,6 @@
 #include <vector>
 
 namespace stillpoint {
-
-struct CompareProgress {
-  int done = 0, total = 0;  // runs
-  std::string doing;
-  double wall_s = 0;
-};
 
 struct CompareOptions {
   std::vector<std::string> integrators{};   // empty: leapfrog and a few of ARKODE's
@@ -32,7 +27,7 @@ struct CompareOptions {
   bool overshoot = false;                   // also the distance from a slow ramp of the load
   int threads = 0;                          // 0: as many as OpenMP would take
   std::function<bool()> interrupted{};      // asked between runs
-  std::function<void(const CompareProgress&)> progress{};
+  std::function<void(const StudyProgress&)> progress{};
 };
 
 enum class ComparedStatus {

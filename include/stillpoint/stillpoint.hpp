@@ -5,6 +5,7 @@
 #pragma once
 
 #include <stillpoint/compare.hpp>
+#include <stillpoint/converge.hpp>
 #include <stillpoint/run.hpp>
 #include <stillpoint/scene.hpp>
 #include <stillpoint/spectrum.hpp>

@@ -80,4 +80,10 @@ void AtomicFile::finish() {
   fs::rename(partial_.path(), file_);
 }
 
+void write_file(const fs::path& file, std::string_view text) {
+  AtomicFile whole(file);
+  whole.write(text);
+  whole.finish();
+}
+
 }  // namespace stillpoint

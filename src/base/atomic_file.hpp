@@ -43,4 +43,7 @@ class AtomicFile {
   double on_disk_at_ = 0;  // [s]
 };
 
+/// A file that is whole, or not there. Throws std::filesystem::filesystem_error.
+void write_file(const std::filesystem::path& file, std::string_view text);
+
 }  // namespace stillpoint

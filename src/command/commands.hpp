@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/compare.hpp>
+#include <stillpoint/converge.hpp>
 
 #include <filesystem>
 #include <string>
@@ -29,8 +30,17 @@ struct CompareArguments {
   bool quiet = false;
 };
 
+struct ConvergeArguments {
+  SceneArguments scene;
+  std::filesystem::path out;                // empty: out/<scene's stem>-converge
+  std::vector<std::string> refine = {"h"};  // names of refinements
+  ConvergeOptions options;
+  bool quiet = false;
+};
+
 int run(const RunArguments& arguments);
 int compare(const CompareArguments& arguments);
+int converge(const ConvergeArguments& arguments);
 int check(const SceneArguments& arguments);
 int spectrum(const SceneArguments& arguments);
 /// topic: integrators, dampings, relaxations, solvers, materials, bases, keys, or empty for all. format: text, or of

@@ -8,63 +8,19 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "command/commands.hpp"
+#include "command/study_output.hpp"
 #include "command/terminal.hpp"
-#include "scene/throw_scene_error.hpp"
 
 namespace stillpoint::command {
 namespace {
-
-class CountLine {
- public:
-  void show(const CompareProgress& p) {
-    if (!terminal_ && p.wall_s < next_plain_line_) return;
-    next_plain_line_ = p.wall_s + 10;
-    std::string left;
-    if (p.done > 0 && p.done < p.total)
-      left = fmt::format("  about {:.0f} s left", p.wall_s * (p.total - p.done) / p.done);
-    fmt::print(stderr, "{}[{}/{}] {}{}{}", terminal_ ? "\r\033[K" : "", p.done, p.total, p.doing, left,
-               terminal_ ? "" : "\n");
-    std::fflush(stderr);
-  }
-  void finish() const {
-    if (terminal_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  double next_plain_line_ = 10;
-};
 
 std::string seconds(double s) {
   return s < 1e-3 ? fmt::format("{:.0f} us", 1e6 * s)
          : s < 1  ? fmt::format("{:.2f} ms", 1e3 * s)
                   : fmt::format("{:.2f} s", s);
 }
-
-/// The folder to write into, made before anything runs, since one that cannot be made is bad input. It does not stay
-/// if nothing came of it.
-class OutputFolder {
- public:
-  explicit OutputFolder(const std::filesystem::path& path) : path_(path) {
-    try {
-      std::filesystem::create_directories(path_);
-    } catch (const std::filesystem::filesystem_error& error) {
-      throw_folder_error(path_, error);
-    }
-  }
-  ~OutputFolder() {
-    std::error_code not_empty;
-    std::filesystem::remove(path_, not_empty);
-  }
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-
- private:
-  const std::filesystem::path& path_;
-};
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 std::string small(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1e}", value); }
@@ -130,7 +86,7 @@ int compare(const CompareArguments& arguments) {
   CountLine line;
   CompareOptions options = arguments.options;
   options.interrupted = interrupted;
-  if (!arguments.quiet) options.progress = [&line](const CompareProgress& progress) { line.show(progress); };
+  if (!arguments.quiet) options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
   const Comparison comparison = stillpoint::compare(arguments.scene.file, arguments.scene.overrides, options);
   line.finish();
   write_comparison(comparison, out);

@@ -65,6 +65,24 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
   return compare;
 }
 
+CLI::App& add_converge(CLI::App& app, ConvergeArguments& arguments) {
+  CLI::App& converge = *app.add_subcommand("converge", "error on ever finer levels, with observed orders");
+  stillpoint::ConvergeOptions& options = arguments.options;
+  add_scene(converge, arguments.scene);
+  converge.add_option("--out", arguments.out, "folder to write into (default: out/<scene>-converge)")->type_name("DIR");
+  converge.add_option("--refine", arguments.refine, "what becomes finer: h, points, step, rtol, motion (default: h)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"h", "points", "step", "rtol", "motion"}))
+      ->type_name("NAME,...");
+  converge.add_option("--levels", options.levels, "levels (default: 4)")->check(CLI::Range(2, 20));
+  converge.add_option("--ratio", options.ratio, "of sizes from level to level (default: 2)")
+      ->check(CLI::Range(1.1, 100.0));
+  converge.add_option("--threads", options.threads, "levels side by side (default: all)")->check(CLI::Range(1, 1024));
+  converge.add_flag("!--no-sources", options.finds_dominant, "do not look for the largest error");
+  converge.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  return converge;
+}
+
 // OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and
 // ten times slower than one thread if another program wants a core. So they wait for microseconds here, unless the
 // user has said otherwise. The library reads its environment before main(): the program starts itself once more, which
@@ -94,6 +112,9 @@ int dispatch(int argc, char** argv) {
 
   CompareArguments compare_arguments;
   CLI::App& compare_app = add_compare(app, compare_arguments);
+
+  ConvergeArguments converge_arguments;
+  CLI::App& converge_app = add_converge(app, converge_arguments);
 
   SceneArguments scene_arguments;
   CLI::App& check_app = *app.add_subcommand("check", "say what would be modelled; nothing runs");
@@ -133,6 +154,7 @@ int dispatch(int argc, char** argv) {
     wait_briefly(argv, compare_arguments.options.threads);
     return compare(compare_arguments);
   }
+  if (converge_app.parsed()) return converge(converge_arguments);
   if (check_app.parsed()) return check(scene_arguments);
   if (spectrum_app.parsed()) return spectrum(scene_arguments);
   if (format != "text" && topic != "keys") {

@@ -147,9 +147,7 @@ void write_mode(const EquilibriumStability& stability, const LagrangianPhase& ph
     text +=
         fmt::format("{},{:.17g},{:.17g}\n", p + 1, fmt::join(row(position), ","), fmt::join(row(stability.mode), ","));
   }
-  AtomicFile file(folder / mode_file);
-  file.write(text);
-  file.finish();
+  write_file(folder / mode_file, text);
 }
 
 void remove_mode(const std::filesystem::path& folder) {

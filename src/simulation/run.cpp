@@ -20,11 +20,7 @@ Summary simulate(const Scene& scene, const SimulationOptions& options) {
 
 Summary run(const Scene& scene, const SimulationOptions& options) {
   Summary summary = simulate(scene, options);
-  if (!options.out.empty()) {
-    AtomicFile file(options.out / "summary.json");
-    file.write(to_json(summary));
-    file.finish();
-  }
+  if (!options.out.empty()) write_file(options.out / "summary.json", to_json(summary));
   return summary;
 }
 

@@ -88,17 +88,11 @@ std::string json(const Comparison& c) {
   return whole.dump(1) + "\n";
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.finish();
-}
-
 }  // namespace
 
 void write_comparison(const Comparison& comparison, const std::filesystem::path& folder) {
-  write(folder / "compare.csv", csv(comparison));
-  write(folder / "compare.json", json(comparison));
+  write_file(folder / "compare.csv", csv(comparison));
+  write_file(folder / "compare.json", json(comparison));
 }
 
 }  // namespace stillpoint

@@ -1,0 +1,97 @@
+// Convergence studies: one scene on ever finer levels, its errors, and their observed orders.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+#include <stillpoint/study_progress.hpp>
+#include <stillpoint/summary.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stillpoint {
+
+/// What becomes finer from level to level.
+enum class Refinement {
+  h,       // grid.cells along all axes
+  points,  // points per cell along all axes
+  step,    // integrator.step, or integrator.step_fraction
+  rtol,    // integrator.rtol
+  motion   // phase.max_motion
+};
+std::string to_string(Refinement refinement);
+/// Empty if there is none of this name.
+std::optional<Refinement> refinement_of(std::string_view name);
+
+struct ConvergeOptions {
+  std::vector<Refinement> refine{Refinement::h};  // all of them from level to level; errors are set against the first
+  int levels = 4;                                 // 2 at least
+  double ratio = 2;                               // of sizes from level to level, above 1
+  bool finds_dominant = true;                     // whether runs are spent on which error is the largest
+  int threads = 0;                                // levels side by side; 0: as many as OpenMP would take
+  std::function<bool()> interrupted{};
+  std::function<void(const StudyProgress&)> progress{};
+};
+
+struct ConvergenceLevel {
+  std::vector<std::string> set;  // what the scene is given for it, "key=value"
+  double size = 0;  // of what is refined first: h [m], 1/points per cell, step [s], rtol or share of a cell
+  double h = 0;     // the longest side of a cell [m]
+  double step = 0;  // the last [s]
+  std::size_t points = 0, dofs = 0;
+  long evaluations = 0;
+  double wall_s = 0;
+  RunStatus status = RunStatus::interrupted;
+  int exit_status = 3;
+  std::string reason;
+};
+
+/// With its 95 % interval, NaN of two levels.
+struct ObservedOrder {
+  double order = 0;
+  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+  std::size_t first = 0, last = 0;  // of the levels that it is of, from 0
+};
+
+/// One figure on all levels.
+struct StudiedQuantity {
+  std::string name;              // "u_l2", "u_max", "u_energy", "stress_l2", or "probe.field"
+  std::vector<double> values{};  // errors, or the values of a probe; NaN where a level has none, (levels)
+  std::vector<double> errors{};  // against the reference; likewise
+  std::optional<ObservedOrder> order{};
+  std::optional<double> theory{};        // the order that the basis or the method has for smooth solutions
+  std::optional<double> extrapolated{};  // of a probe: Richardson's
+};
+
+/// How far a quantity moves if one thing alone is refined, at the finest level but one.
+struct ErrorSource {
+  std::string name;  // "space", "quadrature", "time", "phases", "the relaxation's stop"
+  double change = 0;
+};
+
+struct ConvergenceStudy {
+  std::string scene, title;
+  std::vector<Refinement> refined;
+  double ratio = 2;
+  std::string reference;  // what errors are measured against
+  std::vector<ConvergenceLevel> levels;
+  std::vector<StudiedQuantity> quantities;
+  std::string source_quantity;       // the quantity that the sources are found by
+  std::vector<ErrorSource> sources;  // the largest first; empty: not looked for
+  std::vector<std::string> notes;
+};
+
+/// Runs the scene on each level. Errors are those against the scene's exact solution; without one, where points stay
+/// the same from level to level, those against the finest level, and of probes those against Richardson's
+/// extrapolation. Throws SceneError if the scene is wrong, or has nothing of what is to be refined.
+ConvergenceStudy converge(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
+                          const ConvergeOptions& options = {});
+
+/// converge.csv and converge.json in a folder.
+void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder);
+
+}  // namespace stillpoint

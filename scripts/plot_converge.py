@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""plot_converge.py DIR [--out FILE]: the picture of a convergence study, from DIR/converge.json.
+
+Errors against the size of what is refined, with slopes of the orders that theory knows beside the finest level, and the
+same errors against wall time. FILE is DIR/converge.png if not given. Exit status 2 and a message if there is nothing to
+draw.
+"""
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+
+from pictures import COLOURS, STYLE, Refused, finish, plain, title_of  # before pyplot: sets the backend
+import matplotlib.pyplot as plt  # noqa: E402
+
+MARKERS = "osd^v<>"
+SIZES = {"h": "h [m]", "points": "1/points per cell", "step": "step [s]", "rtol": "rtol", "motion": "max_motion [cells]"}
+
+
+def read(folder):
+    file = folder / "converge.json"
+    try:
+        study = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise Refused(f"{folder}: no converge.json; is this the folder of a convergence study?") from None
+    except (OSError, ValueError) as error:
+        raise Refused(f"{file}: {error}") from None
+    if not isinstance(study, dict) or not isinstance(study.get("quantities"), dict):
+        raise Refused(f"{file}: expected an object with quantities")
+    return study
+
+
+def points_of(study, quantity):
+    """[(size, wall time, error)] of the levels that have one."""
+    found = []
+    for level, error in zip(study["levels"], study["quantities"][quantity]["errors"]):
+        if error is not None and error > 0 and math.isfinite(error) and level["size"]:
+            found.append((level["size"], level["wall_s"], error))
+    return found
+
+
+def label_of(name, order):
+    if not order:
+        return name
+    interval = f" ({order['low']:.2f} to {order['high']:.2f})" if order["low"] is not None else ""
+    return f"{name}: {order['order']:.2f}{interval}"
+
+
+def lowest_by_theory(study, drawn):
+    """{order that theory knows: the levels of the smallest error that has it}."""
+    lowest = {}
+    for name, points in drawn.items():
+        theory = (study["orders"].get(name) or {}).get("theory")
+        if theory and len(points) > 1 and (theory not in lowest or points[-1][2] < lowest[theory][-1][2]):
+            lowest[theory] = points
+    return lowest
+
+
+def draw_slope(axis, points, order):
+    """A line of the order below the two finest levels."""
+    size, _, error = points[-1]
+    coarse = points[-2][0]
+    below = 0.6
+    ends = [size, coarse], [below * error, below * error * (coarse / size) ** order]
+    axis.plot(*ends, color="0.6", linewidth=1, zorder=0)
+    axis.annotate(f"{order:g}", (math.sqrt(size * coarse), math.sqrt(ends[1][0] * ends[1][1])), color="0.5",
+                  textcoords="offset points", xytext=(4, -10), fontsize="small")
+
+
+def draw(study, file):
+    drawn = {name: points for name in study["quantities"] if (points := points_of(study, name))}
+    if not drawn:
+        raise Refused("no level has an error: nothing to draw")
+    plt.rcParams.update(STYLE)
+    figure, (by_size, by_time) = plt.subplots(1, 2, figsize=(12, 5.5), sharey=True)
+    for number, (name, points) in enumerate(drawn.items()):
+        look = {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)], "linewidth": 1.4}
+        order = study["orders"].get(name)
+        sizes, times, errors = zip(*points)
+        by_size.plot(sizes, errors, label=plain(label_of(name, order)), **look)
+        by_time.plot(times, errors, **look)
+    for theory, points in lowest_by_theory(study, drawn).items():
+        draw_slope(by_size, points, theory)
+    for axis, what in ((by_size, SIZES[study["refined"][0]]), (by_time, "wall time [s]")):
+        axis.set(xscale="log", yscale="log", xlabel=what)
+        axis.grid(color="0.92")
+        axis.set_axisbelow(True)
+    by_size.set_ylabel(plain(f"error against {study['reference']}"))
+    by_size.legend(title="order (95 %)", frameon=False, fontsize="small")
+    figure.suptitle(plain(title_of(study)))
+    figure.tight_layout()
+    figure.savefig(file, dpi=100)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="DIR", type=Path)
+    parser.add_argument("--out", metavar="FILE", type=Path)
+    options = parser.parse_args()
+
+    def draw_to(file):
+        study = read(options.folder)
+        try:
+            draw(study, file)
+        except (KeyError, TypeError) as error:
+            missing = f"no {error}" if isinstance(error, KeyError) else error
+            raise Refused(f"{options.folder / 'converge.json'}: {missing}") from None
+
+    return finish("plot_converge", draw_to, options.out or options.folder / "converge.png")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

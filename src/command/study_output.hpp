@@ -1,0 +1,37 @@
+// Where a study writes to, and its progress.
+#pragma once
+
+#include <stillpoint/study_progress.hpp>
+
+#include <filesystem>
+
+namespace stillpoint::command {
+
+/// "[3/40] what is done  about 12 s left": one line that rewrites itself on a terminal, plain lines now and then
+/// elsewhere.
+class CountLine {
+ public:
+  CountLine();
+  void show(const StudyProgress& progress);
+  /// Clears the line on a terminal.
+  void finish() const;
+
+ private:
+  bool terminal_;
+  double next_plain_line_ = 10;  // [s]
+};
+
+/// The folder to write into, made before anything runs, since one that cannot be made is bad input. It does not stay
+/// if nothing came of it.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::filesystem::path& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  const std::filesystem::path& path_;
+};
+
+}  // namespace stillpoint::command

@@ -1,0 +1,26 @@
+// One run of a convergence study, and what is read of its end.
+#pragma once
+
+#include <stillpoint/converge.hpp>
+#include <stillpoint/summary.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stillpoint {
+
+struct LevelRun {
+  ConvergenceLevel level;
+  bool is_there = false;                               // whether it came to the end that its scene asks for
+  std::vector<std::pair<std::string, double>> norms;   // errors against the exact solution: "u_l2", …
+  std::vector<std::pair<std::string, double>> probes;  // "tip.u.x" and its value at the end
+  std::vector<double> probe_errors;                    // against the exact solution; NaN where there is none
+  std::vector<double> u, stress, volume;               // of the points, by their numbers
+  std::vector<std::string> notes;
+};
+
+/// Runs the scene by one thread. What goes wrong is told by the level's status.
+LevelRun run_level(const Scene& scene, const std::function<bool()>& interrupted);
+
+}  // namespace stillpoint

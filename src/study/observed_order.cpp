@@ -1,0 +1,89 @@
+#include "study/observed_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_fit.h>
+
+namespace stillpoint {
+namespace {
+
+struct Range {
+  std::size_t first, last;
+  std::size_t levels() const { return last - first + 1; }
+};
+
+// The finest levels on end that have an error.
+std::optional<Range> with_errors(ConstVec errors) {
+  const auto has = [&](std::size_t k) { return std::isfinite(errors[k]) && errors[k] > 0; };
+  std::size_t end = errors.size();
+  while (end > 0 && !has(end - 1)) --end;
+  std::size_t begin = end;
+  while (begin > 0 && has(begin - 1)) --begin;
+  if (end - begin < 2) return std::nullopt;
+  return Range{begin, end - 1};
+}
+
+// From level k to the next.
+double local_order(ConstVec sizes, ConstVec errors, std::size_t k) {
+  return std::log(errors[k] / errors[k + 1]) / std::log(sizes[k] / sizes[k + 1]);
+}
+
+constexpr std::size_t fewest = 3;
+
+// An error that is that of something else, which is not refined, falls no more.
+void leave_out_floor(ConstVec sizes, ConstVec errors, Range& range) {
+  constexpr double falls_no_more = 0.5;  // of the steepest before
+  while (range.levels() > fewest) {
+    double steepest = 0;
+    for (std::size_t k = range.first; k + 1 < range.last; ++k)
+      steepest = std::max(steepest, local_order(sizes, errors, k));
+    if (local_order(sizes, errors, range.last - 1) >= falls_no_more * steepest) return;
+    --range.last;
+  }
+}
+
+void leave_out_coarse(ConstVec sizes, ConstVec errors, Range& range) {
+  constexpr double far = 0.3;
+  const double last = local_order(sizes, errors, range.last - 1);
+  while (range.levels() > fewest && std::abs(local_order(sizes, errors, range.first) - last) > far) ++range.first;
+}
+
+}  // namespace
+
+// Of n levels the slope has n − 2 degrees of freedom; 95 % of Student's distribution lie within ± t.
+std::optional<ObservedOrder> observed_order(ConstVec sizes, ConstVec errors) {
+  std::optional<Range> range = with_errors(errors);
+  if (!range) return std::nullopt;
+  leave_out_floor(sizes, errors, *range);
+  leave_out_coarse(sizes, errors, *range);
+  std::vector<double> log_h, log_e;
+  for (std::size_t k = range->first; k <= range->last; ++k) {
+    log_h.push_back(std::log(sizes[k]));
+    log_e.push_back(std::log(errors[k]));
+  }
+  double intercept = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, squares = 0;
+  gsl_fit_linear(log_h.data(), 1, log_e.data(), 1, log_h.size(), &intercept, &slope, &cov00, &cov01, &variance,
+                 &squares);
+  ObservedOrder found{.order = slope, .first = range->first, .last = range->last};
+  if (log_h.size() > 2) {
+    const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(log_h.size() - 2));
+    found.low = slope - t * std::sqrt(variance);
+    found.high = slope + t * std::sqrt(variance);
+  }
+  return found;
+}
+
+std::vector<double> differences(ConstVec values) {
+  std::vector<double> found(values.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k + 1 < values.size(); ++k) found[k] = std::abs(values[k] - values[k + 1]);
+  return found;
+}
+
+double extrapolated(double coarse, double fine, double ratio, double order) {
+  return fine + (fine - coarse) / (std::pow(ratio, order) - 1);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,21 @@
+// How a scene is refined: which keys, by how much, and what size that is.
+#pragma once
+
+#include <stillpoint/converge.hpp>
+
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+/// The settings, "key=value", that make what is refined `factor` times finer than in the scene. Throws SceneError if
+/// the scene has nothing of the kind.
+std::vector<std::string> refined(const Scene& scene, Refinement refinement, double factor);
+
+/// The size of it in a scene that took steps of `step` [s].
+double size_of(const Scene& scene, Refinement refinement, double step);
+
+/// The longest side of a cell [m].
+double longest_side(const Scene& scene);
+
+}  // namespace stillpoint

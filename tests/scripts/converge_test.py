@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""converge_test.py ROOT CLAIM PROGRAM: one claim about scripts/converge and scripts/plot_converge.py."""
+
+import json
+import os
+import shutil
+
+from claims import ROOT, call, check_the_claim, claim, script_module
+
+LEVEL = {"size": 0.5, "wall_s": 0.1, "status": "equilibrium"}
+ORDER = {"order": 2.0, "low": 1.9, "high": 2.1, "theory": 2.0, "levels": [1, 3]}
+STUDY = {
+    "title": "costs $5 or $6",
+    "refined": ["h"],
+    "reference": "the exact solution",
+    "levels": [LEVEL, LEVEL | {"size": 0.25, "wall_s": 0.3}, LEVEL | {"size": 0.125, "wall_s": 1.0}],
+    "quantities": {
+        "u_l2": {"values": [0.16, 0.04, 0.01], "errors": [0.16, 0.04, 0.01]},
+        "end.u": {"values": [1.2, 1.1, None], "errors": [0.2, 0.1, None]},
+    },
+    "orders": {"u_l2": ORDER, "end.u": ORDER | {"low": None, "high": None, "theory": None}},
+}
+# Stands for build/release/stillpoint: leaves a study, if there is one, and ends with STATUS.
+PROGRAM = """#!/bin/bash
+printf '<%s>' "$@" >>"$CALLS"
+while [[ $1 != --out ]]; do shift; done
+[[ -z ${STUDY:-} ]] || { mkdir -p "$2"; cp "$STUDY" "$2/converge.json"; }
+exit "${STATUS:-0}"
+"""
+
+
+def write(folder, study):
+    folder.mkdir(exist_ok=True)
+    (folder / "converge.json").write_text(json.dumps(study))
+    return folder
+
+
+def is_refused(folder, *words):
+    """plot_converge.py ends with status 2, says these words in one line, and draws nothing."""
+    result = call(ROOT / "scripts/plot_converge.py", folder)
+    assert result.returncode == 2, result
+    assert all(word in result.stderr for word in words) and result.stderr.count("\n") == 1, result.stderr
+    assert not (folder / "converge.png").exists()
+
+
+@claim("a convergence study is drawn with a line a quantity, its order, and the slope that theory knows")
+def _(folder):
+    plot_converge = script_module("plot_converge")
+    plot_converge.draw(plot_converge.read(write(folder, STUDY)), folder / "a.png")
+    by_size, by_time = plot_converge.plt.gcf().axes
+    lines = {line.get_label(): line for line in by_size.lines if not line.get_label().startswith("_")}
+    assert list(lines) == ["u_l2: 2.00 (1.90 to 2.10)", "end.u: 2.00"], lines
+    assert lines["u_l2: 2.00 (1.90 to 2.10)"].get_xydata().tolist() == [[0.5, 0.16], [0.25, 0.04], [0.125, 0.01]]
+    assert lines["end.u: 2.00"].get_xydata().tolist() == [[0.5, 0.2], [0.25, 0.1]]
+    (slope,) = [line.get_xydata() for line in by_size.lines if line.get_label().startswith("_")]
+    assert abs(slope[1][1] / slope[0][1] - 4) < 1e-12 and slope[0][1] < 0.01, slope
+    assert by_time.lines[0].get_xdata().tolist() == [0.1, 0.3, 1.0]
+    assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+@claim("a convergence study that is missing, broken or without errors is refused with status 2")
+def _(folder):
+    is_refused(folder, str(folder), "no converge.json")
+    for text, word in (("", "Expecting value"), ("[]", "with quantities"), ("{}", "with quantities")):
+        (folder / "converge.json").write_text(text)
+        is_refused(folder, "converge.json", word)
+    is_refused(write(folder, STUDY | {"quantities": {}}), "nothing to draw")
+    is_refused(write(folder, STUDY | {"quantities": {"u_l2": {"errors": [None, None, None]}}}), "nothing to draw")
+    is_refused(write(folder, {"quantities": {"u_l2": {"errors": [1]}}}), "converge.json", "levels")
+
+
+@claim("scripts/converge studies a scene, draws the picture, and ends with the status of the study")
+def _(folder):
+    root = folder / "a copy"
+    shutil.copytree(ROOT / "scripts", root / "scripts")
+    (root / "build/release").mkdir(parents=True)
+    stubs = {"scripts/install_packages": "", "scripts/build_preset": "", "build/release/stillpoint": PROGRAM}
+    for name, text in stubs.items():
+        (root / name).write_text(text or "#!/bin/bash\n")
+        (root / name).chmod(0o755)
+    environment = os.environ | {"CALLS": str(folder / "calls"), "STUDY": str(write(folder / "given", STUDY) / "converge.json")}
+    for status in (0, 3):
+        result = call(root / "scripts/converge", "my scene.toml", "--refine", "h", cwd=folder,
+                      env=environment | {"STATUS": str(status)})
+        assert result.returncode == status, result
+        picture = folder / "out/my scene-converge/converge.png"
+        assert "Picture: out/my scene-converge/converge.png" in result.stdout, result
+        picture.unlink()
+        calls = folder / "calls"
+        assert calls.read_text() == "<converge><my scene.toml><--out><out/my scene-converge><--refine><h>"
+        calls.unlink()
+    assert call(root / "scripts/converge").returncode == 2
+
+
+if __name__ == "__main__":
+    check_the_claim()
