@@ -17,6 +17,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 
+def instantiations(file, line, branches):
+    """How many of a template the branches of a line are of: gcov gives lambdas of all of them as one line."""
+    if "function_name" in line:
+        return 1
+    around = sum(f["start_line"] <= line["line_number"] <= f["end_line"] for f in file["functions"])
+    return around if around and branches % around == 0 else 1
+
+
 def branches_of(counts, build, pattern):
     """{(file, line, number of its branches, index): how often it was taken} of one object."""
     gcov = ["gcov", "--branch-probabilities", "--json-format", "--stdout", counts.name]
@@ -28,8 +36,9 @@ def branches_of(counts, build, pattern):
                 continue
             for line in file["lines"]:
                 branches = [branch["count"] for branch in line["branches"] if not branch["throw"]]
+                each = len(branches) // instantiations(file, line, len(branches))
                 for index, count in enumerate(branches):
-                    taken[str(path.relative_to(ROOT)), line["line_number"], len(branches), index] += count
+                    taken[str(path.relative_to(ROOT)), line["line_number"], each, index % each] += count
     return taken
 
 
