@@ -1,8 +1,10 @@
-"""What plot_history.py and plot_fields.py have in common."""
+"""What the scripts that draw have in common."""
 
+import argparse
 import json
 import re
 import sys
+from pathlib import Path
 
 import matplotlib
 
@@ -49,3 +51,35 @@ def finish(program, draw, file):
         return 2
     print(f"Picture: {file}")
     return 0
+
+
+def read_study(folder, name, key):
+    """DIR/name.json of a study, an object with this key."""
+    file = folder / f"{name}.json"
+    try:
+        study = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise Refused(f"{folder}: no {name}.json; is this the folder of `stillpoint {name}`?") from None
+    except (OSError, ValueError) as error:
+        raise Refused(f"{file}: {error}") from None
+    if not isinstance(study, dict) or not isinstance(study.get(key), (dict, list)):
+        raise Refused(f"{file}: expected an object with {key}")
+    return study
+
+
+def draw_study(name, about, read, draw):
+    """The program plot_NAME.py DIR [--out FILE]; returns the exit status."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="DIR", type=Path)
+    parser.add_argument("--out", metavar="FILE", type=Path)
+    options = parser.parse_args()
+
+    def draw_to(file):
+        study = read(options.folder)
+        try:
+            draw(study, file)
+        except (KeyError, TypeError) as error:
+            missing = f"no {error}" if isinstance(error, KeyError) else error
+            raise Refused(f"{options.folder / name}.json: {missing}") from None
+
+    return finish(f"plot_{name}", draw_to, options.out or options.folder / f"{name}.png")

@@ -6,13 +6,10 @@ estimate of a polynomial iteration's worst case. FILE is DIR/compare.png if not 
 there is nothing to draw.
 """
 
-import argparse
-import json
 import math
 import sys
-from pathlib import Path
 
-from pictures import COLOURS, STYLE, Refused, finish, plain, title_of  # before pyplot: sets the backend
+from pictures import COLOURS, STYLE, Refused, draw_study, plain, read_study, title_of  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 
 LINES = ["-", "--", ":", "-."]
@@ -20,16 +17,7 @@ FLOOR = 1e-16
 
 
 def read(folder):
-    file = folder / "compare.json"
-    try:
-        comparison = json.loads(file.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise Refused(f"{folder}: no compare.json; is this the folder of a comparison?") from None
-    except (OSError, ValueError) as error:
-        raise Refused(f"{file}: {error}") from None
-    if not isinstance(comparison, dict) or not isinstance(comparison.get("runs"), list):
-        raise Refused(f"{file}: expected an object with runs")
-    return comparison
+    return read_study(folder, "compare", "runs")
 
 
 def way_of(run, column):
@@ -82,22 +70,5 @@ def draw(comparison, file):
     figure.savefig(file, dpi=100)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="DIR", type=Path)
-    parser.add_argument("--out", metavar="FILE", type=Path)
-    options = parser.parse_args()
-
-    def draw_to(file):
-        comparison = read(options.folder)
-        try:
-            draw(comparison, file)
-        except (KeyError, TypeError) as error:
-            missing = f"no {error}" if isinstance(error, KeyError) else error
-            raise Refused(f"{options.folder / 'compare.json'}: {missing}") from None
-
-    return finish("plot_compare", draw_to, options.out or options.folder / "compare.png")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw_study("compare", __doc__, read, draw))

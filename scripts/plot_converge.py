@@ -6,13 +6,10 @@ same errors against wall time. FILE is DIR/converge.png if not given. Exit statu
 draw.
 """
 
-import argparse
-import json
 import math
 import sys
-from pathlib import Path
 
-from pictures import COLOURS, STYLE, Refused, finish, plain, title_of  # before pyplot: sets the backend
+from pictures import COLOURS, STYLE, Refused, draw_study, plain, read_study, title_of  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 
 MARKERS = "osd^v<>"
@@ -20,16 +17,7 @@ SIZES = {"h": "h [m]", "points": "1/points per cell", "step": "step [s]", "rtol"
 
 
 def read(folder):
-    file = folder / "converge.json"
-    try:
-        study = json.loads(file.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise Refused(f"{folder}: no converge.json; is this the folder of a convergence study?") from None
-    except (OSError, ValueError) as error:
-        raise Refused(f"{file}: {error}") from None
-    if not isinstance(study, dict) or not isinstance(study.get("quantities"), dict):
-        raise Refused(f"{file}: expected an object with quantities")
-    return study
+    return read_study(folder, "converge", "quantities")
 
 
 def points_of(study, quantity):
@@ -94,22 +82,5 @@ def draw(study, file):
     figure.savefig(file, dpi=100)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="DIR", type=Path)
-    parser.add_argument("--out", metavar="FILE", type=Path)
-    options = parser.parse_args()
-
-    def draw_to(file):
-        study = read(options.folder)
-        try:
-            draw(study, file)
-        except (KeyError, TypeError) as error:
-            missing = f"no {error}" if isinstance(error, KeyError) else error
-            raise Refused(f"{options.folder / 'converge.json'}: {missing}") from None
-
-    return finish("plot_converge", draw_to, options.out or options.folder / "converge.png")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw_study("converge", __doc__, read, draw))

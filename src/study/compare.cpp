@@ -3,13 +3,11 @@
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <mutex>
 #include <numeric>
 #include <random>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,6 +21,7 @@
 #include "study/benchmark_run.hpp"
 #include "study/compare_candidates.hpp"
 #include "study/reference_solution.hpp"
+#include "study/side_by_side.hpp"
 #include "study/transient_run.hpp"
 
 namespace stillpoint {
@@ -164,21 +163,11 @@ class Comparing {
     result_.reference = transient_->what;
   }
 
-  // Each candidate alone on a thread: evaluations do not depend on how many there are.
   void count() {
-    const int workers = std::max(1, std::min(result_.threads, static_cast<int>(candidates_.size())));
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-      const ThreadScope alone(1);
-      for (std::size_t k = next++; k < candidates_.size(); k = next++) {
-        try_candidate(candidates_[k]);
-        tell(candidates_[k].run.label());
-      }
-    };
-    std::vector<std::jthread> others;
-    for (int k = 1; k < workers; ++k) others.emplace_back(work);
-    work();
-    others.clear();
+    side_by_side(result_.threads, candidates_.size(), [&](std::size_t k) {
+      try_candidate(candidates_[k]);
+      tell(candidates_[k].run.label());
+    });
   }
 
   void try_candidate(Candidate& candidate) const {

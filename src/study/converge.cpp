@@ -2,23 +2,19 @@
 #include <stillpoint/integrator.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/stopwatch.hpp"
-#include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
-#include "simulation/thread_scope.hpp"
 #include "study/level_run.hpp"
 #include "study/observed_order.hpp"
 #include "study/refinement.hpp"
+#include "study/side_by_side.hpp"
 
 namespace stillpoint {
 namespace {
@@ -91,30 +87,12 @@ class Converging {
 
   // The finest first, which take longest.
   void run(std::vector<Job>& jobs) {
-    const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
-    const int workers = std::max(1, std::min(threads, static_cast<int>(jobs.size())));
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::exception_ptr> refused(jobs.size());
-    const auto work = [&] {
-      const ThreadScope alone(1);
-      for (std::size_t k = next++; k < jobs.size(); k = next++) {
-        const std::size_t finest_first = jobs.size() - 1 - k;
-        Job& job = jobs[finest_first];
-        try {
-          if (!is_interrupted()) job.run = run_level(load(job.set), options_.interrupted);
-        } catch (...) {
-          refused[finest_first] = std::current_exception();
-        }
-        job.run.level.set = job.set;
-        tell(job.doing);
-      }
-    };
-    std::vector<std::jthread> others;
-    for (int k = 1; k < workers; ++k) others.emplace_back(work);
-    work();
-    others.clear();
-    for (const std::exception_ptr& error : refused)
-      if (error) std::rethrow_exception(error);
+    side_by_side(options_.threads > 0 ? options_.threads : omp_get_max_threads(), jobs.size(), [&](std::size_t k) {
+      Job& job = jobs[jobs.size() - 1 - k];
+      if (!is_interrupted()) job.run = run_level(load(job.set), options_.interrupted);
+      job.run.level.set = job.set;
+      tell(job.doing);
+    });
   }
 
   void gather_levels() {

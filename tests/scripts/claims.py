@@ -1,6 +1,8 @@
 """Tests by their claims: FILE_test.py ROOT CLAIM PROGRAM checks one, in a folder of its own."""
 
 import importlib
+import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,6 +24,19 @@ def script_module(name):
     """A script of ROOT/scripts as a module."""
     sys.path.insert(0, str(ROOT / "scripts"))
     return importlib.import_module(name)
+
+
+def copy_of_scripts(folder, program):
+    """scripts/ with stubs for what installs, builds and computes; returns their folder, and an environment in which a
+    program that writes to $CALLS does so to folder/calls."""
+    root = folder / "a copy"
+    shutil.copytree(ROOT / "scripts", root / "scripts")
+    (root / "build/release").mkdir(parents=True)
+    stubs = {"scripts/install_packages": "", "scripts/build_preset": "", "build/release/stillpoint": program}
+    for name, text in stubs.items():
+        (root / name).write_text(text or "#!/bin/bash\n")
+        (root / name).chmod(0o755)
+    return root / "scripts", os.environ | {"CALLS": str(folder / "calls")}
 
 
 def check_the_claim():

@@ -2,10 +2,8 @@
 """compare_test.py ROOT CLAIM PROGRAM: one claim about scripts/compare and scripts/plot_compare.py."""
 
 import json
-import os
-import shutil
 
-from claims import ROOT, call, check_the_claim, claim, script_module
+from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
 
 RUN = {
     "label": "viscous 0.9",
@@ -97,36 +95,24 @@ def _(folder):
     is_refused(write(folder, COMPARISON | {"runs": [{"label": "viscous"}]}), "compare.json", "samples")
 
 
-def a_copy(folder):
-    """scripts/ with stubs for what installs, builds and computes; returns scripts/compare and its environment."""
-    root = folder / "a copy"
-    shutil.copytree(ROOT / "scripts", root / "scripts")
-    (root / "build/release").mkdir(parents=True)
-    stubs = {"scripts/install_packages": "", "scripts/build_preset": "", "build/release/stillpoint": PROGRAM}
-    for name, text in stubs.items():
-        (root / name).write_text(text or "#!/bin/bash\n")
-        (root / name).chmod(0o755)
-    return root / "scripts/compare", os.environ | {"CALLS": str(folder / "calls")}
-
-
 @claim("scripts/compare without a scene or a folder says how to use it, with status 2")
 def _(folder):
     result = call(ROOT / "scripts/compare")
     assert result.returncode == 2 and "usage" in result.stderr and "SCENE" in result.stderr, result
     result = call(ROOT / "scripts/compare", "--overshoot")
     assert result.returncode == 2 and "usage" in result.stderr, result
-    script, environment = a_copy(folder)
-    result = call(script, "a.toml", "--out", cwd=folder, env=environment)
+    scripts, environment = copy_of_scripts(folder, PROGRAM)
+    result = call(scripts / "compare", "a.toml", "--out", cwd=folder, env=environment)
     assert result.returncode == 2 and "--out needs a folder" in result.stderr, result
     assert not (folder / "calls").exists()
 
 
 @claim("scripts/compare compares a scene, draws the picture, and ends with the status of the comparison")
 def _(folder):
-    script, environment = a_copy(folder)
+    scripts, environment = copy_of_scripts(folder, PROGRAM)
     environment["COMPARISON"] = str(write(folder / "given", COMPARISON) / "compare.json")
     for status in (0, 3):
-        result = call(script, "my scene.toml", "--overshoot", cwd=folder, env=environment | {"STATUS": str(status)})
+        result = call(scripts / "compare", "my scene.toml", "--overshoot", cwd=folder, env=environment | {"STATUS": str(status)})
         assert result.returncode == status, result
         picture = folder / "out/my scene-compare/compare.png"
         assert "Picture: out/my scene-compare/compare.png" in result.stdout, result
@@ -138,8 +124,8 @@ def _(folder):
 
 @claim("scripts/compare draws nothing of a scene that is refused, and ends with status 2")
 def _(folder):
-    script, environment = a_copy(folder)
-    result = call(script, "a.toml", "--out=there", cwd=folder, env=environment | {"STATUS": "2"})
+    scripts, environment = copy_of_scripts(folder, PROGRAM)
+    result = call(scripts / "compare", "a.toml", "--out=there", cwd=folder, env=environment | {"STATUS": "2"})
     assert result.returncode == 2 and not result.stderr, result
     assert (folder / "calls").read_text() == "<compare><a.toml><--out><there>"
 

@@ -2,10 +2,8 @@
 """converge_test.py ROOT CLAIM PROGRAM: one claim about scripts/converge and scripts/plot_converge.py."""
 
 import json
-import os
-import shutil
 
-from claims import ROOT, call, check_the_claim, claim, script_module
+from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
 
 LEVEL = {"size": 0.5, "wall_s": 0.1, "status": "equilibrium"}
 ORDER = {"order": 2.0, "low": 1.9, "high": 2.1, "theory": 2.0, "levels": [1, 3]}
@@ -71,16 +69,10 @@ def _(folder):
 
 @claim("scripts/converge studies a scene, draws the picture, and ends with the status of the study")
 def _(folder):
-    root = folder / "a copy"
-    shutil.copytree(ROOT / "scripts", root / "scripts")
-    (root / "build/release").mkdir(parents=True)
-    stubs = {"scripts/install_packages": "", "scripts/build_preset": "", "build/release/stillpoint": PROGRAM}
-    for name, text in stubs.items():
-        (root / name).write_text(text or "#!/bin/bash\n")
-        (root / name).chmod(0o755)
-    environment = os.environ | {"CALLS": str(folder / "calls"), "STUDY": str(write(folder / "given", STUDY) / "converge.json")}
+    scripts, environment = copy_of_scripts(folder, PROGRAM)
+    environment["STUDY"] = str(write(folder / "given", STUDY) / "converge.json")
     for status in (0, 3):
-        result = call(root / "scripts/converge", "my scene.toml", "--refine", "h", cwd=folder,
+        result = call(scripts / "converge", "my scene.toml", "--refine", "h", cwd=folder,
                       env=environment | {"STATUS": str(status)})
         assert result.returncode == status, result
         picture = folder / "out/my scene-converge/converge.png"
@@ -89,7 +81,7 @@ def _(folder):
         calls = folder / "calls"
         assert calls.read_text() == "<converge><my scene.toml><--out><out/my scene-converge><--refine><h>"
         calls.unlink()
-    assert call(root / "scripts/converge").returncode == 2
+    assert call(scripts / "converge").returncode == 2
 
 
 if __name__ == "__main__":

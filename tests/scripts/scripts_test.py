@@ -5,7 +5,7 @@ import os
 import shutil
 import sys
 
-from claims import ROOT, call, check_the_claim, claim, script_module
+from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
 
 HEADER = "t,steps,rhs_evaluations,residual,kinetic_energy,p6.u,p6.stress\n"
 HISTORY = HEADER + "0,0,1,1,0,0,0\n1,10,11,0.5,0.1,0.001,0.002\n2,20,21,,0,0.002,0.001\n"
@@ -102,17 +102,11 @@ def _(_folder):
 
 
 def a_copy(folder):
-    """scripts/ with stubs for what installs, builds and computes; returns scripts/run and its environment."""
-    root = folder / "a copy"
-    shutil.copytree(ROOT / "scripts", root / "scripts")
-    (root / "build/release").mkdir(parents=True)
-    stubs = {"scripts/install_packages": "", "scripts/build_preset": "", "build/release/stillpoint": PROGRAM}
-    for name, text in stubs.items():
-        (root / name).write_text(text or "#!/bin/bash\n")
-        (root / name).chmod(0o755)
+    """scripts/run of a copy whose program leaves a history, and its environment."""
+    scripts, environment = copy_of_scripts(folder, PROGRAM)
     (folder / "my scene.toml").write_text(SCENE)
     (folder / "rows").write_text(HISTORY)
-    return root / "scripts/run", os.environ | {"CALLS": str(folder / "calls"), "HISTORY": str(folder / "rows")}
+    return scripts / "run", environment | {"HISTORY": str(folder / "rows")}
 
 
 @claim("scripts/run runs a scene and its variants, draws them, and ends with the status of the run")
