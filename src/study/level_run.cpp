@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gsl/gsl_deriv.h>
 
 #include "base/stopwatch.hpp"
@@ -74,7 +75,7 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, Leve
   for (const auto& [name, fields] : s.probes) {
     const auto at = s.probe_positions.find(name);
     for (const auto& [field, value] : fields) {
-      run.probes.emplace_back(name + "." + field, value);
+      run.probes.emplace_back(fmt::format("{}.{}", name, field), value);
       run.probe_errors.push_back(
           at == s.probe_positions.end() ? not_known : std::abs(value - exact_value(scene, field, at->second, s.t)));
     }
