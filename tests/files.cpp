@@ -1,16 +1,15 @@
 #include "files.hpp"
 
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace stillpoint::test {
 
 std::string contents(const std::filesystem::path& file) {
-  std::ostringstream text;
-  if (!(text << std::ifstream(file, std::ios::binary).rdbuf()))
-    throw std::runtime_error(file.string() + ": no contents");
-  return text.str();
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 Json parsed(const std::string& json) { return Json::parse(json); }
