@@ -85,9 +85,9 @@ struct ConvergenceStudy {
   std::vector<std::string> notes;
 };
 
-/// Runs the scene on each level. Errors are those against the scene's exact solution; without one, where points stay
-/// the same from level to level, those against the finest level, and of probes those against Richardson's
-/// extrapolation. Throws SceneError if the scene is wrong, or has nothing of what is to be refined.
+/// Runs the scene on each level. Where h or points are refined errors are those against the scene's exact solution, and
+/// without one those of the probes against Richardson's extrapolation; where points stay the same from level to level,
+/// those against the finest level. Throws SceneError if the scene is wrong, or has nothing of what is to be refined.
 ConvergenceStudy converge(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                           const ConvergeOptions& options = {});
 

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "simulation/catalogue.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -149,13 +151,13 @@ std::vector<std::string> support_notes(const Scene& scene) {
 // at one node move the others: blocks of quadratic and cubic cells were seen to diverge at 0.74 of the critical step
 // (one-sided, α = 0.8), bars and linear cells at none below it.
 std::vector<std::string> damping_notes(const Scene& scene, const LagrangianPhase& phase) {
-  const auto strategy = std::ranges::find(dampings(), scene.damping.strategy, &StrategyInfo::name);
-  const bool is_local = strategy != dampings().end() && strategy->is_local;
-  if (!is_local || phase.mass().is_lumped() || scene.dim == 1 || degree_of(scene.grid.basis) == 1) return {};
+  const StrategyInfo* strategy = catalogue().strategy(scene.damping.strategy);
+  if (!strategy || !strategy->is_local || phase.mass().is_lumped() || scene.dim == 1 ||
+      degree_of(scene.grid.basis) == 1)
+    return {};
   return {
       fmt::format("damping.strategy = \"{}\" acts at each node by itself, and a consistent mass couples them: on this "
-                  "basis no step "
-                  "is known to be stable; expected mass.kind = \"lumped\", or viscous damping",
+                  "basis no step is known to be stable; expected mass.kind = \"lumped\", or viscous damping",
                   scene.damping.strategy)};
 }
 

@@ -30,10 +30,10 @@ Model Simulation::Impl::set_up() {
 }
 
 // One of a static solver may take long: it is broken off, at the last equilibrium on its way.
-std::optional<StepReport> Simulation::Impl::try_step(double t_stop) {
+std::optional<StepReport> Simulation::Impl::try_step(double landing) {
   const StopScope scope(model_.static_method ? asks_to_end() : nullptr);
   try {
-    return motion_->integrator->step(landing_time(t_stop));
+    return motion_->integrator->step(landing);
   } catch (const Stopped&) {
     end_as_asked("the step was not finished");
     measured_ = false;

@@ -12,6 +12,7 @@
 #include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
+#include "scene/longest_cell.hpp"
 
 namespace stillpoint {
 namespace {
@@ -25,12 +26,6 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
           .must_last = model.equilibrium_must_last,
           .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
           .steps = scene.stop.steps};
-}
-
-double largest_cell(const Scene& scene) {
-  double h = 0;
-  for (std::size_t d = 0; d < scene.grid.cells.size(); ++d) h = std::max(h, scene.grid.cell_length(d));
-  return h;
 }
 
 RunStatus status_of(StepReport::Status status) {
@@ -90,7 +85,8 @@ RunStatus Simulation::Impl::step(double t_stop) {
 }
 
 void Simulation::Impl::take_step(double t_stop) {
-  const std::optional<StepReport> taken = try_step(t_stop);
+  const double landing = landing_time(t_stop);
+  const std::optional<StepReport> taken = try_step(landing);
   if (!taken) return;
   const StepReport& report = *taken;
   t_ = report.t;
@@ -102,7 +98,7 @@ void Simulation::Impl::take_step(double t_stop) {
     return;
   }
   step_ = report.h;
-  standstill_.observe(step_, t_ >= landing_time(t_stop));
+  standstill_.observe(step_, t_ >= landing);
   measured_ = false;
   motion_->accept(t_);
   if (plastic_path_.due(t_)) watch_plastic_path();
@@ -252,7 +248,8 @@ bool Simulation::Impl::watches_chatter() const {
 }
 
 void Simulation::Impl::watch_chatter(double share, double residual) {
-  const auto said = chatter_.observe(*model_.phase, share * *scene_.phase.max_motion, residual, largest_cell(scene_));
+  const auto said =
+      chatter_.observe(*model_.phase, share * *scene_.phase.max_motion, residual, longest_cell(scene_.grid));
   if (!said) return;
   status_ = RunStatus::step_limit;
   reason_ = *said;

@@ -75,7 +75,7 @@ class Simulation::Impl {
   std::function<bool()> asks_to_end();
   void begin_phase(ConstVec u0, ConstVec v0);
   void take_step(double t_stop);
-  std::optional<StepReport> try_step(double t_stop);
+  std::optional<StepReport> try_step(double landing);
   double landing_time(double t_stop) const;
   void next_phase();
   bool try_next_phase();

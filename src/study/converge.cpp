@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "scene/longest_cell.hpp"
 #include "simulation/catalogue.hpp"
+#include "study/error_sources.hpp"
 #include "study/level_run.hpp"
 #include "study/observed_order.hpp"
 #include "study/refinement.hpp"
@@ -27,8 +29,6 @@ struct Job {
   std::string doing;
   LevelRun run{};
 };
-
-bool is_transient(const Scene& scene) { return !scene.solve.is_static() && !scene.stop.wants_equilibrium(); }
 
 // ‖a − b‖/‖b‖ over the points with weights V_p, and by the largest components.
 struct RelativeDifference {
@@ -99,7 +99,7 @@ class Converging {
     for (Job& job : levels_) {
       ConvergenceLevel& level = job.run.level;
       const Scene scene = load(job.set);
-      level.h = longest_side(scene);
+      level.h = longest_cell(scene.grid);
       level.size = size_of(scene, options_.refine.front(), level.step);
       study_.levels.push_back(level);
       sizes_.push_back(level.size);
@@ -138,7 +138,9 @@ class Converging {
     if (!any) return;
     if (has_same_points()) {
       study_.reference = "the finest level";
-      add_fields();
+      add_field("u_l2", &LevelRun::u, &RelativeDifference::l2);
+      add_field("u_max", &LevelRun::u, &RelativeDifference::max);
+      add_field("stress_l2", &LevelRun::stress, &RelativeDifference::l2);
     } else if (!any->norms.empty()) {
       study_.reference = "the exact solution";
       for (const auto& [name, value] : any->norms) add_norm(name);
@@ -160,34 +162,22 @@ class Converging {
     study_.quantities.push_back(std::move(norm));
   }
 
-  void add_fields() {
-    const LevelRun& finest = levels_.back().run;
-    const std::size_t n = levels_.size();
-    StudiedQuantity l2{.name = "u_l2"}, max{.name = "u_max"}, stress{.name = "stress_l2"};
-    std::vector<double> l2_steps(n, none), max_steps(n, none), stress_steps(n, none);  // from a level to the next
-    for (std::size_t k = 0; k < n; ++k) {
-      const LevelRun& run = levels_[k].run;
-      const bool is_finest = k + 1 == n;
-      const auto in_u = is_finest ? RelativeDifference{} : difference(run.u, finest.u, finest.volume);
-      l2.values.push_back(in_u.l2);
-      max.values.push_back(in_u.max);
-      stress.values.push_back(is_finest ? none : difference(run.stress, finest.stress, finest.volume).l2);
-      if (is_finest) break;
-      const LevelRun& next = levels_[k + 1].run;
-      const auto step = difference(run.u, next.u, next.volume);
-      l2_steps[k] = step.l2;
-      max_steps[k] = step.max;
-      stress_steps[k] = difference(run.stress, next.stress, next.volume).l2;
-    }
-    const auto add = [&](StudiedQuantity& quantity, const std::vector<double>& steps) {
-      quantity.errors = quantity.values;
-      quantity.order = observed_order(sizes_, steps);
-      quantity.theory = theory(quantity.name);
-      study_.quantities.push_back(std::move(quantity));
+  void add_field(const char* name, std::vector<double> LevelRun::*field, double RelativeDifference::*norm) {
+    const auto between = [&](std::size_t a, std::size_t b) {
+      const LevelRun &one = levels_[a].run, &other = levels_[b].run;
+      return a == b ? none : difference(one.*field, other.*field, other.volume).*norm;
     };
-    add(l2, l2_steps);
-    add(max, max_steps);
-    add(stress, stress_steps);
+    StudiedQuantity quantity{.name = name};
+    const std::size_t finest = levels_.size() - 1;
+    std::vector<double> steps;  // from a level to the next
+    for (std::size_t k = 0; k <= finest; ++k) {
+      quantity.values.push_back(between(k, finest));
+      steps.push_back(between(k, std::min(k + 1, finest)));
+    }
+    quantity.errors = quantity.values;
+    quantity.order = observed_order(sizes_, steps);
+    quantity.theory = theory(name);
+    study_.quantities.push_back(std::move(quantity));
   }
 
   void add_probe(std::size_t index, const std::string& name) {
@@ -197,7 +187,8 @@ class Converging {
       probe.values.push_back(value_of(job.run.probes, name));
       exact_errors.push_back(index < job.run.probe_errors.size() ? job.run.probe_errors[index] : none);
     }
-    const bool has_exact = !has_same_points() && std::isfinite(exact_errors.back());
+    const bool has_exact =
+        !has_same_points() && std::ranges::any_of(exact_errors, [](double e) { return std::isfinite(e); });
     probe.order = observed_order(sizes_, has_exact ? exact_errors : differences(probe.values));
     const std::size_t n = probe.values.size();
     if (probe.order && probe.order->order > 0.2 && n > 1) {
@@ -228,75 +219,46 @@ class Converging {
 
   // --- which error is the largest ---
 
-  // At the finest level but one, each thing alone made finer.
+  // At the finest level but one.
   std::vector<Job> source_jobs() const {
     std::vector<Job> jobs;
     if (!options_.finds_dominant || levels_.size() < 2) return jobs;
     const std::vector<std::string>& base = levels_[levels_.size() - 2].set;
-    const Scene scene = load(base);
-    const auto is_refined = [&](Refinement r) {
-      return std::ranges::find(options_.refine, r) != options_.refine.end();
-    };
-    const auto add = [&](const char* name, const std::vector<std::string>& more) {
-      Job job{.set = base, .doing = name};
-      job.set.insert(job.set.end(), more.begin(), more.end());
+    for (const RefinedSource& source : other_sources(load(base), options_.refine)) {
+      Job job{.set = base, .doing = source.name};
+      job.set.insert(job.set.end(), source.set.begin(), source.set.end());
       jobs.push_back(std::move(job));
-    };
-    const bool points_are_ours =
-        std::ranges::all_of(scene.bodies, [](const BodySpec& body) { return body.file.empty(); });
-    if (!is_refined(Refinement::h)) add("space", refined(scene, Refinement::h, 2));
-    if (!is_refined(Refinement::points) && points_are_ours) add("quadrature", refined(scene, Refinement::points, 2));
-    if (is_transient(scene) && !is_refined(Refinement::step) && !is_refined(Refinement::rtol)) {
-      add("time", scene.integrator.rtol ? refined(scene, Refinement::rtol, 10) : refined(scene, Refinement::step, 2));
-    }
-    if (scene.phase.max_motion.value_or(0) > 0 && !is_refined(Refinement::motion))
-      add("phases", refined(scene, Refinement::motion, 2));
-    if (scene.stop.wants_equilibrium() && scene.stop.residual > 0) {
-      constexpr double tighter = 100, tightest = 1e-12;
-      const double residual = std::max(tightest, scene.stop.residual / tighter);
-      add("the relaxation's stop", {fmt::format("stop.residual={:.3g}", residual)});
     }
     return jobs;
   }
 
-  static std::string name_of_source(Refinement refinement) {
-    switch (refinement) {
-      case Refinement::h:
-        return "space";
-      case Refinement::points:
-        return "quadrature";
-      case Refinement::motion:
-        return "phases";
-      default:
-        return "time";
-    }
+  // The figure that sources are told by: the error in u, or the first probe, or how far u itself moves.
+  std::string figure_of_sources(const LevelRun& run) const {
+    if (!has_same_points() && !run.norms.empty()) return run.norms.front().first;
+    return run.probes.empty() ? "u" : run.probes.front().first;
   }
 
-  // A figure that both have: the error in u, or the first probe.
-  double change(const LevelRun& a, const LevelRun& b) const {
+  static double change(const std::string& figure, const LevelRun& a, const LevelRun& b) {
     if (!a.is_there || !b.is_there) return none;
-    if (!has_same_points() && !a.norms.empty() && !b.norms.empty())
-      return std::abs(a.norms.front().second - b.norms.front().second);
-    if (!a.probes.empty() && !b.probes.empty()) return std::abs(a.probes.front().second - b.probes.front().second);
-    return a.u.size() == b.u.size() ? difference(a.u, b.u, b.volume).l2 : none;
+    if (figure == "u") return difference(a.u, b.u, b.volume).l2;
+    const auto moved = [&](const auto& of_a, const auto& of_b) {
+      return std::abs(value_of(of_a, figure) - value_of(of_b, figure));
+    };
+    const double of_norm = moved(a.norms, b.norms);
+    return std::isfinite(of_norm) ? of_norm : moved(a.probes, b.probes);
   }
 
   void gather_sources(const std::vector<Job>& jobs) {
     if (jobs.empty() || !first_there()) return;
     const LevelRun &finest = levels_.back().run, &base = levels_[levels_.size() - 2].run;
-    const auto add = [&](const std::string& name, double by) {
+    study_.source_quantity = figure_of_sources(finest);
+    const auto add = [&](const std::string& name, const LevelRun& run) {
+      const double by = change(study_.source_quantity, base, run);
       if (std::isfinite(by)) study_.sources.push_back({name, by});
     };
-    add(name_of_source(options_.refine.front()), change(base, finest));
-    for (const Job& job : jobs) add(job.doing, change(base, job.run));
+    add(source_of(options_.refine.front()), finest);
+    for (const Job& job : jobs) add(job.doing, job.run);
     std::ranges::stable_sort(study_.sources, std::ranges::greater(), &ErrorSource::change);
-    if (!has_same_points() && !finest.norms.empty()) {
-      study_.source_quantity = finest.norms.front().first;
-    } else if (!finest.probes.empty()) {
-      study_.source_quantity = finest.probes.front().first;
-    } else {
-      study_.source_quantity = "u";
-    }
   }
 
   void tell_of_orders() {
@@ -306,8 +268,7 @@ class Converging {
       const ObservedOrder& order = *quantity.order;
       const double most = std::isfinite(order.high) ? order.high : order.order;
       if (most >= *quantity.theory - little) continue;
-      const bool other =
-          !study_.sources.empty() && study_.sources.front().name != name_of_source(options_.refine.front());
+      const bool other = !study_.sources.empty() && study_.sources.front().name != source_of(options_.refine.front());
       study_.notes.push_back(fmt::format(
           "{}: order {:.2f}, below the {:g} of smooth solutions: {}", quantity.name, order.order, *quantity.theory,
           other

@@ -10,7 +10,6 @@
 
 #include "base/stopwatch.hpp"
 #include "space/phase/lagrangian_phase.hpp"
-#include "study/refinement.hpp"
 
 namespace stillpoint {
 namespace {
@@ -104,7 +103,6 @@ LevelRun run_level(const Scene& scene, const std::function<bool()>& interrupted)
   const Stopwatch watch;
   LevelRun run;
   ConvergenceLevel& level = run.level;
-  level.h = longest_side(scene);
   try {
     const Scene own = without_files(scene);
     Simulation simulation(own, {.threads = 1, .interrupted = interrupted});

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scene/longest_cell.hpp"
 #include "scene/throw_scene_error.hpp"
 
 namespace stillpoint {
@@ -70,16 +71,10 @@ std::vector<std::string> refined(const Scene& scene, Refinement refinement, doub
   }
 }
 
-double longest_side(const Scene& scene) {
-  double h = 0;
-  for (std::size_t d = 0; d < scene.grid.cells.size(); ++d) h = std::max(h, scene.grid.cell_length(d));
-  return h;
-}
-
 double size_of(const Scene& scene, Refinement refinement, double step) {
   switch (refinement) {
     case Refinement::h:
-      return longest_side(scene);
+      return longest_cell(scene.grid);
     case Refinement::points:
       return 1.0 / std::ranges::min(scene.bodies.front().points_per_cell);
     case Refinement::step:

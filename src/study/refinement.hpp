@@ -15,7 +15,4 @@ std::vector<std::string> refined(const Scene& scene, Refinement refinement, doub
 /// The size of it in a scene that took steps of `step` [s].
 double size_of(const Scene& scene, Refinement refinement, double step);
 
-/// The longest side of a cell [m].
-double longest_side(const Scene& scene);
-
 }  // namespace stillpoint

@@ -147,6 +147,8 @@ TEST_CASE("what a scene does not have cannot be refined, and a level that fails 
   CHECK(says(study, "level 4 is left out, it ended as step-limit"));
   CHECK(std::isnan(quantity(study, "u_l2").errors.back()));
   CHECK(quantity(study, "u_l2").order->last == 2);
+  CHECK(std::isfinite(quantity(study, "end.stress").errors.front()));
+  CHECK(quantity(study, "end.stress").order->last == 2);
 }
 
 TEST_CASE(

@@ -191,8 +191,9 @@ class Gsl final : public SteppingIntegrator {
   Attempt failure(int code, double h) const {
     if (code == GSL_EBADFUNC) return {.status = StepReport::Status::inadmissible, .h = h};
     // That of the step control, which GSL calls no more than "failure".
-    const std::string said =
-        code == GSL_FAILURE ? "no step that t can tell from none meets integrator.rtol and atol_*" : gsl_strerror(code);
+    const std::string said = code == GSL_FAILURE
+                                 ? "the step has shrunk to the rounding of t without meeting integrator.rtol and atol_*"
+                                 : gsl_strerror(code);
     return {.status = StepReport::Status::failed, .h = h, .message = "GSL: " + said};
   }
 
