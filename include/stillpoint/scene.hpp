@@ -106,6 +106,7 @@ struct PhaseSpec {  // [phase]: when the points move on and the grid starts agai
   int xpic_order = 5;     // of "xpic": m
   DeformationRule deformation = DeformationRule::positions;
   Quadrature quadrature = Quadrature::points;
+  Dilatation dilatation = Dilatation::points;
 };
 
 struct MassSpec {  // [mass]

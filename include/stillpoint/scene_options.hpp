@@ -30,6 +30,11 @@ enum class Quadrature {
   points,  // itself: N_ip = N_i(x_p)
   domains  // its part of the body: N_ip is the mean over that
 };
+/// Whose change of volume a material point in two dimensions answers to.
+enum class Dilatation {
+  points,  // its own
+  cells    // the mean of its cell's points: F-bar, or B-bar at small strain
+};
 /// A face of a box, named for a picture with x to the right and y upwards.
 enum class Face { left, right, bottom, top };
 constexpr int axis_of(Face face) { return face == Face::left || face == Face::right ? 0 : 1; }

@@ -262,7 +262,11 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
            "functions are taken at the points, or interpolated over the domains that they stand for",
            {.words = {"points", "domains"},
             .fallback =
-                "domains for elastic boxes of uniform points on a line or in a plane, if damped; otherwise points"});
+                "domains for elastic boxes of uniform points on a line or in a plane, if damped; otherwise points"})
+      .key("dilatation", &PhaseSpec::dilatation,
+           "the change of volume that a law answers to: that of each point, or the mean of a cell's points (F-bar, "
+           "B-bar), so that nearly incompressible material does not lock",
+           {.words = {"points", "cells"}, .dims = kPlane});
   add_boundary(tables);
   add_states(tables);
   add_method(tables, catalogue);

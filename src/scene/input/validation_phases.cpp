@@ -86,11 +86,25 @@ void choose_quadrature(SceneCheck& check, bool remembers) {
   if (rests && scene.phase.quadrature == Quadrature::domains && !says_how) scene.phase.transfer = Transfer::apic;
 }
 
+/// The mean dilatation of a cell's points is one of the displacement since the phase began.
+void check_dilatation(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  if (scene.phase.dilatation != Dilatation::cells) return;
+  if (scene.state == StressState::plane_stress)
+    check.add("phase.dilatation",
+              "in plane stress the thickness is free to change, and nothing locks; take \"points\"");
+  if (check.written("phase.deformation") && scene.phase.deformation == DeformationRule::positions)
+    check.add("phase.deformation",
+              "the mean dilatation of a cell is carried on from phase to phase, which positions do not know; take "
+              "\"accumulated\", or phase.dilatation = \"points\"");
+}
+
 }  // namespace
 
 void check_phases(SceneCheck& check) {
   Scene& scene = check.scene();
   PhaseSpec& phase = scene.phase;
+  check_dilatation(check);
   const bool known = check.sound("phase.transfer");
   if (known && phase.transfer != Transfer::flip)
     check.refuse("phase", {"flip_share"}, "goes with transfer = \"flip\" only");
@@ -120,8 +134,9 @@ void check_phases(SceneCheck& check) {
                  "goes with laws without history only, whose stress follows from the deformation");
   choose_quadrature(check, remembers);
   const bool jumps = scene.grid.basis == BasisKind::linear && phase.quadrature == Quadrature::points;
-  if (!check.written("phase.deformation") && jumps)
-    phase.deformation = DeformationRule::accumulated;  // a strain that jumps at grid lines would feed the motion
+  // A strain that jumps at grid lines would feed the motion.
+  if (!check.written("phase.deformation") && (jumps || phase.dilatation == Dilatation::cells))
+    phase.deformation = DeformationRule::accumulated;
 
   const std::string one_phase =
       fmt::format("or {}{}{} for a single phase", phase.max_motion ? "phase.max_motion = \"none\"" : "",

@@ -111,19 +111,29 @@ class NeighbourMatrix {
   std::vector<double> entry_;             // (functions × Dim × neighbours × Dim): column, component, row, component
 };
 
-/// Σ_cells of add_point(cell k, point p, cell matrix) over the cell's points.
-template <AxisBasis B, Kinematics K, class AddPoint>
-SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
-                           const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs, const AddPoint& add_point) {
+/// Σ_cells of add_cell(cell k, cell matrix).
+template <AxisBasis B, Kinematics K, class AddCell>
+SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
+                                 const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs,
+                                 const AddCell& add_cell) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   NeighbourMatrix<B, dim> sum(grid);
   for (std::size_t k = 0; k < points.cells(); ++k) {
     heed_stop_request();
     CellMatrix<dim, per_cell> matrix{};
-    for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
+    add_cell(k, matrix);
     sum.add(matrix, [&](int a) { return weights.function(k, a); });
   }
   return {sum.columns(dofs.free, dofs), sum.columns(dofs.prescribed, dofs)};
+}
+
+/// Σ_cells of add_point(cell k, point p, cell matrix) over the cell's points.
+template <AxisBasis B, Kinematics K, class AddPoint>
+SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
+                           const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs, const AddPoint& add_point) {
+  return assemble_whole_cells<B, K>(grid, points, weights, dofs, [&](std::size_t k, auto& matrix) {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
+  });
 }
 
 /// M_ij = Σ_p m_p N_ip N_jp for each component.

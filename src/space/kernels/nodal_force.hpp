@@ -90,7 +90,7 @@ class NodalForce {
     return bad == 0;
   }
 
-  /// visit(material number, block) with block.H filled, in parallel.
+  /// visit(material number, block) with block.H filled, which it may change, in parallel.
   template <class Visit>
   void visit(const double* u, const Visit& visit) const {
 #pragma omp parallel if (points_->size() > points_for_threads)
@@ -131,6 +131,8 @@ class NodalForce {
   template <class Work>
   void for_each_part(const BlockOfCells& cells, Block& block, const Work& work) const {
     const std::size_t end = points_->begin(cells.last_cell);
+    block.first_cell = cells.first_cell;
+    block.last_cell = cells.last_cell;
     for (block.first = points_->begin(cells.first_cell); block.first < end; block.first += block.count) {
       block.count = std::min(Block::size, end - block.first);
       work();

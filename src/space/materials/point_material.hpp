@@ -27,11 +27,12 @@ struct PointBlock {
   static constexpr int components = gradient_components(K);
   using Rows = std::array<std::array<double, size + slack>, components>;
 
-  std::size_t first = 0, count = 0;  // points first … first + count − 1
-  alignas(64) Rows H;                // ∂u/∂x since the phase began
-  alignas(64) Rows dH;               // the part of it since commit
-  alignas(64) Rows VP;               // V_p P_p, the answer [J]
-  alignas(64) Rows direction;        // of a derivative
+  std::size_t first = 0, count = 0;           // points first … first + count − 1
+  std::size_t first_cell = 0, last_cell = 0;  // that they are in; one past the last
+  alignas(64) Rows H;                         // ∂u/∂x since the phase began
+  alignas(64) Rows dH;                        // the part of it since commit
+  alignas(64) Rows VP;                        // V_p P_p, the answer [J]
+  alignas(64) Rows direction;                 // of a derivative
 
   [[gnu::always_inline]] TensorOf<K> H_at(std::size_t q) const { return row(H, q); }
   [[gnu::always_inline]] TensorOf<K> dH_at(std::size_t q) const { return row(dH, q); }

@@ -108,6 +108,17 @@ class MaterialPointPhase final : public LagrangianPhase,
     return *mine;
   }
 
+  // --- the law of a block of points, phase_dilatation.hpp ------------------------------------------
+  bool averages_dilatation() const { return Dim == 2 && scene_.phase.dilatation == Dilatation::cells; }
+  template <bool Increments>
+  void average_dilatation(std::size_t m, Block& block) const;
+  template <bool Increments>
+  double stress(std::size_t m, Block& block, double dt, double* history) const;
+  void tangent(Tangent kind, std::size_t m, Block& block, double dt) const;
+  TensorOf<K> gradient_of_law(const double* grid_u, std::size_t k, std::size_t p) const;
+  SparseMatrix matrix_of_means(Tangent kind, double dt) const;
+  double* scratch_history(std::size_t m) const;
+
   // --- Tangents, see phase_forces.hpp --------------------------------------------------------------
   void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const override;
   SparseMatrix matrix(Tangent kind, double t, ConstVec u) const override;
@@ -256,8 +267,9 @@ class MaterialPointPhase final : public LagrangianPhase,
 
   // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
   mutable NodalForce<B, K> nodal_force_;
-  mutable std::vector<double> grid_u_, grid_du_;  // (functions × Dim)
-  mutable std::shared_ptr<TrialArrays> spare_;    // of the first trial, for that of the next phase
+  mutable std::vector<double> grid_u_, grid_du_;              // (functions × Dim)
+  mutable std::shared_ptr<TrialArrays> spare_;                // of the first trial, for that of the next phase
+  mutable std::vector<std::vector<double>> scratch_history_;  // of each material, that nobody reads
   mutable double undeformed_bound_ = 0;
 };
 

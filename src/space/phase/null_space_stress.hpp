@@ -18,7 +18,7 @@ double MaterialPointPhase<B, K>::null_space_stress(double t, ConstVec u) const {
   of_points.value.resize(points.size());
   of_points.gradient.resize(points.size());  // not known
   for_points([&](std::size_t k, std::size_t p, std::size_t) {
-    of_points.value[p] = material_of(k).cauchy(weights_.gradient(grid_u_.data(), k, p), p);
+    of_points.value[p] = material_of(k).cauchy(gradient_of_law(grid_u_.data(), k, p), p);
   });
   const auto square = [](const auto& values) {
     double sum = 0;

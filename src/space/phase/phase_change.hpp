@@ -89,6 +89,11 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   committed_u_.assign(unknowns, 0);
   spread_prescribed(t, committed_u_);
   committed_t_ = t;
+  if (averages_dilatation() && history_dependent_) {
+    scratch_history_.resize(body_.materials.size());
+    for (std::size_t m = 0; m < body_.materials.size(); ++m)
+      scratch_history_[m].resize(body_.materials[m]->info().history_size);
+  }
   make_mass();
   constant_force_.assign(size(), 0);
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
@@ -199,8 +204,9 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), grid_u_.data(), grid_v,
                       start_velocity_, impulse(grid_v));
   keep_spin(grid_v);
-  nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
+  nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
     if (!body_.materials[m]->info().finite_strain) return;
+    average_dilatation<false>(m, block);
     body_.materials[m]->end_phase(block);
     double* V = body_.points.volume.data() + block.first;
     for (std::size_t q = 0; q < block.count; ++q) V[q] *= determinant<K>(plus_identity<K>(block.H_at(q)));

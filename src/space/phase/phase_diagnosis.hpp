@@ -77,15 +77,16 @@ std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
     int number = 0;
   };
   std::vector<Bad> all;
-  const double* V = body_.points.volume.data();
   const double dt = trial.t - committed_t_;
   const auto look = [&](std::size_t m, Block& block) {
     double* history = history_dependent_ ? trial.arrays->history[m].data() : nullptr;
-    body_.materials[m]->stress(block, V, history_dependent_ ? dt : 0, history);
+    std::array<double, Block::size> det;  // of the displacement itself, not of a mean
+    for (std::size_t q = 0; q < block.count; ++q) det[q] = determinant<K>(plus_identity<K>(block.H_at(q)));
+    stress<true>(m, block, history_dependent_ ? dt : 0, history);
     for (std::size_t q = 0; q < block.count; ++q) {
       for (int c = 0; c < components; ++c) {
         if (std::isfinite(block.VP[c][q])) continue;
-        const double det_f = determinant<K>(plus_identity<K>(block.H_at(q)));
+        const double det_f = det[q];
         const std::size_t p = block.first + q;
 #pragma omp critical(stillpoint_diagnosis)
         all.push_back({det_f, block.VP[c][q], c, p, body_.points.number[p]});

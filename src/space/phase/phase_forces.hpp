@@ -53,19 +53,16 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   trial.evaluated = false;
   trial.too_far = !is_within_phase(u, grid_u.data());
   if (trial.too_far) return false;
-  const double* V = body_.points.volume.data();
   if (history_dependent_) {
     const double dt = t - committed_t_;
-    const auto stress = [&, V, dt, history = trial.arrays->history.data()](std::size_t m, Block& block) {
-      return body_.materials[m]->stress(block, V, dt, history[m].data());
+    const auto answer = [this, dt, history = trial.arrays->history.data()](std::size_t m, Block& block) {
+      return stress<true>(m, block, dt, history[m].data());
     };
     trial.evaluated =
-        nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), stress, *dofs_, R, trial.reactions);
+        nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), answer, *dofs_, R, trial.reactions);
   } else {
-    const auto stress = [&, V](std::size_t m, Block& block) {
-      return body_.materials[m]->stress(block, V, 0, nullptr);
-    };
-    trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, stress, *dofs_, R, trial.reactions);
+    const auto answer = [this](std::size_t m, Block& block) { return stress<false>(m, block, 0, nullptr); };
+    trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
   }
   return trial.evaluated;
 }
@@ -86,10 +83,9 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   spread(t, u, grid_u_);
   std::ranges::fill(grid_du_, 0.0);
   for (std::size_t k = 0; k < du.size(); ++k) grid_du_[static_cast<std::size_t>(dofs_->free[k])] = du[k];
-  const double* V = body_.points.volume.data();
   const double dt = t - committed_t_;
-  const auto answer = [&, V, dt](std::size_t m, Block& block) {
-    body_.materials[m]->tangent(kind, block, V, dt);
+  const auto answer = [this, kind, dt](std::size_t m, Block& block) {
+    tangent(kind, m, block, dt);
     return 0.0;
   };
   nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR, {},
@@ -101,6 +97,7 @@ template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u) const {
   spread(t, u, grid_u_);
   std::ranges::transform(grid_u_, committed_u_, grid_du_.begin(), std::minus<>());
+  if (averages_dilatation()) return matrix_of_means(kind, t - committed_t_);
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<Dim, per_cell>& matrix) {
     const auto H = weights_.gradient(grid_u_.data(), k, p), dH = weights_.gradient(grid_du_.data(), k, p);
     const auto A = material_of(k).moduli(kind, H, dH, t - committed_t_, p);
@@ -144,7 +141,8 @@ double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
   if (!info_.stiffens) return 1;
   const auto largest_bound = [&] {
     double largest = 0;
-    nodal_force_.visit(grid_u_.data(), [&](std::size_t m, const Block& block) {
+    nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
+      average_dilatation<false>(m, block);
       const double bound = body_.materials[m]->stiffness_bound(block);
 #pragma omp critical(stillpoint_stiffening)
       largest = bound <= largest ? largest : bound;

@@ -61,7 +61,7 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
     return write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(u, k, p); });
   if (quantity == PointQuantity::stress) {
     return write_points(
-        out, [&](std::size_t k, std::size_t p) { return material_of(k).cauchy(weights_.gradient(u, k, p), p); });
+        out, [&](std::size_t k, std::size_t p) { return material_of(k).cauchy(gradient_of_law(u, k, p), p); });
   }
   write_points(out, [&](std::size_t k, std::size_t p) {
     auto u_p = weights_.value(u, k, p);

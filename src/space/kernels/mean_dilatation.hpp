@@ -1,0 +1,267 @@
+// Mean dilatation, F-bar and B-bar: the points of a cell share its change of volume. Material that is nearly
+// incompressible, or yields at constant volume, then does not lock: n points of a cell that each keep their volume are
+// n constraints on its few nodes, their mean is one.
+//
+// At finite strain, with f = I + H since the phase began, J = det f, and d = 2 in plane strain or 3 if axisymmetric,
+//
+//   f̄_p = s_p f_p,   s_p = (J̄/J_p)^(1/d),   J̄ = Σ V_p J_p/W,   W = Σ V_p over the cell
+//                                         [de Souza Neto, Perić, Dutko and Owen 1996; in MPM Coombs et al. 2018].
+// The law answers P̄ to f̄. Forces are those of the virtual work Σ V_p P̄_p : δf̄_p, so that a law with a potential keeps
+// one and K is as symmetric as the law's moduli [Moran, Ortiz and Shih 1990]:
+//
+//   V P = s V P̄ + (A V/(W J̄) − a/J) cof f,   a_p = V_p P̄_p : f̄_p/d,   A = Σ a_p.
+//
+// At small strain [Hughes 1980] the same with J = 1 + tr H to first order:
+//
+//   H̄ = H + (t̄ − tr H)/d I,   t̄ = Σ V_p tr H_p/W,      V P = V P̄ + (A V/W − a) I,   a_p = V_p tr P̄_p/d.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "base/unroll.hpp"
+#include "space/materials/point_material.hpp"
+#include "space/points/material_points.hpp"
+
+namespace stillpoint {
+
+/// Of one block of points: average(), then the law's stress(), then transform_stress(). For a derivative these three,
+/// and after them average_direction(), the law's tangent(), transform_tangent(). A cell with more points than a block
+/// holds is averaged in parts.
+template <Kinematics K>
+requires(dimensions(K) == 2) class MeanDilatation {
+  static constexpr int components = gradient_components(K);
+  static constexpr int d = K == Kinematics::axisymmetric ? 3 : 2;
+  static constexpr std::array<bool, components> on_diagonal = [] {
+    std::array<bool, components> diagonal{};
+    diagonal[0] = diagonal[3] = diagonal[components - 1] = true;
+    return diagonal;
+  }();
+  using Block = PointBlock<K>;
+  using Rows = typename Block::Rows;
+  using Row = std::array<double, Block::size + Block::slack>;
+  using Tensor = TensorOf<K>;
+
+ public:
+  /// finite_strain: of the law. The points outlive this.
+  MeanDilatation(const MaterialPoints<2>& points, bool finite_strain) : points_(points), finite_(finite_strain) {}
+
+  /// block.H becomes H̄, and block.dH, if Increments, the part of H̄ that came since commit.
+  template <bool Increments>
+  void average(Block& block) {
+    if constexpr (Increments) {
+      // H̄(u) − H̄(u_before)
+      Rows before;
+      for_rows(block, [&](int c, std::size_t q) { before[c][q] = block.H[c][q] - block.dH[c][q]; });
+      average(block, before);
+      average(block, block.H);
+      for_rows(block, [&](int c, std::size_t q) { block.dH[c][q] = block.H[c][q] - before[c][q]; });
+    } else {
+      average(block, block.H);
+    }
+  }
+
+  /// block.VP, the law's V P̄, becomes V P.
+  void transform_stress(Block& block) {
+    pressures(block);
+    const std::size_t count = block.count;
+    if (finite_) {
+      for (std::size_t q = 0; q < count; ++q) add_cofactor(block, q, s_[q], push_[q]);
+    } else {
+      for (std::size_t q = 0; q < count; ++q) add_identity(block, q, push_[q]);
+    }
+  }
+
+  /// The same, keeping what a derivative needs of V P̄; block.VP is left as it is.
+  void keep_stress(Block& block) {
+    pressures(block);
+    for_rows(block, [&](int c, std::size_t q) { kept_[c][q] = block.VP[c][q]; });
+  }
+  /// block.direction, δH, becomes δH̄.
+  void average_direction(Block& block) {
+    for (std::size_t q = 0; q < block.count; ++q) dJ_[q] = volume_rate(block, q);
+    spread_means(block, dJ_, dmean_);
+    for (std::size_t q = 0; q < block.count; ++q) {
+      // δs = s/d (δJ̄/J̄ − δJ/J)
+      ds_[q] = finite_ ? s_[q] / d * (dmean_[q] / mean_[q] - dJ_[q] / J_[q]) : (dmean_[q] - dJ_[q]) / d;
+      const Tensor f = deformation(block, q);
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        direction_[c][q] = block.direction[c][q];
+        block.direction[c][q] = s_[q] * block.direction[c][q] + ds_[q] * f[c];
+      });
+    }
+  }
+  /// block.VP, the law's V δP̄, becomes V δP; after keep_stress() and average_direction().
+  void transform_tangent(Block& block) {
+    Row da, dshare;
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const Tensor f = deformation(block, q);
+      double sum = 0;
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        sum += block.VP[c][q] * s_[q] * f[c];
+        if (finite_) sum += kept_[c][q] * block.direction[c][q];
+      });
+      da[q] = sum / d;
+    }
+    spread_shares(block, da, dshare);
+    for (std::size_t q = 0; q < block.count; ++q) {
+      if (!finite_) {
+        add_identity(block, q, dshare[q] - da[q]);
+        continue;
+      }
+      // δ(A V/(W J̄) − a/J)
+      const double dpush =
+          (dshare[q] - share_[q] * dmean_[q] / mean_[q]) / mean_[q] - (da[q] - a_[q] * dJ_[q] / J_[q]) / J_[q];
+      add_cofactor(block, q, s_[q], dpush);
+      Tensor f = deformation(block, q), df;
+      unroll<components>([&](auto c) __attribute__((always_inline)) { df[c] = direction_[c][q]; });
+      const Tensor dcof = cofactor_rate(f, df);
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        block.VP[c][q] += ds_[q] * kept_[c][q] + push_[q] * dcof[c];
+      });
+    }
+  }
+
+ private:
+  // H becomes H̄; J, J̄ and s of it are kept, of small strain as tr H, its mean and 1.
+  void average(const Block& block, Rows& H) {
+    const std::size_t count = block.count;
+    if (finite_) {
+      for (std::size_t q = 0; q < count; ++q) {
+        const double in_plane = (1 + H[0][q]) * (1 + H[3][q]) - H[1][q] * H[2][q];
+        J_[q] = d == 3 ? in_plane * (1 + H[components - 1][q]) : in_plane;
+      }
+    } else {
+      for (std::size_t q = 0; q < count; ++q) J_[q] = H[0][q] + H[3][q] + (d == 3 ? H[components - 1][q] : 0);
+    }
+    spread_means(block, J_, mean_);
+    if (finite_) {
+      for (std::size_t q = 0; q < count; ++q) {
+        const double ratio = mean_[q] / J_[q];
+        s_[q] = d == 3 ? std::cbrt(ratio) : std::sqrt(ratio);
+      }
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        constexpr double one = on_diagonal[c] ? 1 : 0;
+        for (std::size_t q = 0; q < count; ++q) H[c][q] = s_[q] * (one + H[c][q]) - one;
+      });
+    } else {
+      for (std::size_t q = 0; q < count; ++q) {
+        s_[q] = 1;
+        const double more = (mean_[q] - J_[q]) / d;
+        unroll<components>([&](auto c) __attribute__((always_inline)) {
+          if constexpr (on_diagonal[c]) H[c][q] += more;
+        });
+      }
+    }
+  }
+
+  // a, A V/W and what both push with along cof f, from the law's V P̄.
+  void pressures(const Block& block) {
+    const std::size_t count = block.count;
+    for (std::size_t q = 0; q < count; ++q) {
+      double work = 0;
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        constexpr double one = on_diagonal[c] ? 1 : 0;
+        work += block.VP[c][q] * (finite_ ? one + block.H[c][q] : one);
+      });
+      a_[q] = work / d;
+    }
+    spread_shares(block, a_, share_);
+    for (std::size_t q = 0; q < count; ++q)
+      push_[q] = finite_ ? share_[q] / mean_[q] - a_[q] / J_[q] : share_[q] - a_[q];
+  }
+
+  // f, of small strain I
+  [[gnu::always_inline]] Tensor deformation(const Block& block, std::size_t q) const {
+    Tensor f;
+    unroll<components>([&](auto c) __attribute__((always_inline)) {
+      constexpr double one = on_diagonal[c] ? 1 : 0;
+      f[c] = finite_ ? (one + block.H[c][q]) / s_[q] : one;
+    });
+    return f;
+  }
+  // ∂J/∂f = J f⁻ᵀ
+  [[gnu::always_inline]] static Tensor cofactor(const Tensor& f) {
+    Tensor cof{f[3], -f[2], -f[1], f[0]};
+    if constexpr (d == 3) {
+      const double hoop = f[4], in_plane = f[0] * f[3] - f[1] * f[2];
+      for (int c = 0; c < 4; ++c) cof[c] *= hoop;
+      cof[4] = in_plane;
+    }
+    return cof;
+  }
+  static Tensor cofactor_rate(const Tensor& f, const Tensor& df) {
+    Tensor rate{df[3], -df[2], -df[1], df[0]};
+    if constexpr (d == 3) {
+      const Tensor in_plane{f[3], -f[2], -f[1], f[0], 0};
+      for (int c = 0; c < 4; ++c) rate[c] = rate[c] * f[4] + in_plane[c] * df[4];
+      rate[4] = df[0] * f[3] + f[0] * df[3] - df[1] * f[2] - f[1] * df[2];
+    }
+    return rate;
+  }
+  // δJ = cof f : δf
+  double volume_rate(const Block& block, std::size_t q) const {
+    const Tensor cof = cofactor(deformation(block, q));
+    double rate = 0;
+    for (int c = 0; c < components; ++c) rate += cof[c] * block.direction[c][q];
+    return rate;
+  }
+  // V P = scale V P + push cof f
+  [[gnu::always_inline]] void add_cofactor(Block& block, std::size_t q, double scale, double push) const {
+    const Tensor cof = cofactor(deformation(block, q));
+    unroll<components>([&](auto c)
+                           __attribute__((always_inline)) { block.VP[c][q] = scale * block.VP[c][q] + push * cof[c]; });
+  }
+  [[gnu::always_inline]] static void add_identity(Block& block, std::size_t q, double push) {
+    unroll<components>([&](auto c) __attribute__((always_inline)) {
+      if constexpr (on_diagonal[c]) block.VP[c][q] += push;
+    });
+  }
+
+  /// visit(first, last) of each cell's points in the block, by their rows in it.
+  template <class Visit>
+  [[gnu::always_inline]] void for_cells(const Block& block, const Visit& visit) const {
+    const std::size_t end = block.first + block.count;
+    for (std::size_t k = block.first_cell; k < block.last_cell; ++k) {
+      const std::size_t from = std::max(points_.begin(k), block.first), to = std::min(points_.end(k), end);
+      if (from < to) visit(from - block.first, to - block.first);
+    }
+  }
+  // Σ V x/W over each cell, at its points
+  void spread_means(const Block& block, const Row& x, Row& mean) const {
+    const double* V = points_.volume.data() + block.first;
+    for_cells(block, [&](std::size_t from, std::size_t to) {
+      double sum = 0, volume = 0;
+      for (std::size_t q = from; q < to; ++q) sum += V[q] * x[q], volume += V[q];
+      const double of_cell = sum / volume;
+      for (std::size_t q = from; q < to; ++q) mean[q] = of_cell;
+    });
+  }
+  // V/W Σ x over each cell
+  void spread_shares(const Block& block, const Row& x, Row& share) const {
+    const double* V = points_.volume.data() + block.first;
+    for_cells(block, [&](std::size_t from, std::size_t to) {
+      double sum = 0, volume = 0;
+      for (std::size_t q = from; q < to; ++q) sum += x[q], volume += V[q];
+      const double of_cell = sum / volume;
+      for (std::size_t q = from; q < to; ++q) share[q] = V[q] * of_cell;
+    });
+  }
+  template <class Visit>
+  [[gnu::always_inline]] static void for_rows(const Block& block, const Visit& visit) {
+    for (int c = 0; c < components; ++c) {
+      for (std::size_t q = 0; q < block.count; ++q) visit(c, q);
+    }
+  }
+
+  const MaterialPoints<2>& points_;
+  const bool finite_;
+  alignas(64) Row J_, mean_, s_;       // of u
+  alignas(64) Row a_, share_, push_;   // of V P̄
+  alignas(64) Row dJ_, dmean_, ds_;    // of δu
+  alignas(64) Rows kept_, direction_;  // V P̄, δH
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,154 @@
+// What the laws of a phase answer to: each point's own change of volume, or the mean of its cell's.
+#pragma once
+
+#include "space/kernels/mean_dilatation.hpp"
+#include "space/phase/material_point_phase.hpp"
+
+namespace stillpoint {
+
+// block.H, and block.dH if Increments, as the law of material m sees them.
+template <AxisBasis B, Kinematics K>
+template <bool Increments>
+void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m, [[maybe_unused]] Block& block) const {
+  if constexpr (Dim == 2) {
+    if (!averages_dilatation()) return;
+    MeanDilatation<K> mean(body_.points, body_.materials[m]->info().finite_strain);
+    mean.template average<Increments>(block);
+  }
+}
+
+// block.VP = V P. As PointMaterial::stress().
+template <AxisBasis B, Kinematics K>
+template <bool Increments>
+double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, double* history) const {
+  const PointMaterial<K>& law = *body_.materials[m];
+  const double* V = body_.points.volume.data();
+  if constexpr (Dim == 2) {
+    if (averages_dilatation()) {
+      MeanDilatation<K> mean(body_.points, law.info().finite_strain);
+      mean.template average<Increments>(block);
+      const double bad = law.stress(block, V, dt, history);
+      mean.transform_stress(block);
+      return bad;
+    }
+  }
+  return law.stress(block, V, dt, history);
+}
+
+// block.VP = V δP
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block, double dt) const {
+  const PointMaterial<K>& law = *body_.materials[m];
+  const double* V = body_.points.volume.data();
+  if constexpr (Dim == 2) {
+    if (averages_dilatation()) {
+      MeanDilatation<K> mean(body_.points, law.info().finite_strain);
+      mean.template average<true>(block);
+      law.stress(block, V, dt, scratch_history(m));
+      mean.keep_stress(block);
+      mean.average_direction(block);
+      law.tangent(kind, block, V, dt);
+      return mean.transform_tangent(block);
+    }
+  }
+  law.tangent(kind, block, V, dt);
+}
+
+// H of point p in cell k as its law sees it.
+template <AxisBasis B, Kinematics K>
+TensorOf<K> MaterialPointPhase<B, K>::gradient_of_law(const double* grid_u, std::size_t k, std::size_t p) const {
+  if constexpr (Dim == 2) {
+    if (averages_dilatation()) {
+      Block block;
+      block.first_cell = k;
+      block.last_cell = k + 1;
+      block.first = body_.points.begin(k) + (p - body_.points.begin(k)) / Block::size * Block::size;
+      block.count = std::min(Block::size, body_.points.end(k) - block.first);
+      for (std::size_t q = 0; q < block.count; ++q) {
+        const auto H = weights_.gradient(grid_u, k, block.first + q);
+        for (int c = 0; c < components; ++c) block.H[c][q] = H[c];
+      }
+      average_dilatation<false>(static_cast<std::size_t>(body_.points.material_of_cell(k)), block);
+      return block.H_at(p - block.first);
+    }
+  }
+  return weights_.gradient(grid_u, k, p);
+}
+
+// As matrix(), column by column: the points of a cell answer together. grid_u_ and grid_du_ hold u and what of it came
+// since commit.
+template <AxisBasis B, Kinematics K>
+SparseMatrix MaterialPointPhase<B, K>::matrix_of_means([[maybe_unused]] Tangent kind,
+                                                       [[maybe_unused]] double dt) const {
+  if constexpr (Dim == 2) {
+    const MaterialPoints<Dim>& points = body_.points;
+    const double* V = points.volume.data();
+    std::vector<typename PointMaterial<K>::ModuliMatrix> A(Block::size);
+    Block block;
+    const auto add_part = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {
+      const auto m = static_cast<std::size_t>(points.material_of_cell(k));
+      const PointMaterial<K>& law = *body_.materials[m];
+      for (std::size_t q = 0; q < block.count; ++q) {
+        const auto H = weights_.gradient(grid_u_.data(), k, block.first + q);
+        const auto dH = weights_.gradient(grid_du_.data(), k, block.first + q);
+        for (int c = 0; c < components; ++c) block.H[c][q] = H[c], block.dH[c][q] = dH[c];
+      }
+      MeanDilatation<K> mean(points, law.info().finite_strain);
+      mean.template average<true>(block);
+      law.stress(block, V, dt, scratch_history(m));
+      mean.keep_stress(block);
+      for (std::size_t q = 0; q < block.count; ++q)
+        A[q] = law.moduli(kind, block.H_at(q), block.dH_at(q), dt, block.first + q);
+      for (int b = 0; b < per_cell; ++b) {
+        for (int i = 0; i < Dim; ++i) {
+          for (std::size_t q = 0; q < block.count; ++q) {
+            const auto dN = weights_.dN(k, block.first + q);
+            for (int c = 0; c < components; ++c) block.direction[c][q] = 0;
+            for (int j = 0; j < Dim; ++j) block.direction[Dim * i + j][q] = dN[per_cell * j + b];
+            if constexpr (K == Kinematics::axisymmetric)
+              if (i == 0) block.direction[Dim * Dim][q] = dN[per_cell * Dim + b];
+          }
+          mean.average_direction(block);
+          for (std::size_t q = 0; q < block.count; ++q) {
+            for (int c = 0; c < components; ++c) {
+              double dP = 0;
+              for (int e = 0; e < components; ++e) dP += A[q][components * c + e] * block.direction[e][q];
+              block.VP[c][q] = V[block.first + q] * dP;
+            }
+          }
+          mean.transform_tangent(block);
+          for (std::size_t q = 0; q < block.count; ++q) {
+            const auto dN = weights_.dN(k, block.first + q);
+            for (int a = 0; a < per_cell; ++a) {
+              for (int r = 0; r < Dim; ++r) {
+                double& entry = matrix[Dim * a + r][Dim * b + i];
+                for (int j = 0; j < Dim; ++j) entry += block.VP[Dim * r + j][q] * dN[per_cell * j + a];
+                if constexpr (K == Kinematics::axisymmetric)
+                  if (r == 0) entry += block.VP[Dim * Dim][q] * dN[per_cell * Dim + a];
+              }
+            }
+          }
+        }
+      }
+    };
+    const auto add_cell = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {
+      block.first_cell = k;
+      block.last_cell = k + 1;
+      for (block.first = points.begin(k); block.first < points.end(k); block.first += block.count) {
+        block.count = std::min(Block::size, points.end(k) - block.first);
+        add_part(k, matrix);
+      }
+    };
+    return assemble_whole_cells<B, K>(grid_, points, weights_, *dofs_, add_cell).free;
+  } else {
+    throw std::logic_error("there is no mean dilatation in one dimension");
+  }
+}
+
+// For a stress whose history nobody reads.
+template <AxisBasis B, Kinematics K>
+double* MaterialPointPhase<B, K>::scratch_history(std::size_t m) const {
+  return scratch_history_.empty() ? nullptr : scratch_history_[m].data();
+}
+
+}  // namespace stillpoint
