@@ -89,9 +89,12 @@ TEST_CASE("a uniform strain is in balance with its tractions at every node, boun
   for (const auto& [basis, points] : bases) {
     for (const std::string law : {"linear-elastic", "neo-hookean", "hencky"}) {
       for (const std::string placement : {"gauss", "uniform"}) {
-        CAPTURE(basis, law, placement);
-        CHECK(patch_residual(law, {"grid.basis=" + basis, "body.points_per_cell=" + points,
-                                   "body.placement=" + placement, with_kind(basis)}) < 1e-12);
+        for (const std::string dilatation : {"points", "cells"}) {
+          CAPTURE(basis, law, placement, dilatation);
+          CHECK(patch_residual(law,
+                               {"grid.basis=" + basis, "body.points_per_cell=" + points, "body.placement=" + placement,
+                                "phase.dilatation=" + dilatation, with_kind(basis)}) < 1e-12);
+        }
       }
     }
   }
