@@ -30,9 +30,10 @@ struct PointForceSpec {           // [[force]]
   std::vector<Expression> value;  // of t [N]
 };
 
-struct TractionSpec {  // [[traction]]: a load on a face of the body's box
-  Face face = Face::right;
-  std::vector<Expression> value;       // of t, per undeformed area [Pa]; it keeps its direction
+struct TractionSpec {                          // [[traction]]: a load on the border of a body
+  std::optional<Face> face;                    // of the one body, a box
+  std::vector<std::vector<double>> line = {};  // or on a straight side that holds both ends, (2 × 2) [m]
+  std::vector<Expression> value;               // of t, per undeformed area [Pa]; it keeps its direction
   std::optional<Expression> pressure;  // of t, per deformed area [Pa], instead of value: it follows the face's normal
 };
 

@@ -227,11 +227,11 @@ TEST_CASE("what the parts of a plane scene ask of each other is said at each of 
   const auto polygon = messages(broken("max = [8, 3]", "polygon = [[0, 0], [8, 0], [0, 3]]", pressed));
   REQUIRE(polygon.size() == 1);
   CHECK_THAT(polygon[0], Catch::StartsWith("38: traction[0]: needs a scene with one body that is a box") &&
-                             Catch::EndsWith("there is a polygon"));
+                             Catch::EndsWith("there is a polygon; give line = [from, to]"));
   const auto two =
       messages(broken("[body]", "[[body]]\nmaterial = \"sand\"\nmax = [1, 1]\n[[body]]\nmin = [1, 0]", pressed));
   REQUIRE(two.size() == 1);
-  CHECK_THAT(two[0], Catch::EndsWith("there are 2 bodies"));
+  CHECK_THAT(two[0], Catch::EndsWith("there are 2 bodies; give line = [from, to]"));
 }
 
 TEST_CASE("a law that keeps history brings phases, and their demands are met or refused at what does not go") {

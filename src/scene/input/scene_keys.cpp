@@ -78,10 +78,10 @@ void add_boundary(Tables& tables) {
       .key("at", &PointForceSpec::at, "position", {.unit = "m", .required = true})
       .key("value", &PointForceSpec::value, "components", {.unit = "N", .variables = "t", .required = true});
 
-  tables
-      .add({"traction", "a load on a face of a body that is one box, with which it moves", Repeat::array},
-           &Scene::tractions)
-      .key("face", &TractionSpec::face, "of the body's box", {.words = kFaces, .required = true})
+  tables.add({"traction", "a load on the border of a body, with which it moves", Repeat::array}, &Scene::tractions)
+      .key("face", &TractionSpec::face, "of the body, if it is the only one and a box; or line", {.words = kFaces})
+      .key("line", &TractionSpec::line, "[from, to], positions on one straight side of a box or of a polygon; or face",
+           {.unit = "m", .list = true, .dims = kPlane})
       .key("value", &TractionSpec::value, "per undeformed area; keeps its direction", {.unit = "Pa", .variables = "t"})
       .key("pressure", &TractionSpec::pressure, "or: per deformed area, along the normal",
            {.unit = "Pa", .variables = "t"});

@@ -1,5 +1,6 @@
 // What holds, pushes and loads the bodies, and the stress that they begin with.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/border_line.hpp"
 #include "scene/input/scene_check.hpp"
 
 namespace stillpoint {
@@ -71,20 +73,43 @@ void check_walls(SceneCheck& check) {
                                : unknown_word("there is no wall", follow, {names.begin(), names.end()}));
 }
 
-void check_tractions(SceneCheck& check) {
+/// The side that a line lies on.
+void check_line(SceneCheck& check, const std::string& key, const std::vector<std::vector<double>>& line) {
+  if (line.size() != 2) return check.add(key, fmt::format("must be two positions, [from, to], not {}", line.size()));
+  const std::array<double, 2> from{line[0][0], line[0][1]}, to{line[1][0], line[1][1]};
+  if (from == to) return check.add(key, "the two positions are the same");
+  const std::vector<BorderLine> sides = border_lines(check.scene(), from, to);
+  if (sides.empty())
+    check.add(key,
+              "no straight side of a box or a polygon holds both positions; expected positions on its border, with "
+              "no corner between them");
+  if (sides.size() > 1)
+    check.add(key, fmt::format("bodies {} and {} touch here, so that nothing can load one of them", sides[0].body + 1,
+                               sides[1].body + 1));
+}
+
+void check_tractions(SceneCheck& check, bool bodies) {
   const Scene& scene = check.scene();
-  for (std::size_t k = 0; k < scene.tractions.size(); ++k)
-    check.one_of(fmt::format("traction[{}]", k), "value", "pressure",
+  const bool box = scene.bodies.size() == 1 && scene.bodies[0].polygon.empty() && scene.bodies[0].file.empty();
+  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
+    const std::string name = fmt::format("traction[{}]", k);
+    check.one_of(name, "value", "pressure",
                  "give either value, which keeps its direction, or pressure, which follows the face",
                  "give value, which keeps its direction, or pressure, which follows the face");
-  if (scene.bodies.empty()) return;
-  const bool box = scene.bodies.size() == 1 && scene.bodies[0].polygon.empty() && scene.bodies[0].file.empty();
-  for (std::size_t k = 0; k < scene.tractions.size() && !box; ++k)
-    check.add(fmt::format("traction[{}]", k),
-              fmt::format("needs a scene with one body that is a box, which has faces; there {}",
-                          scene.bodies.size() > 1        ? fmt::format("are {} bodies", scene.bodies.size())
-                          : scene.bodies[0].file.empty() ? "is a polygon"
-                                                         : "are points from a file"));
+    check.one_of(name, "face", "line", "give either face or line, not both",
+                 scene.dim == 1 ? "give face, an end of the body"
+                                : "give face, a side of the body's box, or line, a part of its border");
+    if (!bodies) continue;
+    if (check.written(name + ".line") && check.sound(name + ".line"))
+      check_line(check, name + ".line", scene.tractions[k].line);
+    if (!check.written(name + ".face") || box) continue;
+    const std::string what = scene.bodies.size() > 1        ? fmt::format("are {} bodies", scene.bodies.size())
+                             : scene.bodies[0].file.empty() ? "is a polygon"
+                                                            : "are points from a file";
+    check.add(name, fmt::format("needs a scene with one body that is a box, which has faces; there {}; give line = "
+                                "[from, to]",
+                                what));
+  }
 }
 
 /// ", such as drucker-prager"
@@ -133,7 +158,7 @@ void check_loads(SceneCheck& check, bool grid, const std::optional<BodyBox>& bod
   check_walls(check);
   for (std::size_t k = 0; k < scene.forces.size() && body; ++k)
     check.inside(scene.forces[k].at, body->min, body->max, body->name, fmt::format("force[{}].at", k));
-  check_tractions(check);
+  check_tractions(check, body.has_value());
   check_geostatic(check, body);
 }
 

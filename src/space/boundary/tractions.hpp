@@ -1,13 +1,16 @@
-// Tractions on faces of the body, as pieces of its surface that move with it.
+// Tractions on the borders of bodies, as pieces of their surface that move with them.
 #pragma once
 
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "scene/border_line.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
@@ -16,7 +19,7 @@
 namespace stillpoint {
 
 /// Dead ones, t dA per undeformed area, and pressures that follow the deformed surface, −p n da = −p cof(f) N dA.
-/// A face of the body's box is cut into pieces, some to a cell; they carry the undeformed area, 2 π r ds if
+/// A straight part of a body's border is cut into pieces, some to a cell; they carry the undeformed area, 2 π r ds if
 /// axisymmetric.
 template <AxisBasis B, Kinematics K>
 class Tractions final : public BoundaryCondition<B, K> {
@@ -26,7 +29,7 @@ class Tractions final : public BoundaryCondition<B, K> {
 
  public:
   Tractions(const Scene& scene, const GridOf& grid) : scene_(scene) {
-    for (const TractionSpec& traction : scene.tractions) cut_face(traction, grid);
+    for (const TractionSpec& traction : scene.tractions) cut_border(traction, grid);
   }
 
   void begin_phase(const Parts& phase, Vec) override {
@@ -99,35 +102,67 @@ class Tractions final : public BoundaryCondition<B, K> {
     std::array<double, dim> vector;  // n da when the phase begins [m²]
   };
 
-  void cut_face(const TractionSpec& traction, const GridOf& grid) {
-    const BodySpec& body = scene_.bodies.front();
-    const int axis = axis_of(traction.face);
-    const double face = (is_upper(traction.face) ? body.max : body.min)[static_cast<std::size_t>(axis)];
-    const auto add = [&](const Point<dim>& x, double area) {
-      CarriedPoint<B, K> at{};
-      at.x = x;
-      Piece& piece = pieces_.emplace_back(Piece{.traction = &traction, .at = at, .area = area, .vector = {}});
-      piece.vector[static_cast<std::size_t>(axis)] = is_upper(traction.face) ? area : -area;
-    };
+  void cut_border(const TractionSpec& traction, const GridOf& grid) {
     if constexpr (dim == 1) {
-      add({face}, body.area);
+      const BodySpec& body = scene_.bodies.front();
+      const bool upper = is_upper(traction.face.value());
+      add_piece(traction, {(upper ? body.max : body.min)[0]}, body.area, {upper ? 1.0 : -1.0});
     } else {
-      const auto along = static_cast<std::size_t>(1 - axis);
-      const double begin = body.min[along], end = body.max[along];
-      const auto rule = face_rule(body, along, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
-      const auto& nodes = grid.axes[along].nodes;
-      for (std::size_t c = 0; c + 1 < nodes.size(); ++c) {
-        const double from = std::max(begin, nodes[c]), to = std::min(end, nodes[c + 1]);
-        if (!(to > from)) continue;
-        for (const auto& [xi, weight] : rule) {
-          Point<dim> x;
-          x[static_cast<std::size_t>(axis)] = face;
-          x[along] = (from + to) / 2 + (to - from) / 2 * xi;
-          const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
-          add(x, (to - from) / 2 * weight * depth);
-        }
+      cut_line(traction, line_of(traction), grid);
+    }
+  }
+  BorderLine line_of(const TractionSpec& traction) const {
+    if (traction.face) return side_of_box(scene_, 0, *traction.face);
+    const auto& ends = traction.line;
+    return border_lines(scene_, {ends.at(0).at(0), ends[0].at(1)}, {ends.at(1).at(0), ends[1].at(1)}).at(0);
+  }
+
+  // Into pieces of each cell's part.
+  void cut_line(const TractionSpec& traction, const BorderLine& line, const GridOf& grid) {
+    const BodySpec& body = scene_.bodies[line.body];
+    const std::size_t across = std::abs(line.normal[0]) > std::abs(line.normal[1]) ? 0 : 1;
+    const auto rule = face_rule(body, 1 - across, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
+    const std::vector<Point<dim>> ends = crossings(line, grid);
+    for (std::size_t c = 0; c + 1 < ends.size(); ++c) {
+      const Point<dim>&from = ends[c], &to = ends[c + 1];
+      const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+      for (const auto& [xi, weight] : rule) {
+        Point<dim> x;
+        for (std::size_t d = 0; d < dim; ++d) x[d] = (from[d] + to[d]) / 2 + (to[d] - from[d]) / 2 * xi;
+        const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
+        add_piece(traction, x, length / 2 * weight * depth, line.normal);
       }
     }
+  }
+  // Its ends, and where it crosses grid lines between them, in order.
+  static std::vector<Point<dim>> crossings(const BorderLine& line, const GridOf& grid) {
+    constexpr double rounding = 1e-12;  // of the line's length: no piece is shorter
+    std::vector<std::pair<double, Point<dim>>> found = {{0, line.from}, {1, line.to}};
+    for (std::size_t d = 0; d < dim; ++d) {
+      const double length = line.to[d] - line.from[d];
+      if (length == 0) continue;
+      for (const double node : grid.axes[d].nodes) {
+        const double share = (node - line.from[d]) / length;
+        if (!(share > rounding && share < 1 - rounding)) continue;
+        Point<dim> x;
+        x[1 - d] = line.from[1 - d] + share * (line.to[1 - d] - line.from[1 - d]);
+        x[d] = node;
+        found.emplace_back(share, x);
+      }
+    }
+    std::ranges::sort(found, {}, &std::pair<double, Point<dim>>::first);
+    std::vector<Point<dim>> ends = {line.from};
+    double last = 0;
+    for (const auto& [share, x] : found) {
+      if (share - last > rounding) ends.push_back(x), last = share;
+    }
+    return ends;
+  }
+  void add_piece(const TractionSpec& traction, const Point<dim>& x, double area, const Point<dim>& normal) {
+    CarriedPoint<B, K> at{};
+    at.x = x;
+    Piece& piece = pieces_.emplace_back(Piece{.traction = &traction, .at = at, .area = area, .vector = {}});
+    for (std::size_t d = 0; d < dim; ++d) piece.vector[d] = normal[d] * area;
   }
 
   // A face on a grid line belongs to the cell that the body is in.
