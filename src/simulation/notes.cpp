@@ -6,10 +6,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "simulation/catalogue.hpp"
+#include "simulation/locking_note.hpp"
 
 namespace stillpoint {
 namespace {
@@ -194,6 +196,7 @@ std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhas
   std::ranges::move(support_notes(scene), std::back_inserter(notes));
   std::ranges::move(phase_notes(scene, phase), std::back_inserter(notes));
   std::ranges::move(damping_notes(scene, phase), std::back_inserter(notes));
+  if (std::optional<std::string> note = locking_note(scene)) notes.push_back(std::move(*note));
   return notes;
 }
 

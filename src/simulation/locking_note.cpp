@@ -1,0 +1,55 @@
+#include "simulation/locking_note.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "simulation/catalogue.hpp"
+
+namespace stillpoint {
+namespace {
+
+// Linear cells of four points are too stiff by 0.7 % at ν = 0.45, 4 % at 0.49 and 80 % at 0.4999 (Lamé's cylinder,
+// eight across the wall); quadratic ones of nine by 3 % at 0.4999 (Cook's membrane, 32 cells a side).
+double nearly_incompressible(BasisKind basis) { return basis == BasisKind::linear ? 0.48 : 0.499; }
+
+// p² Gauss points of a cell under-integrate just enough; a file's points are as they are.
+bool has_many_points(const BodySpec& body, BasisKind basis) {
+  const int p = degree_of(basis);
+  return !body.file.empty() || body.points_per_cell.size() < 2 ||
+         body.points_per_cell[0] * body.points_per_cell[1] > p * p;
+}
+
+bool flows(const MaterialSpec& material) {
+  const auto& laws = catalogue().laws;
+  const auto law = std::ranges::find(laws, std::string_view(material.law), &LawInfo::name);
+  return law != laws.end() && law->history_dependent;
+}
+
+}  // namespace
+
+std::optional<std::string> locking_note(const Scene& scene) {
+  const bool volume_is_kept = scene.state == StressState::plane_strain || scene.state == StressState::axisymmetric;
+  if (!volume_is_kept || scene.phase.dilatation == Dilatation::cells) return std::nullopt;
+  for (const BodySpec& body : scene.bodies) {
+    if (!has_many_points(body, scene.grid.basis)) continue;
+    const MaterialSpec& material = scene.materials.at(body.material);
+    if (flows(material)) {
+      return fmt::format(
+          "each of a cell's points keeps to the flow rule of material.{}: where it flows freely, as below a footing, "
+          "the "
+          "cells carry too much; phase.dilatation = \"cells\" lets them flow",
+          material.name);
+    }
+    const auto nu = material.parameters.find("nu");
+    if (nu == material.parameters.end() || nu->second < nearly_incompressible(scene.grid.basis)) continue;
+    return fmt::format(
+        "material.{} is nearly incompressible (nu = {:.6g}) at each of a cell's points, which makes the cells too "
+        "stiff; expected phase.dilatation = \"cells\"",
+        material.name, nu->second);
+  }
+  return std::nullopt;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,14 @@
+// Whether a scene's cells lock: what their points must keep to is more than their nodes can do.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <optional>
+#include <string>
+
+namespace stillpoint {
+
+/// Of a material that is nearly incompressible, or flows plastically, and no remedy chosen.
+std::optional<std::string> locking_note(const Scene& scene);
+
+}  // namespace stillpoint
