@@ -178,7 +178,7 @@ TEST_CASE("a smooth footing moves along its face, a rough one does not, and the 
   const Summary smooth = pressed("roller"), rough = pressed("fixed");
   CHECK(smooth.reactions.at("footing")[0] == 0);
   CHECK(std::abs(rough.reactions.at("footing")[0]) < 1e-10);  // by symmetry
-  CHECK(rough.reactions.at("footing")[1] < 1.01 * smooth.reactions.at("footing")[1]);
+  CHECK(rough.reactions.at("footing")[1] < smooth.reactions.at("footing")[1]);
   CHECK(smooth.reactions.at("footing")[1] < 0);
 }
 
@@ -251,18 +251,17 @@ TEST_CASE("a stiffness that is given is that of the spring: a block on springs s
 }
 
 TEST_CASE("the reaction of a support that prescribes unknowns is opposite to the loads, its own share of them too") {
-  // Weight, a traction and a force, of which some act on the held nodes themselves.
+  // Weight, a traction and a force, of which some act on the held nodes themselves; so small that a pressure's face
+  // hardly turns.
   for (const char* basis : {"linear", "quadratic", "hermite"}) {
-    for (const char* pressure : {"value=[0.1, 0]", "pressure=0.1"}) {
-      const Summary s = solved({of(basis), "support=[{face='bottom', name='base'}]", "body_force.value=[0.2, -1]",
-                                std::string("traction=[{face='right', ") + pressure + "}]",
-                                "force=[{at=[0.3, 0.02], value=[0, 0.05]}]"});
-      const double along = std::string(pressure)[0] == 'v' ? 0.1 : -0.1;  // a pressure pushes inwards
-      CAPTURE(basis, pressure, s.reactions.at("base"));
-      // A pressure follows the face, which turns by the strain.
-      const double tolerance = along > 0 ? 1e-9 : 0.3;
-      CHECK(s.reactions.at("base")[0] == Approx(-(0.2 + along)).margin(tolerance));
-      CHECK(s.reactions.at("base")[1] == Approx(1 - 0.05).margin(tolerance));
+    for (const bool is_pressure : {false, true}) {
+      const std::string side = is_pressure ? "{face='right', pressure=-1e-5}" : "{face='right', value=[1e-5, 0]}";
+      const Summary s = solved({of(basis), "support=[{face='bottom', name='base'}]", "body_force.value=[2e-5, -1e-4]",
+                                "traction=[" + side + "]", "force=[{at=[0.3, 0.02], value=[0, 5e-6]}]"});
+      CAPTURE(basis, is_pressure, s.reactions.at("base"));
+      const double turned = is_pressure ? 1e-8 : 1e-14;
+      CHECK(std::abs(s.reactions.at("base")[0] + 3e-5) < turned);
+      CHECK(std::abs(s.reactions.at("base")[1] - 9.5e-5) < turned);
     }
   }
   const Summary bar = run(scenes::bar({"support=[{at=0.0, name='end'}]", "stop.residual=1e-10"}));
@@ -336,7 +335,8 @@ TEST_CASE("a pin that moves takes the material along through many phases") {
        "support=[{face='left', kind='roller'}, {at=[0.0, 0.55], component=1, u='0.4*min(t/50, 1)', name='pin'}]"}));
   CAPTURE(s.reason);
   CHECK(s.phases > 5);
-  CHECK(scenes::probe(s, "corner", "u.y") == Approx(0.4).epsilon(1e-4));
+  CHECK(s.weak_supports[0].gap < 1e-6);
+  CHECK(scenes::probe(s, "corner", "u.y") == Approx(0.4).epsilon(5e-3));  // of the points, which keep a little strain
   CHECK(std::abs(scenes::probe(s, "corner", "u.x")) < 1e-3);
 }
 
