@@ -10,12 +10,17 @@
 
 namespace stillpoint {
 
-struct SupportSpec {         // [[support]]: u = motion(t) at a position, or on a face of the grid
-  std::vector<double> at;    // [m]; empty: on the face
-  std::optional<Face> face;  // of the grid
-  bool roller = false;       // on a face: only `component` is held, otherwise the other one too (at 0)
-  int component = 0;         // that moves; on a face its normal, unless another is named
-  Expression motion;         // of t [m]; 0: fixed
+struct SupportSpec {                   // [[support]]: u = motion(t) at a position, or on a face of the grid
+  std::string name{};                  // for its reaction in history.csv and summary.json; empty: not reported
+  std::vector<double> at{};            // [m]; empty: on the face
+  std::optional<Face> face{};          // of the grid
+  std::optional<double> from{}, to{};  // the part of the face that is held, along it [m]; empty: to its ends
+  bool roller = false;                 // on a face: only `component` is held, otherwise the other one too (at 0)
+  int component = 0;                   // that moves; on a face its normal, unless another is named
+  Expression motion{};                 // of t [m]; 0: fixed
+  std::optional<double> stiffness{};   // of a spring that holds: at a position [N/m], on a face per area [N/m³]
+
+  bool on_part() const { return from || to; }
 };
 
 struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, that pushes and never pulls

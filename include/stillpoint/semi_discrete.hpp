@@ -21,7 +21,7 @@ class TrialState {
 
   double t = 0;                   // of the evaluation [s]
   bool too_far = false;           // refused as a motion too far for one phase, though no point may be the worse for it
-  std::vector<double> reactions;  // of the supports, R at the prescribed degrees of freedom [N]
+  std::vector<double> reactions;  // of the supports: R at the prescribed degrees of freedom, then forces of springs [N]
 };
 
 /// consistent: the derivative of R(u). elastic: as if no point yielded, symmetric; frequencies and critical steps are

@@ -31,6 +31,14 @@ struct Snapshot {
   double slope_angle = 0;  // of the free surface [degrees]; NaN if there is no slope
 };
 
+/// How far a support that holds by springs gives way: its reaction over its stiffness.
+struct SupportGap {
+  std::string support;   // "support[1]"
+  double stiffness = 0;  // at a position [N/m], on a face per area [N/m³]
+  double gap = 0;        // the largest [m]
+  double share = 0;      // of the largest displacement of a material point
+};
+
 /// Error against the scene's exact solution, over the material points with weights V_p.
 struct ExactError {
   double u_rel_l2 = 0, u_rel_max = 0;
@@ -80,6 +88,9 @@ struct Summary {
   std::optional<double> single_phase_strain;  // largest component of ∂u/∂x, if a body that yields has one phase
   std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;
+  std::map<std::string, std::vector<double>>
+      reactions;  // of named supports, the force that each exerts on the body [N]
+  std::vector<SupportGap> weak_supports;
   std::optional<ExactError> error;
   std::map<std::string, std::vector<double>> probe_positions;  // of each probe's material point at the start [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)

@@ -51,6 +51,10 @@ int check(const SceneArguments& arguments) {
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
              phase.discretisation().supported_degrees_of_freedom, phase.mass().is_lumped() ? "lumped" : "consistent");
+  for (const WeakSupport& weak : phase.weak_supports(0, model.u)) {
+    fmt::print("  weak support     support[{}]: {} spring{} of {:.4g} {}\n", weak.support, weak.springs,
+               weak.springs == 1 ? "" : "s", weak.stiffness, scene.supports[weak.support].face ? "N/m3" : "N/m");
+  }
   if (const StaticMethodInfo* method = model.static_method) {
     fmt::print("  static solver    {}: {}\n", method->name, method->equation);
   } else {

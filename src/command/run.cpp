@@ -62,6 +62,12 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
     if (position != s.probe_positions.end()) values += fmt::format(" at x = {:.6g}", fmt::join(position->second, ", "));
     row((fields.front().first == "normal" ? "force on " : "probe ") + name, values);
   }
+  for (const auto& [name, force] : s.reactions)
+    row("reaction of " + name, fmt::format("({:.9g}) N on the body", fmt::join(force, ", ")));
+  for (const SupportGap& weak : s.weak_supports) {
+    row("weak " + weak.support,
+        fmt::format("gives way by {:.3g} m at most, {:.2g} of the largest displacement", weak.gap, weak.share));
+  }
   for (const std::string& note : s.notes) row("note", note);
   row("written", fmt::format("{}", out.string()));
 }

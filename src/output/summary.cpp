@@ -49,6 +49,15 @@ std::string to_json(const Summary& s) {
     for (const auto& [field, value] : fields) of_probe[field] = number(value);
     probes.emplace_back(name, std::move(of_probe));
   }
+  Json reactions = Json::object(), weak_supports = Json::array();
+  for (const auto& [name, force] : s.reactions) {
+    for (std::size_t i = 0; i < force.size(); ++i) reactions[name][i == 0 ? "x" : "y"] = number(force[i]);
+  }
+  for (const SupportGap& weak : s.weak_supports)
+    weak_supports.push_back({{"support", weak.support},
+                             {"stiffness", number(weak.stiffness)},
+                             {"gap", number(weak.gap)},
+                             {"share_of_displacement", number(weak.share)}});
   Json stages = Json::array();
   for (const Snapshot& stage : s.snapshots)
     stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
@@ -95,6 +104,8 @@ std::string to_json(const Summary& s) {
                      {"critical_step", number(s.critical_step)},
                      {"notes", s.notes},
                      {"error", error},
+                     {"reactions", reactions},
+                     {"weak_supports", weak_supports},
                      {"probes", probes},
                      {"probe_places", s.probe_positions},
                      {"versions", versions_of_libraries()}};

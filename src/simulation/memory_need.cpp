@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/memory_room.hpp"
+#include "scene/support_kind.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/highest_frequency.hpp"
@@ -116,6 +117,22 @@ MemoryNeed::Part formulas(const Scene& scene) {
   return part;
 }
 
+// Of supports on faces.
+MemoryNeed::Part springs(const Scene& scene) {
+  constexpr double of_one = 1500;
+  MemoryNeed::Part part{.what = "springs of supports", .bytes = 0, .key = ""};
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    const SupportSpec& support = scene.supports[k];
+    if (!support.face || !holds_by_springs(scene.grid, support)) continue;
+    const auto [along, from, to] = held_part(scene.grid, support);
+    int to_a_cell = 3;
+    for (const BodySpec& body : scene.bodies) to_a_cell = std::max(to_a_cell, body.points_per_cell[along]);
+    part.bytes += (to - from) / scene.grid.cell_length(along) * to_a_cell * (support.roller ? 1 : 2) * of_one;
+    if (part.key.empty()) part.key = fmt::format("support[{}]", k);
+  }
+  return part;
+}
+
 bool factorises(const Scene& scene, const BodySize& size) {
   const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
   const bool solves =
@@ -148,6 +165,7 @@ MemoryNeed memory_need(const Scene& scene) {
 
   constexpr double little = 1e7;
   if (const MemoryNeed::Part of_loads = formulas(scene); of_loads.bytes > little) need.parts.push_back(of_loads);
+  if (const MemoryNeed::Part of_springs = springs(scene); of_springs.bytes > little) need.parts.push_back(of_springs);
   const bool factor = factorises(scene, size), consistent = scene.mass.kind == MassKind::consistent;
   if (factor || consistent || chooses_mass) add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
   if (consistent)

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "output/run_folder.hpp"
+#include "simulation/support_figures.hpp"
 
 namespace stillpoint {
 namespace {
@@ -42,6 +43,7 @@ auto open_output(const std::filesystem::path& out, const Open& open) {
 Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance,
                    bool resumed)
     : scene_(scene),
+      phase_(*model.phase),
       has_distance_(has_distance),
       probes_(scene, *model.phase),
       energy_balance_(*model.phase),
@@ -52,6 +54,7 @@ Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem
 
 std::vector<std::string> Recorder::columns() const {
   std::vector<std::string> all = probes_.columns();
+  std::ranges::copy(reaction_columns(scene_), std::back_inserter(all));
   std::ranges::copy(energy_balance_.columns(), std::back_inserter(all));
   if (has_distance_) all.emplace_back("distance");
   return all;
@@ -71,6 +74,7 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   const double t = row.figures.t;
   energy_balance_.advance(t, motion.system, motion.u());
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
+  std::ranges::copy(reaction_values(scene_, phase_, t, motion), std::back_inserter(values));
   std::ranges::copy(energy_balance_.values(row.figures.kinetic_energy), std::back_inserter(values));
   if (has_distance_) values.push_back(row.distance.value_or(std::numeric_limits<double>::quiet_NaN()));
   history_.add(row.figures, values);

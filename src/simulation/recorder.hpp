@@ -53,6 +53,7 @@ class Recorder {
   std::vector<std::string> columns() const;
 
   const Scene& scene_;
+  const LagrangianPhase& phase_;
   bool has_distance_;
   Probes probes_;
   EnergyBalance energy_balance_;

@@ -7,6 +7,7 @@
 #include "simulation/notes.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/single_phase.hpp"
+#include "simulation/support_figures.hpp"
 
 namespace stillpoint {
 namespace {
@@ -98,6 +99,7 @@ void Simulation::Impl::fill_state(Summary& s) {
     s.null_space_stress = model_.phase->null_space_stress(t_, motion_->u());
     add_note(s, null_space_note(scene_, *model_.phase, *s.null_space_stress));
   }
+  fill_supports(scene_, *model_.phase, t_, *motion_, s);
   if (recorder_) recorder_->fill(s, t_, *motion_);
 }
 

@@ -116,6 +116,13 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   check_same_bits({"hard/pulled_in_phases", {"stop.steps=400"}}, 290);
   check_same_bits(
       {"hard/pulled_in_phases", {"traction=[]", "force=[{at=[1.0, 0.5], value=[0.05, 0.0]}]", "stop.steps=400"}}, 290);
+  for (const char* quadrature : {"domains", "points"}) {  // a pin and a part of a face, which springs hold
+    check_same_bits({"hard/pulled_in_phases",
+                     {"support=[{face='left', kind='roller', name='side'}, {at=[0.0, 0.45], component=1, name='pin', "
+                      "u='0.01*min(t, 1)'}, {face='bottom', from=0.1, to=0.9, kind='roller'}]",
+                      std::string("phase.quadrature=") + quadrature, "stop.steps=400"}},
+                    290);
+  }
   check_same_bits({"hard/fast_wall", {"stop.steps=400"}}, 290);
   // Domains of several sizes, which change places on their way.
   check_same_bits({"hard/beam_in_phases", {"grid.cells=[13, 17]", "stop.steps=600"}}, 590);

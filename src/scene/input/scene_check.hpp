@@ -101,7 +101,7 @@ long known_points(SceneCheck& check);
 /// Supports, walls, loads and initial stress.
 void check_loads(SceneCheck& check, bool grid, const std::optional<BodyBox>& body);
 /// When phases end, and what scenes of more than one phase can have.
-void check_phases(SceneCheck& check);
+void check_phases(SceneCheck& check, bool grid);
 /// What is written out.
 void check_output(SceneCheck& check, const std::optional<BodyBox>& body);
 

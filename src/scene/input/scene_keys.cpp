@@ -57,15 +57,21 @@ std::string hint(const auto* row, const char* is, const char* key) {
 
 void add_boundary(Tables& tables) {
   tables.add({"support", "a prescribed displacement", Repeat::array}, &Scene::supports)
-      .key("at", &SupportSpec::at, "position, of a node that stays in place; or face", {.unit = "m"})
+      .key("name", &SupportSpec::name, "for its reaction in history.csv and summary.json")
+      .key("at", &SupportSpec::at, "position; or face", {.unit = "m"})
       .key("face", &SupportSpec::face, "of the grid; or at", {.words = kFaces})
+      .key("from", &SupportSpec::from, "where the held part of the face begins, along it",
+           {.unit = "m", .fallback = "the face's lower end", .dims = kPlane})
+      .key("to", &SupportSpec::to, "where it ends", {.unit = "m", .fallback = "the face's upper end", .dims = kPlane})
       .key("component", &SupportSpec::component, "what is held and moves; r and z if there is an axis of symmetry",
            {.words = {"x", {"y", kPlane}, {"r", kPlane, false}, {"z", kPlane, false}},
             .fallback = "0; on a face by kind"})
       .key("kind", &SupportSpec::roller, "on a face: a roller holds the normal component only",
            {.words = {"fixed", "roller"}})
       .key("u", &SupportSpec::motion, "displacement of the component; on a face by kind along its normal",
-           {.unit = "m", .variables = "t"});
+           {.unit = "m", .variables = "t"})
+      .key("stiffness", &SupportSpec::stiffness, "of a spring that holds instead: at a position N/m, on a face N/m3",
+           {.range = kPositive, .fallback = "as stiff as a cell, where the basis has no value of its own"});
 
   tables.add({"wall", "a rigid wall that pushes and never holds back", Repeat::array}, &Scene::walls)
       .key("name", &WallSpec::name, "for grid.follow and history.csv", {.required = true})

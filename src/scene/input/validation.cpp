@@ -204,7 +204,7 @@ void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
   check_mass(check);
   check_loads(check, grid, body);
   check_exact(check);
-  check_phases(check);
+  check_phases(check, grid);
   check_output(check, body);
   if (const StaticMethodInfo* const solver = catalogue.static_method(scene.solve.method)) {
     check_static_solver(check, *solver);

@@ -10,32 +10,76 @@
 #include "base/text.hpp"
 #include "scene/border_line.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/support_kind.hpp"
 
 namespace stillpoint {
 namespace {
 
-/// At most one support or wall stands on a face of the grid, or a support for each component that is named.
+/// What stands on a face of the grid.
+struct FaceOwner {
+  std::string name;
+  Face face;
+  int component;    // −1: all
+  double from, to;  // along the face [m]
+
+  bool meets(const FaceOwner& other) const {
+    const bool alike = component < 0 || other.component < 0 || component == other.component;
+    return face == other.face && alike && from < other.to && other.from < to;
+  }
+};
+
+/// At most one support or wall stands on a part of a face of the grid, or a support for each component that is named.
 void check_faces(SceneCheck& check) {
   const Scene& scene = check.scene();
-  constexpr int all = -1;  // components
-  std::map<std::pair<Face, int>, std::string> owners;
-  const auto take = [&](Face face, const std::string& owner, int component) {
-    for (int other = all; other < scene.dim; ++other) {
-      const auto before = owners.find({face, other});
-      if (before != owners.end() && (component == all || other == all || component == other))
-        return check.add(owner + ".face", fmt::format("{} stands on this face already", before->second));
-    }
-    owners.emplace(std::pair{face, component}, owner);
+  std::vector<FaceOwner> owners;
+  const auto take = [&](const FaceOwner& owner) {
+    for (const FaceOwner& before : owners)
+      if (before.meets(owner))
+        return check.add(owner.name + ".face", fmt::format("{} stands on this face already", before.name));
+    owners.push_back(owner);
   };
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     const SupportSpec& support = scene.supports[k];
     const std::string name = fmt::format("support[{}]", k);
-    if (support.face) take(*support.face, name, check.written(name + ".component") ? support.component : all);
+    if (!support.face) continue;
+    take({name, *support.face, check.written(name + ".component") ? support.component : -1,
+          support.from.value_or(-kInfinity), support.to.value_or(kInfinity)});
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k)
     if (const std::string wall = fmt::format("wall[{}]", k);
         check.written(wall + ".face") && check.sound(wall + ".face"))
-      take(scene.walls[k].face, wall, all);
+      take({wall, scene.walls[k].face, -1, -kInfinity, kInfinity});
+}
+
+/// The ends of a part of a face: in order, on the grid, and on nodes if these are what is held.
+void check_part(SceneCheck& check, const std::string& name, const SupportSpec& support) {
+  const GridSpec& grid = check.scene().grid;
+  const auto [along, from, to] = held_part(grid, support);
+  bool inside = true;
+  for (const char* key : {".from", ".to"}) {
+    const double end = key[1] == 'f' ? from : to;
+    if (!check.written(name + key) || (end >= grid.min[along] && end <= grid.max[along])) continue;
+    check.add(name + key, fmt::format("{:g} lies outside the grid, whose face reaches from {:g} to {:g}", end,
+                                      grid.min[along], grid.max[along]));
+    inside = false;
+  }
+  if (!inside) return;
+  if (!(from < to)) {
+    check.add(name + (check.written(name + ".to") ? ".to" : ".from"),
+              fmt::format("the part from {:g} to {:g} is empty; expected from < to", from, to));
+    return;
+  }
+  if (holds_by_springs(grid, support)) return;
+  for (const char* key : {".from", ".to"}) {
+    const double end = key[1] == 'f' ? from : to;
+    if (is_on_line(grid, along, end)) continue;
+    const double cells = (end - grid.min[along]) / grid.cell_length(along);
+    const int below = std::clamp(static_cast<int>(std::floor(cells)), 0, grid.cells[along] - 1);
+    check.add(name + key,
+              fmt::format("{:g} is no node of the grid, whose nodes are what is held; expected {:g} or {:g}, a "
+                          "quadratic or cubic basis, or a stiffness, by which springs hold any part",
+                          end, line_position(grid, along, below), line_position(grid, along, below + 1)));
+  }
 }
 
 void check_supports(SceneCheck& check, bool grid) {
@@ -48,13 +92,19 @@ void check_supports(SceneCheck& check, bool grid) {
     check.one_of(name, "at", "face", "give either at or face, not both",
                  "give at, a position, or face, a side of the grid");
     if (!whole_face)
-      check.refuse(name, {"kind"},
-                   "goes with a face as a whole; component says what is held otherwise, or at a position");
+      check.refuse(name, {"kind"}, "goes with a face; component says what is held otherwise, or at a position");
+    if (!support.face) check.refuse(name, {"from", "to"}, "goes with a face, of which it holds a part");
+    if (scene.dim == 1 && support.face)
+      check.refuse(name, {"stiffness"}, "goes with a position in one dimension: give at in place of face");
+    if (grid && !scene.grid.cells.empty() && scene.dim > 1 && support.face && support.on_part() &&
+        check.sound(name + ".from") && check.sound(name + ".to"))
+      check_part(check, name, support);
     if (!grid || support.at.empty()) continue;
     check.inside(support.at, scene.grid.min, scene.grid.max, "grid", name + ".at");
     const auto [owner, is_first] = owners.try_emplace({support.at, support.component}, k);
     if (!is_first) check.add(name + ".at", fmt::format("support[{}] holds this position already", owner->second));
   }
+  check.unique_names("support", scene.supports);
 }
 
 void check_walls(SceneCheck& check) {

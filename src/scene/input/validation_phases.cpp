@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/support_kind.hpp"
 
 namespace stillpoint {
 namespace {
@@ -44,15 +45,19 @@ void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
   }
 }
 
-/// A support holds what is at its node or at its face of the grid: what moves with it leaves them.
-void check_moving_supports(SceneCheck& check, const std::string& one_phase) {
+/// A support that prescribes unknowns holds what is at its node or at its face of the grid: what moves with it leaves
+/// them.
+void check_moving_supports(SceneCheck& check, bool grid, const std::string& one_phase) {
   const Scene& scene = check.scene();
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     const SupportSpec& support = scene.supports[k];
     if (!support.motion.uses('t') && support.motion({}, 0) == 0) continue;
+    if (!grid || scene.grid.cells.empty() || holds_by_springs(scene.grid, support))
+      continue;  // the springs go with the material
     check.add(
         fmt::format("support[{}].u", k),
-        fmt::format("the material that moves with this support leaves its {} from phase to phase; {}, {}",
+        fmt::format("the material that moves with this support leaves its {} from phase to phase; {}, give a "
+                    "stiffness, by which springs hold the material, {}",
                     support.face ? "face of the grid" : "node",
                     support.face ? "take a [[wall]] with a motion that the grid follows" : "let it rest", one_phase));
   }
@@ -101,7 +106,7 @@ void check_dilatation(SceneCheck& check) {
 
 }  // namespace
 
-void check_phases(SceneCheck& check) {
+void check_phases(SceneCheck& check, bool grid) {
   Scene& scene = check.scene();
   PhaseSpec& phase = scene.phase;
   check_dilatation(check);
@@ -168,7 +173,7 @@ void check_phases(SceneCheck& check) {
     check.add("stop.distance", fmt::format("is certified for one set of unknowns, not from phase to phase; take "
                                            "stop.residual, {}",
                                            one_phase));
-  check_moving_supports(check, one_phase);
+  check_moving_supports(check, grid, one_phase);
   check_moving_walls(check, one_phase);
 }
 

@@ -22,11 +22,12 @@ class HeldUnknowns {
   /// t: when the phase begins [s].
   HeldUnknowns(std::size_t unknowns, double t) : start_(t), by_(unknowns, nothing) {}
 
-  /// It follows the motion, which outlives this object.
-  void prescribe(int unknown, const PrescribedMotion& motion) {
+  /// It follows the motion, which outlives this object; owner: the number of the support in its scene.
+  void prescribe(int unknown, const PrescribedMotion& motion, std::size_t owner) {
     by_[static_cast<std::size_t>(unknown)] = support;
     prescribed_.push_back(unknown);
     motions_.push_back(&motion);
+    owners_.push_back(owner);
   }
   /// It stays free, and a wall acts along it.
   void guide(int unknown) {
@@ -38,6 +39,7 @@ class HeldUnknowns {
   /// In the order in which they were prescribed, and how each moves.
   const std::vector<int>& prescribed() const { return prescribed_; }
   const PrescribedMotion& motion(std::size_t s) const { return *motions_[s]; }
+  std::size_t owner(std::size_t s) const { return owners_[s]; }
   double start() const { return start_; }  // when the phase begins [s]
   /// Since the phase began; in the first one, from the undeformed body.
   double displacement(std::size_t s, double t) const {
@@ -51,6 +53,7 @@ class HeldUnknowns {
   std::vector<By> by_;  // of each unknown
   std::vector<int> prescribed_;
   std::vector<const PrescribedMotion*> motions_;
+  std::vector<std::size_t> owners_;
 };
 
 /// What a phase consists of, for its boundary conditions.
@@ -94,6 +97,9 @@ class BoundaryCondition {
   virtual void add_following_force(const Parts&, double /*t*/, const double* /*u*/, Vec /*F*/) const {}
   /// ∂F/∂u of these.
   virtual void add_following_tangent(const Parts&, double /*t*/, const double* /*u*/, MatrixEntries&) const {}
+  /// F_s += all forces at the prescribed degrees of freedom, (prescribed): what supports bear at once. Only where
+  /// reactions are looked at.
+  virtual void add_load_on_supports(const Parts&, double /*t*/, const double* /*u*/, Vec /*F_s*/) const {}
 
   /// The phase ends with u.
   virtual void end_phase(const double* /*u*/) {}

@@ -148,6 +148,18 @@ struct CarriedPoint {
     }
   }
 
+  /// visit(entry, component, number of the prescribed unknown)
+  template <class Visit>
+  void for_prescribed(const DegreesOfFreedom& dofs, const Visit& visit) const {
+    for (int a = 0; a < entries; ++a) {
+      if (function[a] < 0) continue;
+      for (int i = 0; i < dim; ++i) {
+        const int dof = dofs.number[static_cast<std::size_t>(dim * function[a] + i)];
+        if (dof >= 0 && !dofs.is_free(dof)) visit(a, i, static_cast<std::size_t>(dof) - dofs.size());
+      }
+    }
+  }
+
  private:
   void clear() {
     function.fill(-1);
@@ -169,6 +181,14 @@ struct CarriedPoint {
     return reached;
   }
 };
+
+/// The cell whose functions are taken at a position of the grid.
+template <AxisBasis B, int Dim>
+std::array<int, Dim> cell_with_functions_at(const Grid<Dim>& grid, const Point<Dim>& x) {
+  auto cell = grid.host_of(x);
+  for (int d = 0; d < Dim; ++d) cell[d] = std::clamp(cell[d], 0, std::max(grid.axes[d].cells() - B::window, 0));
+  return cell;
+}
 
 /// The points whose domains hold the loads: of one in parts the part in which it is, or which is nearest.
 template <int Dim, class Loads, class PositionOf>

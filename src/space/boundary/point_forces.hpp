@@ -45,6 +45,13 @@ class PointForces final : public BoundaryCondition<B, K> {
   void add_load(const Parts&, double t, Vec F) const override {
     for (const Varying& load : varying_) add(load, t, F);
   }
+  void add_load_on_supports(const Parts& phase, double t, const double*, Vec F_s) const override {
+    for (std::size_t f = 0; f < at_.size(); ++f) {
+      at_[f].for_prescribed(phase.dofs, [&](int a, int i, std::size_t s) {
+        F_s[s] += at_[f].w[a] * scene_.forces[f].value[static_cast<std::size_t>(i)]({}, t);
+      });
+    }
+  }
   void archive(const StateArchive& state) override {
     state.each(
         "force_positions", at_, [](auto& at) -> auto& { return at.x; });
@@ -64,15 +71,9 @@ class PointForces final : public BoundaryCondition<B, K> {
     for (const auto& [dof, weight] : load.weights) F[static_cast<std::size_t>(dof)] += weight * force;
   }
 
-  static std::array<int, dim> cell_at(const Point<dim>& x, const Grid<dim>& grid) {
-    auto cell = grid.host_of(x);
-    for (int d = 0; d < dim; ++d) cell[d] = std::clamp(cell[d], 0, std::max(grid.axes[d].cells() - B::window, 0));
-    return cell;
-  }
-
   void find(const Parts& phase) {
     for (std::size_t f = 0; f < at_.size() && !has_begun_; ++f) {
-      at_[f].freeze(cell_at(at_[f].x, phase.grid), phase);
+      at_[f].freeze(cell_with_functions_at<B, dim>(phase.grid, at_[f].x), phase);
       for (std::size_t a = 0; a < at_[f].w.size(); ++a) {
         if (at_[f].function[a] < 0 && std::abs(at_[f].w[a]) > 1e-12)
           throw_scene_error(scene_, fmt::format("force[{}].at", f), "there is no material at this place");

@@ -1,4 +1,5 @@
-// Supports: displacements prescribed at a point or along a face of the grid, u_s = u_s(t).
+// Supports where the basis has values of its own: unknowns prescribed at a node, along a face of the grid or a part of
+// it, u_s = u_s(t). The others hold by springs, see weak_supports.hpp.
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/support_kind.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 
@@ -27,6 +29,7 @@ class Supports final : public BoundaryCondition<B, K> {
 
   void hold(const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) override {
     for (std::size_t s = 0; s < motions_.size(); ++s) {
+      if (holds_by_springs(scene_.grid, scene_.supports[s])) continue;
       if (scene_.supports[s].face) {
         hold_face(s, grid, reached, held);
       } else {
@@ -43,33 +46,43 @@ class Supports final : public BoundaryCondition<B, K> {
     std::copy_n(support.at.begin(), dim, at.begin());
     const auto function = Basis::interpolating_function(grid, at);
     if (!function) {
-      throw_scene_error(
-          scene_, key,
-          "a support must lie where the basis has a value of its own: at a node of a linear or hermite grid, at "
-          "an end of a quadratic or cubic one");
+      throw_scene_error(scene_, key,
+                        "the basis has no value of its own here, as the body hardly reaches this cell; expected a "
+                        "stiffness, by which "
+                        "a spring holds");
     }
     const int unknown = dim * *function + support.component;
     if (!reached[static_cast<std::size_t>(*function)])
       throw_scene_error(scene_, key, "no material reaches this support");
     if (held.is_prescribed(unknown)) throw_scene_error(scene_, key, "this place is supported already");
-    held.prescribe(unknown, motions_[s]);
+    held.prescribe(unknown, motions_[s], s);
   }
 
-  // Every function that is not zero on the face: values move with the support, slopes along it stay.
+  // Every function that is not zero on the face, of a part those of its nodes: values move with the support, slopes
+  // along it stay.
   void hold_face(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {
     const SupportSpec& support = scene_.supports[s];
     const int axis = axis_of(*support.face);
     const std::vector<int> values = Basis::face_values(grid, axis, is_upper(*support.face));
     for (const int function : Basis::face_functions(grid, axis, is_upper(*support.face))) {
-      if (!reached[static_cast<std::size_t>(function)]) continue;
+      if (!reached[static_cast<std::size_t>(function)] || !is_in_part(support, grid, function)) continue;
       for (int component = 0; component < dim; ++component) {
         const int unknown = dim * function + component;
         const bool named = component == support.component;
         if ((!named && support.roller) || held.is_prescribed(unknown)) continue;
         const bool moves = named && std::ranges::binary_search(values, function);
-        held.prescribe(unknown, moves ? motions_[s] : rest_);
+        held.prescribe(unknown, moves ? motions_[s] : rest_, s);
       }
     }
+  }
+
+  bool is_in_part(const SupportSpec& support, const GridOf& grid, int function) const {
+    if (dim == 1 || !support.on_part()) return true;
+    constexpr double rounding = 1e-9;  // of a cell
+    const auto [along, from, to] = held_part(scene_.grid, support);
+    const double x = B::centre(grid.axes[along], Basis::index_along(grid, function, static_cast<int>(along)));
+    const double slack = rounding * scene_.grid.cell_length(along);
+    return x >= from - slack && x <= to + slack;
   }
 
   const Scene& scene_;

@@ -68,6 +68,18 @@ class Tractions final : public BoundaryCondition<B, K> {
         add_component(piece, phase.dofs, i, -(*piece.traction->pressure)({}, t) * area[i], F);
     }
   }
+  void add_load_on_supports(const Parts& phase, double t, const double* u, Vec F_s) const override {
+    for (const Piece& piece : pieces_) {
+      std::array<double, dim> force;
+      if (piece.traction->pressure) {
+        force = deformed_area(piece, u);
+        for (double& along : force) along *= -(*piece.traction->pressure)({}, t);
+      } else {
+        for (int i = 0; i < dim; ++i) force[i] = piece.traction->value[static_cast<std::size_t>(i)]({}, t) * piece.area;
+      }
+      piece.at.for_prescribed(phase.dofs, [&](int a, int i, std::size_t s) { F_s[s] += force[i] * piece.at.w[a]; });
+    }
+  }
   // Unsymmetric.
   void add_following_tangent(const Parts& phase, double t, const double* u, MatrixEntries& K_F) const override {
     for (const Piece& piece : pieces_) {

@@ -11,10 +11,11 @@
 
 namespace stillpoint {
 
-/// as_one: whether what shares no function counts as one part all the same.
+/// sprung: whether a spring of a support acts on an unknown of the grid. as_one: whether what shares no function counts
+/// as one part all the same.
 template <AxisBasis B, Kinematics K>
 std::vector<FreePart> find_free_parts(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
-                                      const DegreesOfFreedom& dofs, bool as_one) {
+                                      const DegreesOfFreedom& dofs, const std::vector<char>& sprung, bool as_one) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   constexpr int first_axis = K == Kinematics::axisymmetric ? 1 : 0;  // all points move outwards against hoop stress
   constexpr int nowhere = -1;
@@ -56,7 +57,7 @@ std::vector<FreePart> find_free_parts(const MaterialPoints<dimensions(K)>& point
         auto [found, is_new] = all.try_emplace({first_of(f), i});
         FreePart& part = found->second.part;
         if (is_new) part.axis = i, part.point = static_cast<std::size_t>(points.number[points.begin(k)]);
-        if (!dofs.is_free(dof)) found->second.held = true;
+        if (!dofs.is_free(dof) || sprung[unknown]) found->second.held = true;
         part.unknowns.push_back(static_cast<std::size_t>(dof));
       }
     }

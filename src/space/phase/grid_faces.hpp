@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "base/parallel_loop.hpp"
+#include "scene/support_kind.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
@@ -26,7 +27,7 @@ class GridFaces {
       slack_[d].fill(rounding * std::max({std::abs(axis.min()), std::abs(axis.max()), axis.max() - axis.min()}));
     }
     for (const SupportSpec& support : scene.supports) {
-      if (support.face) hold(*support.face);
+      if (support.face && !holds_by_springs(scene.grid, support)) hold(*support.face);
     }
     for (const WallSpec& wall : scene.walls) hold(wall.face);
   }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/memory_report.hpp"
+#include "space/boundary/support_report.hpp"
 #include "space/boundary/wall_reaction.hpp"
 #include "space/points/material_points.hpp"
 
@@ -122,6 +123,10 @@ class LagrangianPhase : public SemiDiscrete {
   virtual std::vector<WallReaction> wall_reactions(double t) const = 0;
   /// Displacements of the supports since the phase began, in the order of TrialState::reactions [m].
   virtual std::vector<double> support_displacements(double t) const = 0;
+  /// Of the supports that have a name; reactions: TrialState's, of an evaluation at (t, u).
+  virtual std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const = 0;
+  /// Of the supports that hold by springs, at (t, u).
+  virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
   virtual std::vector<FreePart> free_parts() const = 0;
   /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
   /// Infinite if u cannot be evaluated.
@@ -156,8 +161,8 @@ class PointLost : public std::runtime_error {
 };
 
 /// Places the bodies, evaluates and freezes the weights, assembles the mass. The instantiation for the scene's
-/// kinematics and basis is chosen here, once. Throws SceneError on what only shows now: a support where the basis does
-/// not interpolate, a force where there is no material, a mass matrix that is not positive definite.
+/// kinematics and basis is chosen here, once. Throws SceneError on what only shows now: a support that no
+/// material reaches, a force where there is no material, a mass matrix that is not positive definite.
 std::unique_ptr<LagrangianPhase> make_phase(const Scene& scene);
 
 }  // namespace stillpoint

@@ -15,6 +15,7 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_conditions.hpp"
+#include "space/boundary/weak_supports.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/nodal_force.hpp"
@@ -46,7 +47,8 @@ class MaterialPointPhase final : public LagrangianPhase,
         body_(make_body<K>(scene, grid_, moves_on(scene))),
         transfer_(scene.phase, !is_undamped(scene.damping.strategy)),
         inertia_(scene.mass, moves_on(scene)),
-        boundary_(make_boundary_conditions<B, K>(scene_, grid_, time_scale())) {
+        boundary_(make_boundary_conditions<B, K>(scene_, grid_, time_scale())),
+        weak_supports_(scene_, grid_, time_scale()) {
     describe();
     for (const auto& condition : boundary_) {
       Contact* found = condition->contact();
@@ -84,6 +86,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::vector<double> initial_velocity(double t) override;
   std::vector<WallReaction> wall_reactions(double t) const override;
   std::vector<double> support_displacements(double t) const override;
+  std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const override;
+  std::vector<WeakSupport> weak_supports(double t, ConstVec u) const override;
   std::vector<FreePart> free_parts() const override;
   double stiffening(double t, ConstVec u) const override;
   PhaseControl& control() override { return *this; }
@@ -150,6 +154,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void begin_phase(double t);
   void place_functions(double t);
   void make_forces(double t);
+  std::vector<double> wave_moduli() const;
   void archive_number_of_points(const StateArchive& state);
   void archive_points(const StateArchive& state);
   void archive_conditions(const StateArchive& state);
@@ -245,6 +250,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   VelocityTransfer<B, K> transfer_;
   NodalInertia<B, K> inertia_;
   BoundaryConditions<B, K> boundary_;
+  WeakSupports<B, K> weak_supports_;
   Contact* contact_ = nullptr;  // of one of them
   PointOrder<Dim> order_;
   std::vector<double> origin_;  // positions at the start of the run, in the points' order of then, (P × Dim)

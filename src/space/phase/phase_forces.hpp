@@ -33,7 +33,7 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   auto trial = std::make_unique<Trial>();
   trial->of = this;
   trial->phase = phase_;
-  trial->reactions.assign(dofs_->prescribed.size(), 0);
+  trial->reactions.assign(dofs_->prescribed.size() + weak_supports_.springs().size(), 0);
   if (!spare_) spare_ = std::make_shared<TrialArrays>();
   trial->arrays = spare_.use_count() == 1 ? spare_ : std::make_shared<TrialArrays>();
   trial->arrays->u.assign(grid_u_.size(), 0);
@@ -64,6 +64,7 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
     const auto answer = [this](std::size_t m, Block& block) { return stress<false>(m, block, 0, nullptr); };
     trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
   }
+  weak_supports_.springs().add_force(t, grid_u.data(), R, trial.reactions);
   return trial.evaluated;
 }
 
@@ -90,6 +91,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   };
   nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR, {},
                                              grid_du_.data());
+  weak_supports_.springs().add_product(grid_du_.data(), dR);
 }
 
 // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
@@ -120,7 +122,9 @@ SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u
       }
     }
   };
-  return assemble_cells<B, K>(grid_, body_.points, weights_, *dofs_, add_point).free;
+  SparseMatrix matrix = assemble_cells<B, K>(grid_, body_.points, weights_, *dofs_, add_point).free;
+  weak_supports_.springs().add_matrix(matrix);
+  return matrix;
 }
 
 template <AxisBasis B, Kinematics K>
@@ -139,6 +143,7 @@ void MaterialPointPhase<B, K>::add_support_inertia(double t, double c, Vec Q) co
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
   if (!info_.stiffens) return 1;
+  if (history_dependent_) return weak_supports_.growth();
   const auto largest_bound = [&] {
     double largest = 0;
     nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
@@ -154,7 +159,10 @@ double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
     undeformed_bound_ = largest_bound();
   }
   spread(t, u, grid_u_);
-  return largest_bound() / undeformed_bound_;
+  const double stiffening = largest_bound() / undeformed_bound_;
+  // Springs do not soften with the material.
+  if (weak_supports_.empty() || stiffening > weak_supports_.growth()) return stiffening;
+  return std::isnan(stiffening) ? stiffening : weak_supports_.growth();
 }
 
 }  // namespace stillpoint

@@ -5,11 +5,17 @@
 
 namespace stillpoint {
 
+// λ + 2μ of each material [Pa].
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::wave_moduli() const {
+  std::vector<double> moduli;
+  for (const auto& material : body_.materials) moduli.push_back(material->info().wave_modulus);
+  return moduli;
+}
+
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::make_mass() {
-  std::vector<double> wave_modulus;
-  for (const auto& material : body_.materials) wave_modulus.push_back(material->info().wave_modulus);
-  inertia_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), wave_modulus, untouched_functions());
+  inertia_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), untouched_functions());
   const bool is_consistent = scene_.mass.kind == MassKind::consistent;
   if (is_consistent || (projects() && !updated_lagrangian())) {
     consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);

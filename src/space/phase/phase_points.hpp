@@ -1,6 +1,7 @@
 // What a user sees of the points of a phase, and how initial values come to the grid.
 #pragma once
 
+#include <cstdlib>
 #include <set>
 
 #include "space/phase/material_point_phase.hpp"
@@ -26,8 +27,8 @@ void MaterialPointPhase<B, K>::describe() {
            .history_names = {names.begin(), names.end()},
            .updated_lagrangian = moves_on(scene_),
            .nonlinear = finite_strain || history_dependent_,
-           // With history the elastic part is small, and what it yields only softens.
-           .stiffens = finite_strain && !history_dependent_};
+           // With history the elastic part is small, and what it yields only softens; but springs go with it.
+           .stiffens = finite_strain && (!history_dependent_ || (moves_on(scene_) && !weak_supports_.empty()))};
 }
 
 template <AxisBasis B, Kinematics K>
@@ -112,14 +113,61 @@ std::vector<WallReaction> MaterialPointPhase<B, K>::wall_reactions(double t) con
 
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::support_displacements(double t) const {
-  std::vector<double> moved(held_.prescribed().size());
-  for (std::size_t s = 0; s < moved.size(); ++s) moved[s] = held_.displacement(s, t);
+  const Springs& springs = weak_supports_.springs();
+  std::vector<double> moved;
+  for (std::size_t s = 0; s < held_.prescribed().size(); ++s) moved.push_back(held_.displacement(s, t));
+  for (std::size_t s = 0; s < springs.size(); ++s) moved.push_back(springs.support_displacement(s, t, held_.start()));
   return moved;
+}
+
+// R_s − F_s at the prescribed values, −k g of springs. A slope has a moment, which is no force.
+template <AxisBasis B, Kinematics K>
+std::vector<SupportReaction> MaterialPointPhase<B, K>::support_reactions(double t, ConstVec u,
+                                                                         ConstVec reactions) const {
+  std::vector<SupportReaction> named;
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place(scene_.supports.size(), none);
+  for (std::size_t s = 0; s < place.size(); ++s) {
+    if (scene_.supports[s].name.empty()) continue;
+    place[s] = named.size();
+    named.push_back({scene_.supports[s].name, {}});
+  }
+  if (named.empty()) return named;
+  spread(t, u, grid_u_);
+  const std::size_t prescribed = held_.prescribed().size();
+  std::vector<double> F_s(prescribed, 0);
+  for (const auto& condition : boundary_) condition->add_load_on_supports(parts(), t, grid_u_.data(), F_s);
+  const auto is_value = [this](int function) {
+    for (int d = 0; d < Dim; ++d) {
+      if (!B::is_value(Basis::index_along(grid_, function, d))) return false;
+    }
+    return true;
+  };
+  for (std::size_t s = 0; s < prescribed; ++s) {
+    const auto [function, i] = std::div(held_.prescribed()[s], Dim);
+    if (const std::size_t owner = place[held_.owner(s)]; owner != none && is_value(function))
+      named[owner].force[static_cast<std::size_t>(i)] += reactions[s] - F_s[s];
+  }
+  for (std::size_t s = 0; s < weak_supports_.springs().size(); ++s) {
+    if (const std::size_t owner = place[weak_supports_.owner(s)]; owner != none)
+      named[owner].force[static_cast<std::size_t>(weak_supports_.component(s))] += reactions[prescribed + s];
+  }
+  return named;
+}
+
+template <AxisBasis B, Kinematics K>
+std::vector<WeakSupport> MaterialPointPhase<B, K>::weak_supports(double t, ConstVec u) const {
+  if (weak_supports_.empty()) return {};
+  spread(t, u, grid_u_);
+  return weak_supports_.report(t, grid_u_.data());
 }
 
 template <AxisBasis B, Kinematics K>
 std::vector<FreePart> MaterialPointPhase<B, K>::free_parts() const {
-  return find_free_parts<B, K>(body_.points, weights_, *dofs_, /*as_one=*/updated_lagrangian());
+  std::vector<char> sprung(dofs_->number.size(), 0);
+  for (const Springs::Weight& weight : weak_supports_.springs().weights())
+    sprung[static_cast<std::size_t>(weight.unknown)] = 1;
+  return find_free_parts<B, K>(body_.points, weights_, *dofs_, sprung, /*as_one=*/updated_lagrangian());
 }
 
 template <AxisBasis B, Kinematics K>

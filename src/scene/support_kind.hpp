@@ -1,0 +1,54 @@
+// Which supports prescribe unknowns of the grid, and which hold the body by springs.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace stillpoint {
+
+/// The line of an axis that is nearest to x, from 0 to cells: of the grid at the start.
+inline int nearest_line(const GridSpec& grid, std::size_t axis, double x) {
+  const double cells = (x - grid.min[axis]) / grid.cell_length(axis);
+  return static_cast<int>(std::clamp(std::round(cells), 0.0, static_cast<double>(grid.cells[axis])));
+}
+/// Where a line lies [m].
+inline double line_position(const GridSpec& grid, std::size_t axis, int line) {
+  const int cells = grid.cells[axis];
+  return line == cells ? grid.max[axis] : grid.min[axis] + (grid.max[axis] - grid.min[axis]) * line / cells;
+}
+inline bool is_on_line(const GridSpec& grid, std::size_t axis, double x) {
+  constexpr double rounding = 1e-12;  // of a cell
+  return std::abs(x - line_position(grid, axis, nearest_line(grid, axis, x))) <= rounding * grid.cell_length(axis);
+}
+
+/// Whether the basis has a value of its own at each node; otherwise only at the ends of the grid.
+inline bool has_nodal_values(BasisKind basis) { return basis == BasisKind::linear || basis == BasisKind::hermite; }
+
+/// Whether a support holds by springs: where its scene gives a stiffness, and where the basis has no value of its own,
+/// so that no unknown can be prescribed. The grid is in order.
+inline bool holds_by_springs(const GridSpec& grid, const SupportSpec& support) {
+  if (support.stiffness) return true;
+  if (support.face) return support.on_part() && !has_nodal_values(grid.basis);
+  for (std::size_t axis = 0; axis < support.at.size(); ++axis) {
+    const double x = support.at[axis];
+    const bool at_end = nearest_line(grid, axis, x) % grid.cells[axis] == 0;
+    if (!is_on_line(grid, axis, x) || !(at_end || has_nodal_values(grid.basis))) return true;
+  }
+  return false;
+}
+
+/// The held part of a face, along it [m].
+struct FacePart {
+  std::size_t along = 0;  // the axis
+  double from = 0, to = 0;
+};
+/// Of a support on a face of a plane grid.
+inline FacePart held_part(const GridSpec& grid, const SupportSpec& support) {
+  const auto along = static_cast<std::size_t>(1 - axis_of(*support.face));
+  return {along, support.from.value_or(grid.min[along]), support.to.value_or(grid.max[along])};
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,83 @@
+#include "simulation/support_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+
+namespace stillpoint {
+namespace {
+
+bool has_named_supports(const Scene& scene) {
+  return std::ranges::any_of(scene.supports, [](const SupportSpec& support) { return !support.name.empty(); });
+}
+
+double largest_displacement(const LagrangianPhase& phase, double t, ConstVec u) {
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  std::vector<double> of_points(dim * phase.points());
+  phase.point_displacement(t, u, of_points);
+  double largest = 0;
+  for (std::size_t p = 0; p < phase.points(); ++p) {
+    double square = 0;
+    for (std::size_t i = 0; i < dim; ++i) square += of_points[dim * p + i] * of_points[dim * p + i];
+    largest = std::max(largest, std::sqrt(square));
+  }
+  return largest;
+}
+
+// A stiffness that the scene gives is meant to give way.
+std::string note_on_gap(const SupportGap& weak, const SupportSpec& support) {
+  constexpr double small = 0.01;
+  if (support.stiffness || !(weak.share > small)) return "";
+  const std::string name =
+      support.name.empty() ? weak.support : fmt::format("{} {}", weak.support, in_quotes(support.name));
+  return fmt::format(
+      "{} gives way by {:.3g} m, {:.2g} of the largest displacement: springs hold it, as the basis has no value of its "
+      "own there; expected {}, or a stiffness above {:.3g} {}, with which steps are shorter",
+      name, weak.gap, weak.share, support.face ? "smaller cells" : "a part of a face, not a position", weak.stiffness,
+      support.face ? "N/m3" : "N/m");
+}
+
+}  // namespace
+
+std::vector<std::string> reaction_columns(const Scene& scene) {
+  std::vector<std::string> columns;
+  for (const SupportSpec& support : scene.supports) {
+    if (support.name.empty()) continue;
+    if (scene.dim == 1) columns.push_back(support.name + ".reaction");
+    for (int i = 0; i < scene.dim && scene.dim > 1; ++i)
+      columns.push_back(fmt::format("{}.reaction_{}", support.name, "xy"[i]));
+  }
+  return columns;
+}
+
+std::vector<double> reaction_values(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion) {
+  std::vector<double> values;
+  if (!has_named_supports(scene)) return values;
+  for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions()))
+    values.insert(values.end(), support.force.begin(), support.force.begin() + scene.dim);
+  return values;
+}
+
+void fill_supports(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion, Summary& summary) {
+  if (has_named_supports(scene)) {
+    motion.residual(t);
+    for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions()))
+      summary.reactions[support.name] = {support.force.begin(), support.force.begin() + scene.dim};
+  }
+  const std::vector<WeakSupport> weak = phase.weak_supports(t, motion.u());
+  const double largest = weak.empty() ? 0 : largest_displacement(phase, t, motion.u());
+  for (const WeakSupport& one : weak) {
+    const SupportSpec& support = scene.supports[one.support];
+    const SupportGap& gap =
+        summary.weak_supports.emplace_back(SupportGap{.support = fmt::format("support[{}]", one.support),
+                                                      .stiffness = one.stiffness,
+                                                      .gap = one.gap,
+                                                      .share = largest > 0 ? one.gap / largest : 0});
+    if (std::string note = note_on_gap(gap, support); !note.empty()) summary.notes.push_back(std::move(note));
+  }
+}
+
+}  // namespace stillpoint

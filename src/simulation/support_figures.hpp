@@ -1,0 +1,23 @@
+// What the supports of a scene bear, and how far those that hold by springs give way.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+#include <stillpoint/summary.hpp>
+
+#include <string>
+#include <vector>
+
+#include "simulation/phase_motion.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// Columns of history.csv: "<support>.reaction_x", "<support>.reaction_y" of each named support; in one dimension
+/// "<support>.reaction".
+std::vector<std::string> reaction_columns(const Scene& scene);
+/// In the order of the columns, at (t, u), where the system was evaluated last [N].
+std::vector<double> reaction_values(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion);
+/// Reactions and weak supports at (t, u), which is evaluated if there are any, with a note on what gives way too far.
+void fill_supports(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion, Summary& summary);
+
+}  // namespace stillpoint

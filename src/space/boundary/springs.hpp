@@ -1,0 +1,75 @@
+// Springs between positions of the body and what supports prescribe there.
+//
+//   R += k g w,   g = w·u + g_0 − u_s(t),   K += k w wᵀ
+//
+// w: the weights of the position's displacement; g_0: how far the position had come in one component when the phase
+// began; u_s: the motion of the support. The force is a part of R(u), so that all that looks at R and K sees it.
+#pragma once
+
+#include <stillpoint/sparse_matrix.hpp>
+#include <stillpoint/types.hpp>
+
+#include <cstddef>
+#include <vector>
+
+#include "space/boundary/prescribed_motion.hpp"
+
+namespace stillpoint {
+
+class Springs {
+ public:
+  struct Weight {
+    int unknown;  // of the grid
+    int dof;      // free, or prescribed, as DegreesOfFreedom numbers them
+    double w;
+  };
+
+  bool empty() const { return stiffness_.empty(); }
+  std::size_t size() const { return stiffness_.size(); }
+  void clear();
+  /// The motion outlives this.
+  void add(double stiffness, double moved, const PrescribedMotion& motion, const std::vector<Weight>& weights);
+
+  double stiffness(std::size_t s) const { return stiffness_[s]; }
+  const std::vector<Weight>& weights() const { return weights_; }
+  /// w·u; u over the grid's functions.
+  double displacement(std::size_t s, const double* u) const {
+    double sum = 0;
+    for (std::size_t e = begin_[s]; e < begin_[s + 1]; ++e) sum += weights_[e].w * u[weights_[e].unknown];
+    return sum;
+  }
+  double gap(std::size_t s, double t, const double* u) const {
+    return displacement(s, u) + moved_[s] - motion_[s]->displacement(t);
+  }
+  /// How far a support has come since the phase that began at `start`; in the first one, from where nothing is
+  /// deformed.
+  double support_displacement(std::size_t s, double t, double start) const {
+    return motion_[s]->displacement(t) - (start > 0 ? motion_[s]->displacement(start) : 0);
+  }
+
+  /// R += the springs' forces, (n). reactions: of the supports that prescribe unknowns, which bear them too, and behind
+  /// these −k g of each spring, the force that its support exerts on the body.
+  void add_force(double t, const double* u, Vec R, Vec reactions) const {
+    if (!empty()) add_forces(t, u, R, reactions);
+  }
+  /// dR += k w (w·du), (n); du over the grid's functions.
+  void add_product(const double* du, Vec dR) const {
+    if (!empty()) add_products(du, dR);
+  }
+  /// K += k w wᵀ, (n × n).
+  void add_matrix(SparseMatrix& K) const {
+    if (!empty()) add_matrices(K);
+  }
+
+ private:
+  void add_forces(double t, const double* u, Vec R, Vec reactions) const;
+  void add_products(const double* du, Vec dR) const;
+  void add_matrices(SparseMatrix& K) const;
+
+  std::vector<double> stiffness_, moved_;  // k [N/m], g_0 [m]
+  std::vector<const PrescribedMotion*> motion_;
+  std::vector<std::size_t> begin_{0};  // of the weights of each
+  std::vector<Weight> weights_;
+};
+
+}  // namespace stillpoint
