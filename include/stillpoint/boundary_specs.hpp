@@ -42,12 +42,18 @@ struct TractionSpec {                          // [[traction]]: a load on the bo
   std::optional<Expression> pressure;  // of t, per deformed area [Pa], instead of value: it follows the face's normal
 };
 
+struct LoadSpec {               // [load]: loads in one proportion, driven by a displacement
+  Expression displacement;      // of t: their mean displacement, Σ F·u/Σ |F| [m]
+  std::vector<std::string> of;  // "traction[0]", "force[1]", "body_force"; empty: all
+};
+
 struct BoundarySpecs {
   std::vector<SupportSpec> supports;
   std::vector<WallSpec> walls;
   std::vector<PointForceSpec> forces;
   std::vector<TractionSpec> tractions;
   std::vector<Expression> body_force;  // of x, y, z, t; per mass [m/s²]; empty: none
+  std::optional<LoadSpec> load;        // of these forces, tractions and body forces
 
   /// visit(key, formula) for each formula of these.
   template <class Visit>
@@ -64,6 +70,7 @@ struct BoundarySpecs {
       if (tractions[k].pressure) visit(key("traction", k, "pressure"), *tractions[k].pressure);
     }
     for (const Expression& component : body_force) visit("body_force.value", component);
+    if (load) visit("load.displacement", load->displacement);
   }
 };
 

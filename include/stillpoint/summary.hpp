@@ -45,6 +45,11 @@ struct ExactError {
   std::optional<double> stress_rel_l2;
 };
 
+struct LoadFigures {                      // of loads that a displacement drives
+  double factor = 0, largest_factor = 0;  // λ at the end, and the largest so far
+  double displacement = 0;                // their mean displacement [m]
+};
+
 /// Empty: not computed.
 struct Summary {
   std::string scene, title;
@@ -91,6 +96,7 @@ struct Summary {
   std::map<std::string, std::vector<double>>
       reactions;  // of named supports, the force that each exerts on the body [N]
   std::vector<SupportGap> weak_supports;
+  std::optional<LoadFigures> load;
   std::optional<ExactError> error;
   std::map<std::string, std::vector<double>> probe_positions;  // of each probe's material point at the start [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)

@@ -62,6 +62,9 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
     if (position != s.probe_positions.end()) values += fmt::format(" at x = {:.6g}", fmt::join(position->second, ", "));
     row((fields.front().first == "normal" ? "force on " : "probe ") + name, values);
   }
+  if (s.load)
+    row("load factor", fmt::format("{:.6g}, the largest {:.6g}, at a mean displacement of {:.4g} m", s.load->factor,
+                                   s.load->largest_factor, s.load->displacement));
   for (const auto& [name, force] : s.reactions)
     row("reaction of " + name, fmt::format("({:.9g}) N on the body", fmt::join(force, ", ")));
   for (const SupportGap& weak : s.weak_supports) {

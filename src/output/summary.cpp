@@ -62,6 +62,13 @@ std::string to_json(const Summary& s) {
   for (const Snapshot& stage : s.snapshots)
     stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
 
+  Json load = nullptr;
+  if (s.load) {
+    load = {{"factor", number(s.load->factor)},
+            {"largest_factor", number(s.load->largest_factor)},
+            {"displacement", number(s.load->displacement)}};
+  }
+
   const Json json = {{"scene", s.scene},
                      {"title", s.title},
                      {"status", to_string(s.status)},
@@ -106,6 +113,7 @@ std::string to_json(const Summary& s) {
                      {"error", error},
                      {"reactions", reactions},
                      {"weak_supports", weak_supports},
+                     {"load", load},
                      {"probes", probes},
                      {"probe_places", s.probe_positions},
                      {"versions", versions_of_libraries()}};

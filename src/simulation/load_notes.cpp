@@ -84,7 +84,7 @@ void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, No
   }
   if (zeros > most_told) notes.push_back(fmt::format("so are {} loads more", zeros - most_told));
   if (!some_act && is_still(scene)) notes.emplace_back("no load acts and nothing moves: the body stays as it is");
-  if (!some_act || loads_vary(scene)) return;
+  if (!some_act || loads_vary(scene) || scene.load) return;
   std::vector<double> F(phase.size());
   phase.external_force(0, u, F);
   if (std::ranges::all_of(F, [](double force) { return force == 0; }))

@@ -55,6 +55,7 @@ Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem
 std::vector<std::string> Recorder::columns() const {
   std::vector<std::string> all = probes_.columns();
   std::ranges::copy(reaction_columns(scene_), std::back_inserter(all));
+  if (scene_.load) all.insert(all.end(), {"load.factor", "load.displacement"});
   std::ranges::copy(energy_balance_.columns(), std::back_inserter(all));
   if (has_distance_) all.emplace_back("distance");
   return all;
@@ -75,6 +76,10 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   energy_balance_.advance(t, motion.system, motion.u());
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   std::ranges::copy(reaction_values(scene_, phase_, t, motion), std::back_inserter(values));
+  if (const auto load = phase_.load_state(t, motion.u())) {
+    values.insert(values.end(), {load->factor, load->displacement});
+    if (!(load->factor <= largest_factor_)) largest_factor_ = load->factor;
+  }
   std::ranges::copy(energy_balance_.values(row.figures.kinetic_energy), std::back_inserter(values));
   if (has_distance_) values.push_back(row.distance.value_or(std::numeric_limits<double>::quiet_NaN()));
   history_.add(row.figures, values);
@@ -96,6 +101,7 @@ void Recorder::begin_phase(double t, PhaseMotion& motion) {
 void Recorder::archive(const StateArchive& state) {
   state("rows", rows_);
   state("last_row", last_row_);
+  state("largest_factor", largest_factor_);
   energy_balance_.archive(state.part("energy"));
   history_.archive(state.part("history"));
   snapshots_.archive(state.part("snapshots"));
@@ -110,6 +116,10 @@ void Recorder::finish(double t, const PhaseMotion* motion) {
 void Recorder::fill(Summary& s, double t, PhaseMotion& motion) {
   if (energy_balance_.watches()) s.external_work = energy_balance_.external_work();
   s.snapshots = snapshots_.taken();
+  if (const auto load = phase_.load_state(t, motion.u()))
+    s.load = LoadFigures{.factor = load->factor,
+                         .largest_factor = std::max(largest_factor_, load->factor),
+                         .displacement = load->displacement};
   const std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   for (std::size_t k = 0; k < probes_.specs().size(); ++k) {
     if (!probes_.position(k).empty()) s.probe_positions[probes_.specs()[k].name] = probes_.position(k);

@@ -56,6 +56,7 @@ class Recorder {
   const LagrangianPhase& phase_;
   bool has_distance_;
   Probes probes_;
+  double largest_factor_ = 0;  // of driven loads, in the rows
   EnergyBalance energy_balance_;
   History history_;
   Snapshots snapshots_;

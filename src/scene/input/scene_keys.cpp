@@ -94,6 +94,13 @@ void add_boundary(Tables& tables) {
 
   tables.add({"body_force", "a load on all bodies"}, std::identity())
       .key("value", &Scene::body_force, "per mass", {.unit = "m/s2", .variables = "xt", .required = true});
+
+  tables.add({"load", "loads in one proportion, driven by a displacement to the limit load and beyond"}, &Scene::load)
+      .key("displacement", &LoadSpec::displacement,
+           "mean displacement along the loads, sum F u/sum |F|: how large a factor of the loads that takes is found",
+           {.unit = "m", .variables = "t", .required = true})
+      .key("of", &LoadSpec::of, "\"traction[0]\", \"force[1]\", \"body_force\": those that are driven",
+           {.fallback = "all loads", .list = true});
 }
 
 /// The state at the beginning, and the exact one.

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "scene/border_line.hpp"
+#include "scene/controlled_loads.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/support_kind.hpp"
 
@@ -162,6 +163,29 @@ void check_tractions(SceneCheck& check, bool bodies) {
   }
 }
 
+/// Loads of one proportion are as large as their displacement makes them.
+void check_load_control(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  if (!scene.load) return;
+  const std::vector<std::string> names = names_of_loads(scene);
+  if (names.empty()) check.add("load", "drives the loads of a scene, of which there are none");
+  for (const std::string& name : scene.load->of)
+    if (std::ranges::find(names, name) == names.end())
+      check.add("load.of", unknown_word("there is no load", name, names));
+  reference_loads(scene).for_each_formula([&](const std::string& key, const Expression& formula) {
+    if (key != "load.displacement" && formula.uses('t'))
+      check.add("load", fmt::format("a load that it drives depends on t ({}); the time belongs into load.displacement",
+                                    formula.text()));
+  });
+  if (scene.solve.is_static())
+    check.add("load",
+              fmt::format("'{}' is a static solver, without the time in which a displacement could drive a load; "
+                          "take solve.method = \"relaxation\"",
+                          scene.solve.method));
+  if (!(scene.stop.time > 0))
+    check.add("stop.time", "expected with [load]: until then the displacement drives the loads");
+}
+
 /// ", such as drucker-prager"
 std::string laws_that_keep_a_stress(const SceneCheck& check) {
   std::vector<std::string> names;
@@ -209,6 +233,7 @@ void check_loads(SceneCheck& check, bool grid, const std::optional<BodyBox>& bod
   for (std::size_t k = 0; k < scene.forces.size() && body; ++k)
     check.inside(scene.forces[k].at, body->min, body->max, body->name, fmt::format("force[{}].at", k));
   check_tractions(check, body.has_value());
+  check_load_control(check);
   check_geostatic(check, body);
 }
 

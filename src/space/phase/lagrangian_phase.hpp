@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/memory_report.hpp"
+#include "space/boundary/load_state.hpp"
 #include "space/boundary/support_report.hpp"
 #include "space/boundary/wall_reaction.hpp"
 #include "space/points/material_points.hpp"
@@ -127,6 +128,8 @@ class LagrangianPhase : public SemiDiscrete {
   virtual std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const = 0;
   /// Of the supports that hold by springs, at (t, u).
   virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
+  /// Of loads that a displacement drives, at (t, u); none if none are.
+  virtual std::optional<LoadState> load_state(double t, ConstVec u) const = 0;
   virtual std::vector<FreePart> free_parts() const = 0;
   /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
   /// Infinite if u cannot be evaluated.

@@ -13,8 +13,10 @@
 #include <fmt/format.h>
 
 #include "linalg/sparse_cholesky.hpp"
+#include "scene/controlled_loads.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_conditions.hpp"
+#include "space/boundary/load_control.hpp"
 #include "space/boundary/weak_supports.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
@@ -42,13 +44,14 @@ class MaterialPointPhase final : public LagrangianPhase,
 
  public:
   explicit MaterialPointPhase(const Scene& scene)
-      : scene_(scene),
+      : scene_(without_reference_loads(scene)),
         grid_(grid_at<Dim>(scene, 0)),
         body_(make_body<K>(scene, grid_, moves_on(scene))),
         transfer_(scene.phase, !is_undamped(scene.damping.strategy)),
         inertia_(scene.mass, moves_on(scene)),
         boundary_(make_boundary_conditions<B, K>(scene_, grid_, time_scale())),
-        weak_supports_(scene_, grid_, time_scale()) {
+        weak_supports_(scene_, grid_, time_scale()),
+        load_control_(scene, grid_, time_scale()) {
     describe();
     for (const auto& condition : boundary_) {
       Contact* found = condition->contact();
@@ -88,6 +91,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::vector<double> support_displacements(double t) const override;
   std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const override;
   std::vector<WeakSupport> weak_supports(double t, ConstVec u) const override;
+  std::optional<LoadState> load_state(double t, ConstVec u) const override;
   std::vector<FreePart> free_parts() const override;
   double stiffening(double t, ConstVec u) const override;
   PhaseControl& control() override { return *this; }
@@ -251,6 +255,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   NodalInertia<B, K> inertia_;
   BoundaryConditions<B, K> boundary_;
   WeakSupports<B, K> weak_supports_;
+  LoadControl<B, K> load_control_;
   Contact* contact_ = nullptr;  // of one of them
   PointOrder<Dim> order_;
   std::vector<double> origin_;  // positions at the start of the run, in the points' order of then, (P × Dim)

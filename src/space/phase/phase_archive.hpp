@@ -83,6 +83,7 @@ template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::archive_conditions(const StateArchive& state) {
   for (std::size_t k = 0; k < boundary_.size(); ++k) boundary_[k]->archive(state.part(fmt::format("condition_{}", k)));
   weak_supports_.archive(state.part("weak_supports"));
+  load_control_.archive(state.part("load"));
 }
 
 // Where the points and the wall that it follows were when the phase began.

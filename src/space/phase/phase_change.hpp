@@ -97,9 +97,11 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   make_mass();
   constant_force_.assign(size(), 0);
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
-  weak_supports_.begin_phase(parts(), [this] {
+  const auto bound = [this] {
     return stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli());
-  });
+  };
+  weak_supports_.begin_phase(parts(), bound);
+  load_control_.begin_phase(parts(), bound);
 }
 
 template <AxisBasis B, Kinematics K>
@@ -223,6 +225,7 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   });
   for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
   weak_supports_.end_phase(grid_u_.data());
+  load_control_.end_phase(grid_u_.data());
 }
 
 // Throws PointLost if u takes a point out of the next grid. Whether one has to be put back onto a face.

@@ -33,7 +33,8 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   auto trial = std::make_unique<Trial>();
   trial->of = this;
   trial->phase = phase_;
-  trial->reactions.assign(dofs_->prescribed.size() + weak_supports_.springs().size(), 0);
+  trial->reactions.assign(dofs_->prescribed.size() + weak_supports_.springs().size() + load_control_.springs().size(),
+                          0);
   if (!spare_) spare_ = std::make_shared<TrialArrays>();
   trial->arrays = spare_.use_count() == 1 ? spare_ : std::make_shared<TrialArrays>();
   trial->arrays->u.assign(grid_u_.size(), 0);
@@ -64,7 +65,9 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
     const auto answer = [this](std::size_t m, Block& block) { return stress<false>(m, block, 0, nullptr); };
     trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
   }
-  weak_supports_.springs().add_force(t, grid_u.data(), R, trial.reactions);
+  const std::size_t of_supports = trial.reactions.size() - load_control_.springs().size();
+  weak_supports_.springs().add_force(t, grid_u.data(), R, Vec(trial.reactions).first(of_supports));
+  load_control_.springs().add_force(t, grid_u.data(), R, trial.reactions);
   return trial.evaluated;
 }
 
@@ -92,6 +95,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR, {},
                                              grid_du_.data());
   weak_supports_.springs().add_product(grid_du_.data(), dR);
+  load_control_.springs().add_product(grid_du_.data(), dR);
 }
 
 // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
@@ -99,7 +103,6 @@ template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u) const {
   spread(t, u, grid_u_);
   std::ranges::transform(grid_u_, committed_u_, grid_du_.begin(), std::minus<>());
-  if (averages_dilatation()) return matrix_of_means(kind, t - committed_t_);
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<Dim, per_cell>& matrix) {
     const auto H = weights_.gradient(grid_u_.data(), k, p), dH = weights_.gradient(grid_du_.data(), k, p);
     const auto A = material_of(k).moduli(kind, H, dH, t - committed_t_, p);
@@ -122,8 +125,10 @@ SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u
       }
     }
   };
-  SparseMatrix matrix = assemble_cells<B, K>(grid_, body_.points, weights_, *dofs_, add_point).free;
-  weak_supports_.springs().add_matrix(matrix);
+  SparseMatrix matrix = averages_dilatation()
+                            ? matrix_of_means(kind, t - committed_t_)
+                            : assemble_cells<B, K>(grid_, body_.points, weights_, *dofs_, add_point).free;
+  weak_supports_.springs().add_matrix(matrix);  // that of driven loads would be full, and static solvers have none
   return matrix;
 }
 

@@ -117,6 +117,8 @@ std::vector<double> MaterialPointPhase<B, K>::support_displacements(double t) co
   std::vector<double> moved;
   for (std::size_t s = 0; s < held_.prescribed().size(); ++s) moved.push_back(held_.displacement(s, t));
   for (std::size_t s = 0; s < springs.size(); ++s) moved.push_back(springs.support_displacement(s, t, held_.start()));
+  const Springs& load = load_control_.springs();
+  for (std::size_t s = 0; s < load.size(); ++s) moved.push_back(load.support_displacement(s, t, held_.start()));
   return moved;
 }
 
@@ -160,6 +162,13 @@ std::vector<WeakSupport> MaterialPointPhase<B, K>::weak_supports(double t, Const
   if (weak_supports_.empty()) return {};
   spread(t, u, grid_u_);
   return weak_supports_.report(t, grid_u_.data());
+}
+
+template <AxisBasis B, Kinematics K>
+std::optional<LoadState> MaterialPointPhase<B, K>::load_state(double t, ConstVec u) const {
+  if (!load_control_.acts()) return std::nullopt;
+  spread(t, u, grid_u_);
+  return load_control_.state(t, grid_u_.data());
 }
 
 template <AxisBasis B, Kinematics K>
