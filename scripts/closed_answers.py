@@ -4,23 +4,10 @@ A confined column x = 0 … l under its own weight, fixed at x = 0:
     P(F(x)) = −ρ g (l − x),   u(x) = ∫₀ˣ (F − 1) dx,   P of the law, in uniaxial strain
 """
 
-import tomllib
-
 import numpy as np
 
 GAUSS = np.polynomial.legendre.leggauss(12)
 PANELS = 32
-
-
-def constants_of(scene, settings):
-    """[constants] of a scene, with "constants.name=value" of these settings in their place."""
-    with open(scene, "rb") as file:
-        constants = dict(tomllib.load(file).get("constants", {}))
-    for setting in settings:
-        key, _, value = setting.partition("=")
-        if key.startswith("constants."):
-            constants[key.removeprefix("constants.")] = float(value)
-    return constants
 
 
 def lame(E, nu):
