@@ -49,7 +49,7 @@ def rows_on(axis, lines):
 def draw_errors(axis, lines):
     rows_on(axis, lines)
     for y, line in enumerate(lines):
-        target, error = value(line, "target, or least order"), value(line, "error")
+        target, error = value(line, "target"), value(line, "error")
         if target is not None:
             axis.plot(target, y, marker="|", color="0.3", markersize=8)
         if error is None:
