@@ -48,8 +48,13 @@ class Row:
     wall_s: float = 0.0
 
     @property
+    def known(self):
+        """A miss that is known, which is of a value: what failed or is not there is never that."""
+        return not self.ok and bool(self.known_miss) and self.computed is not None and math.isfinite(self.computed)
+
+    @property
     def wrong(self):
-        return self.ok == bool(self.known_miss)
+        return bool(self.known_miss) if self.ok else not self.known
 
 
 @dataclass

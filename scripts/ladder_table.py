@@ -50,7 +50,7 @@ def target_text(row, is_order):
 def verdict(row):
     if row.ok:
         return "ok, though marked as a known miss" if row.known_miss else "ok"
-    return "known miss" if row.known_miss else "MISS"
+    return "known miss" if row.known else "MISS"
 
 
 def texts(row):

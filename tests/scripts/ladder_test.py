@@ -147,6 +147,16 @@ def _(folder):
     assert result.returncode == 1 and "no miss any more (it locks)" in result.stdout, result
 
 
+@claim("a known miss does not excuse a run that failed, or a quantity that is not there")
+def _(folder):
+    known = VALUE + 'known_miss = "it locks"\n'
+    is_miss(folder, "exit status 4", RIGHT.replace('"$run"', '"$run"; exit 4'), known)
+    is_miss(folder, "KeyError", RIGHT, known.replace("end.u", "top.u"))
+    is_miss(folder, "end.u is", RIGHT.replace("1.0001", "NaN"), known)
+    is_miss(folder, "no order of u_max", study(1.98, 1.9, 2.1, 2),
+            ORDER.replace("u_l2", "u_max") + 'known_miss = "it locks"\n', 'refine = "h"\n')  # fmt: skip
+
+
 @claim("the order of runs with half the size each is that of their errors, with its interval")
 def _(folder):
     ladder_judge = script_module("ladder_judge")
@@ -191,6 +201,14 @@ def _(folder):
     assert "| it | end | 1 | 1.0001 | 1.0e-04 |" in text and "known miss" in text and "- end: it locks" in text
     assert "scene.toml --set constants.a=2\n" in text and "build/release/stillpoint run" in text
     assert (folder / "ladder.png").exists()
+
+
+@claim("an accuracy ladder that is not there or has no rows is not drawn, with status 2")
+def _(folder):
+    for words in ("no ladder.csv", "no rows"):
+        result = call(ROOT / "scripts/plot_ladder.py", folder)
+        assert result.returncode == 2 and words in result.stderr and not (folder / "ladder.png").exists(), result
+        (folder / "ladder.csv").write_text(COLUMNS + "\n")
 
 
 @claim("scripts/ladder builds, runs the ladder and ends with its status")
