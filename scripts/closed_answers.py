@@ -40,14 +40,14 @@ def column(x, P, slope, weight, l):
     return ((stretch(P, slope, -weight * (l - Y)) - 1) @ GAUSS[1] * half).sum(axis=1)
 
 
-def hencky_column(x, E, rho, g, l, nu=0.0, **_):
+def hencky_column(x, E, nu, rho, g, l, **_):
     """P = M ln F/F with M = λ + 2 μ: F = −W(s)/s with s = ρ g (l − x)/M, a branch that has no end."""
     lam, mu = lame(E, nu)
     M = lam + 2 * mu
     return column(x, lambda F: M * np.log(F) / F, lambda F: M * (1 - np.log(F)) / F**2, rho * g, l)
 
 
-def neo_hookean_column(x, E, rho, g, l, nu=0.0, **_):
+def neo_hookean_column(x, E, nu, rho, g, l, **_):
     """P = μ (F − 1/F) + λ ln F/F"""
     lam, mu = lame(E, nu)
     return column(
@@ -64,7 +64,7 @@ def pulled(x, F, **_):
     return (F - 1) * x
 
 
-def small_strain_column(x, E, rho, g, l, nu=0.0, **_):
+def small_strain_column(x, E, nu, rho, g, l, **_):
     """P = M (F − 1)"""
     lam, mu = lame(E, nu)
     return -rho * g / (lam + 2 * mu) * (l * x - x**2 / 2)

@@ -246,7 +246,7 @@ def _(_folder):
         (closed.hencky_column, 0.1, 0.954422), (closed.hencky_column, 1, 0.727969),
         (closed.neo_hookean_column, 1, 0.647794), (closed.small_strain_column, 1, 0.5),
     ):  # fmt: skip
-        assert abs(1 + function(one, 1, 1, s0, 1)[0] - top) < 1e-6, (function, s0)
+        assert abs(1 + function(one, 1, 0, 1, s0, 1)[0] - top) < 1e-6, (function, s0)
 
 
 if __name__ == "__main__":
