@@ -26,11 +26,11 @@ and may have [[case.fault]], what is known to be wrong and is not mended yet:
 A row with a known fault has to fail: once it does not, the mark has to go.
 """
 
-import itertools
-import tomllib
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
+
+from case_table import BadTable, as_list, combinations, read_table
 
 STATIC = {"newton", "newton-cg", "cg", "lbfgs"}
 OF_CASE = {
@@ -39,10 +39,6 @@ OF_CASE = {
 }  # fmt: skip
 # what a row takes from its case
 AS_IT_IS = {"judge", "figures", "tolerance", "says", "notes", "seconds", "quick", "chance"}
-
-
-class BadMap(Exception):
-    """What is wrong with the table of cases."""
 
 
 @dataclass
@@ -81,23 +77,6 @@ def settings_of(way):
     return settings + ([f"integrator.method={integrator}"] if integrator else [])
 
 
-def as_list(value):
-    return value if isinstance(value, list) else [value]
-
-
-def combinations(vary):
-    """(name, settings) of each combination of the values."""
-    choices = []
-    for keys, values in vary.items():
-        names = keys.split("+")
-        rows = [as_list(value) if len(names) > 1 else [value] for value in values]
-        if any(len(row) != len(names) for row in rows):
-            raise BadMap(f"vary.{keys}: expected {len(names)} values in each row")
-        choices.append([(" ".join(map(str, row)), [f"{key}={value}" for key, value in zip(names, row)]) for row in rows])
-    for combination in itertools.product(*choices):
-        yield " ".join(name for name, _ in combination), sum((settings for _, settings in combination), [])
-
-
 def fault_of(case, variant, way):
     where = f"{variant}: {way}" if variant else way
     for fault in case.get("fault", []):
@@ -109,13 +88,13 @@ def fault_of(case, variant, way):
 def rows_of(case, ways, folder):
     name = case.get("name", "a case without a name")
     for key in case.keys() - OF_CASE:
-        raise BadMap(f"{name}: unknown key {key}")
+        raise BadTable(f"{name}: unknown key {key}")
     for key in ("name", "scene", "ways", "expected"):
         if key not in case:
-            raise BadMap(f"{name}: {key} is missing")
+            raise BadTable(f"{name}: {key} is missing")
     expected = as_list(case["expected"])
     if not case.get("judge") and {"equilibrium", "end-time"} & set(expected):
-        raise BadMap(f"{name}: an answer is expected, and nothing judges it")
+        raise BadTable(f"{name}: an answer is expected, and nothing judges it")
     taken = {key: case[key] for key in AS_IT_IS & case.keys()}
     taken["figures_tolerance"] = case.get("figures_tolerance", case.get("tolerance", 0.01))
     listed = ways[case["ways"]] if isinstance(case["ways"], str) else case["ways"]
@@ -133,11 +112,6 @@ def rows_of(case, ways, folder):
             )
 
 
-def read_table(file):
-    with open(file, "rb") as table:
-        return tomllib.load(table)
-
-
 def read_known_variations(file):
     """{number: reason} of the random variations that are known to be false."""
     return {int(number): reason for number, reason in read_table(file).get("variations", {}).items()}
@@ -149,10 +123,10 @@ def read_rows(file, judges):
     seen = set()
     for row in rows:
         if row.key in seen:
-            raise BadMap(f"{row.key} is there twice")
+            raise BadTable(f"{row.key} is there twice")
         seen.add(row.key)
         if row.judge and row.judge not in judges:
-            raise BadMap(f"{row.case}: unknown judge {row.judge}; expected one of {', '.join(judges)}")
+            raise BadTable(f"{row.case}: unknown judge {row.judge}; expected one of {', '.join(judges)}")
         if not row.scene.exists():
-            raise BadMap(f"{row.case}: there is no {row.scene}")
+            raise BadTable(f"{row.case}: there is no {row.scene}")
     return rows

@@ -13,40 +13,20 @@ Outcomes
   hang, crash             no end within the seconds of the case; ended by a signal, or without a summary
 """
 
-import json
 import math
-import re
-import signal
-import subprocess
-import tempfile
 import threading
 from dataclasses import dataclass, field
-from pathlib import Path
 
-import h5py
 import numpy as np
 
 import closed_answers
+from limited_run import difference, run
 from map_cases import Row, settings_of
+from scene_constants import constants_of
 
 WRONG = 0.01  # an error that makes an equilibrium a false one
 STEPS = 50_000  # at most of a run, where the scene does not say
 LAST = "output.stages=[1e300]"  # the fields of the end
-
-
-@dataclass
-class Run:
-    """What a call of `stillpoint run` left."""
-
-    exit_status: int | None  # None: it was cut off
-    summary: dict
-    message: str
-    first: dict  # fields of all points in the first frame and the last
-    last: dict
-
-    def says(self, pattern):
-        texts = [self.message, self.summary.get("reason") or "", *self.summary.get("notes", [])]
-        return any(re.search(pattern, text) for text in texts)
 
 
 @dataclass
@@ -58,49 +38,11 @@ class Verdict:
     expected: bool = False  # one of those that the row expects
 
 
-def frames(file):
-    if not file.exists():
-        return {}, {}
-    with h5py.File(file) as fields:
-        names = sorted(name for name in fields if name.startswith("frame_"))
-        taken = [{name: fields[frame][name][()] for name in fields[frame]} for frame in names[:1] + names[-1:]]
-    for frame in taken:
-        for vector in ("u", "v"):
-            if frame[vector].ndim == 1:  # of a line
-                frame[vector] = np.pad(frame[vector][:, None], ((0, 0), (0, 2)))
-    return (taken[0], taken[-1]) if taken else ({}, {})
-
-
 def command_of(program, row, settings=()):
     command = [str(program), "run", str(row.scene)]
     for setting in [*row.settings, *settings_of(row.way), *settings]:
         command += ["--set", setting]
     return command
-
-
-def run(command, seconds, threads=1):
-    """Runs in a folder of its own, which does not stay. seconds: of the processor, whatever else the machine does."""
-    with tempfile.TemporaryDirectory(prefix="stability_map-") as folder:
-        limit = ["prlimit", f"--cpu={math.ceil(seconds)}"]
-        whole = [*limit, *command, "--out", folder, "--threads", str(threads), "--quiet"]
-        try:
-            ended = subprocess.run(whole, capture_output=True, text=True, timeout=10 * seconds, check=False)
-        except subprocess.TimeoutExpired:
-            ended = None
-        if ended is None or ended.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-            return Run(None, {}, f"no end within {seconds:g} s", {}, {})
-        summary = {}
-        if (Path(folder) / "summary.json").exists():
-            summary = json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8"))
-        return Run(ended.returncode, summary, ended.stderr.strip(), *frames(Path(folder) / "fields.h5"))
-
-
-def difference(u, answer):
-    """‖u − answer‖/‖answer‖ over the points; where the answer is 0, ‖u‖."""
-    if np.shape(u) != np.shape(answer):
-        return math.inf
-    scale = np.linalg.norm(answer)
-    return float(np.linalg.norm(u - answer) / (scale if scale > 0 else 1))
 
 
 # --- judges: the error of a run ----------------------------------------------------------------------
@@ -148,7 +90,7 @@ def by_static_solver(method):
 
 def by_closed_answer(name):
     def judge(_program, row, run_):
-        constants = closed_answers.constants_of(row.scene, row.settings)
+        constants = constants_of(row.scene, row.settings)
         along = 1 if constants.get("vertical") else 0
         start = run_.last["place"] - run_.last["u"]
         return difference(run_.last["u"][:, along], getattr(closed_answers, name)(start[:, along], **constants))
@@ -158,7 +100,7 @@ def by_closed_answer(name):
 
 def by_column_stress(_program, row, run_):
     """Of the Cauchy stress −ρ g (l − X) of a column on a line."""
-    constants = closed_answers.constants_of(row.scene, row.settings)
+    constants = constants_of(row.scene, row.settings)
     start = (run_.last["place"] - run_.last["u"])[:, 0]
     weight = constants["rho"] * constants["g"]
     return difference(run_.last["stress"], -weight * (constants["l"] - start))

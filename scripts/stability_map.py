@@ -22,7 +22,8 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import map_random
-from map_cases import BadMap, read_known_variations, read_rows
+from case_table import BadTable
+from map_cases import read_known_variations, read_rows
 from map_judge import JUDGES, command_of, verdict
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -175,7 +176,7 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     try:
         lines, wrong = run_map(options)
-    except BadMap as error:
+    except BadTable as error:
         print(f"stability_map: {error}", file=sys.stderr)
         return 2
     write_map(options.out / "map.csv", lines)

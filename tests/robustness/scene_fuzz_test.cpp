@@ -184,7 +184,8 @@ std::vector<std::string> scenes_to_break() {
                                      broken("max = [8, 3]\nmaterial = \"sand\"\npoints_per_cell = 4",
                                             "material = \"sand\"\nfile = \"points.csv\"", kGoodPlane)};
   for (const auto& entry : std::filesystem::recursive_directory_iterator(STILLPOINT_PROBLEMS))
-    if (entry.path().extension() == ".toml" && entry.path().stem() != "map") scenes.push_back(contents(entry.path()));
+    if (entry.path().extension() == ".toml" && entry.path().stem() != "map" && entry.path().stem() != "ladder")
+      scenes.push_back(contents(entry.path()));
   std::sort(scenes.begin(), scenes.end());  // in one order on every machine
   return scenes;
 }
