@@ -93,7 +93,8 @@ void check_supports(SceneCheck& check, bool grid) {
     check.one_of(name, "at", "face", "give either at or face, not both",
                  "give at, a position, or face, a side of the grid");
     if (!whole_face)
-      check.refuse(name, {"kind"}, "goes with a face; component says what is held otherwise, or at a position");
+      check.refuse(name, {"kind"},
+                   "goes with a face as a whole; component says what is held otherwise, or at a position");
     if (!support.face) check.refuse(name, {"from", "to"}, "goes with a face, of which it holds a part");
     if (scene.dim == 1 && support.face)
       check.refuse(name, {"stiffness"}, "goes with a position in one dimension: give at in place of face");

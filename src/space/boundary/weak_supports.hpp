@@ -73,8 +73,8 @@ class WeakSupports {
   /// stiffness_bound(): G of the phase, (functions) [N/m]. Throws SceneError if there is nothing to hold.
   template <class StiffnessBound>
   void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound) {
-    if (empty()) return;
     if (!has_begun_) drop_what_lies_outside(phase);
+    if (empty()) return;
     if (has_phases(scene_)) {
       freeze_carried<B, K>(
           held_, [](Held & held) -> auto& { return held.at; }, !has_begun_, phase);

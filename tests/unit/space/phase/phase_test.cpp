@@ -179,7 +179,7 @@ TEST_CASE("what the scene cannot carry is refused with the key that is wrong") {
     }
     return std::string("accepted");
   };
-  CHECK_THAT(message({"grid.basis=cubic", "support=[{at=2.5}]"}), Catch::Contains("a support must lie where"));
+  CHECK(message({"grid.basis=cubic", "support=[{at=2.5}]"}) == "accepted");  // held by a spring
   CHECK_THAT(message({"body.points_per_cell=1", "probe=[]"}), Catch::Contains("too few material points"));
   CHECK_THAT(message({"body.min=5.0", "probe=[]"}), Catch::Contains("no material reaches this support"));
 }
