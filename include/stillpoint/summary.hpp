@@ -81,7 +81,7 @@ struct Summary {
   std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;
   std::optional<ExactError> error;
-  std::map<std::string, std::vector<double>> probe_positions;  // of each probe's material point at the start [m]
+  std::map<std::string, std::vector<double>> probe_positions;  // of each probe of a point, at the start [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)
 };
 
