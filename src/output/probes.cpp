@@ -56,6 +56,17 @@ std::unique_ptr<Probe> make_probe(const LagrangianPhase& phase, const ProbeSpec&
   return std::make_unique<FixedPlace>(phase, spec);
 }
 
+/// A field that some law has to remember.
+void require_fields(const Scene& scene, const LagrangianPhase& phase, std::size_t number) {
+  const ProbeSpec& probe = scene.probes[number];
+  for (std::size_t f = 0; f < probe.fields.size() && probe.kind != ProbeKind::body; ++f) {
+    const std::string name = find_point_field(phase, probe.fields[f]).name;
+    if (is_field(phase, name)) continue;
+    throw_scene_error(scene, fmt::format("probe[{}].fields[{}]", number, f),
+                      fmt::format("no law of these materials remembers '{}'", name));
+  }
+}
+
 }  // namespace
 
 const std::vector<double>& ProbedMoment::field(const std::string& name) {
@@ -76,7 +87,9 @@ double ProbedMoment::slope_angle() {
 }
 
 Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase) {
-  for (const ProbeSpec& spec : scene.probes) {
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const ProbeSpec& spec = scene.probes[k];
+    require_fields(scene, phase, k);
     probes_.push_back(make_probe(phase, spec));
     if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
     for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
@@ -137,12 +150,6 @@ void check_probes(const Scene& scene, const LagrangianPhase& phase) {
     if (probe.point && static_cast<std::size_t>(*probe.point) > phase.points())
       throw_scene_error(scene, key + ".point",
                         fmt::format("there is no material point {}; expected 1 to {}", *probe.point, phase.points()));
-    for (std::size_t f = 0; f < probe.fields.size() && probe.kind != ProbeKind::body; ++f) {
-      const std::string name = find_point_field(phase, probe.fields[f]).name;
-      if (is_field(phase, name)) continue;
-      throw_scene_error(scene, fmt::format("{}.fields[{}]", key, f),
-                        fmt::format("no law of these materials remembers '{}'", name));
-    }
     if (probe.kind == ProbeKind::point && !probe.point && probe.frame == ProbeFrame::material) {
       if (!places) places = phase.read_places(0, nothing, nothing);
       if (!places->holds(probe.at)) throw_scene_error(scene, key + ".at", "there is no material at this place");

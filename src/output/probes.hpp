@@ -15,7 +15,7 @@ namespace stillpoint {
 
 class Probes {
  public:
-  /// All outlive it. The run begins.
+  /// All outlive it. The run begins. Throws SceneError if a probe names a field that no law remembers.
   Probes(const Scene& scene, const LagrangianPhase& phase);
 
   const std::vector<std::string>& columns() const { return columns_; }  // "<probe>.<field>"

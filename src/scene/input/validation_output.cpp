@@ -45,9 +45,10 @@ void check_fixed_place(SceneCheck& check, const ProbeSpec& probe, const std::str
   if (probe.frame == ProbeFrame::material || !check.written(key + ".at")) return;
   const PhaseSpec& phase = check.scene().phase;
   if (!phase.max_motion && !phase.max_strain)
-    check.add(key + ".frame",
-              "in a single phase everything is said of where the material was at the start, and none passes a place; "
-              "expected \"material\", or phases (phase.max_motion = 0.1)");
+    return check.add(
+        key + ".frame",
+        "in a single phase everything is said of where the material was at the start, and none passes a place; "
+        "expected \"material\", or phases (phase.max_motion = 0.1)");
   for (std::size_t k = 0; k < probe.fields.size(); ++k) {
     if (probe.fields[k] == "u" || probe.fields[k].starts_with("u."))
       check.add(fmt::format("{}.fields[{}]", key, k),

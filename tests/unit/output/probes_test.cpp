@@ -91,7 +91,7 @@ TEST_CASE("a place that all material leaves behind is nan from then on, and a no
   CHECK(std::abs(probe(whole, "mid", "u.x")) < 1e-9);
   CHECK(std::isnan(probe(parted, "mid", "u.x")));
   CHECK(std::isnan(probe(parted, "mid", "stress.xx")));
-  const auto of_probe = Catch::Contains("probe mid: no material reaches its place (2, 1) since t = 0.");
+  const auto of_probe = Catch::Contains("probe mid: no material reaches its place (");
   CHECK_THAT(fmt::format("{}", fmt::join(parted.notes, "; ")), of_probe);
   CHECK_THAT(fmt::format("{}", fmt::join(whole.notes, "; ")), !of_probe);
 }
@@ -154,16 +154,20 @@ TEST_CASE("the mean of a stress over points is weighted by their volumes, and th
   CHECK(probe(doubled, "b", "volume") == Approx(2).epsilon(1e-6));
 }
 
-TEST_CASE("a probe on the axis of a cylinder reads the limit of u/r") {
-  // A disc under a pressure on its rim is strained alike everywhere: ε_rr = ε_θθ.
-  const Summary s = run(
-      scenes::load("cylinder", {"grid.min=[0, 0]", "body.min=[0, 0]",
-                                "support=[{face='left', kind='roller'}, {face='bottom', "
-                                "kind='roller'}, {face='top', kind='roller'}]",
-                                "traction=[{face='right', pressure=1e-3}]", "exact={}", "solve.method=newton",
-                                "probe=[{name='axis', at=[0, 0], fields=['strain.xx', 'stress.xx', 'stress.zz']}]"}));
-  CHECK(probe(s, "axis", "stress.xx") == Approx(-1e-3).epsilon(1e-6));
-  CHECK(probe(s, "axis", "stress.zz") == Approx(-1e-3).epsilon(1e-6));
+TEST_CASE("on the axis of a cylinder the hoop strain at a place is the limit of u/r") {
+  const auto phase =
+      make_phase(scenes::load("cylinder", {"grid.min=[0, 0]", "body.min=[0, 0]", "exact={}", "grid.basis=quadratic",
+                                           "traction=[{face='right', pressure=1e-3}]",
+                                           "support=[{face='left', kind='roller'}, "
+                                           "{face='bottom', kind='roller'}, {face='top', kind='roller'}]"}));
+  std::vector<double> u(phase->size());
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] = 1e-3 * std::sin(static_cast<double>(k));
+  const auto places = phase->read_places(0, u, std::vector<double>(u.size()));
+  std::vector<double> on_axis(5), beside(5);
+  places->strain(std::vector<double>{0, 0.1}, on_axis);
+  places->strain(std::vector<double>{1e-7, 0.1}, beside);
+  REQUIRE(std::abs(on_axis[4]) > 1e-4);
+  CHECK(on_axis[4] == Approx(beside[4]).epsilon(1e-5));
 }
 
 TEST_CASE("a place or a box without material, and a field that no law remembers, are refused at their key") {
