@@ -120,18 +120,27 @@ struct GeostaticSpec {  // [initial.geostatic]: stress under a level surface
   double surface = 0;   // [m]
 };
 
-enum class ProbeKind { point, slope_angle };
+/// What a place belongs to: the material, with which it moves, or space, where it stays.
+enum class ProbeFrame { material, space };
+enum class ProbeKind { point, slope_angle, mean, body };
 
 struct ProbeSpec {  // [[probe]]
   std::string name;
   ProbeKind kind = ProbeKind::point;
   // of a point:
-  std::optional<int> point;         // 1-based number of a material point, in order of position
-  std::vector<double> at;           // or the material point nearest to this position [m]
-  std::vector<std::string> fields;  // of probe_fields(dim)
+  std::optional<int> point;  // 1-based number of a material point, in order of position
+  std::vector<double> at;    // or a place, at the start [m]
+  ProbeFrame frame = ProbeFrame::material;
+  // of a mean:
+  std::vector<double> min, max;  // the box in which its material points are at the start [m]
+  // of all but the angle of the slope:
+  std::vector<std::string> fields;  // of probe_fields(dim); of the body of body_fields(dim)
 };
-/// The fields that a probe of a point may name: "u", "v", "strain", "stress" in one dimension, their components in two.
+/// The fields that a probe of a point may name, or a mean: "u", "v", "strain", "stress" in one dimension, their
+/// components in two.
 std::vector<std::string> probe_fields(int dim);
+/// What a probe of the whole body may name: "volume", "momentum" with its components, "angular_momentum".
+std::vector<std::string> body_fields(int dim);
 
 struct VariantSpec {  // [[variant]]: the same scene with other values, drawn beside it
   std::string name;

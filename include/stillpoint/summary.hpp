@@ -98,7 +98,7 @@ struct Summary {
   std::vector<SupportGap> weak_supports;
   std::optional<LoadFigures> load;
   std::optional<ExactError> error;
-  std::map<std::string, std::vector<double>> probe_positions;  // of each probe's material point at the start [m]
+  std::map<std::string, std::vector<double>> probe_positions;  // of each probe of a point, at the start [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)
 };
 

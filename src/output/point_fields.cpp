@@ -1,6 +1,7 @@
 #include "output/point_fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace stillpoint {
@@ -31,12 +32,19 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
     phase.point_strain(t, u, values);
   } else if (name == "stress") {
     phase.point_stress(t, u, values);
+  } else if (name == "volume") {
+    phase.point_field(PointQuantity::volume, t, u, values);
   } else {
-    const std::vector<std::string> known = phase.info().history_names;
-    if (std::ranges::find(known, name) == known.end()) throw std::invalid_argument("there is no field " + name);
+    if (!is_field(phase, name)) throw std::invalid_argument("there is no field " + name);
     phase.point_history(name, values);
   }
   return values;
+}
+
+bool is_field(const LagrangianPhase& phase, const std::string& name) {
+  constexpr std::array always = {"u", "v", "strain", "stress", "volume"};
+  const std::vector<std::string>& remembered = phase.info().history_names;
+  return std::ranges::find(always, name) != always.end() || std::ranges::find(remembered, name) != remembered.end();
 }
 
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u) {
@@ -52,7 +60,8 @@ std::vector<double> change_of(const LagrangianPhase& phase, PointQuantity quanti
   const bool is_vector = quantity == PointQuantity::displacement || quantity == PointQuantity::velocity;
   const int components = is_vector                           ? info.dim
                          : quantity == PointQuantity::strain ? info.gradient_components
-                                                             : info.stress_components;
+                         : quantity == PointQuantity::stress ? info.stress_components
+                                                             : 1;
   const std::vector<double> nothing(x.size(), 0.0);
   std::vector<double> values(static_cast<std::size_t>(components) * phase.points()), rest(values.size());
   phase.point_field(quantity, t, x, values);

@@ -8,10 +8,13 @@
 
 namespace stillpoint {
 
-/// "u", "v", "strain", "stress" and what the laws remember ("plastic_strain"), as (P × components). Throws
+/// "u", "v", "strain", "stress", "volume" and what the laws remember ("plastic_strain"), as (P × components). Throws
 /// std::invalid_argument for another name.
 std::vector<double> point_field(const LagrangianPhase& phase, const std::string& name, double t, ConstVec u,
                                 ConstVec v);
+
+/// Whether there is such a field.
+bool is_field(const LagrangianPhase& phase, const std::string& name);
 
 /// Where the points are at (t, u), (P × dim) [m].
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u);

@@ -62,4 +62,9 @@ std::vector<std::string> probe_fields(int dim) {
           "stress.xy", "strain.xx", "strain.xy", "strain.yx", "strain.yy", "plastic_strain"};
 }
 
+std::vector<std::string> body_fields(int dim) {
+  if (dim == 1) return {"volume", "momentum"};
+  return {"volume", "momentum.x", "momentum.y", "angular_momentum"};
+}
+
 }  // namespace stillpoint

@@ -16,6 +16,7 @@
 
 #include "base/stop_request.hpp"
 #include "linalg/sparse_cholesky.hpp"
+#include "output/probes.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/highest_frequency.hpp"
@@ -39,15 +40,6 @@ void check_initial_state(const Scene& scene, const LagrangianPhase& phase, Const
   const auto trial = phase.make_trial();
   if (phase.internal_force(0, u, R, *trial)) return;
   throw_scene_error(scene, "initial", "the initial state cannot be evaluated: " + phase.diagnosis().refusal(*trial));
-}
-
-void check_probes(const Scene& scene, const LagrangianPhase& phase) {
-  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
-    const auto& point = scene.probes[k].point;
-    if (!point || static_cast<std::size_t>(*point) <= phase.points()) continue;
-    throw_scene_error(scene, fmt::format("probe[{}].point", k),
-                      fmt::format("there is no material point {}; expected 1 to {}", *point, phase.points()));
-  }
 }
 
 // The size of the motion to expect, so that tolerances need no number from the user: the largest displacement of a

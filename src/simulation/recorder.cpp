@@ -88,11 +88,13 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
 }
 
 void Recorder::end_phase(double t, PhaseMotion& motion) {
+  probes_.end_phase(t, motion.u(), motion.v());
   if (!energy_balance_.watches()) return;
   evaluate_at(t, motion);
   energy_balance_.advance(t, motion.system, motion.u());
 }
 void Recorder::begin_phase(double t, PhaseMotion& motion) {
+  probes_.begin_phase(t, motion.u(), motion.v());
   if (!energy_balance_.watches()) return;
   evaluate_at(t, motion);
   energy_balance_.begin_phase(t, motion.system);
@@ -102,6 +104,7 @@ void Recorder::archive(const StateArchive& state) {
   state("rows", rows_);
   state("last_row", last_row_);
   state("largest_factor", largest_factor_);
+  probes_.archive(state.part("probes"));
   energy_balance_.archive(state.part("energy"));
   history_.archive(state.part("history"));
   snapshots_.archive(state.part("snapshots"));
@@ -121,9 +124,8 @@ void Recorder::fill(Summary& s, double t, PhaseMotion& motion) {
                          .largest_factor = std::max(largest_factor_, load->factor),
                          .displacement = load->displacement};
   const std::vector<double> values = probes_.read(t, motion.u(), motion.v());
-  for (std::size_t k = 0; k < probes_.specs().size(); ++k) {
-    if (!probes_.position(k).empty()) s.probe_positions[probes_.specs()[k].name] = probes_.position(k);
-  }
+  s.probe_positions = probes_.positions();
+  std::ranges::copy(probes_.notes(), std::back_inserter(s.notes));
   std::size_t column = 0;
   for (const std::string& name : probes_.columns()) {
     const std::size_t dot = name.find('.');

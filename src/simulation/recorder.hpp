@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "output/history.hpp"
+#include "output/probes.hpp"
 #include "output/snapshots.hpp"
 #include "simulation/energy_balance.hpp"
 #include "simulation/model.hpp"

@@ -271,10 +271,8 @@ class Converging {
       const bool other = !study_.sources.empty() && study_.sources.front().name != source_of(options_.refine.front());
       study_.notes.push_back(fmt::format(
           "{}: order {:.2f}, below the {:g} of smooth solutions: {}", quantity.name, order.order, *quantity.theory,
-          other
-              ? "the error of " + study_.sources.front().name + " is larger than that of what is refined"
-              : "expected a smooth solution, whole cells, points that integrate what the basis needs, and a probe on a "
-                "material point of every level"));
+          other ? "the error of " + study_.sources.front().name + " is larger than that of what is refined"
+                : "expected a smooth solution, whole cells, and points that integrate what the basis needs"));
     }
   }
 

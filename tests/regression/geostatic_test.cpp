@@ -47,5 +47,5 @@ TEST_CASE("level ground stands through its phases: in a whole run nothing moves 
   CHECK(s.phases == 1);
   CHECK(s.residual < 1e-12);
   CHECK(std::abs(scenes::probe(s, "surface", "u.y")) < 1e-12 * H);
-  CHECK_THAT(scenes::probe(s, "surface", "stress.yy"), WithinRel(-weight * h / 4, 1e-9));
+  CHECK(std::abs(scenes::probe(s, "surface", "stress.yy")) < 1e-9 * weight * H);  // at the surface there is none
 }

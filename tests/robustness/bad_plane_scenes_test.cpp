@@ -192,6 +192,8 @@ const std::vector<BadScene> kBadPhasesAndOutput = {
      "probe[0].at: goes with a point only"},
     {"fields of the slope", "\"slope_angle\"", "\"slope_angle\"\nfields = [\"u.x\"]", "48:10",
      "probe[0].fields: goes with a point only"},
+    {"u of a place in space", "fields = [\"u.x\"", "frame = \"space\"\nfields = [\"u.x\"", "52:11",
+     "a place that stays has no displacement"},
     {"probe outside", "at = [8, 0]", "at = [8, 3.5]", "50:10", "probe[1].at[1]: 3.5 lies outside the body, 0 to 3"},
     {"no such point", "at = [8, 0]", "point = 97", "50:9", "there are 96 material points, so 97 is too large"},
     {"a line's field", "\"u.x\"", "\"u\"", "51:11", "probe[1].fields[0]: unknown field 'u'; expected one of u.x, u.y"},

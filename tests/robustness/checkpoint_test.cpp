@@ -124,6 +124,12 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
                     290);
   }
   check_same_bits({"hard/fast_wall", {"stop.steps=400"}}, 290);
+  // Places that move, and one in space.
+  check_same_bits({"hard/free_flight",
+                   {"stop.steps=400", "output.every=0.02",
+                    "probe=[{name='tail', at=0.5, fields=['u', 'v', 'stress']}, {name='mid', at=1.3, fields=['u']}, "
+                    "{name='gate', at=3.0, frame='space', fields=['v', 'stress']}]"}},
+                  290);
   // Domains of several sizes, which change places on their way.
   check_same_bits({"hard/beam_in_phases", {"grid.cells=[13, 17]", "stop.steps=600"}}, 590);
   // Domains that are halved on their way.

@@ -192,13 +192,24 @@ void add_output(Tables& tables) {
 
   tables.add({"probe", "figures in each row of the history", Repeat::array}, &Scene::probes)
       .key("name", &ProbeSpec::name, "of its columns in history.csv", {.required = true})
-      .key("kind", &ProbeSpec::kind, "a material point, or the angle of the free surface",
-           {.words = {"point", "slope_angle"}})
-      .key("point", &ProbeSpec::point, "its number, in order of position",
+      .key("kind", &ProbeSpec::kind,
+           "a point, the angle of the free surface, the mean over a box of material points, or sums over the body",
+           {.words = {"point", "slope_angle", "mean", "body"}})
+      .key("point", &ProbeSpec::point, "number of a material point, in order of position",
            {.range = from(1, std::numeric_limits<int>::max())})
-      .key("at", &ProbeSpec::at, "or the point nearest to this position", {.unit = "m"})
+      .key("at", &ProbeSpec::at,
+           "or a place: u, v and strain are those of the grid's functions there, stress and plastic_strain are fitted "
+           "to the material points around it",
+           {.unit = "m"})
+      .key("frame", &ProbeSpec::frame,
+           "of the place: it moves with the material, or stays where it is in space and reads what passes there",
+           {.words = {"material", "space"}})
+      .key("min", &ProbeSpec::min, "of a mean: lower corner of the box where its points are at the start",
+           {.unit = "m"})
+      .key("max", &ProbeSpec::max, "upper corner", {.unit = "m"})
       .key("fields", &ProbeSpec::fields,
-           "of a point: u, v, strain, stress; with dim = 2 their components, as u.x and stress.yy, and plastic_strain",
+           "u, v, strain, stress; with dim = 2 their components, as u.x and stress.yy, and plastic_strain; of the body "
+           "volume, momentum, with dim = 2 momentum.x, momentum.y and angular_momentum about the origin",
            {.list = true});
 
   tables.add({"variant", "the same scene with other values, drawn beside it", Repeat::array}, &Scene::variants)

@@ -19,8 +19,15 @@ void check_name(SceneCheck& check, const std::string& name, const std::string& k
     check.add(key, "names a column of history.csv and cannot hold a comma, a quote or a control character");
 }
 
+std::vector<std::string> fields_of(const ProbeSpec& probe, int dim) {
+  return probe.kind == ProbeKind::body ? body_fields(dim) : probe_fields(dim);
+}
+
 void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
-  const std::vector<std::string> known = probe_fields(check.scene().dim);
+  const std::vector<std::string> known = fields_of(probe, check.scene().dim);
+  if (!check.written(key + ".fields")) return check.add(key, "the key 'fields' is missing");
+  if (probe.fields.empty() && check.sound(key + ".fields"))
+    check.add(key + ".fields", fmt::format("name at least one of {}", fmt::join(known, ", ")));
   for (std::size_t k = 0; k < probe.fields.size(); ++k) {
     const std::string& field = probe.fields[k];
     const std::string path = fmt::format("{}.fields[{}]", key, k);
@@ -33,23 +40,68 @@ void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& 
   }
 }
 
+/// A place that does not move with the material.
+void check_fixed_place(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
+  if (probe.frame == ProbeFrame::material || !check.written(key + ".at")) return;
+  const PhaseSpec& phase = check.scene().phase;
+  if (!phase.max_motion && !phase.max_strain)
+    return check.add(
+        key + ".frame",
+        "in a single phase everything is said of where the material was at the start, and none passes a place; "
+        "expected \"material\", or phases (phase.max_motion = 0.1)");
+  for (std::size_t k = 0; k < probe.fields.size(); ++k) {
+    if (probe.fields[k] == "u" || probe.fields[k].starts_with("u."))
+      check.add(fmt::format("{}.fields[{}]", key, k),
+                "a place that stays has no displacement, and the material in it is ever another; expected v, strain or "
+                "stress, or frame = \"material\"");
+  }
+}
+
+void check_box(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
+  for (const char* corner : {"min", "max"}) {
+    if (!check.written(fmt::format("{}.{}", key, corner)))
+      check.add(key, fmt::format("the key '{}' is missing: a mean is over the material points in a box", corner));
+  }
+  for (std::size_t d = 0; d < std::min(probe.min.size(), probe.max.size()); ++d) {
+    if (!(probe.min[d] <= probe.max[d]))
+      check.add(check.axis_key(key + ".max", d),
+                fmt::format("must be at least min, {}, not {}", probe.min[d], probe.max[d]));
+  }
+}
+
 /// The keys that go with the kind of a probe.
 void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
-  const int dim = check.scene().dim;
   if (!check.sound(key + ".kind")) return;
-  if (probe.kind == ProbeKind::slope_angle) {
-    if (dim == 1) check.add(key + ".kind", "a slope has an angle in two dimensions only");
-    return check.refuse(key, {"point", "at", "fields"},
-                        "goes with a point only; the angle of a slope has nothing but a name");
-  }
-  check.one_of(key, "point", "at", "give either point or at, not both",
-               "give point, the number of a material point, or at, a position");
-  if (!check.written(key + ".fields")) {
-    check.add(key, "the key 'fields' is missing");
-  } else if (probe.fields.empty() && check.sound(key + ".fields")) {
-    check.add(key + ".fields", fmt::format("name at least one of {}", fmt::join(probe_fields(dim), ", ")));
+  const char* const of_point = "goes with a point only";
+  switch (probe.kind) {
+    case ProbeKind::slope_angle:
+      if (check.scene().dim == 1) check.add(key + ".kind", "a slope has an angle in two dimensions only");
+      return check.refuse(key, {"point", "at", "frame", "min", "max", "fields"},
+                          "goes with a point only; the angle of a slope has nothing but a name");
+    case ProbeKind::point:
+      check.one_of(key, "point", "at", "give either point or at, not both",
+                   "give point, the number of a material point, or at, a position");
+      check.refuse(key, {"min", "max"}, "goes with kind = \"mean\" only");
+      if (probe.point) check.refuse(key, {"frame"}, "goes with at only: a material point moves");
+      check_fixed_place(check, probe, key);
+      break;
+    case ProbeKind::mean:
+      check.refuse(key, {"point", "at", "frame"}, of_point);
+      check_box(check, probe, key);
+      break;
+    case ProbeKind::body:
+      check.refuse(key, {"point", "at", "frame"}, of_point);
+      check.refuse(key, {"min", "max"}, "goes with kind = \"mean\" only");
+      break;
   }
   check_fields(check, probe, key);
+}
+
+/// A place of the material is one of the body; any other one only has to be one that material can come to.
+void check_place(SceneCheck& check, ProbeSpec& probe, const std::optional<BodyBox>& body, const std::string& key) {
+  const GridSpec& grid = check.scene().grid;
+  if (probe.frame == ProbeFrame::material && body) check.inside(probe.at, body->min, body->max, body->name, key);
+  if (probe.frame == ProbeFrame::space && body) check.inside(probe.at, grid.min, grid.max, "grid", key);
 }
 
 void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
@@ -61,7 +113,7 @@ void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
     ProbeSpec& probe = scene.probes[k];
     const std::string key = fmt::format("probe[{}]", k);
-    if (body) check.inside(probe.at, body->min, body->max, body->name, key + ".at");
+    check_place(check, probe, body, key + ".at");
     if (points > 0 && probe.point && *probe.point > points)
       check.add(key + ".point", fmt::format("there are {} material points, so {} is too large", points, *probe.point));
     check_name(check, probe.name, key + ".name");

@@ -20,6 +20,7 @@
 #include "space/boundary/load_state.hpp"
 #include "space/boundary/support_report.hpp"
 #include "space/boundary/wall_reaction.hpp"
+#include "space/phase/place_reader.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
@@ -57,8 +58,8 @@ struct PointData {
 
 /// Values at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain ∂u/∂x
 /// since the phase began, (P × gradient_components); Cauchy stress, (P × stress_components) [Pa], if the law has a
-/// history as of the last commit.
-enum class PointQuantity { displacement, velocity, strain, stress };
+/// history as of the last commit; volume V_p det f_p, of a law of small strain V_p, (P) [m³].
+enum class PointQuantity { displacement, velocity, strain, stress, volume };
 
 /// How well masses and momenta are kept, the worst so far.
 struct TransferErrors {
@@ -111,6 +112,9 @@ class LagrangianPhase : public SemiDiscrete {
   virtual void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const = 0;
   /// One of info().history_names, (P); 0 if a point's law does not remember it.
   virtual void point_history(const std::string& name, Vec out) const = 0;
+
+  /// Fields at places of the body, as it is at (t, u, v).
+  virtual std::unique_ptr<PlaceReader> read_places(double t, ConstVec u, ConstVec v) const = 0;
 
   /// What no function of the grid feels of the points' Cauchy stresses: their difference to their least-squares fit by
   /// the grid's functions, body by body, √(Σ V_p |σ_p − σ(x_p)|²/Σ V_p |σ_p|²).

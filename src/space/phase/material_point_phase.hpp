@@ -84,6 +84,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   PointData point_data() const override;
   void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const override;
   void point_history(const std::string& name, Vec out) const override;
+  std::unique_ptr<PlaceReader> read_places(double t, ConstVec u, ConstVec v) const override;  // phase_places.hpp
   double null_space_stress(double t, ConstVec u) const override;
   std::vector<double> initial_displacement(double t) const override;
   std::vector<double> initial_velocity(double t) override;

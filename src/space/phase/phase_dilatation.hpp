@@ -2,6 +2,7 @@
 #pragma once
 
 #include "space/kernels/mean_dilatation.hpp"
+#include "space/phase/law_gradient.hpp"
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
@@ -57,22 +58,7 @@ void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block
 // H of point p in cell k as its law sees it.
 template <AxisBasis B, Kinematics K>
 TensorOf<K> MaterialPointPhase<B, K>::gradient_of_law(const double* grid_u, std::size_t k, std::size_t p) const {
-  if constexpr (Dim == 2) {
-    if (averages_dilatation()) {
-      Block block;
-      block.first_cell = k;
-      block.last_cell = k + 1;
-      block.first = body_.points.begin(k) + (p - body_.points.begin(k)) / Block::size * Block::size;
-      block.count = std::min(Block::size, body_.points.end(k) - block.first);
-      for (std::size_t q = 0; q < block.count; ++q) {
-        const auto H = weights_.gradient(grid_u, k, block.first + q);
-        for (int c = 0; c < components; ++c) block.H[c][q] = H[c];
-      }
-      average_dilatation<false>(static_cast<std::size_t>(body_.points.material_of_cell(k)), block);
-      return block.H_at(p - block.first);
-    }
-  }
-  return weights_.gradient(grid_u, k, p);
+  return law_gradient<B, K>(body_, weights_, scene_.phase.dilatation, grid_u, k, p);
 }
 
 // As matrix(), column by column: the points of a cell answer together. grid_u_ and grid_du_ hold u and what of it came

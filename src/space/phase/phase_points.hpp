@@ -5,6 +5,7 @@
 #include <set>
 
 #include "space/phase/material_point_phase.hpp"
+#include "space/phase/phase_places.hpp"
 
 namespace stillpoint {
 
@@ -58,6 +59,14 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
   }
   spread(t, nodal, grid_u_);
   const double* u = grid_u_.data();
+  if (quantity == PointQuantity::volume) {
+    std::ranges::fill(out, 0.0);
+    return for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      const bool changes = material_of(k).info().finite_strain;
+      out[number] +=
+          body_.points.volume[p] * (changes ? determinant<K>(plus_identity<K>(weights_.gradient(u, k, p))) : 1.0);
+    });
+  }
   if (quantity == PointQuantity::strain)
     return write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(u, k, p); });
   if (quantity == PointQuantity::stress) {
@@ -71,6 +80,14 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
     for (int i = 0; i < Dim; ++i) u_p[i] += body_.points.x[i][p] - origin_[Dim * number + i];
     return u_p;
   });
+}
+
+template <AxisBasis B, Kinematics K>
+std::unique_ptr<PlaceReader> MaterialPointPhase<B, K>::read_places(double t, ConstVec u, ConstVec v) const {
+  std::vector<double> grid_u(grid_u_.size(), 0);
+  spread(t, u, grid_u);
+  return std::make_unique<PhasePlaces<B, K>>(grid_, body_, weights_, *dofs_, scene_.phase.dilatation, std::move(grid_u),
+                                             nodal_velocity(t, v));
 }
 
 template <AxisBasis B, Kinematics K>

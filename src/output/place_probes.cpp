@@ -1,0 +1,103 @@
+#include "output/place_probes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace stillpoint {
+namespace {
+
+// X with X + u(X) = x, by X ← x − u(X): that contracts, since a phase strains by little.
+std::optional<std::vector<double>> material_at(const std::vector<double>& x, const PlaceReader& places) {
+  constexpr int most = 100;
+  constexpr double rounding = 1e-12;
+  std::vector<double> X = x, u(x.size());
+  for (int k = 0; k < most; ++k) {
+    places.displacement(X, u);
+    double change = 0, size = 0;
+    for (std::size_t d = 0; d < x.size(); ++d) {
+      const double next = x[d] - u[d];
+      change = std::max(change, std::abs(next - X[d]));
+      size = std::max({size, std::abs(u[d]), std::abs(x[d])});
+      X[d] = next;
+      if (std::isnan(next)) return std::nullopt;
+    }
+    if (change <= rounding * size) break;
+  }
+  if (!places.holds(X)) return std::nullopt;
+  return X;
+}
+
+}  // namespace
+
+PlaceFields::PlaceFields(const LagrangianPhase& phase, const std::vector<std::string>& names) {
+  for (const std::string& name : names) fields_.push_back(find_point_field(phase, name));
+}
+
+void PlaceFields::read(const PlaceReader& places, const std::vector<double>& x, const std::vector<double>& moved_before,
+                       std::vector<double>& values) const {
+  for (const PointFieldComponent& field : fields_) {
+    std::vector<double> all(field.components);
+    if (field.name == "u") {
+      places.displacement(x, all);
+      for (std::size_t d = 0; d < all.size(); ++d) all[d] += moved_before[d];
+    } else if (field.name == "v") {
+      places.velocity(x, all);
+    } else if (field.name == "strain") {
+      places.strain(x, all);
+    } else if (field.name == "stress") {
+      places.stress(x, all);
+    } else {
+      all[0] = places.history(field.name, x);
+    }
+    values.push_back(all[field.component]);
+  }
+}
+
+MovingPlace::MovingPlace(const LagrangianPhase& phase, const ProbeSpec& spec)
+    : name_(spec.name), fields_(phase, spec.fields), start_(spec.at), x_(spec.at), next_(spec.at) {}
+
+void MovingPlace::read(ProbedMoment& moment, std::vector<double>& values) {
+  if (lost_at_) return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> moved = x_;
+  for (std::size_t d = 0; d < moved.size(); ++d) moved[d] -= start_[d];
+  fields_.read(moment.places(), x_, moved, values);
+}
+
+void MovingPlace::end_phase(ProbedMoment& moment) {
+  if (lost_at_) return;
+  std::vector<double> u(x_.size());
+  moment.places().displacement(x_, u);
+  for (std::size_t d = 0; d < u.size(); ++d) next_[d] = x_[d] + u[d];
+}
+
+// Only now: where the next phase cannot begin, the one before is read once more.
+void MovingPlace::begin_phase(ProbedMoment& moment) {
+  if (lost_at_) return;
+  x_ = next_;
+  moment.places().put_back(x_);
+  if (!moment.places().reaches(x_)) lost_at_ = moment.t();
+}
+
+void MovingPlace::archive(const StateArchive& state) {
+  state("x", Vec(x_));
+  state("lost_at", lost_at_);
+}
+
+std::optional<std::string> MovingPlace::note() const {
+  if (!lost_at_) return std::nullopt;
+  return fmt::format(
+      "probe {}: no material reaches its place ({:.6g}) since t = {:.6g} s, and its values are nan; "
+      "expected a place further inside the body, or point = N, a material point",
+      name_, fmt::join(x_, ", "), *lost_at_);
+}
+
+void FixedPlace::read(ProbedMoment& moment, std::vector<double>& values) {
+  const auto X = material_at(x_, moment.places());
+  if (!X) return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
+  fields_.read(moment.places(), *X, {}, values);
+}
+
+}  // namespace stillpoint

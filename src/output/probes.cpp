@@ -1,0 +1,166 @@
+#include "output/probes.hpp"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "output/place_probes.hpp"
+#include "output/point_fields.hpp"
+#include "output/snapshots.hpp"
+#include "output/sum_probes.hpp"
+#include "scene/throw_scene_error.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// A material point.
+class PointProbe final : public Probe {
+ public:
+  PointProbe(const LagrangianPhase& phase, const ProbeSpec& spec) : point_(static_cast<std::size_t>(*spec.point - 1)) {
+    for (const std::string& name : spec.fields) fields_.push_back(find_point_field(phase, name));
+    const std::vector<double> x = phase.point_data().initial_positions;
+    const std::size_t dim = x.size() / phase.points();
+    const auto first = x.begin() + static_cast<std::ptrdiff_t>(dim * point_);
+    position_.assign(first, first + static_cast<std::ptrdiff_t>(dim));
+  }
+  void read(ProbedMoment& moment, std::vector<double>& values) override {
+    for (const PointFieldComponent& field : fields_)
+      values.push_back(moment.field(field.name)[field.components * point_ + field.component]);
+  }
+  std::vector<double> position() const override { return position_; }
+
+ private:
+  std::vector<PointFieldComponent> fields_;
+  std::size_t point_;
+  std::vector<double> position_;
+};
+
+class SlopeAngle final : public Probe {
+ public:
+  void read(ProbedMoment& moment, std::vector<double>& values) override { values.push_back(moment.slope_angle()); }
+};
+
+std::unique_ptr<Probe> make_probe(const LagrangianPhase& phase, const ProbeSpec& spec) {
+  switch (spec.kind) {
+    case ProbeKind::slope_angle:
+      return std::make_unique<SlopeAngle>();
+    case ProbeKind::mean:
+      return std::make_unique<MeanInBox>(phase, spec);
+    case ProbeKind::body:
+      return std::make_unique<BodySums>(phase, spec);
+    case ProbeKind::point:
+      break;
+  }
+  if (spec.point) return std::make_unique<PointProbe>(phase, spec);
+  if (spec.frame == ProbeFrame::material) return std::make_unique<MovingPlace>(phase, spec);
+  return std::make_unique<FixedPlace>(phase, spec);
+}
+
+/// A field that some law has to remember.
+void require_fields(const Scene& scene, const LagrangianPhase& phase, std::size_t number) {
+  const ProbeSpec& probe = scene.probes[number];
+  for (std::size_t f = 0; f < probe.fields.size() && probe.kind != ProbeKind::body; ++f) {
+    const std::string name = find_point_field(phase, probe.fields[f]).name;
+    if (is_field(phase, name)) continue;
+    throw_scene_error(scene, fmt::format("probe[{}].fields[{}]", number, f),
+                      fmt::format("no law of these materials remembers '{}'", name));
+  }
+}
+
+}  // namespace
+
+const std::vector<double>& ProbedMoment::field(const std::string& name) {
+  const auto [field, missing] = fields_.try_emplace(name);
+  if (missing)
+    field->second = name == "position" ? current_positions(phase_, t_, u_) : point_field(phase_, name, t_, u_, v_);
+  return field->second;
+}
+
+const PlaceReader& ProbedMoment::places() {
+  if (!places_) places_ = phase_.read_places(t_, u_, v_);
+  return *places_;
+}
+
+double ProbedMoment::slope_angle() {
+  if (!slope_angle_) slope_angle_ = slope_angle_of(scene_, phase_, t_, u_);
+  return *slope_angle_;
+}
+
+Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase) {
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const ProbeSpec& spec = scene.probes[k];
+    require_fields(scene, phase, k);
+    probes_.push_back(make_probe(phase, spec));
+    if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
+    for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
+  }
+  for (const WallReaction& wall : phase.wall_reactions(0)) {
+    columns_.push_back(wall.name + ".normal");
+    columns_.push_back(wall.name + ".shear");
+  }
+}
+
+std::map<std::string, std::vector<double>> Probes::positions() const {
+  std::map<std::string, std::vector<double>> positions;
+  for (std::size_t k = 0; k < probes_.size(); ++k) {
+    if (auto x = probes_[k]->position(); !x.empty()) positions[scene_.probes[k].name] = std::move(x);
+  }
+  return positions;
+}
+
+std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
+  ProbedMoment moment(scene_, phase_, t, u, v);
+  std::vector<double> values;
+  for (const auto& probe : probes_) probe->read(moment, values);
+  for (const WallReaction& wall : phase_.wall_reactions(t)) {
+    values.push_back(wall.normal);
+    values.push_back(wall.shear);
+  }
+  return values;
+}
+
+void Probes::end_phase(double t, ConstVec u, ConstVec v) {
+  ProbedMoment moment(scene_, phase_, t, u, v);
+  for (const auto& probe : probes_) probe->end_phase(moment);
+}
+
+void Probes::begin_phase(double t, ConstVec u, ConstVec v) {
+  ProbedMoment moment(scene_, phase_, t, u, v);
+  for (const auto& probe : probes_) probe->begin_phase(moment);
+}
+
+void Probes::archive(const StateArchive& state) {
+  for (std::size_t k = 0; k < probes_.size(); ++k) probes_[k]->archive(state.part(fmt::format("{}", k)));
+}
+
+std::vector<std::string> Probes::notes() const {
+  std::vector<std::string> notes;
+  for (const auto& probe : probes_) {
+    if (const auto note = probe->note()) notes.push_back(*note);
+  }
+  return notes;
+}
+
+void check_probes(const Scene& scene, const LagrangianPhase& phase) {
+  const std::vector<double> nothing(phase.size());
+  std::unique_ptr<PlaceReader> places;
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const ProbeSpec& probe = scene.probes[k];
+    const std::string key = fmt::format("probe[{}]", k);
+    if (probe.point && static_cast<std::size_t>(*probe.point) > phase.points())
+      throw_scene_error(scene, key + ".point",
+                        fmt::format("there is no material point {}; expected 1 to {}", *probe.point, phase.points()));
+    if (probe.kind == ProbeKind::point && !probe.point && probe.frame == ProbeFrame::material) {
+      if (!places) places = phase.read_places(0, nothing, nothing);
+      if (!places->holds(probe.at)) throw_scene_error(scene, key + ".at", "there is no material at this place");
+    }
+    if (probe.kind != ProbeKind::mean) continue;
+    try {
+      MeanInBox(phase, probe);
+    } catch (const std::invalid_argument& error) {
+      throw_scene_error(scene, key + ".min", error.what());
+    }
+  }
+}
+
+}  // namespace stillpoint

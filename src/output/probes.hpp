@@ -1,0 +1,44 @@
+// All probes of a scene, and the forces on its walls: the columns of history.csv that a scene asks for.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+#include <stillpoint/state_archive.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "output/probe.hpp"
+
+namespace stillpoint {
+
+class Probes {
+ public:
+  /// All outlive it. The run begins. Throws SceneError if a probe names a field that no law remembers.
+  Probes(const Scene& scene, const LagrangianPhase& phase);
+
+  const std::vector<std::string>& columns() const { return columns_; }  // "<probe>.<field>"
+  /// Where each probe of a point was when the run began, by name, (dim) [m].
+  std::map<std::string, std::vector<double>> positions() const;
+  /// Values at (t, u, v), in the order of columns(); the state is that of the last commit.
+  std::vector<double> read(double t, ConstVec u, ConstVec v);
+  /// Before a phase ends at (t, u, v), and once the next has begun, if it has.
+  void end_phase(double t, ConstVec u, ConstVec v);
+  void begin_phase(double t, ConstVec u, ConstVec v);
+  void archive(const StateArchive& state);
+  /// What a user should know of the values, a sentence each.
+  std::vector<std::string> notes() const;
+
+ private:
+  const Scene& scene_;
+  const LagrangianPhase& phase_;
+  std::vector<std::unique_ptr<Probe>> probes_;  // as the scene lists them
+  std::vector<std::string> columns_;
+};
+
+/// Throws SceneError if the body cannot answer a probe: it has no such material point, no material at a place or in a
+/// box. phase: the first.
+void check_probes(const Scene& scene, const LagrangianPhase& phase);
+
+}  // namespace stillpoint

@@ -1,0 +1,315 @@
+// Fields at places of a phase, see place_reader.hpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "space/grid/degrees_of_freedom.hpp"
+#include "space/grid/domain_basis.hpp"
+#include "space/kernels/point_weights.hpp"
+#include "space/phase/law_gradient.hpp"
+#include "space/phase/place_reader.hpp"
+#include "space/points/body.hpp"
+#include "space/points/local_fit.hpp"
+#include "space/points/nearest_point.hpp"
+
+namespace stillpoint {
+
+/// The basis whose functions are those of a single cell.
+template <AxisBasis B>
+struct BasisOfOneCell {
+  using type = B;
+};
+template <int Degree>
+struct BasisOfOneCell<DomainBSpline<Degree>> {
+  using type = BSpline<Degree>;
+};
+
+template <AxisBasis B, Kinematics K>
+class PhasePlaces final : public PlaceReader {
+  static constexpr int dim = dimensions(K);
+  using Spline = typename BasisOfOneCell<B>::type;
+  using Basis = TensorBasis<Spline, dim>;
+  static constexpr int per_cell = Basis::per_cell;
+  static constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+  using Cell = std::array<int, dim>;
+
+ public:
+  /// u since the phase began and v, (functions × dim). What is referred to outlives this.
+  PhasePlaces(const Grid<dim>& grid, const Body<K>& body, const PointWeights<B, K>& weights,
+              const DegreesOfFreedom& dofs, Dilatation dilatation, std::vector<double> u, std::vector<double> v)
+      : grid_(grid),
+        body_(body),
+        weights_(weights),
+        dofs_(dofs),
+        dilatation_(dilatation),
+        u_(std::move(u)),
+        v_(std::move(v)),
+        occupied_(static_cast<std::size_t>(grid.cells()), 0) {
+    mark_occupied();
+  }
+
+  bool holds(ConstVec x) const override { return cell_with_points(point_at(x)).has_value(); }
+  bool reaches(ConstVec x) const override { return cell_for(point_at(x)).has_value(); }
+  void put_back(Vec x) const override {
+    constexpr double share = 0.1;
+    for (int d = 0; d < dim; ++d) {
+      const auto& nodes = grid_.axes[d].nodes;
+      const double at = std::clamp(x[d], nodes.front(), nodes.back());
+      const double cell = at < x[d] ? nodes.back() - nodes[nodes.size() - 2] : nodes[1] - nodes[0];
+      if (std::abs(at - x[d]) <= share * cell) x[d] = at;
+    }
+  }
+
+  void displacement(ConstVec x, Vec out) const override { vector_at(x, u_, out); }
+  void velocity(ConstVec x, Vec out) const override { vector_at(x, v_, out); }
+  void strain(ConstVec x, Vec out) const override {
+    std::ranges::fill(out, no_value);
+    const Point<dim> at = point_at(x);
+    const auto cell = cell_for(at);
+    if (!cell) return;
+    std::ranges::fill(out, 0.0);
+    const auto values = Basis::evaluate(grid_, *cell, at);
+    double u_r = 0;
+    for_functions(*cell, u_, [&](int a, const double* u) {
+      u_r += values.N[a] * u[0];
+      for (int i = 0; i < dim; ++i) {
+        for (int j = 0; j < dim; ++j) out[dim * i + j] += u[i] * values.dN[j][a];
+      }
+    });
+    // ∂u_r/∂r is the limit of u_r/r on the axis
+    if constexpr (K == Kinematics::axisymmetric) out[dim * dim] = at[0] > 0 ? u_r / at[0] : out[0];
+  }
+  void stress(ConstVec x, Vec out) const override {
+    std::ranges::fill(out, no_value);
+    const Point<dim> at = point_at(x);
+    if (!cell_for(at)) return;
+    std::ranges::fill(out, 0.0);
+    for (const Share& share : fit(at)) {
+      const auto& material = *body_.materials[static_cast<std::size_t>(share.material)];
+      const auto of_point =
+          material.cauchy(law_gradient(body_, weights_, dilatation_, u_.data(), share.k, share.p), share.p);
+      for (std::size_t i = 0; i < of_point.size(); ++i) out[i] += share.weight * of_point[i];
+    }
+  }
+  double history(const std::string& name, ConstVec x) const override {
+    const Point<dim> at = point_at(x);
+    if (!cell_for(at)) return no_value;
+    const std::vector<Share> shares = fit(at);
+    const auto material = static_cast<std::size_t>(shares.front().material);  // the same for all
+    const auto begin = static_cast<std::size_t>(body_.points.material_begin[material]);
+    for (const auto& [shown, values] : body_.materials[material]->shown_history()) {
+      if (shown != name) continue;
+      double sum = 0, least = 0;
+      for (const Share& share : shares) {
+        sum += share.weight * values[share.p - begin];
+        least = std::min(least, values[share.p - begin]);
+      }
+      return std::max(sum, least);
+    }
+    return 0;
+  }
+
+ private:
+  // Point p in occupied cell k, and its part in a value.
+  struct Share {
+    std::size_t k, p;
+    int material;
+    double weight;
+  };
+
+  static Point<dim> point_at(ConstVec x) {
+    Point<dim> at;
+    std::copy_n(x.begin(), dim, at.begin());
+    return at;
+  }
+  double width(const Cell& cell, int d) const {
+    const auto& nodes = grid_.axes[d].nodes;
+    return nodes[static_cast<std::size_t>(cell[d]) + 1] - nodes[static_cast<std::size_t>(cell[d])];
+  }
+  // How far outside a cell x is along an axis [m].
+  double outside(const Point<dim>& x, const Cell& cell, int d) const {
+    const auto& nodes = grid_.axes[d].nodes;
+    const auto c = static_cast<std::size_t>(cell[d]);
+    return std::max(nodes[c] - x[d], x[d] - nodes[c + 1]);
+  }
+
+  // A cell with material points; of domains one that they are partly in.
+  void mark_occupied() {
+    const MaterialPoints<dim>& points = body_.points;
+    if constexpr (B::window == 1) {
+      for (const int cell : points.cell) occupied_[static_cast<std::size_t>(cell)] = 1;
+    } else {
+      constexpr double within = 1 - 1e-6;  // of the way to a corner, which may be on a line
+      for (std::size_t p = 0; p < points.size(); ++p) {
+        const Point<dim> middle = points.position(p);
+        for (Point<dim> x : Domain<dim>::of(points, p).x) {
+          for (int d = 0; d < dim; ++d) x[d] = middle[d] + within * (x[d] - middle[d]);
+          occupied_[static_cast<std::size_t>(grid_.cell_number(grid_.cell_of(x)))] = 1;
+        }
+      }
+    }
+  }
+
+  // All functions of a cell that count at x are reached by material.
+  bool is_whole(const Cell& cell, const Point<dim>& x) const {
+    constexpr double rounding = 1e-12;
+    const auto values = Basis::evaluate(grid_, cell, x);
+    const auto offset = Basis::offsets(grid_);
+    for (int a = 0; a < per_cell; ++a) {
+      const int unknown = dim * (Basis::first(grid_, cell) + offset[a]);
+      if (dofs_.number[static_cast<std::size_t>(unknown)] < 0 && std::abs(values.N[a]) > rounding) return false;
+    }
+    return true;
+  }
+  // The cell whose functions hold at x, if it has points: that of x, or one beside it if x is on its border.
+  std::optional<Cell> cell_with_points(const Point<dim>& x) const {
+    constexpr double rounding = 1e-9;  // of a cell
+    const Cell here = grid_.cell_of(x);
+    for (int k = 0; k < power(3, dim); ++k) {
+      constexpr std::array aside = {0, -1, 1};
+      Cell cell = here;
+      bool is_cell = true;
+      for (int d = 0; d < dim; ++d) {
+        cell[d] += aside[static_cast<std::size_t>(k / power(3, d) % 3)];
+        is_cell = is_cell && cell[d] >= 0 && cell[d] < grid_.axes[d].cells() &&
+                  outside(x, cell, d) <= rounding * width(cell, d);
+      }
+      if (!is_cell) continue;
+      if (!grid_.host.empty()) cell = grid_.cell_at(grid_.host[static_cast<std::size_t>(grid_.cell_number(cell))]);
+      if (occupied_[static_cast<std::size_t>(grid_.cell_number(cell))] && is_whole(cell, x)) return cell;
+    }
+    return std::nullopt;
+  }
+  // The cell whose functions hold at x, or are continued to there.
+  std::optional<Cell> cell_for(const Point<dim>& x) const {
+    if (const auto cell = cell_with_points(x)) return cell;
+    const Cell cell = grid_.cell_of(body_.points.position(nearest_point(x).p));
+    for (int d = 0; d < dim; ++d) {
+      if (!(outside(x, cell, d) <= width(cell, d))) return std::nullopt;
+    }
+    if (!is_whole(cell, x)) return std::nullopt;
+    return cell;
+  }
+
+  /// visit(local function, its values)
+  template <class Visit>
+  void for_functions(const Cell& cell, const std::vector<double>& nodal, const Visit& visit) const {
+    const auto offset = Basis::offsets(grid_);
+    for (int a = 0; a < per_cell; ++a) visit(a, nodal.data() + dim * (Basis::first(grid_, cell) + offset[a]));
+  }
+  void vector_at(ConstVec x, const std::vector<double>& nodal, Vec out) const {
+    std::ranges::fill(out, no_value);
+    const Point<dim> at = point_at(x);
+    const auto cell = cell_for(at);
+    if (!cell) return;
+    std::ranges::fill(out, 0.0);
+    const auto values = Basis::evaluate(grid_, *cell, at);
+    for_functions(*cell, nodal, [&](int a, const double* of_function) {
+      for (int i = 0; i < dim; ++i) out[i] += values.N[a] * of_function[i];
+    });
+  }
+
+  // Points by the cells that they are in: those of cell c begin at list_begin_[c] in list_.
+  void list_points() const {
+    const MaterialPoints<dim>& points = body_.points;
+    std::vector<std::size_t> cell_of(points.size());
+    list_begin_.assign(static_cast<std::size_t>(grid_.cells()) + 1, 0);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      cell_of[p] = static_cast<std::size_t>(grid_.cell_number(grid_.cell_of(points.position(p))));
+      ++list_begin_[cell_of[p] + 1];
+    }
+    for (std::size_t c = 1; c < list_begin_.size(); ++c) list_begin_[c] += list_begin_[c - 1];
+    list_.resize(points.size());
+    std::vector<std::size_t> next = list_begin_;
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) list_[next[cell_of[p]]++] = {k, p};
+    }
+  }
+  // Those of the cell of x and of all that touch it.
+  std::vector<PointInCell> points_around(const Cell& here) const {
+    if (list_begin_.empty()) list_points();
+    std::vector<PointInCell> found;
+    for (int k = 0; k < power(3, dim); ++k) {
+      Cell cell = here;
+      bool is_cell = true;
+      for (int d = 0; d < dim; ++d) {
+        cell[d] += k / power(3, d) % 3 - 1;
+        is_cell = is_cell && cell[d] >= 0 && cell[d] < grid_.axes[d].cells();
+      }
+      if (!is_cell) continue;
+      const auto number = static_cast<std::size_t>(grid_.cell_number(cell));
+      for (std::size_t l = list_begin_[number]; l < list_begin_[number + 1]; ++l) found.push_back(list_[l]);
+    }
+    return found;
+  }
+
+  // w_p = V_p Π_d (1 − (ξ_d/2)²)², ξ = (x_p − x)/h with the sides h of the widest cell around: nearer points count
+  // more.
+  std::vector<Share> fit(const Point<dim>& x) const {
+    const Cell here = grid_.cell_of(x);
+    Point<dim> h;
+    for (int d = 0; d < dim; ++d) {
+      h[d] = 0;
+      for (Cell cell = here; const int c : {here[d] - 1, here[d], here[d] + 1}) {
+        cell[d] = std::clamp(c, 0, grid_.axes[d].cells() - 1);
+        h[d] = std::max(h[d], width(cell, d));
+      }
+    }
+    std::vector<PointInCell> around = points_around(here);
+    if (around.empty()) around.push_back(nearest_point(x));
+    const auto square_of_distance = [&](const PointInCell& point) {
+      double sum = 0;
+      for (int d = 0; d < dim; ++d) {
+        const double xi = (body_.points.x[d][point.p] - x[d]) / h[d];
+        sum += xi * xi;
+      }
+      return sum;
+    };
+    const PointInCell nearest = *std::ranges::min_element(around, {}, square_of_distance);
+    const int material = body_.points.material_of_cell(nearest.k);
+    std::vector<Share> shares;
+    std::vector<double> xi, weight;
+    for (const auto& [k, p] : around) {
+      if (body_.points.material_of_cell(k) != material) continue;
+      double w = body_.points.volume[p];
+      for (int d = 0; d < dim; ++d) {
+        constexpr double least = 1e-3;  // of a point two cells away
+        xi.push_back((body_.points.x[d][p] - x[d]) / h[d]);
+        const double fall = std::max(1 - xi.back() * xi.back() / 4, least);
+        w *= fall * fall;
+      }
+      weight.push_back(w);
+      shares.push_back({k, p, material, 0});
+    }
+    const double largest = *std::ranges::max_element(weight);
+    for (double& w : weight) w /= largest;
+    const std::vector<double> c = local_fit(xi, weight, dim, std::max(1, Spline::degree - 1));
+    for (std::size_t s = 0; s < shares.size(); ++s) shares[s].weight = c[s];
+    return shares;
+  }
+  PointInCell nearest_point(const Point<dim>& x) const {
+    if (!nearest_) nearest_.emplace(body_.points, grid_);
+    return nearest_->to(x);
+  }
+
+  const Grid<dim>& grid_;
+  const Body<K>& body_;
+  const PointWeights<B, K>& weights_;
+  const DegreesOfFreedom& dofs_;
+  Dilatation dilatation_;
+  std::vector<double> u_, v_;
+  std::vector<char> occupied_;  // cells of the grid whose functions a point takes
+  // Made if they are asked for:
+  mutable std::optional<NearestPoint<dim>> nearest_;
+  mutable std::vector<std::size_t> list_begin_;
+  mutable std::vector<PointInCell> list_;
+};
+
+}  // namespace stillpoint
