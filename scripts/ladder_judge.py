@@ -156,8 +156,8 @@ def value_and_exact(case, quantity, read, outcome, number=-1):
     if first == "fields":
         return field_error(run, read, quantity.exact, constants), 0.0
     names = names_of(constants)
-    if first == "error":
-        computed = run.summary["error"][rest]
+    if first in ("error", "load"):
+        computed = run.summary[first][rest]
     elif first == "history":
         computed = mean_of_history(folder / "history.csv", rest, value_of(quantity.since, names))
     else:

@@ -69,6 +69,14 @@ void check_box(SceneCheck& check, const ProbeSpec& probe, const std::string& key
   }
 }
 
+/// What adds up to nothing around an axis of symmetry.
+void check_sums(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
+  if (check.scene().state != StressState::axisymmetric) return;
+  for (const std::string& field : probe.fields)
+    if (field == "momentum.x" || field == "angular_momentum")
+      check.add(key + ".fields", fmt::format("{} is nothing around an axis of symmetry; take momentum.y", field));
+}
+
 /// The keys that go with the kind of a probe.
 void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
   if (!check.sound(key + ".kind")) return;
@@ -92,6 +100,7 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
     case ProbeKind::body:
       check.refuse(key, {"point", "at", "frame"}, of_point);
       check.refuse(key, {"min", "max"}, "goes with kind = \"mean\" only");
+      check_sums(check, probe, key);
       break;
   }
   check_fields(check, probe, key);

@@ -184,3 +184,12 @@ TEST_CASE("a place or a box without material, and a field that no law remembers,
   CHECK_THAT(of("[{name='p', at=[0.5, 0.5], fields=['u.x', 'plastic_strain']}]"),
              Catch::Contains("no law of these materials remembers 'plastic_strain'"));
 }
+
+TEST_CASE("a sum that is nothing around an axis of symmetry is refused, and one along it is not") {
+  const auto with_field = [](const std::string& field) {
+    return scenes::load("cylinder", {"probe=[{name='b', kind='body', fields=['" + field + "']}]"});
+  };
+  for (const std::string field : {"momentum.x", "angular_momentum"})
+    CHECK_THROWS_WITH(with_field(field), Catch::Contains("probe[0].fields") && Catch::Contains("axis of symmetry"));
+  CHECK_NOTHROW(with_field("momentum.y"));
+}

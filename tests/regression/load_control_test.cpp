@@ -1,0 +1,105 @@
+// [load]: loads of one proportion, driven by their mean displacement.
+#include <stillpoint/stillpoint.hpp>
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "files.hpp"
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using Catch::Matchers::Contains;
+
+namespace {
+
+LoadFigures driven(const std::string& scene, const std::vector<std::string>& overrides) {
+  const Summary summary = run(scenes::load(scene, overrides));
+  REQUIRE(summary.status == RunStatus::end_time);
+  REQUIRE(summary.load);
+  return *summary.load;
+}
+
+/// The block pulled by its top as a whole, up to a mean displacement of 0.02 and held there.
+std::vector<std::string> pulled(std::vector<std::string> more) {
+  more.insert(more.begin(), {"material.rubber.law=linear-elastic", "traction=[{face='top', value=[0.0, 0.5]}]",
+                             "load={displacement='0.02*min(t/20, 1)'}", "stop={residual=0, time=60}", "probe=[]"});
+  return more;
+}
+
+std::string message(const std::vector<std::string>& overrides) {
+  try {
+    scenes::load("block", overrides);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("the factor that a displacement takes is the load that has that displacement, whatever its unit") {
+  // σ = E' ε in plane strain, free to the side, E' = E/(1 − ν²): for u = 0.02 of 1 with t = 0.5, λ = 0.04 E'
+  for (const std::string basis : {"linear", "quadratic"}) {
+    CAPTURE(basis);
+    const LoadFigures load = driven("block", pulled({"grid.basis=" + basis, "body.points_per_cell=9"}));
+    CHECK(load.displacement == Approx(0.02).epsilon(0.02));                               // less λ P/k
+    CHECK(load.factor / load.displacement == Approx(2 / (1 - 0.3 * 0.3)).epsilon(1e-4));  // what still swings
+  }
+}
+
+TEST_CASE("a strip footing on clay carries Prandtl's limit load within 3 %, and no more however far it is driven") {
+  const LoadFigures load = driven("footing_limit", {});
+  CHECK(load.factor == Approx(2 + M_PI).epsilon(0.03));
+  CHECK(load.largest_factor == Approx(load.factor).epsilon(0.005));
+  const LoadFigures half = driven("footing_limit", {"load.displacement=1.5e-3*t/4"});
+  CHECK(load.factor == Approx(half.factor).epsilon(0.005));
+  // Without the mean dilatation the same cells carry half as much again, and ever more.
+  CHECK(driven("footing_limit", {"phase.dilatation=points"}).factor > 1.25 * load.factor);
+}
+
+TEST_CASE("past the limit the factor falls with the strength of a soil that softens, and the peak is remembered") {
+  const LoadFigures load =
+      driven("footing_limit", {"material.clay={law='drucker-prager', E=1e9, nu=0.3, rho=1800, phi=0, c='c', "
+                               "c_residual=3e3, softening_strain=0.004, cone='plane-strain'}"});
+  CHECK(load.largest_factor > 1.2 * load.factor);
+  CHECK(load.factor > 0.3 * (2 + M_PI));  // of the residual strength, and what has not softened yet
+}
+
+TEST_CASE("loads that are not driven act as they are given: a surcharge beside the footing adds itself to its limit") {
+  // N_q = 1 for φ = 0: p = N_c c + q
+  const std::string surcharge = "{line=[['B', 4.0], [6.0, 4.0]], value=[0.0, '-c']}";
+  const LoadFigures load = driven(
+      "footing_limit",
+      {"traction=[{line=[[0.0, 4.0], ['B', 4.0]], value=[0.0, '-c']}, " + surcharge + "]", "load.of=['traction[0]']"});
+  CHECK(load.factor == Approx(2 + M_PI + 1).epsilon(0.03));
+}
+
+TEST_CASE(
+    "driven loads go with the body from phase to phase, and a run that is broken off there goes on with its bits") {
+  const std::vector<std::string> set = {"phase.max_motion=0.02", "load.displacement=0.2*t/0.2", "stop.time=0.2",
+                                        "material.clay.E=1e6",   "checkpoint.every_steps=100",  "output.every=0.01"};
+  const Scene scene = scenes::load("footing_limit", set);
+  const stillpoint::testing::TemporaryFolder whole, broken;
+  const Summary unbroken = run(scene, {.out = whole.path()});
+  REQUIRE(unbroken.phases > 3);
+  CHECK(unbroken.load.value().factor > 1);
+  {
+    Simulation simulation(scene, {.out = broken.path()});
+    while (!simulation.done() && simulation.steps() < unbroken.steps * 2 / 3) simulation.step();
+  }
+  const auto checkpoint = broken.path() / "checkpoint.h5";
+  run(load_scene_of(checkpoint), {.out = broken.path(), .resume = checkpoint});
+  CHECK((stillpoint::test::contents(whole.path() / "history.csv") ==
+         stillpoint::test::contents(broken.path() / "history.csv")));
+}
+
+TEST_CASE("what a displacement cannot drive is refused at its key") {
+  CHECK_THAT(message(pulled({"traction=[]"})), Contains("load") && Contains("there are none"));
+  CHECK_THAT(message(pulled({"load.of=['traction[1]']"})), Contains("load.of") && Contains("traction[0]"));
+  CHECK_THAT(message(pulled({"traction=[{face='top', value=[0.0, 't']}]"})), Contains("depends on t"));
+  CHECK_THAT(message(pulled({"solve.method=newton"})), Contains("static solver"));
+  CHECK_THAT(message(pulled({"stop.time=0"})), Contains("stop.time"));
+}
