@@ -45,7 +45,8 @@ TEST_CASE("the factor that a displacement takes is the load that has that displa
   for (const std::string basis : {"linear", "quadratic"}) {
     CAPTURE(basis);
     const LoadFigures load = driven("block", pulled({"grid.basis=" + basis, "body.points_per_cell=9"}));
-    CHECK(load.displacement == Approx(0.02).epsilon(0.02));                               // less λ P/k
+    CHECK(load.displacement < 0.02);  // by λ P/k, of a spring about as stiff as a cell
+    CHECK(load.displacement > 0.015);
     CHECK(load.factor / load.displacement == Approx(2 / (1 - 0.3 * 0.3)).epsilon(1e-4));  // what still swings
   }
 }
