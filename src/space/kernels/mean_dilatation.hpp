@@ -20,7 +20,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
+#include "base/lanes.hpp"
 #include "base/unroll.hpp"
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
@@ -45,15 +47,33 @@ requires(dimensions(K) == 2) class MeanDilatation {
   using Tensor = TensorOf<K>;
 
  public:
-  /// finite_strain: of the law. The points outlive this.
-  MeanDilatation(const MaterialPoints<2>& points, bool finite_strain) : points_(points), finite_(finite_strain) {}
+  static constexpr std::size_t slack = 3;  // entries after the last share, for who reads a few at a time
+
+  /// V_p/W of each point in its cell, (P + slack), for a phase.
+  static std::vector<double> volume_shares(const MaterialPoints<2>& points) {
+    std::vector<double> shares(points.size() + slack, 0.0);
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      // Of a cell in parts each by itself.
+      for (std::size_t from = points.begin(k); from < points.end(k); from += Block::size) {
+        const std::size_t to = std::min(from + Block::size, points.end(k));
+        double volume = 0;
+        for (std::size_t p = from; p < to; ++p) volume += points.volume[p];
+        for (std::size_t p = from; p < to; ++p) shares[p] = points.volume[p] / volume;
+      }
+    }
+    return shares;
+  }
+
+  /// finite_strain: of the law. volume_share: of the block's points, with slack. Both outlive this.
+  MeanDilatation(const MaterialPoints<2>& points, const double* volume_share, bool finite_strain)
+      : points_(points), volume_share_(volume_share), finite_(finite_strain) {}
 
   /// block.H becomes H̄, and block.dH, if Increments, the part of H̄ that came since commit.
   template <bool Increments>
   void average(Block& block) {
     if constexpr (Increments) {
       // H̄(u) − H̄(u_before)
-      Rows before;
+      alignas(64) Rows before;
       for_rows(block, [&](int c, std::size_t q) { before[c][q] = block.H[c][q] - block.dH[c][q]; });
       average(block, before);
       average(block, block.H);
@@ -68,8 +88,10 @@ requires(dimensions(K) == 2) class MeanDilatation {
     pressures(block);
     const std::size_t count = block.count;
     if (finite_) {
+#pragma omp simd
       for (std::size_t q = 0; q < count; ++q) add_cofactor(block, q, s_[q], push_[q]);
     } else {
+#pragma omp simd
       for (std::size_t q = 0; q < count; ++q) add_identity(block, q, push_[q]);
     }
   }
@@ -85,7 +107,7 @@ requires(dimensions(K) == 2) class MeanDilatation {
     spread_means(block, dJ_, dmean_);
     for (std::size_t q = 0; q < block.count; ++q) {
       // δs = s/d (δJ̄/J̄ − δJ/J)
-      ds_[q] = finite_ ? s_[q] / d * (dmean_[q] / mean_[q] - dJ_[q] / J_[q]) : (dmean_[q] - dJ_[q]) / d;
+      ds_[q] = s_[q] / d * (dmean_[q] * inverse_mean_[q] - dJ_[q] * inverse_J_[q]);
       const Tensor f = deformation(block, q);
       unroll<components>([&](auto c) __attribute__((always_inline)) {
         direction_[c][q] = block.direction[c][q];
@@ -112,8 +134,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
         continue;
       }
       // δ(A V/(W J̄) − a/J)
-      const double dpush =
-          (dshare[q] - share_[q] * dmean_[q] / mean_[q]) / mean_[q] - (da[q] - a_[q] * dJ_[q] / J_[q]) / J_[q];
+      const double dpush = (dshare[q] - share_[q] * dmean_[q] * inverse_mean_[q]) * inverse_mean_[q] -
+                           (da[q] - a_[q] * dJ_[q] * inverse_J_[q]) * inverse_J_[q];
       add_cofactor(block, q, s_[q], dpush);
       Tensor f = deformation(block, q), df;
       unroll<components>([&](auto c) __attribute__((always_inline)) { df[c] = direction_[c][q]; });
@@ -125,31 +147,34 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
 
  private:
-  // H becomes H̄; J, J̄ and s of it are kept, of small strain as tr H, its mean and 1.
-  void average(const Block& block, Rows& H) {
+  // H becomes H̄. What is kept of it is, at small strain, that of J = J̄ = s = 1.
+  [[gnu::always_inline]] void average(const Block& block, Rows& H) {
     const std::size_t count = block.count;
     if (finite_) {
+#pragma omp simd
       for (std::size_t q = 0; q < count; ++q) {
         const double in_plane = (1 + H[0][q]) * (1 + H[3][q]) - H[1][q] * H[2][q];
         J_[q] = d == 3 ? in_plane * (1 + H[components - 1][q]) : in_plane;
       }
+      spread_means(block, J_, mean_);
+#pragma omp simd
+      for (std::size_t q = 0; q < count; ++q) {
+        inverse_J_[q] = 1 / J_[q];
+        inverse_mean_[q] = 1 / mean_[q];
+        const double ratio = mean_[q] * inverse_J_[q];
+        s_[q] = d == 3 ? std::cbrt(ratio) : std::sqrt(ratio);
+        inverse_s_[q] = 1 / s_[q];
+        unroll<components>([&](auto c) __attribute__((always_inline)) {
+          constexpr double one = on_diagonal[c] ? 1 : 0;
+          H[c][q] = s_[q] * (one + H[c][q]) - one;
+        });
+      }
     } else {
       for (std::size_t q = 0; q < count; ++q) J_[q] = H[0][q] + H[3][q] + (d == 3 ? H[components - 1][q] : 0);
-    }
-    spread_means(block, J_, mean_);
-    if (finite_) {
+      spread_means(block, J_, mean_);
       for (std::size_t q = 0; q < count; ++q) {
-        const double ratio = mean_[q] / J_[q];
-        s_[q] = d == 3 ? std::cbrt(ratio) : std::sqrt(ratio);
-      }
-      unroll<components>([&](auto c) __attribute__((always_inline)) {
-        constexpr double one = on_diagonal[c] ? 1 : 0;
-        for (std::size_t q = 0; q < count; ++q) H[c][q] = s_[q] * (one + H[c][q]) - one;
-      });
-    } else {
-      for (std::size_t q = 0; q < count; ++q) {
-        s_[q] = 1;
         const double more = (mean_[q] - J_[q]) / d;
+        inverse_J_[q] = inverse_mean_[q] = s_[q] = inverse_s_[q] = 1;
         unroll<components>([&](auto c) __attribute__((always_inline)) {
           if constexpr (on_diagonal[c]) H[c][q] += more;
         });
@@ -158,8 +183,9 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
 
   // a, A V/W and what both push with along cof f, from the law's V P̄.
-  void pressures(const Block& block) {
+  [[gnu::always_inline]] void pressures(const Block& block) {
     const std::size_t count = block.count;
+#pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
       double work = 0;
       unroll<components>([&](auto c) __attribute__((always_inline)) {
@@ -169,8 +195,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
       a_[q] = work / d;
     }
     spread_shares(block, a_, share_);
-    for (std::size_t q = 0; q < count; ++q)
-      push_[q] = finite_ ? share_[q] / mean_[q] - a_[q] / J_[q] : share_[q] - a_[q];
+#pragma omp simd
+    for (std::size_t q = 0; q < count; ++q) push_[q] = share_[q] * inverse_mean_[q] - a_[q] * inverse_J_[q];
   }
 
   // f, of small strain I
@@ -178,19 +204,18 @@ requires(dimensions(K) == 2) class MeanDilatation {
     Tensor f;
     unroll<components>([&](auto c) __attribute__((always_inline)) {
       constexpr double one = on_diagonal[c] ? 1 : 0;
-      f[c] = finite_ ? (one + block.H[c][q]) / s_[q] : one;
+      f[c] = finite_ ? (one + block.H[c][q]) * inverse_s_[q] : one;
     });
     return f;
   }
   // ∂J/∂f = J f⁻ᵀ
   [[gnu::always_inline]] static Tensor cofactor(const Tensor& f) {
-    Tensor cof{f[3], -f[2], -f[1], f[0]};
     if constexpr (d == 3) {
-      const double hoop = f[4], in_plane = f[0] * f[3] - f[1] * f[2];
-      for (int c = 0; c < 4; ++c) cof[c] *= hoop;
-      cof[4] = in_plane;
+      const double hoop = f[4];
+      return {hoop * f[3], -hoop * f[2], -hoop * f[1], hoop * f[0], f[0] * f[3] - f[1] * f[2]};
+    } else {
+      return {f[3], -f[2], -f[1], f[0]};
     }
-    return cof;
   }
   static Tensor cofactor_rate(const Tensor& f, const Tensor& df) {
     Tensor rate{df[3], -df[2], -df[1], df[0]};
@@ -229,25 +254,32 @@ requires(dimensions(K) == 2) class MeanDilatation {
       if (from < to) visit(from - block.first, to - block.first);
     }
   }
-  // Σ V x/W over each cell, at its points
-  void spread_means(const Block& block, const Row& x, Row& mean) const {
-    const double* V = points_.volume.data() + block.first;
-    for_cells(block, [&](std::size_t from, std::size_t to) {
-      double sum = 0, volume = 0;
-      for (std::size_t q = from; q < to; ++q) sum += V[q] * x[q], volume += V[q];
-      const double of_cell = sum / volume;
-      for (std::size_t q = from; q < to; ++q) mean[q] = of_cell;
-    });
+  using Four = Lanes<4>;
+  [[gnu::always_inline]] static double sum_of(const Four& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+  [[gnu::always_inline]] static Four four(double x) {
+    const LaneRegister<4>::Type lanes{x, x, x, x};
+    return {lanes};
+  }
+  // Σ V x/W over each cell, at its points. Four at a time: what is written past a cell's end the next one writes again.
+  [[gnu::always_inline]] void spread_means(const Block& block, const Row& x, Row& mean) const {
+    for_cells(
+        block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
+          Four sum{};
+          for (std::size_t q = from; q < to; q += 4)
+            sum = sum.plus(Four::load(&x[q]).times(Four::load(volume_share_ + q)).first(to - q));
+          const Four of_cell = four(sum_of(sum));
+          for (std::size_t q = from; q < to; q += 4) of_cell.store(&mean[q]);
+        });
   }
   // V/W Σ x over each cell
-  void spread_shares(const Block& block, const Row& x, Row& share) const {
-    const double* V = points_.volume.data() + block.first;
-    for_cells(block, [&](std::size_t from, std::size_t to) {
-      double sum = 0, volume = 0;
-      for (std::size_t q = from; q < to; ++q) sum += x[q], volume += V[q];
-      const double of_cell = sum / volume;
-      for (std::size_t q = from; q < to; ++q) share[q] = V[q] * of_cell;
-    });
+  [[gnu::always_inline]] void spread_shares(const Block& block, const Row& x, Row& share) const {
+    for_cells(
+        block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
+          Four sum{};
+          for (std::size_t q = from; q < to; q += 4) sum = sum.plus(Four::load(&x[q]).first(to - q));
+          const Four of_cell = four(sum_of(sum));
+          for (std::size_t q = from; q < to; q += 4) of_cell.times(Four::load(volume_share_ + q)).store(&share[q]);
+        });
   }
   template <class Visit>
   [[gnu::always_inline]] static void for_rows(const Block& block, const Visit& visit) {
@@ -257,11 +289,12 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
 
   const MaterialPoints<2>& points_;
+  const double* volume_share_;  // of the block's points
   const bool finite_;
-  alignas(64) Row J_, mean_, s_;       // of u
-  alignas(64) Row a_, share_, push_;   // of V P̄
-  alignas(64) Row dJ_, dmean_, ds_;    // of δu
-  alignas(64) Rows kept_, direction_;  // V P̄, δH
+  alignas(64) Row J_, mean_, s_, inverse_J_, inverse_mean_, inverse_s_;  // of u
+  alignas(64) Row a_, share_, push_;                                     // of V P̄
+  alignas(64) Row dJ_, dmean_, ds_;                                      // of δu
+  alignas(64) Rows kept_, direction_;                                    // V P̄, δH
 };
 
 }  // namespace stillpoint

@@ -1,6 +1,8 @@
 // The displacement gradient that a point's law answers to.
 #pragma once
 
+#include <array>
+
 #include "space/kernels/mean_dilatation.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/points/body.hpp"
@@ -25,7 +27,11 @@ TensorOf<K> law_gradient(const Body<K>& body, const PointWeights<B, K>& weights,
         for (std::size_t c = 0; c < H.size(); ++c) block.H[c][q] = H[c];
       }
       const auto& material = *body.materials[static_cast<std::size_t>(points.material_of_cell(k))];
-      MeanDilatation<K>(points, material.info().finite_strain).template average<false>(block);
+      std::array<double, PointBlock<K>::size + MeanDilatation<K>::slack> share{};
+      double volume = 0;
+      for (std::size_t q = 0; q < block.count; ++q) volume += points.volume[block.first + q];
+      for (std::size_t q = 0; q < block.count; ++q) share[q] = points.volume[block.first + q] / volume;
+      MeanDilatation<K>(points, share.data(), material.info().finite_strain).template average<false>(block);
       return block.H_at(p - block.first);
     }
   }

@@ -276,6 +276,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)
   std::vector<double> committed_u_;     // likewise
   double committed_t_ = 0;
+  std::vector<double> volume_share_;  // of MeanDilatation, if cells share their change of volume
 
   // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
   mutable NodalForce<B, K> nodal_force_;

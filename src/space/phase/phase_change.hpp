@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "space/kernels/mean_dilatation.hpp"
 #include "space/phase/grid_faces.hpp"
 #include "space/phase/material_point_phase.hpp"
 
@@ -89,6 +90,9 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   committed_u_.assign(unknowns, 0);
   spread_prescribed(t, committed_u_);
   committed_t_ = t;
+  if constexpr (Dim == 2) {
+    if (averages_dilatation()) volume_share_ = MeanDilatation<K>::volume_shares(body_.points);
+  }
   if (averages_dilatation() && history_dependent_) {
     scratch_history_.resize(body_.materials.size());
     for (std::size_t m = 0; m < body_.materials.size(); ++m)

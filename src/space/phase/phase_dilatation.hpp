@@ -13,7 +13,7 @@ template <bool Increments>
 void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m, [[maybe_unused]] Block& block) const {
   if constexpr (Dim == 2) {
     if (!averages_dilatation()) return;
-    MeanDilatation<K> mean(body_.points, body_.materials[m]->info().finite_strain);
+    MeanDilatation<K> mean(body_.points, volume_share_.data() + block.first, body_.materials[m]->info().finite_strain);
     mean.template average<Increments>(block);
   }
 }
@@ -26,7 +26,7 @@ double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, 
   const double* V = body_.points.volume.data();
   if constexpr (Dim == 2) {
     if (averages_dilatation()) {
-      MeanDilatation<K> mean(body_.points, law.info().finite_strain);
+      MeanDilatation<K> mean(body_.points, volume_share_.data() + block.first, law.info().finite_strain);
       mean.template average<Increments>(block);
       const double bad = law.stress(block, V, dt, history);
       mean.transform_stress(block);
@@ -43,7 +43,7 @@ void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block
   const double* V = body_.points.volume.data();
   if constexpr (Dim == 2) {
     if (averages_dilatation()) {
-      MeanDilatation<K> mean(body_.points, law.info().finite_strain);
+      MeanDilatation<K> mean(body_.points, volume_share_.data() + block.first, law.info().finite_strain);
       mean.template average<true>(block);
       law.stress(block, V, dt, scratch_history(m));
       mean.keep_stress(block);
@@ -79,7 +79,7 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_means([[maybe_unused]] Tangent 
         const auto dH = weights_.gradient(grid_du_.data(), k, block.first + q);
         for (int c = 0; c < components; ++c) block.H[c][q] = H[c], block.dH[c][q] = dH[c];
       }
-      MeanDilatation<K> mean(points, law.info().finite_strain);
+      MeanDilatation<K> mean(points, volume_share_.data() + block.first, law.info().finite_strain);
       mean.template average<true>(block);
       law.stress(block, V, dt, scratch_history(m));
       mean.keep_stress(block);

@@ -202,6 +202,7 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
   std::vector<PointArray> arrays = {
       {"position", Dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
   std::ranges::copy(PointWeights<B, K>::arrays(), std::back_inserter(arrays));
+  if (averages_dilatation()) arrays.push_back({"share of the cell's volume", real});
   if (updated_lagrangian()) {
     arrays.push_back({"velocity", Dim * real});
     arrays.push_back({"position at the start", Dim * real});
