@@ -144,6 +144,7 @@ class Converging {
     } else if (!any->norms.empty()) {
       study_.reference = "the exact solution";
       for (const auto& [name, value] : any->norms) add_norm(name);
+      if (!any->no_energy.empty()) study_.notes.push_back("u_energy is not reported: " + any->no_energy);
     } else {
       study_.reference = "Richardson's extrapolation of the probes";
       study_.notes.emplace_back("the scene has no exact solution: only its probes are studied; expected [exact]");

@@ -14,6 +14,7 @@ struct LevelRun {
   ConvergenceLevel level;
   bool is_there = false;                               // whether it came to the end that its scene asks for
   std::vector<std::pair<std::string, double>> norms;   // errors against the exact solution: "u_l2", …
+  std::string no_energy;                               // why "u_energy" is none of them
   std::vector<std::pair<std::string, double>> probes;  // "tip.u.x" and its value at the end
   std::vector<double> probe_errors;                    // against the exact solution; NaN where there is none
   std::vector<double> u, stress, volume;               // of the points, by their numbers

@@ -80,6 +80,31 @@ TEST_CASE("a bar with a manufactured solution has the order of its basis in ever
   }
 }
 
+TEST_CASE("in the plane and around an axis stress and energy norm fall by the order of the basis") {
+  struct Case {
+    const char *problem, *basis;
+    double degree;
+  };
+  for (const auto& [problem, basis, degree] :
+       {Case{"cylinder", "linear", 1}, Case{"cylinder", "quadratic", 2}, Case{"column", "linear", 1},
+        Case{"ladder/mms_square", "linear", 1}, Case{"ladder/mms_square", "quadratic", 2}}) {
+    const bool is_linear_elastic = std::string(problem) != "ladder/mms_square";
+    std::vector<std::string> set = {std::string("grid.basis=") + basis, "grid.cells=[8, 8]"};
+    if (is_linear_elastic) set = with(set, {"grid.cells=[4, 2]", "solve.method=newton", "damping={}"});
+    const ConvergenceStudy study = study_of(problem, set, {.levels = 4, .finds_dominant = false});
+    CAPTURE(problem, basis);
+    CHECK(quantity(study, "stress_l2").theory == degree);
+    CAPTURE(quantity(study, "stress_l2").errors);
+    CHECK(quantity(study, "stress_l2").order->order == Approx(degree).margin(0.25));
+    if (is_linear_elastic) {
+      CAPTURE(quantity(study, "u_energy").errors);
+      CHECK(quantity(study, "u_energy").order->order == Approx(degree).margin(0.25));
+    } else {
+      CHECK(says(study, "u_energy is not reported: it is of linear elasticity, and rubber is neo-hookean"));
+    }
+  }
+}
+
 TEST_CASE("steps in time are refined on the same points, against the finest level: leapfrog's order is 2, RK4's 4") {
   for (const auto& [method, order] : {std::pair{"leapfrog", 2.0}, std::pair{"erk:rk4", 4.0}}) {
     const ConvergenceStudy study = study_of("bar", with(swinging, {std::string("integrator.method=") + method}),
