@@ -86,8 +86,9 @@ struct ConvergenceStudy {
 };
 
 /// Runs the scene on each level. Where h or points are refined errors are those against the scene's exact solution, and
-/// without one those of the probes against Richardson's extrapolation; where points stay the same from level to level,
-/// those against the finest level. Throws SceneError if the scene is wrong, or has nothing of what is to be refined.
+/// without one those against the finest level at the same places, and of the probes against Richardson's extrapolation;
+/// where points stay the same from level to level, those against the finest level. Throws SceneError if the scene is
+/// wrong, or has nothing of what is to be refined.
 ConvergenceStudy converge(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                           const ConvergeOptions& options = {});
 

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "space/materials/material_laws.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -90,7 +92,8 @@ EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, doubl
   if (scene.exact_stress.empty()) return {{}, "the scene has no exact stress; expected exact.stress"};
   std::vector<const MaterialSpec*> materials;  // by number, which is that of their names in order
   for (const auto& [name, material] : scene.materials) {
-    if (material.law != "linear-elastic")
+    const LawInfo& law = *std::ranges::find(material_laws(), material.law, &LawInfo::name);
+    if (law.finite_strain || law.history_dependent)
       return {{}, fmt::format("it is of linear elasticity, and {} is {}", name, material.law)};
     materials.push_back(&material);
   }

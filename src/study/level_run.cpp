@@ -32,7 +32,18 @@ double exact_value(const Scene& scene, const std::string& field, ConstVec x, dou
   return not_known;
 }
 
-void read_end(const Scene& scene, Simulation& simulation, const Summary& s, LevelRun& run) {
+// The grid's functions belong to places when the phase began: those of the start in a single phase alone.
+void read_at_places(Simulation& simulation, const CommonPlaces& places, LevelRun& run) {
+  const LagrangianPhase& phase = simulation.phase();
+  if (phase.info().updated_lagrangian) return;
+  const auto reader = phase.read_places(simulation.t(), simulation.u(), simulation.v());
+  FieldsAtPlaces fields = read_at(places, *reader, static_cast<std::size_t>(phase.info().stress_components));
+  run.u = std::move(fields.u);
+  run.stress = std::move(fields.stress);
+  run.volume = places.volume;
+}
+
+void read_end(const Scene& scene, Simulation& simulation, const Summary& s, const CommonPlaces* places, LevelRun& run) {
   if (s.error) {
     run.norms = {{"u_l2", s.error->u_rel_l2}, {"u_max", s.error->u_rel_max}};
     const EnergyError energy = energy_error(scene, simulation.phase(), s.t, simulation.u());
@@ -48,6 +59,7 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, Leve
           at == s.probe_positions.end() ? not_known : std::abs(value - exact_value(scene, field, at->second, s.t)));
     }
   }
+  if (places) return read_at_places(simulation, *places, run);
   const auto copy = [&](const char* name) {
     const ConstVec field = simulation.field(name);
     return std::vector<double>(field.begin(), field.end());
@@ -68,7 +80,7 @@ Scene without_files(Scene scene) {
 
 }  // namespace
 
-LevelRun run_level(const Scene& scene, const std::function<bool()>& interrupted) {
+LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::function<bool()>& interrupted) {
   const Stopwatch watch;
   LevelRun run;
   ConvergenceLevel& level = run.level;
@@ -86,7 +98,7 @@ LevelRun run_level(const Scene& scene, const std::function<bool()>& interrupted)
     level.evaluations = s.rhs_evaluations;
     run.notes = s.notes;
     run.is_there = s.exit_status == 0;
-    if (run.is_there) read_end(own, simulation, s, run);
+    if (run.is_there) read_end(own, simulation, s, places, run);
   } catch (const SetUpStopped& stopped) {
     level.status = stopped.status();
     level.exit_status = 3;

@@ -38,6 +38,13 @@ bool says(const ConvergenceStudy& study, const std::string& part) {
                              [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
+// The problem, though nobody knows its solution.
+fs::path without_exact(const std::string& problem, const TemporaryFolder& folder) {
+  std::string text = contents(fs::path(STILLPOINT_PROBLEMS) / (problem + ".toml"));
+  const std::size_t begin = text.find("[exact]"), end = text.find("[[probe]]", begin);
+  return folder.write(problem + ".toml", text.erase(begin, end == std::string::npos ? end : end - begin));
+}
+
 // The bar swings freely.
 const std::vector<std::string> swinging = {"damping.strategy=none", "stop.residual=0", "stop.time=3",
                                            "integrator.step_fraction=0.2"};
@@ -83,26 +90,43 @@ TEST_CASE("a bar with a manufactured solution has the order of its basis in ever
 TEST_CASE("in the plane and around an axis stress and energy norm fall by the order of the basis") {
   struct Case {
     const char *problem, *basis;
-    double degree;
+    double degree, most;
   };
-  for (const auto& [problem, basis, degree] :
-       {Case{"cylinder", "linear", 1}, Case{"cylinder", "quadratic", 2}, Case{"column", "linear", 1},
-        Case{"ladder/mms_square", "linear", 1}, Case{"ladder/mms_square", "quadratic", 2}}) {
+  // Quadratic elements are better than their order at two Gauss points a cell and axis: the cylinder's points.
+  for (const auto& [problem, basis, degree, most] :
+       {Case{"cylinder", "linear", 1, 1.1}, Case{"cylinder", "quadratic", 2, 3.1}, Case{"column", "linear", 1, 1.1},
+        Case{"ladder/mms_square", "linear", 1, 1.1}, Case{"ladder/mms_square", "quadratic", 2, 2.1}}) {
     const bool is_linear_elastic = std::string(problem) != "ladder/mms_square";
-    std::vector<std::string> set = {std::string("grid.basis=") + basis, "grid.cells=[8, 8]"};
-    if (is_linear_elastic) set = with(set, {"grid.cells=[4, 2]", "solve.method=newton", "damping={}"});
+    std::vector<std::string> set = {std::string("grid.basis=") + basis};
+    if (is_linear_elastic) set = with(set, {"grid.cells=[4, 2]", "solve.method=newton"});
     const ConvergenceStudy study = study_of(problem, set, {.levels = 4, .finds_dominant = false});
     CAPTURE(problem, basis);
-    CHECK(quantity(study, "stress_l2").theory == degree);
-    CAPTURE(quantity(study, "stress_l2").errors);
-    CHECK(quantity(study, "stress_l2").order->order == Approx(degree).margin(0.25));
+    const auto falls = [&](const char* name) {
+      const StudiedQuantity& found = quantity(study, name);
+      CAPTURE(name, found.errors);
+      CHECK(found.theory == degree);
+      CHECK(found.order->order >= degree - 0.1);
+      CHECK(found.order->order <= most);
+    };
+    falls("stress_l2");
     if (is_linear_elastic) {
-      CAPTURE(quantity(study, "u_energy").errors);
-      CHECK(quantity(study, "u_energy").order->order == Approx(degree).margin(0.25));
+      falls("u_energy");
     } else {
       CHECK(says(study, "u_energy is not reported: it is of linear elasticity, and rubber is neo-hookean"));
     }
   }
+}
+
+TEST_CASE("the energy norm is that of the inverse moduli: of a shear that is missing, and of one on a line") {
+  // σ = (σ0, 0, ν σ0, 0) is found where (σ0, 0, ν σ0, d) is said: d²/μ of σ0² (1 − ν²)/E + d²/μ is missing.
+  const double E = 1, nu = 0.3, stress = 1e-3, d = 2e-4, mu = E / (2 * (1 + nu));
+  const ConvergenceStudy study = study_of("ladder/patch", {"exact.stress=['load', '0', 'nu*load', '2e-4']"},
+                                          {.levels = 2, .finds_dominant = false});
+  const double missing = d * d / mu, whole = stress * stress * (1 - nu * nu) / E + missing;
+  CHECK(quantity(study, "u_energy").errors[0] == Approx(std::sqrt(missing / whole)).epsilon(1e-10));
+  // Components of the tensor: the shear counts twice.
+  const double of_tensor = 2 * d * d / (stress * stress * (1 + nu * nu) + 2 * d * d);
+  CHECK(quantity(study, "stress_l2").errors[0] == Approx(std::sqrt(of_tensor)).epsilon(1e-10));
 }
 
 TEST_CASE("steps in time are refined on the same points, against the finest level: leapfrog's order is 2, RK4's 4") {
@@ -123,13 +147,11 @@ TEST_CASE("steps in time are refined on the same points, against the finest leve
 
 TEST_CASE("without an exact solution probes are extrapolated: the stress at the end of a bar to the exact one") {
   const TemporaryFolder folder;
-  std::string text = contents(STILLPOINT_PROBLEMS "/mms_bar.toml");
-  const std::size_t begin = text.find("[exact]");
-  const fs::path file = folder.write("bar.toml", text.erase(begin, text.find("[[probe]]") - begin));
+  const fs::path file = without_exact("mms_bar", folder);
   const std::vector<std::string> set = {"grid.cells=8", "stop.residual=1e-11",
                                         "probe=[{name='end', at=1.0, fields=['stress']}]"};
   const ConvergenceStudy study = converge(file, set, {.levels = 5, .finds_dominant = false});
-  CHECK(study.reference == "Richardson's extrapolation of the probes");
+  CHECK(study.reference == "the finest level, and Richardson's extrapolation of the probes");
   CHECK(says(study, "expected [exact]"));
   const StudiedQuantity& end = quantity(study, "end.stress");
   REQUIRE(end.extrapolated);
@@ -137,6 +159,36 @@ TEST_CASE("without an exact solution probes are extrapolated: the stress at the 
   CHECK(end.order->order == Approx(3).margin(0.2));
   CHECK(*end.extrapolated == Approx(4 * std::cos(2.0)).epsilon(1e-6));
   CHECK(std::abs(end.errors.back()) < std::abs(end.errors.front()) / 10);
+}
+
+TEST_CASE("without an exact solution u and stress are compared at the same places: their orders are the basis' too") {
+  struct Case {
+    const char *problem, *basis;
+    double degree;
+  };
+  const TemporaryFolder folder;
+  // On a line linear elements are exact at the nodes, on which no place may lie.
+  for (const auto& [problem, basis, degree] : {Case{"mms_bar", "linear", 1}, Case{"mms_bar", "quadratic", 2},
+                                               Case{"cylinder", "linear", 1}, Case{"cylinder", "quadratic", 2}}) {
+    const bool is_bar = std::string(problem) == "mms_bar";
+    const std::vector<std::string> set = {std::string("grid.basis=") + basis, "solve.method=newton",
+                                          is_bar ? "grid.cells=8" : "grid.cells=[4, 2]"};
+    const ConvergeOptions options{.levels = 5, .finds_dominant = false};
+    const ConvergenceStudy known = study_of(problem, set, options);
+    const ConvergenceStudy study = converge(without_exact(problem, folder), set, options);
+    CAPTURE(problem, basis);
+    CHECK(says(study, "expected [exact]"));
+    const StudiedQuantity &u = quantity(study, "u_l2"), &stress = quantity(study, "stress_l2");
+    CAPTURE(u.errors, stress.errors, quantity(known, "u_l2").errors);
+    CHECK(u.theory == degree + 1);
+    CHECK(u.order->order == Approx(degree + 1).margin(0.2));
+    CHECK(std::isnan(u.errors.back()));
+    // The finest level's own error, a 256th and less of the coarsest's, is missing; and the points stand elsewhere.
+    CHECK(u.errors.front() == Approx(quantity(known, "u_l2").errors.front()).epsilon(0.3));
+    CHECK(stress.theory == degree);
+    CHECK(stress.order->order >= degree - 0.3);  // fitted to the points around, linear elements' is better
+    CHECK(stress.order->order <= degree + 1);
+  }
 }
 
 TEST_CASE("the largest error is named: space on few cells, the relaxation's stop where the residual is loose") {
