@@ -1,8 +1,10 @@
 #include <stillpoint/converge.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "scene/longest_cell.hpp"
 #include "study/common_places.hpp"
 #include "study/error_sources.hpp"
+#include "study/kept_runs.hpp"
 #include "study/level_run.hpp"
 #include "study/refinement.hpp"
 #include "study/side_by_side.hpp"
@@ -24,47 +27,78 @@ namespace {
 /// Runs that are independent, side by side; results do not depend on how many there are.
 struct Job {
   std::vector<std::string> set;  // beside what the user has set
-  std::string doing;
+  std::string doing, name;       // the name under which it is kept
   LevelRun run{};
+  bool is_done = false;
 };
 
+std::vector<std::string> both(std::vector<std::string> first, const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+// What a file may be called.
+std::string file_name_of(const std::vector<std::string>& varied) {
+  std::string name;
+  for (const std::string& set : varied) name += set + "-";
+  for (char& letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '.') letter = '-';
+  return name;
+}
+
+/// One series of levels.
 class Converging {
  public:
-  Converging(std::filesystem::path file, std::vector<std::string> overrides, const ConvergeOptions& options)
-      : file_(std::move(file)), overrides_(std::move(overrides)), options_(options), scene_(load({})) {
+  Converging(std::filesystem::path file, const std::vector<std::string>& overrides,
+             const std::vector<std::string>& varied, const ConvergeOptions& options)
+      : file_(std::move(file)),
+        overrides_(both(overrides, varied)),
+        options_(options),
+        scene_(load({})),
+        kept_(options_.keep, options_.resumes, scene_) {
     study_.scene = scene_.name;
     study_.title = scene_.title;
+    study_.varied = varied;
     study_.refined = options_.refine;
     study_.ratio = options_.ratio;
     for (int k = 0; k < options_.levels; ++k) {
       std::vector<std::string> set;
       for (const Refinement refinement : options_.refine)
         std::ranges::move(refined(scene_, refinement, std::pow(options_.ratio, k)), std::back_inserter(set));
-      levels_.push_back({.set = std::move(set), .doing = fmt::format("level {}", k + 1)});
+      levels_.push_back(
+          {.set = std::move(set), .doing = fmt::format("level {}", k + 1), .name = fmt::format("level-{}", k + 1)});
     }
+    add_sources();
+    study_.runs = levels_.size() + sources_.size();
     choose_places();
+    for (std::vector<Job>* jobs : {&levels_, &sources_})
+      for (Job& job : *jobs) find_kept(job);
   }
 
-  ConvergenceStudy converge() {
-    std::vector<Job> sources = source_jobs();
-    total_ = levels_.size() + sources.size();
-    run(levels_);
+  std::size_t runs() const { return study_.runs; }
+  const Scene& scene() const { return scene_; }
+
+  /// done: told after each run, what it was.
+  ConvergenceStudy converge(const std::function<void(const std::string&)>& done) {
+    for (const std::vector<Job>* jobs : {&levels_, &sources_})
+      for (const Job& job : *jobs) kept_.begin(job.name);
+    run(levels_, done);
     gather_levels();
-    run(sources);
+    run(sources_, done);
+    if (stopped(levels_) || stopped(sources_)) {
+      study_.interrupted = true;
+      study_.notes.emplace_back("interrupted by the user before all runs were done");
+    }
     std::vector<LevelRun> runs;
     for (const Job& job : levels_) runs.push_back(job.run);
     gather_quantities(scene_, runs, study_);
-    gather_sources(sources);
+    gather_sources();
     tell_of_orders();
     return std::move(study_);
   }
 
  private:
-  Scene load(const std::vector<std::string>& more) const {
-    std::vector<std::string> all = overrides_;
-    all.insert(all.end(), more.begin(), more.end());
-    return load_scene(file_, all);
-  }
+  Scene load(const std::vector<std::string>& more) const { return load_scene(file_, both(overrides_, more)); }
 
   // In the cells of the finest level, if they are not too many to read.
   void choose_places() {
@@ -75,14 +109,36 @@ class Converging {
     if (!places_) places_ = common_places(scene_);
   }
 
+  static bool stopped(const std::vector<Job>& jobs) {
+    return std::ranges::any_of(jobs, [](const Job& job) { return job.run.level.status == RunStatus::interrupted; });
+  }
+
+  void find_kept(Job& job) {
+    job.name = file_name_of(study_.varied) + job.name;
+    auto kept = kept_.find(job.name, job.set);
+    const bool at_other_places =
+        kept && places_ && !kept->volume.empty() && kept->volume.size() != places_->size();  // of other levels
+    if (!kept || at_other_places) return;
+    job.run = std::move(*kept);
+    job.is_done = true;
+  }
+
   // The finest first, which take longest.
-  void run(std::vector<Job>& jobs) {
+  void run(std::vector<Job>& jobs, const std::function<void(const std::string&)>& done) {
     side_by_side(options_.threads > 0 ? options_.threads : omp_get_max_threads(), jobs.size(), [&](std::size_t k) {
       Job& job = jobs[jobs.size() - 1 - k];
-      if (!is_interrupted()) job.run = run_level(load(job.set), places_ ? &*places_ : nullptr, options_.interrupted);
+      if (!job.is_done && !is_interrupted()) {
+        job.run = run_level(load(job.set), places_ ? &*places_ : nullptr, options_.interrupted);
+        job.run.level.set = job.set;
+        // Errors against the exact solution are known: nothing else is made of these.
+        if (!has_same_points(options_.refine) && !places_) job.run.u = job.run.stress = job.run.volume = {};
+        kept_.keep(job.name, job.run);
+        job.is_done = job.run.is_there;
+      }
       job.run.level.set = job.set;
-      tell(job.doing);
+      done(job.doing);
     });
+    study_.finished_runs += static_cast<std::size_t>(std::ranges::count_if(jobs, &Job::is_done));
   }
 
   void gather_levels() {
@@ -92,12 +148,11 @@ class Converging {
       level.h = longest_cell(scene.grid);
       level.size = size_of(scene, options_.refine.front(), level.step);
       study_.levels.push_back(level);
-      if (!job.run.is_there && !is_interrupted()) {
+      if (!job.run.is_there && level.status != RunStatus::interrupted) {
         study_.notes.push_back(fmt::format("level {} is left out, it ended as {}: {}", study_.levels.size(),
                                            to_string(level.status), level.reason));
       }
     }
-    if (is_interrupted()) study_.notes.emplace_back("interrupted by the user before all runs were done");
     const LevelRun& finest = levels_.back().run;
     std::ranges::copy(finest.notes, std::back_inserter(study_.notes));
   }
@@ -105,20 +160,18 @@ class Converging {
   // --- which error is the largest ---
 
   // At the finest level but one.
-  std::vector<Job> source_jobs() const {
-    std::vector<Job> jobs;
-    if (!options_.finds_dominant || levels_.size() < 2) return jobs;
+  void add_sources() {
+    if (!options_.finds_dominant || levels_.size() < 2) return;
     const std::vector<std::string>& base = levels_[levels_.size() - 2].set;
     for (const RefinedSource& source : other_sources(load(base), options_.refine)) {
-      Job job{.set = base, .doing = source.name};
-      job.set.insert(job.set.end(), source.set.begin(), source.set.end());
-      jobs.push_back(std::move(job));
+      sources_.push_back({.set = both(base, source.set),
+                          .doing = source.name,
+                          .name = fmt::format("level-{}-source-{}", levels_.size() - 1, sources_.size() + 1)});
     }
-    return jobs;
   }
 
-  void gather_sources(const std::vector<Job>& jobs) {
-    if (jobs.empty() || std::ranges::none_of(levels_, [](const Job& job) { return job.run.is_there; })) return;
+  void gather_sources() {
+    if (sources_.empty() || std::ranges::none_of(levels_, [](const Job& job) { return job.run.is_there; })) return;
     const LevelRun &finest = levels_.back().run, &base = levels_[levels_.size() - 2].run;
     study_.source_quantity = figure_of_sources(options_.refine, finest);
     const auto add = [&](const std::string& name, const LevelRun& run) {
@@ -126,7 +179,7 @@ class Converging {
       if (std::isfinite(by)) study_.sources.push_back({name, by});
     };
     add(source_of(options_.refine.front()), finest);
-    for (const Job& job : jobs) add(job.doing, job.run);
+    for (const Job& job : sources_) add(job.doing, job.run);
     std::ranges::stable_sort(study_.sources, std::ranges::greater(), &ErrorSource::change);
   }
 
@@ -146,30 +199,57 @@ class Converging {
   }
 
   bool is_interrupted() const { return options_.interrupted && options_.interrupted(); }
-  void tell(const std::string& what) {
-    const std::scoped_lock lock(telling_);
-    ++done_;
-    if (options_.progress) options_.progress({done_, static_cast<int>(total_), what, wall_.seconds()});
-  }
 
   std::filesystem::path file_;
   std::vector<std::string> overrides_;
   const ConvergeOptions& options_;
   Scene scene_;
-  std::vector<Job> levels_;
+  KeptRuns kept_;
+  std::vector<Job> levels_, sources_;
   std::optional<CommonPlaces> places_;  // at which levels are compared; empty: at their points, or not at all
   ConvergenceStudy study_;
-  Stopwatch wall_;
-  std::mutex telling_;
-  int done_ = 0;
-  std::size_t total_ = 0;
 };
+
+// Every value, or every pair of values, "key=value".
+std::vector<std::vector<std::string>> combinations(const std::vector<Variation>& varied) {
+  std::vector<std::vector<std::string>> all(1);
+  for (const Variation& variation : varied) {
+    std::vector<std::vector<std::string>> longer;
+    for (const std::vector<std::string>& set : all)
+      for (const std::string& value : variation.values) longer.push_back(both(set, {variation.key + "=" + value}));
+    all = std::move(longer);
+  }
+  return all;
+}
 
 }  // namespace
 
+std::vector<ConvergenceStudy> converge_varied(const std::filesystem::path& scene,
+                                              const std::vector<std::string>& overrides,
+                                              const std::vector<Variation>& varied, const ConvergeOptions& options) {
+  std::vector<std::unique_ptr<Converging>> all;
+  std::size_t total = 0;
+  for (const std::vector<std::string>& set : combinations(varied)) {
+    all.push_back(std::make_unique<Converging>(scene, overrides, set, options));
+    if (!varied.empty()) check_set_up(all.back()->scene(), options.interrupted);
+    total += all.back()->runs();
+  }
+  const Stopwatch wall;
+  std::mutex telling;
+  int runs = 0;
+  const auto done = [&](const std::string& what) {
+    const std::scoped_lock lock(telling);
+    ++runs;
+    if (options.progress) options.progress({runs, static_cast<int>(total), what, wall.seconds()});
+  };
+  std::vector<ConvergenceStudy> series;
+  for (const auto& one : all) series.push_back(one->converge(done));
+  return series;
+}
+
 ConvergenceStudy converge(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                           const ConvergeOptions& options) {
-  return Converging(scene, overrides, options).converge();
+  return std::move(converge_varied(scene, overrides, {}, options).front());
 }
 
 }  // namespace stillpoint

@@ -116,4 +116,14 @@ LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::fu
   return run;
 }
 
+void check_set_up(const Scene& scene, const std::function<bool()>& interrupted) {
+  try {
+    const Simulation simulation(without_files(scene), {.threads = 1, .interrupted = interrupted});
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::exception&) {
+    // as of an interrupt, or a frequency that is not found: its level will tell
+  }
+}
+
 }  // namespace stillpoint

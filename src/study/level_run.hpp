@@ -27,4 +27,7 @@ struct LevelRun {
 /// of a scene of one phase; null: at the material points.
 LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::function<bool()>& interrupted);
 
+/// Throws SceneError if the scene is refused once it is set up, as for a probe where no material is.
+void check_set_up(const Scene& scene, const std::function<bool()>& interrupted);
+
 }  // namespace stillpoint
