@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -90,8 +92,11 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
 
 EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
   if (scene.exact_stress.empty()) return {{}, "the scene has no exact stress; expected exact.stress"};
-  std::vector<const MaterialSpec*> materials;  // by number, which is that of their names in order
-  for (const auto& [name, material] : scene.materials) {
+  std::set<std::string> names;
+  for (const BodySpec& body : scene.bodies) names.insert(body.material);
+  std::vector<const MaterialSpec*> materials;  // by number, in the order of the names of those that bodies have
+  for (const std::string& name : names) {
+    const MaterialSpec& material = scene.materials.at(name);
     const LawInfo& law = *std::ranges::find(material_laws(), material.law, &LawInfo::name);
     if (law.finite_strain || law.history_dependent)
       return {{}, fmt::format("it is of linear elasticity, and {} is {}", name, material.law)};

@@ -98,6 +98,7 @@ LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::fu
     level.evaluations = s.rhs_evaluations;
     run.notes = s.notes;
     run.is_there = s.exit_status == 0;
+    level.wall_s = watch.seconds();  // what is read for the study is no part of it
     if (run.is_there) read_end(own, simulation, s, places, run);
   } catch (const SetUpStopped& stopped) {
     level.status = stopped.status();
@@ -112,7 +113,7 @@ LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::fu
     level.exit_status = 4;
     level.reason = error.what();
   }
-  level.wall_s = watch.seconds();
+  if (level.wall_s == 0) level.wall_s = watch.seconds();
   return run;
 }
 
