@@ -148,7 +148,8 @@ void check_stop(SceneCheck& check) {
 }
 
 void check_exact(SceneCheck& check) {
-  if (check.written("exact.stress") && !check.written("exact.u")) check.add("exact.stress", "needs exact.u beside it");
+  if (check.written("exact.stress") && check.sound("exact.stress") && !check.written("exact.u"))
+    check.add("exact.stress", "needs exact.u beside it");
 }
 
 }  // namespace
