@@ -53,8 +53,8 @@ def finish(program, draw, file):
     return 0
 
 
-def read_study(folder, name, key):
-    """DIR/name.json of a study, an object with this key."""
+def read_study(folder, name, *keys):
+    """DIR/name.json of a study, an object with one of these keys."""
     file = folder / f"{name}.json"
     try:
         study = json.loads(file.read_text(encoding="utf-8"))
@@ -62,8 +62,8 @@ def read_study(folder, name, key):
         raise Refused(f"{folder}: no {name}.json; is this the folder of `stillpoint {name}`?") from None
     except (OSError, ValueError) as error:
         raise Refused(f"{file}: {error}") from None
-    if not isinstance(study, dict) or not isinstance(study.get(key), (dict, list)):
-        raise Refused(f"{file}: expected an object with {key}")
+    if not isinstance(study, dict) or not any(isinstance(study.get(key), (dict, list)) for key in keys):
+        raise Refused(f"{file}: expected an object with {' or '.join(keys)}")
     return study
 
 

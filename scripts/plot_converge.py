@@ -2,7 +2,8 @@
 """plot_converge.py DIR [--out FILE]: the picture of a convergence study, from DIR/converge.json.
 
 Errors against the size of what is refined, with slopes of the orders that theory knows beside the finest level, and the
-same errors against wall time. FILE is DIR/converge.png if not given. Exit status 2 and a message if there is nothing to
+same errors against wall time: speed against error. Of several series each is a line, of the quantity that all have an
+error of. FILE is DIR/converge.png if not given. Exit status 2 and a message if there is nothing to
 draw.
 """
 
@@ -17,7 +18,7 @@ SIZES = {"h": "h [m]", "points": "1/points per cell", "step": "step [s]", "rtol"
 
 
 def read(folder):
-    return read_study(folder, "converge", "quantities")
+    return read_study(folder, "converge", "quantities", "series")
 
 
 def points_of(study, quantity):
@@ -29,6 +30,26 @@ def points_of(study, quantity):
     return found
 
 
+def lines_of(study):
+    """[(name, [(size, wall time, error)], order or None)]: the quantities of a study, or its series by the first
+    quantity that most of them have errors of."""
+    if "series" not in study:
+        lines = [(name, points_of(study, name), study["orders"].get(name)) for name in study["quantities"]]
+        return [line for line in lines if line[1]]
+    quantity = quantity_of(study["series"])
+    return [(", ".join(one["set"]), points, one["orders"].get(quantity))
+            for one in study["series"] if quantity in one["quantities"] and (points := points_of(one, quantity))]
+
+
+def quantity_of(series):
+    """The first quantity that most of the series have errors of."""
+    counts = {}
+    for one in series:
+        for name in one["quantities"]:
+            counts[name] = counts.get(name, 0) + bool(points_of(one, name))
+    return max(counts, key=counts.get, default=None)
+
+
 def label_of(name, order):
     if not order:
         return name
@@ -36,11 +57,11 @@ def label_of(name, order):
     return f"{name}: {order['order']:.2f}{interval}"
 
 
-def lowest_by_theory(study, drawn):
+def lowest_by_theory(lines):
     """{order that theory knows: the levels of the smallest error that has it}."""
     lowest = {}
-    for name, points in drawn.items():
-        theory = (study["orders"].get(name) or {}).get("theory")
+    for _, points, order in lines:
+        theory = (order or {}).get("theory")
         if theory and len(points) > 1 and (theory not in lowest or points[-1][2] < lowest[theory][-1][2]):
             lowest[theory] = points
     return lowest
@@ -58,24 +79,25 @@ def draw_slope(axis, points, order):
 
 
 def draw(study, file):
-    drawn = {name: points for name in study["quantities"] if (points := points_of(study, name))}
-    if not drawn:
+    lines = lines_of(study)
+    if not lines:
         raise Refused("no level has an error: nothing to draw")
+    first = study["series"][0] if "series" in study else study
     plt.rcParams.update(STYLE)
     figure, (by_size, by_time) = plt.subplots(1, 2, figsize=(12, 5.5), sharey=True)
-    for number, (name, points) in enumerate(drawn.items()):
+    for number, (name, points, order) in enumerate(lines):
         look = {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)], "linewidth": 1.4}
-        order = study["orders"].get(name)
         sizes, times, errors = zip(*points)
         by_size.plot(sizes, errors, label=plain(label_of(name, order)), **look)
         by_time.plot(times, errors, **look)
-    for theory, points in lowest_by_theory(study, drawn).items():
+    for theory, points in lowest_by_theory(lines).items():
         draw_slope(by_size, points, theory)
     for axis, what in ((by_size, SIZES[study["refined"][0]]), (by_time, "wall time [s]")):
         axis.set(xscale="log", yscale="log", xlabel=what)
         axis.grid(color="0.92")
         axis.set_axisbelow(True)
-    by_size.set_ylabel(plain(f"error against {study['reference']}"))
+    of = f"{quantity_of(study['series'])}: " if "series" in study else ""
+    by_size.set_ylabel(plain(f"{of}error against {first['reference']}"))
     by_size.legend(title="order (95 %)", frameon=False, fontsize="small")
     figure.suptitle(plain(title_of(study)))
     figure.tight_layout()

@@ -33,9 +33,19 @@ struct ConvergeOptions {
   double ratio = 2;                               // of sizes from level to level, above 1
   bool finds_dominant = true;                     // whether runs are spent on which error is the largest
   int threads = 0;                                // levels side by side; 0: as many as OpenMP would take
+  std::filesystem::path keep{};                   // folder in which finished runs are kept; empty: nowhere
+  bool resumes = false;                           // whether runs that are kept there are taken, and not made again
   std::function<bool()> interrupted{};
   std::function<void(const StudyProgress&)> progress{};
 };
+
+/// A key of the scene, and its values: a series of levels with each of them.
+struct Variation {
+  std::string key;
+  std::vector<std::string> values;  // as for --set
+};
+/// Of "grid.basis=linear,quadratic". Throws SceneError.
+Variation variation_of(const std::string& text);
 
 struct ConvergenceLevel {
   std::vector<std::string> set;  // what the scene is given for it, "key=value"
@@ -75,6 +85,7 @@ struct ErrorSource {
 
 struct ConvergenceStudy {
   std::string scene, title;
+  std::vector<std::string> varied;  // what the series is given beside the overrides, "key=value"
   std::vector<Refinement> refined;
   double ratio = 2;
   std::string reference;  // what errors are measured against
@@ -83,15 +94,27 @@ struct ConvergenceStudy {
   std::string source_quantity;       // the quantity that the sources are found by
   std::vector<ErrorSource> sources;  // the largest first; empty: not looked for
   std::vector<std::string> notes;
+  bool interrupted = false;
+  std::size_t runs = 0, finished_runs = 0;  // of levels and of sources
 };
 
 /// Runs the scene on each level. Where h or points are refined errors are those against the scene's exact solution, and
-/// without one those of the probes against Richardson's extrapolation; where points stay the same from level to level,
-/// those against the finest level. Throws SceneError if the scene is wrong, or has nothing of what is to be refined.
+/// without one those against the finest level at the same places, and of the probes against Richardson's extrapolation;
+/// where points stay the same from level to level, those against the finest level. Throws SceneError if the scene is
+/// wrong, or has nothing of what is to be refined.
 ConvergenceStudy converge(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                           const ConvergeOptions& options = {});
 
+/// The same for each value that is varied, or each pair of values of two keys, one series after the other. Throws
+/// SceneError before anything runs if one of them cannot be, and StateError if a run that is kept is not one of these.
+std::vector<ConvergenceStudy> converge_varied(const std::filesystem::path& scene,
+                                              const std::vector<std::string>& overrides,
+                                              const std::vector<Variation>& varied,
+                                              const ConvergeOptions& options = {});
+
 /// converge.csv and converge.json in a folder.
 void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder);
+/// Of all series: with a column for each varied key, and a list of series.
+void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder);
 
 }  // namespace stillpoint

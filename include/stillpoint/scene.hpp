@@ -163,8 +163,8 @@ struct Scene : BoundarySpecs {
   PhaseSpec phase;
   std::vector<Expression> initial_u, initial_v;  // of x, y, z [m], [m/s]; empty: 0
   std::optional<GeostaticSpec> geostatic;
-  std::vector<Expression> exact_u;         // of x, y, z, t [m]; empty: not known
-  std::optional<Expression> exact_stress;  // of x, y, z, t [Pa]
+  std::vector<Expression> exact_u;       // of x, y, z, t [m]; empty: not known
+  std::vector<Expression> exact_stress;  // Cauchy's, likewise, (stress components) [Pa]; empty: not known
   SolveSpec solve;
   DampingSpec damping;
   IntegratorSpec integrator;

@@ -34,6 +34,7 @@ struct ConvergeArguments {
   SceneArguments scene;
   std::filesystem::path out;                // empty: out/<scene's stem>-converge
   std::vector<std::string> refine = {"h"};  // names of refinements
+  std::vector<std::string> vary;            // "key=value,value"
   ConvergeOptions options;
   bool quiet = false;
 };

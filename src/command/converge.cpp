@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +11,7 @@
 #include "command/commands.hpp"
 #include "command/study_output.hpp"
 #include "command/terminal.hpp"
+#include "scene/throw_scene_error.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -28,8 +30,9 @@ std::string order_of(const StudiedQuantity& quantity) {
 void print_table(const ConvergenceStudy& study) {
   std::vector<std::string> names;
   for (const Refinement refinement : study.refined) names.push_back(to_string(refinement));
-  fmt::print("{}\n  refined: {}; errors against {}\n\n", study.title.empty() ? study.scene : study.title,
-             fmt::join(names, ", "), study.reference.empty() ? "nothing" : study.reference);
+  fmt::print("{}{}{}\n  refined: {}; errors against {}\n\n", study.title.empty() ? study.scene : study.title,
+             study.varied.empty() ? "" : ", ", fmt::join(study.varied, ", "), fmt::join(names, ", "),
+             study.reference.empty() ? "nothing" : study.reference);
   fmt::print("  {:>5}{:>11}{:>9}{:>12}{:>10}", "level", names.front(), "points", "evaluations", "time");
   for (const StudiedQuantity& quantity : study.quantities)
     fmt::print("{:>{}}", quantity.name, std::max<std::size_t>(11, quantity.name.size() + 2));
@@ -57,6 +60,26 @@ void print_table(const ConvergenceStudy& study) {
   for (const std::string& note : study.notes) fmt::print("  note: {}\n", note);
 }
 
+std::vector<Variation> variations(const std::vector<std::string>& texts) {
+  std::vector<Variation> varied;
+  for (const std::string& text : texts) {
+    varied.push_back(variation_of(text));
+    if (varied.size() > 2) throw_option_error("--vary", text, "is the third; expected two keys at most");
+    if (varied.size() == 2 && varied.front().key == varied.back().key)
+      throw_option_error("--vary", text, "is a key that is varied already; expected all its values at once");
+  }
+  return varied;
+}
+
+void tell_of_interrupt(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& kept) {
+  std::size_t runs = 0, finished = 0;
+  for (const ConvergenceStudy& study : series) runs += study.runs, finished += study.finished_runs;
+  if (std::ranges::none_of(series, &ConvergenceStudy::interrupted)) return;
+  fmt::print(stderr,
+             "interrupted: {} of {} runs were finished and are kept in {}; the same command with --resume goes on\n",
+             finished, runs, kept.string());
+}
+
 }  // namespace
 
 int converge(const ConvergeArguments& arguments) {
@@ -71,16 +94,25 @@ int converge(const ConvergeArguments& arguments) {
   for (const std::string& name : arguments.refine) options.refine.push_back(*refinement_of(name));
   options.interrupted = interrupted;
   if (!arguments.quiet) options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
-  const ConvergenceStudy study = stillpoint::converge(arguments.scene.file, arguments.scene.overrides, options);
+  options.keep = out / "runs";
+  const std::vector<ConvergenceStudy> series =
+      converge_varied(arguments.scene.file, arguments.scene.overrides, variations(arguments.vary), options);
   line.finish();
-  write_study(study, out);
+  write_studies(series, out);
   if (!arguments.quiet) {
-    print_table(study);
+    for (const ConvergenceStudy& study : series) {
+      print_table(study);
+      fmt::print("\n");
+    }
     fmt::print("  written: {}\n", out.string());
   }
+  tell_of_interrupt(series, options.keep);
   int status = 0;  // the worst of the levels
-  for (const ConvergenceLevel& level : study.levels)
-    status = std::max(status, level.exit_status == 2 ? 4 : level.exit_status);
+  for (const ConvergenceStudy& study : series) {
+    if (study.interrupted) status = std::max(status, 3);
+    for (const ConvergenceLevel& level : study.levels)
+      status = std::max(status, level.exit_status == 2 ? 4 : level.exit_status);
+  }
   return status;
 }
 

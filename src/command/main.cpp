@@ -74,10 +74,20 @@ CLI::App& add_converge(CLI::App& app, ConvergeArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::IsMember({"h", "points", "step", "rtol", "motion"}))
       ->type_name("NAME,...");
+  converge
+      .add_option(
+          "--vary", arguments.vary,
+          "a series of levels for each value of a key, e.g. --vary grid.basis=linear,quadratic; of two keys for "
+          "each pair")
+      ->type_name("KEY=VALUE,...")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   converge.add_option("--levels", options.levels, "levels (default: 4)")->check(CLI::Range(2, 20));
   converge.add_option("--ratio", options.ratio, "of sizes from level to level (default: 2)")
       ->check(CLI::Range(1.1, 100.0));
   converge.add_option("--threads", options.threads, "levels side by side (default: all)")->check(CLI::Range(1, 1024));
+  converge.add_flag("--resume", options.resumes,
+                    "take the finished runs that are kept in the folder; run only the others");
   converge.add_flag("!--no-sources", options.finds_dominant, "do not look for the largest error");
   converge.add_flag("--quiet", arguments.quiet, "print nothing but errors");
   return converge;

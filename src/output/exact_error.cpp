@@ -1,8 +1,17 @@
 #include "output/exact_error.hpp"
 
+#include <stillpoint/material.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "space/materials/material_laws.hpp"
 
 namespace stillpoint {
 namespace {
@@ -19,6 +28,43 @@ struct Norms {
   double rel_l2() const { return std::sqrt(difference / exact); }
 };
 
+// σ:σ from xx, or xx, yy, zz, xy.
+double contracted(std::span<const double> sigma) {
+  double sum = 0;
+  for (const double component : sigma) sum += component * component;
+  return sigma.size() == 1 ? sum : sum + sigma[3] * sigma[3];
+}
+
+/// visit(p, V_p, σ_h − σ, σ) for every material point.
+template <class Visit>
+void for_stresses(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u, const Visit& visit) {
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  const auto components = static_cast<std::size_t>(phase.info().stress_components);
+  std::vector<double> stress(components * phase.points()), exact(components), difference(components);
+  phase.point_stress(t, u, stress);
+  const PointData data = phase.point_data();
+  for (std::size_t p = 0; p < phase.points(); ++p) {
+    for (std::size_t i = 0; i < components; ++i) {
+      exact[i] = scene.exact_stress[i]({data.positions.data() + dim * p, dim}, t);
+      difference[i] = stress[components * p + i] - exact[i];
+    }
+    visit(p, data, difference, exact);
+  }
+}
+
+// σ:C⁻¹:σ = [(1 + ν) σ:σ − ν (tr σ)²]/E in the plane, whose σ_zz does no work there; on a line σ²/E if the section is
+// free to contract, or else σ²/(λ + 2μ).
+double energy(const MaterialSpec& material, StressState state, std::span<const double> sigma) {
+  const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
+  if (state == StressState::uniaxial_stress) return contracted(sigma) / E;
+  if (state == StressState::uniaxial_strain) {
+    const auto [lambda, mu] = LameParameters::from(E, nu);
+    return contracted(sigma) / (lambda + 2 * mu);
+  }
+  const double trace = sigma[0] + sigma[1] + sigma[2];
+  return ((1 + nu) * contracted(sigma) - nu * trace * trace) / E;
+}
+
 }  // namespace
 
 std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
@@ -26,22 +72,44 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
   const auto dim = static_cast<std::size_t>(phase.dim());
   std::vector<double> displacement(dim * phase.points());
   phase.point_displacement(t, u, displacement);
-  std::vector<double> stress(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
-  phase.point_stress(t, u, stress);
-  const std::vector<double> positions = phase.positions(), volumes = phase.point_data().volumes;
-  Norms in_u, in_stress;
+  const PointData data = phase.point_data();
+  Norms in_u;
   for (std::size_t p = 0; p < phase.points(); ++p) {
-    const std::span<const double> x(positions.data() + dim * p, dim);
-    const double V = volumes[p];
-    for (std::size_t i = 0; i < dim; ++i) in_u.add(V, displacement[dim * p + i], scene.exact_u[i](x, t));
-    if (scene.exact_stress)
-      in_stress.add(V, stress[static_cast<std::size_t>(phase.info().stress_components) * p],
-                    (*scene.exact_stress)(x, t));
+    const std::span<const double> x(data.positions.data() + dim * p, dim);
+    for (std::size_t i = 0; i < dim; ++i) in_u.add(data.volumes[p], displacement[dim * p + i], scene.exact_u[i](x, t));
   }
   if (in_u.exact == 0) return std::nullopt;
   ExactError error{.u_rel_l2 = in_u.rel_l2(), .u_rel_max = in_u.max_difference / in_u.max_exact, .stress_rel_l2 = {}};
-  if (in_stress.exact > 0) error.stress_rel_l2 = in_stress.rel_l2();
+  if (scene.exact_stress.empty()) return error;
+  double difference = 0, exact = 0;
+  for_stresses(scene, phase, t, u, [&](std::size_t p, const PointData& points, ConstVec off, ConstVec sigma) {
+    difference += points.volumes[p] * contracted(off);
+    exact += points.volumes[p] * contracted(sigma);
+  });
+  if (exact > 0) error.stress_rel_l2 = std::sqrt(difference / exact);
   return error;
+}
+
+EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
+  if (scene.exact_stress.empty()) return {{}, "the scene has no exact stress; expected exact.stress"};
+  std::set<std::string> names;
+  for (const BodySpec& body : scene.bodies) names.insert(body.material);
+  std::vector<const MaterialSpec*> materials;  // by number, in the order of the names of those that bodies have
+  for (const std::string& name : names) {
+    const MaterialSpec& material = scene.materials.at(name);
+    const LawInfo& law = *std::ranges::find(material_laws(), material.law, &LawInfo::name);
+    if (law.finite_strain || law.history_dependent)
+      return {{}, fmt::format("it is of linear elasticity, and {} is {}", name, material.law)};
+    materials.push_back(&material);
+  }
+  double difference = 0, exact = 0;
+  for_stresses(scene, phase, t, u, [&](std::size_t p, const PointData& points, ConstVec off, ConstVec sigma) {
+    const MaterialSpec& material = *materials[static_cast<std::size_t>(points.materials[p])];
+    difference += points.volumes[p] * energy(material, scene.state, off);
+    exact += points.volumes[p] * energy(material, scene.state, sigma);
+  });
+  if (!(exact > 0)) return {{}, "the exact stress has no energy"};
+  return {std::sqrt(difference / exact), ""};
 }
 
 }  // namespace stillpoint

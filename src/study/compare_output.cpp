@@ -6,17 +6,13 @@
 
 #include "base/atomic_file.hpp"
 #include "base/json.hpp"
+#include "study/csv_text.hpp"
 
 namespace stillpoint {
 namespace {
 
 std::string cell(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.17g}", *value) : "";
-}
-std::string quoted(const std::string& text) {
-  std::string doubled;
-  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return '"' + doubled + '"';
 }
 
 std::string csv(const Comparison& c) {

@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/json.hpp"
+#include "study/csv_text.hpp"
 
 namespace stillpoint {
 namespace {
@@ -16,25 +17,40 @@ std::string number_or_nothing(double value) { return std::isfinite(value) ? fmt:
 // Columns that every study has, empty where it has no such error.
 const std::vector<std::string> norms = {"u_l2", "u_max", "u_energy", "stress_l2"};
 
-bool is_norm(const StudiedQuantity& quantity) { return std::ranges::find(norms, quantity.name) != norms.end(); }
+// The keys that are varied, from "key=value".
+std::vector<std::string> keys_of(const ConvergenceStudy& study) {
+  std::vector<std::string> keys;
+  for (const std::string& set : study.varied) keys.push_back(set.substr(0, set.find('=')));
+  return keys;
+}
+// "key=value" as the value's field of a CSV file.
+std::string value_field(const std::string& set) {
+  const std::string value = set.substr(set.find('=') + 1);
+  return value.find_first_of(",\"") == std::string::npos ? value : quoted(value);
+}
 
-std::string csv(const ConvergenceStudy& study) {
-  std::string text = "level,h,points,step,evaluations,wall_s";
-  for (const std::string& norm : norms) text += "," + norm;
-  for (const StudiedQuantity& quantity : study.quantities)
-    if (!is_norm(quantity)) text += "," + quantity.name;
-  text += ",size,status\n";
-  for (std::size_t k = 0; k < study.levels.size(); ++k) {
-    const ConvergenceLevel& level = study.levels[k];
-    text += fmt::format("{},{:.17g},{},{:.17g},{},{:.6g}", k + 1, level.h, level.points, level.step, level.evaluations,
-                        level.wall_s);
-    for (const std::string& norm : norms) {
-      const auto found = std::ranges::find(study.quantities, norm, &StudiedQuantity::name);
-      text += "," + (found == study.quantities.end() ? "" : number_or_nothing(found->values[k]));
-    }
+std::string csv(const std::vector<ConvergenceStudy>& series) {
+  std::string text;
+  for (const std::string& key : keys_of(series.front())) text += key + ",";
+  text += "level,h,points,step,evaluations,wall_s";
+  std::vector<std::string> columns = norms;
+  for (const ConvergenceStudy& study : series)
     for (const StudiedQuantity& quantity : study.quantities)
-      if (!is_norm(quantity)) text += "," + number_or_nothing(quantity.values[k]);
-    text += fmt::format(",{:.17g},{}\n", level.size, to_string(level.status));
+      if (std::ranges::find(columns, quantity.name) == columns.end()) columns.push_back(quantity.name);
+  for (const std::string& column : columns) text += "," + column;
+  text += ",size,status\n";
+  for (const ConvergenceStudy& study : series) {
+    for (std::size_t k = 0; k < study.levels.size(); ++k) {
+      const ConvergenceLevel& level = study.levels[k];
+      for (const std::string& set : study.varied) text += value_field(set) + ",";
+      text += fmt::format("{},{:.17g},{},{:.17g},{},{:.6g}", k + 1, level.h, level.points, level.step,
+                          level.evaluations, level.wall_s);
+      for (const std::string& column : columns) {
+        const auto found = std::ranges::find(study.quantities, column, &StudiedQuantity::name);
+        text += "," + (found == study.quantities.end() ? "" : number_or_nothing(found->values[k]));
+      }
+      text += fmt::format(",{:.17g},{}\n", level.size, to_string(level.status));
+    }
   }
   return text;
 }
@@ -45,7 +61,7 @@ Json numbers(const std::vector<double>& values) {
   return list;
 }
 
-std::string json(const ConvergenceStudy& study) {
+Json json(const ConvergenceStudy& study) {
   Json refined = Json::array(), levels = Json::array(), orders = Json::object(), quantities = Json::object(),
        sources = Json::array();
   for (const Refinement refinement : study.refined) refined.push_back(to_string(refinement));
@@ -74,27 +90,43 @@ std::string json(const ConvergenceStudy& study) {
   }
   for (const ErrorSource& source : study.sources)
     sources.push_back({{"name", source.name}, {"change", number(source.change)}});
-  const Json whole = {{"scene", study.scene},
-                      {"title", study.title},
-                      {"refined", refined},
-                      {"ratio", study.ratio},
-                      {"reference", study.reference},
-                      {"orders", orders},
-                      {"dominant", study.sources.empty() ? Json(nullptr) : Json(study.sources.front().name)},
-                      {"sources", sources},
-                      {"sources_of", study.source_quantity},
-                      {"levels", levels},
-                      {"quantities", quantities},
-                      {"notes", study.notes},
-                      {"versions", versions_of_libraries()}};
-  return whole.dump(1) + "\n";
+  return {{"scene", study.scene},
+          {"title", study.title},
+          {"refined", refined},
+          {"ratio", study.ratio},
+          {"reference", study.reference},
+          {"orders", orders},
+          {"dominant", study.sources.empty() ? Json(nullptr) : Json(study.sources.front().name)},
+          {"sources", sources},
+          {"sources_of", study.source_quantity},
+          {"levels", levels},
+          {"quantities", quantities},
+          {"notes", study.notes}};
 }
 
 }  // namespace
 
-void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder) {
-  write_file(folder / "converge.csv", csv(study));
-  write_file(folder / "converge.json", json(study));
+void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder) { write_studies({study}, folder); }
+
+void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder) {
+  const ConvergenceStudy& first = series.front();
+  Json whole = json(first);
+  if (!first.varied.empty()) {
+    Json all = Json::array();
+    for (const ConvergenceStudy& study : series) {
+      Json one = {{"set", study.varied}};
+      one.update(json(study));
+      all.push_back(std::move(one));
+    }
+    whole = {{"scene", first.scene},
+             {"title", first.title},
+             {"varied", keys_of(first)},
+             {"refined", whole["refined"]},
+             {"series", std::move(all)}};
+  }
+  whole["versions"] = versions_of_libraries();
+  write_file(folder / "converge.csv", csv(series));
+  write_file(folder / "converge.json", whole.dump(1) + "\n");
 }
 
 }  // namespace stillpoint

@@ -3,72 +3,52 @@
 #include <stillpoint/simulation.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
-#include <gsl/gsl_deriv.h>
 
 #include "base/stopwatch.hpp"
+#include "output/exact_error.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
 namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<std::string_view, 4> stress_fields = {"stress.xx", "stress.yy", "stress.zz", "stress.xy"};
 
-struct ExactAlongLine {
-  const Expression& u;
-  double t;
-};
-
-double displacement_at(double x, void* exact) {
-  const auto& [u, t] = *static_cast<const ExactAlongLine*>(exact);
-  return u({&x, 1}, t);
-}
-
-// ∂u/∂x of the exact solution, by central differences.
-double exact_strain(const Expression& u, double x, double t, double length) {
-  ExactAlongLine exact{u, t};
-  const gsl_function function{&displacement_at, &exact};
-  double slope = not_known, error = 0;
-  gsl_deriv_central(&function, x, 1e-4 * length, &slope, &error);
-  return slope;
-}
-
-// (Σ V (σ_h − σ)(ε_h − ε)/Σ V σ ε)^½ over the points, of a linear body on a line whose exact stress is known.
-double energy_error(const Scene& scene, Simulation& simulation) {
-  const LagrangianPhase& phase = simulation.phase();
-  if (scene.dim != 1 || !scene.exact_stress || phase.info().nonlinear || phase.info().updated_lagrangian)
-    return not_known;
-  const double t = simulation.t(), length = scene.grid.max[0] - scene.grid.min[0];
-  const PointData points = phase.point_data();
-  const ConstVec stress_field = simulation.field("stress");
-  const std::vector<double> stress(stress_field.begin(), stress_field.end());
-  const ConstVec strain = simulation.field("strain");
-  double difference = 0, exact = 0;
-  for (std::size_t p = 0; p < points.volumes.size(); ++p) {
-    const double x = points.positions[p], V = points.volumes[p];
-    const double sigma = (*scene.exact_stress)({&x, 1}, t), epsilon = exact_strain(scene.exact_u[0], x, t, length);
-    difference += V * (stress[p] - sigma) * (strain[p] - epsilon);
-    exact += V * sigma * epsilon;
-  }
-  return exact > 0 ? std::sqrt(std::max(0.0, difference) / exact) : not_known;
-}
-
-// Of "u", "u.x", "u.y" where the displacement is known, and of "stress" on a line.
+// Of "u", "u.x", "u.y" where the displacement is known, of "stress" and "stress.xx", … where the stress is.
 double exact_value(const Scene& scene, const std::string& field, ConstVec x, double t) {
   const std::size_t axis = field == "u.y" ? 1 : 0;
   const bool is_u = field == "u" || field == "u.x" || field == "u.y";
   if (is_u && axis < scene.exact_u.size()) return scene.exact_u[axis](x, t);
-  if (field == "stress" && scene.dim == 1 && scene.exact_stress) return (*scene.exact_stress)(x, t);
+  const auto component = std::ranges::find(stress_fields, field);
+  if (field == "stress" && scene.exact_stress.size() == 1) return scene.exact_stress[0](x, t);
+  if (component != stress_fields.end() && scene.exact_stress.size() == stress_fields.size())
+    return scene.exact_stress[static_cast<std::size_t>(component - stress_fields.begin())](x, t);
   return not_known;
 }
 
-void read_end(const Scene& scene, Simulation& simulation, const Summary& s, LevelRun& run) {
+// The grid's functions belong to places when the phase began: those of the start in a single phase alone.
+void read_at_places(Simulation& simulation, const CommonPlaces& places, LevelRun& run) {
+  const LagrangianPhase& phase = simulation.phase();
+  if (phase.info().updated_lagrangian) return;
+  const auto reader = phase.read_places(simulation.t(), simulation.u(), simulation.v());
+  FieldsAtPlaces fields = read_at(places, *reader, static_cast<std::size_t>(phase.info().stress_components));
+  run.u = std::move(fields.u);
+  run.stress = std::move(fields.stress);
+  run.volume = places.volume;
+}
+
+void read_end(const Scene& scene, Simulation& simulation, const Summary& s, const CommonPlaces* places, LevelRun& run) {
   if (s.error) {
     run.norms = {{"u_l2", s.error->u_rel_l2}, {"u_max", s.error->u_rel_max}};
-    if (const double energy = energy_error(scene, simulation); std::isfinite(energy))
-      run.norms.emplace_back("u_energy", energy);
+    const EnergyError energy = energy_error(scene, simulation.phase(), s.t, simulation.u());
+    if (energy.relative) run.norms.emplace_back("u_energy", *energy.relative);
+    run.no_energy = energy.why_not;
     if (s.error->stress_rel_l2) run.norms.emplace_back("stress_l2", *s.error->stress_rel_l2);
   }
   for (const auto& [name, fields] : s.probes) {
@@ -79,6 +59,7 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, Leve
           at == s.probe_positions.end() ? not_known : std::abs(value - exact_value(scene, field, at->second, s.t)));
     }
   }
+  if (places) return read_at_places(simulation, *places, run);
   const auto copy = [&](const char* name) {
     const ConstVec field = simulation.field(name);
     return std::vector<double>(field.begin(), field.end());
@@ -99,7 +80,7 @@ Scene without_files(Scene scene) {
 
 }  // namespace
 
-LevelRun run_level(const Scene& scene, const std::function<bool()>& interrupted) {
+LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::function<bool()>& interrupted) {
   const Stopwatch watch;
   LevelRun run;
   ConvergenceLevel& level = run.level;
@@ -117,7 +98,8 @@ LevelRun run_level(const Scene& scene, const std::function<bool()>& interrupted)
     level.evaluations = s.rhs_evaluations;
     run.notes = s.notes;
     run.is_there = s.exit_status == 0;
-    if (run.is_there) read_end(own, simulation, s, run);
+    level.wall_s = watch.seconds();  // what is read for the study is no part of it
+    if (run.is_there) read_end(own, simulation, s, places, run);
   } catch (const SetUpStopped& stopped) {
     level.status = stopped.status();
     level.exit_status = 3;
@@ -131,8 +113,18 @@ LevelRun run_level(const Scene& scene, const std::function<bool()>& interrupted)
     level.exit_status = 4;
     level.reason = error.what();
   }
-  level.wall_s = watch.seconds();
+  if (level.wall_s == 0) level.wall_s = watch.seconds();
   return run;
+}
+
+void check_set_up(const Scene& scene, const std::function<bool()>& interrupted) {
+  try {
+    const Simulation simulation(without_files(scene), {.threads = 1, .interrupted = interrupted});
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::exception&) {
+    // as of an interrupt, or a frequency that is not found: its level will tell
+  }
 }
 
 }  // namespace stillpoint

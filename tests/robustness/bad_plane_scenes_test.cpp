@@ -155,7 +155,9 @@ const std::vector<BadScene> kBadLoads = {
     {"two initial states", "[initial.geostatic]", "[initial]\nu = [0, 0]\n[initial.geostatic]", "41:5",
      "initial.u: does not go with initial.geostatic"},
     {"stress in the plane", "[output]", "[exact]\nstress = 1\n[output]", "44:10",
-     "exact.stress: in one dimension only"},
+     "exact.stress: expected 4 values (xx, yy, zz, xy), found 1"},
+    {"stress without u", "[output]", "[exact]\nstress = [0, 0, 0, 0]\n[output]", "44:10",
+     "exact.stress: needs exact.u beside it"},
 };
 
 const std::vector<BadScene> kBadPhasesAndOutput = {

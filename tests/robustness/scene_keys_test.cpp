@@ -33,6 +33,7 @@ std::string example_of(const KeyInfo& key, int dim) {
   if (key.kind == Kind::whole && !key.words.empty()) one = "0";
   if (key.kind == Kind::text) one = key.words.empty() ? "\"a\"" : '"' + key.words_in(dim).front() + '"';
   if (key.shape == Shape::axes) return dim == 1 ? one : fmt::format("[{}, {}]", one, one);
+  if (key.shape == Shape::components) return dim == 1 ? one : fmt::format("[{0}, {0}, {0}, {0}]", one);
   if (key.shape == Shape::list) return fmt::format("[{}]", one);
   if (key.shape == Shape::positions) return "[[0, 0], [1, 0], [0, 1]]";
   return one;

@@ -18,6 +18,17 @@ STUDY = {
     },
     "orders": {"u_l2": ORDER, "end.u": ORDER | {"low": None, "high": None, "theory": None}},
 }
+VARIED = {
+    "title": "two bases",
+    "varied": ["grid.basis"],
+    "refined": ["h"],
+    "series": [
+        STUDY | {"set": ["grid.basis=linear"]},
+        STUDY | {"set": ["grid.basis=cubic"], "orders": {"u_l2": ORDER | {"order": 4.0, "theory": 4.0}},
+                 "quantities": {"u_l2": {"values": [1e-2, 1e-3, 1e-4], "errors": [1e-2, 1e-3, 1e-4]}}},
+        STUDY | {"set": ["grid.basis=quadratic"], "orders": {}, "quantities": {}},  # it failed on all levels
+    ],
+}
 # Stands for build/release/stillpoint: leaves a study, if there is one, and ends with STATUS.
 PROGRAM = """#!/bin/bash
 printf '<%s>' "$@" >>"$CALLS"
@@ -54,6 +65,20 @@ def _(folder):
     assert abs(slope[1][1] / slope[0][1] - 4) < 1e-12 and slope[0][1] < 0.01, slope
     assert by_time.lines[0].get_xdata().tolist() == [0.1, 0.3, 1.0]
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+@claim("of varied values each has its line in both parts of the picture, with the slope of its own theory")
+def _(folder):
+    plot_converge = script_module("plot_converge")
+    plot_converge.draw(plot_converge.read(write(folder, VARIED)), folder / "a.png")
+    by_size, by_time = plot_converge.plt.gcf().axes
+    lines = {line.get_label(): line for line in by_size.lines if not line.get_label().startswith("_")}
+    assert list(lines) == ["grid.basis=linear: 2.00 (1.90 to 2.10)", "grid.basis=cubic: 4.00 (1.90 to 2.10)"], lines
+    assert by_size.get_ylabel().startswith("u_l2: error"), by_size.get_ylabel()
+    assert [list(line.get_xdata()) for line in by_time.lines] == [[0.1, 0.3, 1.0]] * 2
+    slopes = [line.get_ydata() for line in by_size.lines if line.get_label().startswith("_")]
+    assert [round(float(end[1] / end[0])) for end in slopes] == [4, 16], slopes
+    is_refused(write(folder / "none", VARIED | {"series": [VARIED["series"][2]]}), "nothing to draw")
 
 
 @claim("a convergence study that is missing, broken or without errors is refused with status 2")

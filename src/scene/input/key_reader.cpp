@@ -84,7 +84,8 @@ std::optional<std::string> read_string(const Value& value, const KeyInfo& key) {
 std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested) {
   const toml::array* const array = value.node.as_array();
   const std::size_t found = array ? array->size() : 1;
-  const std::size_t count = list ? found : static_cast<std::size_t>(value.reading.dim);
+  const bool of_plane_stress = key.of_stress && value.reading.dim == 2;
+  const std::size_t count = list ? found : of_plane_stress ? 4 : static_cast<std::size_t>(value.reading.dim);
   if (!array && (list || nested)) {
     const char* const of = nested                          ? "coordinates"
                            : key.shape == Shape::positions ? "positions"
@@ -94,8 +95,8 @@ std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& 
     return std::nullopt;
   }
   if (found != count) {
-    value.problem(fmt::format("expected {} {}{}, found {}", count, nested ? "coordinate" : "value",
-                              count == 1 ? "" : "s", found));
+    value.problem(fmt::format("expected {} {}{}{}, found {}", count, nested ? "coordinate" : "value",
+                              count == 1 ? "" : "s", of_plane_stress ? " (xx, yy, zz, xy)" : "", found));
     return std::nullopt;
   }
   if (!array) return std::vector<Value>{value};

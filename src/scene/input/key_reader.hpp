@@ -40,7 +40,7 @@ std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key);
 /// Whether the value of a key that takes a number or a word is the word; a misspelt word is reported, and counts.
 bool is_word(const Value& value, const KeyInfo& key);
 std::optional<std::string> read_string(const Value& value, const KeyInfo& key);
-/// The entries of an array: as many as there are coordinates, or any number of them (list).
+/// The entries of an array: as many as there are coordinates, or components of a stress, or any number of them (list).
 std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested);
 std::string variables_of(const KeyInfo& key, int dim);
 
@@ -109,6 +109,7 @@ Key key_of(std::string_view name, Access access, std::string_view help, const Ke
   info.shape = Unwrapped<Member>::depth > 1    ? Shape::positions
                : Unwrapped<Member>::depth == 0 ? Shape::one
                : info.list                     ? Shape::list
+               : info.of_stress                ? Shape::components
                                                : Shape::axes;
   if (Spec spec; info.fallback.empty() && !info.required) info.fallback = told_default(std::invoke(access, spec), info);
   return {std::move(info), [access, on_word](void* part, const Value& value, const KeyInfo& key) {

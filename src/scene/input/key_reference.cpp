@@ -52,6 +52,8 @@ std::string told_type(const KeyInfo& key) {
       return one;
     case Shape::axes:
       return one + ", for each coordinate";
+    case Shape::components:
+      return one + ", for each component";
     case Shape::list:
       return fmt::format("array of {}s", one);
     case Shape::positions:
@@ -95,8 +97,9 @@ Json schema_of_one(const KeyInfo& key) {
 Json schema_of(const KeyInfo& key) {
   const Json one = schema_of_one(key);
   const auto array = [](const Json& items) { return Json{{"type", "array"}, {"items", items}}; };
+  const bool may_be_one = key.shape == Shape::axes || key.shape == Shape::components;
   Json schema = key.shape == Shape::one    ? one
-                : key.shape == Shape::axes ? Json{{"anyOf", {one, array(one)}}}
+                : may_be_one               ? Json{{"anyOf", {one, array(one)}}}
                 : key.shape == Shape::list ? array(one)
                                            : array(array(one));
   schema["description"] =

@@ -36,7 +36,8 @@ std::vector<Word> names_of(const auto& rows) {
 }
 
 enum class Kind { number, whole, formula, text };
-enum class Shape { one, axes, list, positions };  // axes: one value for each coordinate, if there is one a plain value
+/// axes: one value for each coordinate, if there is one a plain value; components: likewise for those of a stress.
+enum class Shape { one, axes, components, list, positions };
 
 struct KeyInfo {
   Range range{};                 // of a number
@@ -45,7 +46,8 @@ struct KeyInfo {
   std::string_view variables{};  // of a formula; x stands for all coordinates
   std::string fallback{};        // the default in words; empty: that of the member of Scene
   bool required = false;
-  bool list = false;  // any number of values, not one for each coordinate
+  bool list = false;       // any number of values, not one for each coordinate
+  bool of_stress = false;  // one value for each component of a stress: xx, or xx, yy, zz, xy
   bool may_be_empty = false;
   Dims dims = kAnyDim;
   std::string_view listed_by{};  // the command that lists the words, if they are many

@@ -117,7 +117,9 @@ void add_states(Tables& tables) {
 
   tables.add({"exact", "the exact solution, if it is known: the run reports its error"}, std::identity())
       .key("u", &Scene::exact_u, "displacement", {.unit = "m", .variables = "xt"})
-      .key("stress", &Scene::exact_stress, "beside u, with dim = 1", {.unit = "Pa", .variables = "xt"});
+      .key("stress", &Scene::exact_stress,
+           "Cauchy's, beside u; with dim = 2 the components [xx, yy, zz, xy], axisymmetric [rr, zz, theta-theta, rz]",
+           {.unit = "Pa", .variables = "xt", .of_stress = true});
 }
 
 void add_method(Tables& tables, const Catalogue& catalogue) {

@@ -1,0 +1,32 @@
+// Places at which levels of different points are compared.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <vector>
+
+#include "space/phase/place_reader.hpp"
+
+namespace stillpoint {
+
+/// In the body at the start.
+struct CommonPlaces {
+  std::vector<double> x;       // (places × dim) [m]
+  std::vector<double> volume;  // what each stands for [m³]
+  std::size_t size() const { return volume.size(); }
+};
+
+/// Two along each axis of every cell of the scene's grid, at Gauss–Legendre positions: in the cells of a coarser level
+/// they lie at many positions, and nowhere on a node, where a displacement may be far better than elsewhere. Of a body
+/// from a file its points.
+CommonPlaces common_places(const Scene& scene);
+/// How many that are at most.
+double count_of_places(const Scene& scene);
+
+/// u and stress there, (places × dim) and (places × components); NaN where they cannot be read.
+struct FieldsAtPlaces {
+  std::vector<double> u, stress;
+};
+FieldsAtPlaces read_at(const CommonPlaces& places, const PlaceReader& reader, std::size_t stress_components);
+
+}  // namespace stillpoint
