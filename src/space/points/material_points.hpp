@@ -58,9 +58,9 @@ struct QuadratureReport {
   /// Polynomials up to this power in each coordinate are integrated exactly over areas, where a cell has its whole
   /// pattern of points; empty: no cell has one, or it is not known, as of points from a file.
   std::optional<int> degree;
-  bool equal_volumes = false;     // whether the body that has this degree takes equal volumes
-  /// Cells that a polygon's border cuts, by the highest total degree of the polynomials that are integrated exactly over
-  /// the area inside: of degree 0 border_cells[0] of them, …
+  bool equal_volumes = false;  // whether the body that has this degree takes equal volumes
+  /// Cells that a polygon's border cuts, border_cells[d] of them such that polynomials up to total degree d are
+  /// integrated exactly over the area inside.
   std::array<int, highest_cut_cell_degree + 1> border_cells{};
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
@@ -82,8 +82,8 @@ struct PlacedBody {
 /// - A box: in each cell's part of it, points_per_cell of them along each coordinate (uniform, at Gauss-Legendre
 ///   positions, seeded random, jittered), with volumes equal or fitted to moments.
 /// - A polygon: cells that lie inside are filled in the same way. A cell that its border cuts keeps those of the cell's
-///   points that lie inside, or else has one at the centroid of the part inside; their volumes share its area equally or
-///   are fitted to its moments. With Gauss points and fitted volumes it has Gauss points of the part inside, no more
+///   points that lie inside, or else has one at the centroid of the part inside; their volumes share its area equally
+///   or are fitted to its moments. With Gauss points and fitted volumes it has Gauss points of the part inside, no more
 ///   than a whole cell has. Parts below 1e-6 of a cell are left out.
 /// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError if it is wrong.
 /// A volume is an area times the thickness, in an axisymmetric body times 2π r, all the way round. density [kg/m³].
