@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/memory_room.hpp"
 #include "command/commands.hpp"
@@ -15,6 +18,15 @@ namespace stillpoint::command {
 namespace {
 
 constexpr std::array basis_names{"linear B-spline", "quadratic B-spline", "cubic B-spline", "cubic Hermite"};
+
+void print_cut_cells(const QuadratureReport& quadrature) {
+  std::vector<std::string> groups;
+  for (std::size_t degree = 0; degree < quadrature.border_cells.size(); ++degree) {
+    if (const int cells = quadrature.border_cells[degree]; cells > 0)
+      groups.push_back(fmt::format("degree {} in {}", degree, cells));
+  }
+  if (!groups.empty()) fmt::print("  cut cells        {}\n", fmt::join(groups, ", "));
+}
 
 void print_memory(const MemoryNeed& need) {
   const auto row = [](const std::string& what, double bytes) {
@@ -47,6 +59,7 @@ int check(const SceneArguments& arguments) {
   const std::optional<int> degree = phase.discretisation().quadrature.degree;
   fmt::print("  points           {}, mass {:.6g} kg{}\n", phase.points(), phase.info().total_mass,
              degree ? fmt::format("; they integrate polynomials up to degree {}", *degree) : "");
+  print_cut_cells(phase.discretisation().quadrature);
   fmt::print("  phases           {}\n",
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),

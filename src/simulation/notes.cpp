@@ -95,11 +95,16 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
         "the points integrate degree {}, this basis needs {} for its full order: {}", *quadrature.degree, needed,
         quadrature.equal_volumes ? "take consistent volumes" : "take more points per cell or Gauss points"));
   }
-  if (quadrature.border_cells > 0 && needed > 0) {
-    notes.push_back(
-        fmt::format("in {} cells that a polygon's border cuts the points share the area equally and integrate degree "
-                    "0, where this basis needs {} for its full order: borders along grid lines cut none",
-                    quadrature.border_cells, needed));
+  if (const int below = quadrature.border_cells_below(needed); below > 0) {
+    int along = 1;  // fewest for as many points as a polynomial of this degree has coefficients
+    while (2 * along * along < (needed + 1) * (needed + 2)) ++along;
+    const bool equal = std::ranges::any_of(
+        scene.bodies, [](const BodySpec& body) { return !body.polygon.empty() && body.volumes == VolumeRule::equal; });
+    notes.push_back(fmt::format(
+        "in {} of the {} cells that a polygon's border cuts the points integrate less than degree {}, which this basis "
+        "needs for its full order: take {}body.placement = \"gauss\" with {} points per cell",
+        below, quadrature.border_cells_below(highest_cut_cell_degree + 1), needed,
+        equal ? "consistent volumes and " : "", along * along));
   }
   return notes;
 }

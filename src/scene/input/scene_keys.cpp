@@ -255,10 +255,13 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("points_per_cell", &BodySpec::points_per_cell, "along each coordinate; a plain number counts all in a cell",
            {.range = from(1, 10'000), .fallback = "2"})
       .read_by(read_points_per_cell)
-      .key("placement", &BodySpec::placement, "of the points in a cell", {.words = {"uniform", "gauss", "random"}})
+      .key("placement", &BodySpec::placement,
+           "of the points in a cell; gauss: of one that a polygon's border cuts, in the part inside",
+           {.words = {"uniform", "gauss", "random"}})
       .key("jitter", &BodySpec::jitter, "each point is moved by up to this share of half its spacing",
            {.range = kShare})
-      .key("volumes", &BodySpec::volumes, "equal, or fitted to the moments of each cell",
+      .key("volumes", &BodySpec::volumes,
+           "equal, or fitted to the moments of each cell or of its part inside a polygon",
            {.words = {"equal", "consistent"}})
       .key("seed", &BodySpec::seed, "of random points and of jitter", {.range = kNotNegative});
   for (TableInfo& material : material_tables(catalogue)) tables.all.push_back(std::move(material));

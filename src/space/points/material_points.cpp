@@ -10,6 +10,7 @@
 #include "base/stop_request.hpp"
 #include "scene/point_file.hpp"
 #include "space/points/cell_positions.hpp"
+#include "space/points/cut_cell_rule.hpp"
 #include "space/points/moment_fit.hpp"
 
 namespace stillpoint {
@@ -157,19 +158,36 @@ class Filling {
     if (share > 1 - kRounding) return fill(number, cell, cell);
     if (share < kSliver) return;
 
-    const Eigen::MatrixXd& xi = positions_.next();
-    std::vector<Point<Dim>> inside;
-    for (Eigen::Index p = 0; p < xi.cols(); ++p)
-      if (contains(local, {0.5 * (1 + xi(0, p)), 0.5 * (1 + xi(1, p))})) inside.push_back(cell.position(xi, p));
-    if (inside.empty()) {
-      const Point<2> c = centroid(part);
-      const Eigen::Vector2d at(2 * std::clamp(c[0], 0.0, 1.0) - 1, 2 * std::clamp(c[1], 0.0, 1.0) - 1);
-      inside.push_back(cell.position(at, 0));
-    }
-    quadrature_.add({.degree = {}, .border_cells = 1, .smallest_share = extent_of(part)});
+    const CutCellRule cut = rule_of_cut_cell(local, part);
+    QuadratureReport of_cell{.degree = {}, .smallest_share = extent_of(part)};
+    of_cell.border_cells[static_cast<std::size_t>(cut.degree)] = 1;
+    quadrature_.add(of_cell);
     covered_.emplace_back(number, share);
     points_.begin_cell(number);
-    for (const auto& x : inside) points_.add(x, share * cell.size() / static_cast<double>(inside.size()));
+    for (std::size_t p = 0; p < cut.points.x.size(); ++p) {
+      Point<Dim> x;
+      for (std::size_t d = 0; d < 2; ++d) {
+        // a point that lies on a line of the grid but for rounding stays in its cell
+        const double at = std::clamp(cut.points.x[p][d], kRounding, 1 - kRounding);
+        x[d] = cell.low[d] + at * (cell.high[d] - cell.low[d]);
+      }
+      points_.add(x, cut.points.share[p] * share * cell.size());
+    }
+  }
+
+  /// polygon and part: in a cell that is the unit square.
+  CutCellRule rule_of_cut_cell(const Polygon& polygon, const Polygon& part) {
+    const Eigen::MatrixXd& xi = positions_.next();
+    const bool fitted = body_.volumes == VolumeRule::consistent;
+    if (fitted && body_.placement == Placement::gauss && !positions_.vary())
+      return gauss_points(part, static_cast<std::size_t>(xi.cols()));
+    std::vector<PlanePoint> inside;
+    for (Eigen::Index p = 0; p < xi.cols(); ++p) {
+      const PlanePoint x{0.5 * (1 + xi(0, p)), 0.5 * (1 + xi(1, p))};
+      if (contains(polygon, x)) inside.push_back(x);
+    }
+    if (inside.empty()) inside.push_back(centroid(part));
+    return fitted ? fitted_shares(part, inside) : equal_shares(part, inside);
   }
 
   /// The smaller of a part's two extents.
@@ -230,9 +248,13 @@ void QuadratureReport::add(const QuadratureReport& other) {
     degree = other.degree;
     equal_volumes = other.equal_volumes;
   }
-  border_cells += other.border_cells;
+  for (std::size_t d = 0; d < border_cells.size(); ++d) border_cells[d] += other.border_cells[d];
   smallest_share = std::min(smallest_share, other.smallest_share);
   cells_limited_by_sign += other.cells_limited_by_sign;
+}
+
+int QuadratureReport::border_cells_below(int needed) const {
+  return std::accumulate(border_cells.begin(), border_cells.begin() + needed, 0);
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 
 #include "space/grid/cut_cells.hpp"
 #include "space/grid/grid.hpp"
+#include "space/points/cut_cell_rule.hpp"
 
 namespace stillpoint {
 
@@ -57,13 +58,17 @@ struct QuadratureReport {
   /// Polynomials up to this power in each coordinate are integrated exactly over areas, where a cell has its whole
   /// pattern of points; empty: no cell has one, or it is not known, as of points from a file.
   std::optional<int> degree;
-  bool equal_volumes = false;     // whether the body that has this degree takes equal volumes
-  int border_cells = 0;           // cut by a polygon's border: the volumes share the area, and integrate degree 0
+  bool equal_volumes = false;  // whether the body that has this degree takes equal volumes
+  /// Cells that a polygon's border cuts, border_cells[d] of them such that polynomials up to total degree d are
+  /// integrated exactly over the area inside.
+  std::array<int, highest_cut_cell_degree + 1> border_cells{};
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
   int slivers = 0, joined = 0;    // cells that the body hardly reaches, and those of them that have a host
 
   void add(const QuadratureReport& other);
+  /// Those that integrate less than a total degree, at most highest_cut_cell_degree + 1.
+  int border_cells_below(int needed) const;
 };
 
 template <int Dim>
@@ -77,8 +82,9 @@ struct PlacedBody {
 /// - A box: in each cell's part of it, points_per_cell of them along each coordinate (uniform, at Gauss-Legendre
 ///   positions, seeded random, jittered), with volumes equal or fitted to moments.
 /// - A polygon: cells that lie inside are filled in the same way. A cell that its border cuts keeps those of the cell's
-///   points that lie inside, or else has one at the centroid of the part inside; they share its area equally. Parts
-///   below 1e-6 of a cell are left out.
+///   points that lie inside, or else has one at the centroid of the part inside; their volumes share its area equally
+///   or are fitted to its moments. With Gauss points and fitted volumes it has Gauss points of the part inside, no more
+///   than a whole cell has. Parts below 1e-6 of a cell are left out.
 /// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError if it is wrong.
 /// A volume is an area times the thickness, in an axisymmetric body times 2π r, all the way round. density [kg/m³].
 /// domains: whether points stand for domains, which uniform ones in a box have side by side; with equal volumes, which

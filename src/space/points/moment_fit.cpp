@@ -20,33 +20,6 @@ using Eigen::VectorXd;
 constexpr double rounding = 1e-11;  // of moments of order one
 constexpr int highest_degree = 9;   // past what any basis here can use
 
-// The weights nearest to `target` that satisfy A w = b and, if possible, w ≥ 0.
-struct Constrained {
-  std::optional<VectorXd> weights;
-  bool consistent = false;  // A w = b has solutions of any sign
-};
-
-Constrained nearest_nonnegative(const MatrixXd& A, const VectorXd& b, const VectorXd& target) {
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(A);
-  const VectorXd w = target + decomposition.solve(b - A * target);
-  if ((A * w - b).lpNorm<Eigen::Infinity>() > rounding) return {};
-  if (w.minCoeff() >= -rounding) return {w.cwiseMax(0), true};
-
-  // w + Z z ≥ 0 with the smallest z, Z an orthonormal basis of the null space of A: problem LDP, solved through NNLS
-  // with E = [Zᵀ; −wᵀ], f = e_last; no residual means that no such z exists.
-  const Index n = A.cols(), rank = decomposition.rank();
-  if (rank == n) return {std::nullopt, true};
-  const MatrixXd null_space =
-      Eigen::ColPivHouseholderQR<MatrixXd>(A.transpose()).householderQ() * MatrixXd::Identity(n, n).rightCols(n - rank);
-  MatrixXd E(n - rank + 1, n);
-  E << null_space.transpose(), -w.transpose();
-  const VectorXd f = VectorXd::Unit(n - rank + 1, n - rank);
-  const VectorXd residual = E * solve_nnls(E, f) - f;
-  if (residual.norm() < 1e-9) return {std::nullopt, true};
-  const VectorXd z = -residual.head(n - rank) / residual(n - rank);
-  return {(w + null_space * z).cwiseMax(0), true};
-}
-
 // Powers (k_1, ..., k_Dim) by (largest, total): the groups in which degrees are tried.
 std::map<std::pair<int, int>, std::vector<std::vector<int>>> power_groups(int dim, int degree) {
   std::map<std::pair<int, int>, std::vector<std::vector<int>>> groups;
@@ -91,6 +64,33 @@ class Legendre {
 };
 
 }  // namespace
+
+ConstrainedFit nearest_nonnegative(const MatrixXd& A, const VectorXd& b, const VectorXd& target) {
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(A);
+  const VectorXd w = target + decomposition.solve(b - A * target);
+  if ((A * w - b).lpNorm<Eigen::Infinity>() > rounding) return {};
+  if (w.minCoeff() >= -rounding) return {w.cwiseMax(0), true};
+
+  // w + Z z ≥ 0 with the smallest z, Z an orthonormal basis of the null space of A: problem LDP, solved through NNLS
+  // with E = [Zᵀ; −wᵀ], f = e_last; no residual means that no such z exists.
+  const Index n = A.cols(), rank = decomposition.rank();
+  if (rank == n) return {std::nullopt, true};
+  const MatrixXd null_space =
+      Eigen::ColPivHouseholderQR<MatrixXd>(A.transpose()).householderQ() * MatrixXd::Identity(n, n).rightCols(n - rank);
+  MatrixXd E(n - rank + 1, n);
+  E << null_space.transpose(), -w.transpose();
+  const VectorXd f = VectorXd::Unit(n - rank + 1, n - rank);
+  const VectorXd residual = E * solve_nnls(E, f) - f;
+  if (residual.norm() < 1e-9) return {std::nullopt, true};
+  const VectorXd z = -residual.head(n - rank) / residual(n - rank);
+  return {(w + null_space * z).cwiseMax(0), true};
+}
+
+MatrixXd legendre_products(const MatrixXd& xi, int degree) {
+  std::vector<std::vector<int>> powers;
+  for (int k = 0; k <= degree; ++k) powers.push_back({k, degree - k});
+  return Legendre(xi).products(powers);
+}
 
 VectorXd solve_nnls(const MatrixXd& E, const VectorXd& f) {
   const Index n = E.cols();

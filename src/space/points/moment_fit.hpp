@@ -1,6 +1,8 @@
 // Consistent volumes: weights of the material points of one cell that integrate polynomials exactly.
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 namespace stillpoint {
@@ -20,6 +22,19 @@ MomentFit fit_moments(const Eigen::MatrixXd& xi);
 
 /// The weights 1/n with the degree that they happen to integrate.
 MomentFit equal_weights(const Eigen::MatrixXd& xi);
+
+/// The weights nearest to some that satisfy A w = b and, if possible, w ≥ 0.
+struct ConstrainedFit {
+  std::optional<Eigen::VectorXd> weights;
+  bool consistent = false;  // A w = b has solutions of any sign
+};
+
+/// min ‖w − target‖ with A w = b, w ≥ 0. Rows of A of order one.
+ConstrainedFit nearest_nonnegative(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::VectorXd& target);
+
+/// P_k(ξ_1) P_{degree−k}(ξ_2), k = 0 … degree: with those of lower degrees, a basis of the polynomials of this total
+/// degree. xi: (2 × n); returns (degree + 1 × n).
+Eigen::MatrixXd legendre_products(const Eigen::MatrixXd& xi, int degree);
 
 /// min ‖E x − f‖ with x ≥ 0 [Lawson and Hanson 1974, algorithm NNLS (23.10)].
 Eigen::VectorXd solve_nnls(const Eigen::MatrixXd& E, const Eigen::VectorXd& f);

@@ -93,6 +93,10 @@ TEST_CASE("what the points of a polygon integrate is said by where its border cu
   CHECK_FALSE(says(on_lines, "border"));
   CHECK_FALSE(says(on_lines, "integrate"));
   CHECK_FALSE(says(of_polygon("[[0, 0], [3, 0], [2, 2], [0, 2]]", {"grid.basis=linear"}), "border"));
+  CHECK(says(slanted, "take body.placement = \"gauss\" with 9 points per cell"));
+  CHECK_FALSE(says(of_polygon("[[0, 0], [3, 0], [2, 2], [0, 2]]", {"body.placement=gauss"}), "border"));
+  CHECK(says(of_polygon("[[0, 0], [3, 0], [2, 2], [0, 2]]", {"body.placement=gauss", "body.volumes=equal"}),
+             "take consistent volumes and body.placement"));
 }
 
 TEST_CASE("equal volumes are blamed where they integrate too little, and only there") {

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "base/polygon.hpp"
 #include "largest.hpp"
 #include "temporary_folder.hpp"
 
@@ -146,10 +147,21 @@ TEST_CASE("a polygon that is a box on grid lines is filled like the box") {
 
 TEST_CASE("a cut cell keeps its points inside, or one at the centroid of its part, and slivers have none") {
   // Cells of 1/2 × 2/3. The first has three of its four points left of the slant, which leaves a corner of the second.
-  const auto slanted = place(polygon({{0, 0}, {0.5, 0}, {0.5, 0.2}, {0.1, 2.0 / 3}, {0, 2.0 / 3}}));
-  REQUIRE(slanted.size() == 3);
+  BodySpec body = polygon({{0, 0}, {0.5, 0}, {0.5, 0.2}, {0.1, 2.0 / 3}, {0, 2.0 / 3}});
+  const auto fitted = place(body);
+  body.volumes = VolumeRule::equal;
+  const auto equal = place(body);
+  REQUIRE(equal.size() == 3);
+  REQUIRE(fitted.size() == 3);
   const double cut = 0.5 * 0.4 * (2.0 / 3 - 0.2);
-  for (std::size_t p = 0; p < 3; ++p) CHECK(slanted.volume[p] == Approx((1.0 / 3 - cut) / 3));
+  for (std::size_t p = 0; p < 3; ++p) CHECK(equal.volume[p] == Approx((1.0 / 3 - cut) / 3));
+  // Three points that are not in line have the area and its centre in one way.
+  for (std::size_t d = 0; d < 2; ++d) {
+    const double away = d == 0 ? 0.5 - 0.4 / 3 : 2.0 / 3 - (2.0 / 3 - 0.2) / 3;  // centroid of the corner cut off
+    double moment = 0;
+    for (std::size_t p = 0; p < 3; ++p) moment += fitted.volume[p] * fitted.x[d][p];
+    CHECK(moment == Approx(1.0 / 3 * (d == 0 ? 0.25 : 1.0 / 3) - cut * away).epsilon(1e-12));
+  }
 
   const auto corner = place(polygon({{0, 0}, {0.06, 0}, {0, 0.06}}));
   REQUIRE(corner.size() == 1);
@@ -160,6 +172,46 @@ TEST_CASE("a cut cell keeps its points inside, or one at the centroid of its par
   // The second cell's share is 1e-8.
   const auto sliver = place(polygon({{0, 0}, {0.5 + 1e-4, 0}, {0.5, 1e-4}, {0.5, 2.0 / 3}, {0, 2.0 / 3}}));
   CHECK(sliver.size() == 4);
+}
+
+TEST_CASE("a polygon's cut cells are reported by the degree that they integrate, and Gauss points raise it") {
+  BodySpec body = polygon({{0.3, 0.1}, {3.7, 0.4}, {2.1, 1.9}});
+  const auto cells_below = [&](int degree) {
+    return place_body<2>(body, kGrid, 1, StressState::plane_strain).quadrature.border_cells_below(degree);
+  };
+  body.points_per_cell = {4, 4};
+  body.volumes = VolumeRule::equal;
+  const int cut = cells_below(highest_cut_cell_degree + 1), equal = cells_below(1);
+  int crossed = 0;  // by the triangle's border
+  for (int number = 0; number < kGrid.cells(); ++number) {
+    const auto [i, j] = kGrid.cell_at(number);
+    const double x = 0.5 * i, y = 2.0 / 3 * j, w = 0.5, h = 2.0 / 3;
+    const double inside =
+        overlap_area({{0.3, 0.1}, {3.7, 0.4}, {2.1, 1.9}}, {{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}});
+    crossed += inside > 1e-9 && inside < w * h - 1e-9 ? 1 : 0;
+  }
+  CHECK(cut == crossed);
+  CHECK(equal > cut / 2);
+  body.volumes = VolumeRule::consistent;
+  CHECK(cells_below(1) < equal);
+  CHECK(cells_below(highest_cut_cell_degree + 1) == cut);
+  body.placement = Placement::gauss;
+  CHECK(cells_below(4) == 0);
+  body.points_per_cell = {3, 3};
+  CHECK(cells_below(2) == 0);
+  CHECK(cells_below(4) > 0);
+  // Moments of the whole body, in its cells of both kinds.
+  const auto points = place(body);
+  double xy = 0;
+  for (std::size_t p = 0; p < points.size(); ++p) xy += points.volume[p] * points.x[0][p] * points.x[1][p];
+  const auto& c = body.polygon;
+  double twice_area = 0, sum_x = 0, sum_y = 0, sum_xy = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto &a = c[k], &b = c[(k + 1) % 3];
+    twice_area += a[0] * b[1] - b[0] * a[1];
+    sum_x += a[0], sum_y += a[1], sum_xy += a[0] * a[1];
+  }
+  CHECK(xy == Approx(twice_area / 24 * (sum_x * sum_y + sum_xy)).epsilon(1e-12));
 }
 
 TEST_CASE("jitter moves every point by at most its share of half the spacing, so that each stays in its cell") {
@@ -216,9 +268,11 @@ TEST_CASE("the points of a full circle sum to the exact volume of a cylinder and
     CHECK(points.volume[2] / points.volume[0] == Approx(points.position(2)[0] / points.position(0)[0]));
     CHECK(points.mass[0] == Approx(5 * points.volume[0]));
   }
-  // Of a polygon's cut cells only the area is exact: a cone, to the error of the midpoint rule.
-  CHECK(volume_of(place(polygon({{0, 0}, {4, 0}, {0, 2}}), StressState::axisymmetric)) ==
-        Approx(pi * 16 * 2 / 3).epsilon(0.03));
+  // A cone: by the pattern's points that lie inside to the error of the midpoint rule, by Gauss points exactly.
+  BodySpec cone = polygon({{0, 0}, {4, 0}, {0, 2}});
+  CHECK(volume_of(place(cone, StressState::axisymmetric)) == Approx(pi * 16 * 2 / 3).epsilon(0.03));
+  cone.placement = Placement::gauss;
+  CHECK(volume_of(place(cone, StressState::axisymmetric)) == Approx(pi * 16 * 2 / 3).epsilon(1e-12));
 }
 
 TEST_CASE("points written to a file and read back are the same to the bit, whatever the order of lines and columns") {
