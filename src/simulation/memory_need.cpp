@@ -23,6 +23,7 @@ namespace {
 constexpr double real = sizeof(double);
 constexpr double of_entry = sizeof(double) + sizeof(int);  // of a sparse matrix
 
+bool averages_dilatation(const Scene& scene) { return scene.dim == 2 && scene.phase.dilatation == Dilatation::cells; }
 bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
 
 // --- the points ------------------------------------------------------------------------------------------------------
@@ -32,6 +33,8 @@ double of_law(const Scene& scene, const MaterialSpec& material) {
   const auto bytes = [&](const auto& made) {
     double sum = 0;
     for (const PointArray& array : made->arrays()) sum += array.bytes_per_point;
+    // What a tangent of averaged cells has no use for.
+    if (averages_dilatation(scene)) sum += static_cast<double>(made->info().history_size) * real;
     return sum;
   };
   switch (kinematics(scene.state)) {
@@ -64,7 +67,8 @@ double bytes_per_point(const Scene& scene, const BodySize& size) {
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     laws += size.body_points[k] / size.points * of_law(scene, scene.materials.at(scene.bodies[k].material));
   const double of_any = (scene.dim + 2) * real + sizeof(int);  // position, mass, volume; number
-  return of_any + of_weights(scene) + of_motion(scene) + laws;
+  const double of_shares = averages_dilatation(scene) ? real : 0;
+  return of_any + of_weights(scene) + of_shares + of_motion(scene) + laws;
 }
 
 // --- the unknowns ----------------------------------------------------------------------------------------------------

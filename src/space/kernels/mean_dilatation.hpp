@@ -75,11 +75,11 @@ requires(dimensions(K) == 2) class MeanDilatation {
       // H̄(u) − H̄(u_before)
       alignas(64) Rows before;
       for_rows(block, [&](int c, std::size_t q) { before[c][q] = block.H[c][q] - block.dH[c][q]; });
-      average(block, before);
-      average(block, block.H);
+      average<false>(block, before);
+      average<true>(block, block.H);
       for_rows(block, [&](int c, std::size_t q) { block.dH[c][q] = block.H[c][q] - before[c][q]; });
     } else {
-      average(block, block.H);
+      average<true>(block, block.H);
     }
   }
 
@@ -147,7 +147,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
 
  private:
-  // H becomes H̄. What is kept of it is, at small strain, that of J = J̄ = s = 1.
+  // H becomes H̄. What is kept of it, if Keeps, is at small strain that of J = J̄ = s = 1.
+  template <bool Keeps>
   [[gnu::always_inline]] void average(const Block& block, Rows& H) {
     const std::size_t count = block.count;
     if (finite_) {
@@ -159,11 +160,13 @@ requires(dimensions(K) == 2) class MeanDilatation {
       spread_means(block, J_, mean_);
 #pragma omp simd
       for (std::size_t q = 0; q < count; ++q) {
-        inverse_J_[q] = 1 / J_[q];
-        inverse_mean_[q] = 1 / mean_[q];
-        const double ratio = mean_[q] * inverse_J_[q];
+        const double inverse_J = 1 / J_[q], ratio = mean_[q] * inverse_J;
         s_[q] = d == 3 ? std::cbrt(ratio) : std::sqrt(ratio);
-        inverse_s_[q] = 1 / s_[q];
+        if constexpr (Keeps) {
+          inverse_J_[q] = inverse_J;
+          inverse_mean_[q] = 1 / mean_[q];
+          inverse_s_[q] = d == 3 ? 1 / s_[q] : s_[q] * J_[q] * inverse_mean_[q];
+        }
         unroll<components>([&](auto c) __attribute__((always_inline)) {
           constexpr double one = on_diagonal[c] ? 1 : 0;
           H[c][q] = s_[q] * (one + H[c][q]) - one;

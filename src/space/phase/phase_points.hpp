@@ -202,7 +202,12 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
   std::vector<PointArray> arrays = {
       {"position", Dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
   std::ranges::copy(PointWeights<B, K>::arrays(), std::back_inserter(arrays));
-  if (averages_dilatation()) arrays.push_back({"share of the cell's volume", real});
+  if (averages_dilatation()) {
+    arrays.push_back({"share of the cell's volume", real});
+    double scratch = 0;
+    for (const std::vector<double>& history : scratch_history_) scratch += static_cast<double>(history.size());
+    if (scratch > 0) arrays.push_back({"history, of tangents", scratch * real / static_cast<double>(points())});
+  }
   if (updated_lagrangian()) {
     arrays.push_back({"velocity", Dim * real});
     arrays.push_back({"position at the start", Dim * real});
