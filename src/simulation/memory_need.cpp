@@ -173,7 +173,8 @@ MemoryNeed memory_need(const Scene& scene) {
   const bool factor = factorises(scene, size), consistent = scene.mass.kind == MassKind::consistent;
   if (factor || consistent || chooses_mass) add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
   if (consistent)
-    add("mass matrix and its factor", (of_matrix(scene, size) + of_factor(scene, size)) / scene.dim, "grid.cells");
+    // As it was assembled, and as it is factorised.
+    add("mass matrix and its factor", (2 * of_matrix(scene, size) + of_factor(scene, size)) / scene.dim, "grid.cells");
   if (factor) {
     add("stiffness matrix", (is_nonlinear(scene) ? 4 : 2) * of_matrix(scene, size), "grid.cells");
     add("factor of the stiffness", of_factor(scene, size), "grid.cells");

@@ -48,15 +48,6 @@ Resultant resultant(const Scene& scene) {
   return sum;
 }
 
-std::string message(const std::vector<std::string>& overrides) {
-  try {
-    scenes::load("block", overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("a traction on an oblique side of a polygon adds up to stress times area, about its middle") {
@@ -116,18 +107,19 @@ TEST_CASE("in phases a line is carried with all of its force and moment, on poly
 
 TEST_CASE("a line that no straight side holds, or two bodies, is refused at its key") {
   const auto on = [](const std::string& line) {
-    return message(triangle({"traction=[{line=" + line + ", pressure=1}]"}));
+    return scenes::refusal("block", triangle({"traction=[{line=" + line + ", pressure=1}]"}));
   };
   CHECK_THAT(on("[[4, 0], [0, 3], [0, 0]]"), Contains("traction[0].line") && Contains("two positions"));
   CHECK_THAT(on("[[4, 0], [4, 0]]"), Contains("traction[0].line") && Contains("the same"));
   CHECK_THAT(on("[[4, 0], [0, 0.1]]"), Contains("traction[0].line") && Contains("no straight side"));
   CHECK_THAT(on("[[1, 0], [0, 1]]"), Contains("no corner between them"));
-  CHECK_THAT(message(triangle({"traction=[{pressure=1}]"})), Contains("face") && Contains("line"));
-  CHECK_THAT(message(triangle({"traction=[{face='top', pressure=1}]"})), Contains("is a polygon") && Contains("line"));
+  CHECK_THAT(scenes::refusal("block", triangle({"traction=[{pressure=1}]"})), Contains("face") && Contains("line"));
+  CHECK_THAT(scenes::refusal("block", triangle({"traction=[{face='top', pressure=1}]"})),
+             Contains("is a polygon") && Contains("line"));
   auto touching = in_room({"traction=[{line=[[0.2, 0.5], [0.8, 0.5]], pressure=2}]"});
   std::erase_if(touching, [](const std::string& setting) { return setting.starts_with("body."); });
   touching.insert(
       touching.begin(),
       "body=[{min=[0, 0], max=[1, 0.5], material='rubber'}, {min=[0, 0.5], max=[1, 1], material='rubber'}]");
-  CHECK_THAT(message(touching), Contains("traction[0].line") && Contains("bodies 1 and 2 touch"));
+  CHECK_THAT(scenes::refusal("block", touching), Contains("traction[0].line") && Contains("bodies 1 and 2 touch"));
 }
