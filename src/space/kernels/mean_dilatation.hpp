@@ -87,13 +87,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
   void transform_stress(Block& block) {
     pressures(block);
     const std::size_t count = block.count;
-    if (finite_) {
 #pragma omp simd
-      for (std::size_t q = 0; q < count; ++q) add_cofactor(block, q, s_[q], push_[q]);
-    } else {
-#pragma omp simd
-      for (std::size_t q = 0; q < count; ++q) add_identity(block, q, push_[q]);
-    }
+    for (std::size_t q = 0; q < count; ++q) add_cofactor(block, q, s_[q], push_[q]);  // at small strain cof f = I
   }
 
   /// The same, keeping what a derivative needs of V P̄; block.VP is left as it is.
