@@ -35,20 +35,20 @@ double contracted(std::span<const double> sigma) {
   return sigma.size() == 1 ? sum : sum + sigma[3] * sigma[3];
 }
 
-/// visit(p, V_p, σ_h − σ, σ) for every material point.
+/// visit(p, σ_h − σ, σ) for every material point.
 template <class Visit>
-void for_stresses(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u, const Visit& visit) {
+void for_stresses(const Scene& scene, const LagrangianPhase& phase, const PointData& data, double t, ConstVec u,
+                  const Visit& visit) {
   const auto dim = static_cast<std::size_t>(phase.dim());
   const auto components = static_cast<std::size_t>(phase.info().stress_components);
   std::vector<double> stress(components * phase.points()), exact(components), difference(components);
   phase.point_stress(t, u, stress);
-  const PointData data = phase.point_data();
   for (std::size_t p = 0; p < phase.points(); ++p) {
     for (std::size_t i = 0; i < components; ++i) {
       exact[i] = scene.exact_stress[i]({data.positions.data() + dim * p, dim}, t);
       difference[i] = stress[components * p + i] - exact[i];
     }
-    visit(p, data, difference, exact);
+    visit(p, difference, exact);
   }
 }
 
@@ -82,9 +82,9 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
   ExactError error{.u_rel_l2 = in_u.rel_l2(), .u_rel_max = in_u.max_difference / in_u.max_exact, .stress_rel_l2 = {}};
   if (scene.exact_stress.empty()) return error;
   double difference = 0, exact = 0;
-  for_stresses(scene, phase, t, u, [&](std::size_t p, const PointData& points, ConstVec off, ConstVec sigma) {
-    difference += points.volumes[p] * contracted(off);
-    exact += points.volumes[p] * contracted(sigma);
+  for_stresses(scene, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
+    difference += data.volumes[p] * contracted(off);
+    exact += data.volumes[p] * contracted(sigma);
   });
   if (exact > 0) error.stress_rel_l2 = std::sqrt(difference / exact);
   return error;
@@ -103,10 +103,11 @@ EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, doubl
     materials.push_back(&material);
   }
   double difference = 0, exact = 0;
-  for_stresses(scene, phase, t, u, [&](std::size_t p, const PointData& points, ConstVec off, ConstVec sigma) {
-    const MaterialSpec& material = *materials[static_cast<std::size_t>(points.materials[p])];
-    difference += points.volumes[p] * energy(material, scene.state, off);
-    exact += points.volumes[p] * energy(material, scene.state, sigma);
+  const PointData data = phase.point_data();
+  for_stresses(scene, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
+    const MaterialSpec& material = *materials[static_cast<std::size_t>(data.materials[p])];
+    difference += data.volumes[p] * energy(material, scene.state, off);
+    exact += data.volumes[p] * energy(material, scene.state, sigma);
   });
   if (!(exact > 0)) return {{}, "the exact stress has no energy"};
   return {std::sqrt(difference / exact), ""};

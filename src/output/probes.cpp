@@ -16,11 +16,11 @@ namespace {
 /// A material point.
 class PointProbe final : public Probe {
  public:
-  PointProbe(const LagrangianPhase& phase, const ProbeSpec& spec) : point_(static_cast<std::size_t>(*spec.point - 1)) {
+  PointProbe(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec)
+      : point_(static_cast<std::size_t>(*spec.point - 1)) {
     for (const std::string& name : spec.fields) fields_.push_back(find_point_field(phase, name));
-    const std::vector<double> x = phase.point_data().initial_positions;
-    const std::size_t dim = x.size() / phase.points();
-    const auto first = x.begin() + static_cast<std::ptrdiff_t>(dim * point_);
+    const auto dim = static_cast<std::size_t>(phase.dim());
+    const auto first = data.initial_positions.begin() + static_cast<std::ptrdiff_t>(dim * point_);
     position_.assign(first, first + static_cast<std::ptrdiff_t>(dim));
   }
   void read(ProbedMoment& moment, std::vector<double>& values) override {
@@ -40,18 +40,18 @@ class SlopeAngle final : public Probe {
   void read(ProbedMoment& moment, std::vector<double>& values) override { values.push_back(moment.slope_angle()); }
 };
 
-std::unique_ptr<Probe> make_probe(const LagrangianPhase& phase, const ProbeSpec& spec) {
+std::unique_ptr<Probe> make_probe(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec) {
   switch (spec.kind) {
     case ProbeKind::slope_angle:
       return std::make_unique<SlopeAngle>();
     case ProbeKind::mean:
-      return std::make_unique<MeanInBox>(phase, spec);
+      return std::make_unique<MeanInBox>(phase, data, spec);
     case ProbeKind::body:
-      return std::make_unique<BodySums>(phase, spec);
+      return std::make_unique<BodySums>(data, spec);
     case ProbeKind::point:
       break;
   }
-  if (spec.point) return std::make_unique<PointProbe>(phase, spec);
+  if (spec.point) return std::make_unique<PointProbe>(phase, data, spec);
   if (spec.frame == ProbeFrame::material) return std::make_unique<MovingPlace>(phase, spec);
   return std::make_unique<FixedPlace>(phase, spec);
 }
@@ -87,10 +87,11 @@ double ProbedMoment::slope_angle() {
 }
 
 Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase) {
+  const PointData data = scene.probes.empty() ? PointData() : phase.point_data();
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
     const ProbeSpec& spec = scene.probes[k];
     require_fields(scene, phase, k);
-    probes_.push_back(make_probe(phase, spec));
+    probes_.push_back(make_probe(phase, data, spec));
     if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
     for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
   }
@@ -143,6 +144,7 @@ std::vector<std::string> Probes::notes() const {
 
 void check_probes(const Scene& scene, const LagrangianPhase& phase) {
   const std::vector<double> nothing(phase.size());
+  const PointData data = scene.probes.empty() ? PointData() : phase.point_data();
   std::unique_ptr<PlaceReader> places;
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
     const ProbeSpec& probe = scene.probes[k];
@@ -156,7 +158,7 @@ void check_probes(const Scene& scene, const LagrangianPhase& phase) {
     }
     if (probe.kind != ProbeKind::mean) continue;
     try {
-      MeanInBox(phase, probe);
+      MeanInBox(phase, data, probe);
     } catch (const std::invalid_argument& error) {
       throw_scene_error(scene, key + ".min", error.what());
     }

@@ -4,9 +4,9 @@
 
 namespace stillpoint {
 
-MeanInBox::MeanInBox(const LagrangianPhase& phase, const ProbeSpec& spec) {
+MeanInBox::MeanInBox(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec) {
   for (const std::string& name : spec.fields) fields_.push_back(find_point_field(phase, name));
-  const std::vector<double> x = phase.point_data().initial_positions;
+  const std::vector<double>& x = data.initial_positions;
   const auto dim = static_cast<std::size_t>(phase.dim());
   for (std::size_t p = 0; p < phase.points(); ++p) {
     bool inside = true;

@@ -10,7 +10,7 @@ namespace stillpoint {
 class MeanInBox final : public Probe {
  public:
   /// Throws std::invalid_argument if no point is in the box.
-  MeanInBox(const LagrangianPhase& phase, const ProbeSpec& spec);
+  MeanInBox(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec);
   void read(ProbedMoment& moment, std::vector<double>& values) override;
 
  private:
@@ -22,8 +22,7 @@ class MeanInBox final : public Probe {
 /// Σ m_p x_p × v(x_p), per unit of what a scene's thickness says.
 class BodySums final : public Probe {
  public:
-  BodySums(const LagrangianPhase& phase, const ProbeSpec& spec)
-      : names_(spec.fields), mass_(phase.point_data().masses) {}
+  BodySums(const PointData& data, const ProbeSpec& spec) : names_(spec.fields), mass_(data.masses) {}
   void read(ProbedMoment& moment, std::vector<double>& values) override;
 
  private:
