@@ -22,7 +22,6 @@ Scene with_loads(const Scene& scene, const Keeps& keeps) {
 }
 
 bool is_driven(const Scene& scene, const std::string& name) {
-  if (!scene.load) return false;
   const std::vector<std::string>& driven = scene.load->of;
   return driven.empty() || std::ranges::find(driven, name) != driven.end();
 }
@@ -45,6 +44,7 @@ Scene reference_loads(const Scene& scene) {
 }
 
 Scene without_reference_loads(const Scene& scene) {
+  if (!scene.load) return scene;
   return with_loads(scene, [&](const std::string& name) { return !is_driven(scene, name); });
 }
 

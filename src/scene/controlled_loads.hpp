@@ -11,9 +11,9 @@ namespace stillpoint {
 /// "traction[0]", "force[2]", "body_force": the names of all loads that a scene has.
 std::vector<std::string> names_of_loads(const Scene& scene);
 
-/// The scene with the loads that [load] drives, without any support or wall; with no load at all if there is no [load].
+/// Of a scene with a [load]: with the loads that it drives, and no support or wall.
 Scene reference_loads(const Scene& scene);
-/// The scene without these.
+/// The scene without these; as it is if there is no [load].
 Scene without_reference_loads(const Scene& scene);
 
 }  // namespace stillpoint

@@ -88,7 +88,30 @@ TEST_CASE(
          stillpoint::test::contents(broken.path() / "history.csv")));
 }
 
+TEST_CASE("supports bear what is driven as well, where it acts on what they hold") {
+  // A block that its own weight presses onto its base: the functions there take an eighth of it at once.
+  const Summary s = run(scenes::load(
+      "block", pulled({"traction=[]", "body_force.value=[0.0, -1.0]", "load.displacement=-1e-3*min(t/20, 1)",
+                       "support=[{face='bottom', name='base'}, {face='left', kind='roller'}]"})));
+  REQUIRE(s.load);
+  const double weight = 1;                                                            // ρ g V
+  CHECK(s.reactions.at("base")[1] == Approx(s.load->factor * weight).epsilon(1e-3));  // but for what still swings
+}
+
+TEST_CASE("a free body that loads drive has the momentum of their impulse, not that of the start") {
+  const Summary s = run(scenes::load(
+      "block", {"material.rubber.law=hencky", "support=[]", "probe=[]", "phase.max_motion=0.05",
+                "damping.strategy=none", "traction=[{line=[[0.2, 0.4], [0.4, 0.4]], value=[0.1, 0.0]}]",
+                "grid={min=[0, 0], max=[2, 1], cells=[16, 8]}", "body.min=[0.2, 0.4]", "body.max=[0.4, 0.6]",
+                "load.displacement=0.3*t", "initial.v=[0.01, 0.0]", "stop={residual=0, time=1}"}));
+  REQUIRE(s.phases > 3);
+  REQUIRE(s.momentum_error);
+  CHECK(*s.momentum_error < 1e-12);
+}
+
 TEST_CASE("what a displacement cannot drive is refused at its key") {
+  CHECK_THAT(scenes::refusal("level_ground", {"load.displacement=1e-3*t", "stop.time=1"}),
+             Contains("initial.geostatic") && Contains("drives it"));
   CHECK_THAT(scenes::refusal("block", pulled({"traction=[]"})), Contains("load") && Contains("there are none"));
   CHECK_THAT(scenes::refusal("block", pulled({"load.of=['traction[1]']"})),
              Contains("load.of") && Contains("traction[0]"));

@@ -178,6 +178,9 @@ void check_load_control(SceneCheck& check) {
       check.add("load", fmt::format("a load that it drives depends on t ({}); the time belongs into load.displacement",
                                     formula.text()));
   });
+  if (scene.geostatic && reference_loads(scene).body_force.size() == scene.body_force.size())
+    check.add("initial.geostatic",
+              "is the stress of a weight that acts from the start; [load] drives it, from nothing");
   if (scene.solve.is_static())
     check.add("load",
               fmt::format("'{}' is a static solver, without the time in which a displacement could drive a load; "

@@ -17,6 +17,9 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "scene/controlled_loads.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_conditions.hpp"
 #include "space/boundary/load_state.hpp"
@@ -33,7 +36,8 @@ class LoadControl {
 
  public:
   /// grid: the first one; time_scale: of PrescribedMotion.
-  LoadControl(const Scene& scene, const Grid<dim>& grid, double time_scale) : reference_(reference_loads(scene)) {
+  LoadControl(const Scene& scene, const Grid<dim>& grid, double time_scale)
+      : reference_(scene.load ? reference_loads(scene) : Scene()) {
     if (!scene.load) return;
     motion_.emplace_back(scene.load->displacement, time_scale);
     loads_ = make_boundary_conditions<B, K>(reference_, grid, time_scale);
@@ -81,6 +85,15 @@ class LoadControl {
     state("moved", moved_);
     state("stiffness", stiffness_);
     for (std::size_t k = 0; k < loads_.size(); ++k) loads_[k]->archive(state.part(fmt::format("load_{}", k)));
+  }
+  /// F_s += λ F at the prescribed degrees of freedom, at (t, u).
+  void add_load_on_supports(const Parts& phase, double t, const double* u, Vec F_s) const {
+    if (!acts()) return;
+    const std::vector<double> at_rest(phase.dofs.number.size(), 0.0);
+    std::vector<double> F(F_s.size(), 0.0);
+    for (const auto& load : loads_) load->add_load_on_supports(phase, 0, at_rest.data(), F);
+    const double factor = state(t, u).factor;
+    for (std::size_t s = 0; s < F.size(); ++s) F_s[s] += factor * F[s];
   }
   /// At (t, u), u over the grid's functions.
   LoadState state(double t, const double* u) const {
