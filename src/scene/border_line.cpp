@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/polygon.hpp"
+#include "scene/outline.hpp"
 
 namespace stillpoint {
 namespace {
 
-// Corners counter-clockwise, so that outwards is to the right of each side; empty if the points come from a file.
-Polygon corners_of(const BodySpec& body) {
+// Counter-clockwise, so that outwards is to the right of each side; empty if the points come from a file.
+Polygon sides_of(const BodySpec& body) {
   if (!body.file.empty()) return {};
-  if (body.polygon.empty())
-    return {
-        {body.min[0], body.min[1]}, {body.max[0], body.min[1]}, {body.max[0], body.max[1]}, {body.min[0], body.max[1]}};
-  Polygon corners;
-  for (const std::vector<double>& corner : body.polygon) corners.push_back({corner[0], corner[1]});
+  Polygon corners = outline_of(body);
   if (signed_area(corners) < 0) std::ranges::reverse(corners);
   return corners;
 }
@@ -51,7 +47,7 @@ std::vector<BorderLine> border_lines(const Scene& scene, const std::array<double
                                      const std::array<double, 2>& to) {
   std::vector<BorderLine> lines;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    const Polygon corners = corners_of(scene.bodies[k]);
+    const Polygon corners = sides_of(scene.bodies[k]);
     const double tolerance = 1e-9 * size_of(corners);
     for (std::size_t c = 0; c < corners.size(); ++c) {
       const PlanePoint &a = corners[c], &b = corners[(c + 1) % corners.size()];

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "base/polygon.hpp"
+#include "scene/outline.hpp"
 
 namespace stillpoint {
 namespace {
@@ -34,11 +34,9 @@ double lines_in(const std::filesystem::path& file) {
 // Of a polygon's box, the share that it covers.
 double share_of_box(const BodySpec& body) {
   if (body.polygon.empty()) return 1;
-  Polygon corners;
-  for (const auto& corner : body.polygon) corners.push_back({corner[0], corner[1]});
   double box = 1;
   for (std::size_t d = 0; d < body.min.size(); ++d) box *= body.max[d] - body.min[d];
-  return std::abs(signed_area(corners)) / box;
+  return std::abs(signed_area(outline_of(body))) / box;
 }
 
 double functions_along(BasisKind basis, double cells) {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "base/polygon.hpp"
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/outline.hpp"
 #include "scene/point_file.hpp"
 
 namespace stillpoint {
@@ -43,12 +43,6 @@ void set_bounding_box(BodySpec& body, const std::vector<std::vector<double>>& po
   }
 }
 
-Polygon polygon_of(const BodySpec& body) {
-  Polygon polygon;
-  for (const auto& corner : body.polygon) polygon.push_back({corner[0], corner[1]});
-  return polygon;
-}
-
 /// The same for a polygon, and its bounding box.
 bool check_polygon(SceneCheck& check, std::size_t k) {
   const GridSpec& grid = check.scene().grid;
@@ -67,7 +61,7 @@ bool check_polygon(SceneCheck& check, std::size_t k) {
   set_bounding_box(body, body.polygon);
   if (body.polygon.front() == body.polygon.back())
     return wrong("the last corner repeats the first; a polygon closes by itself");
-  const Polygon polygon = polygon_of(body);
+  const Polygon polygon = outline_of(body);
   const double box = (body.max[0] - body.min[0]) * (body.max[1] - body.min[1]);
   constexpr double rounding = 1e-12;
   if (std::abs(signed_area(polygon)) <= rounding * box) return wrong("has no area");

@@ -5,20 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "base/polygon.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/outline.hpp"
 #include "scene/point_file.hpp"
 
 namespace stillpoint {
 namespace {
-
-Polygon outline_of(const BodySpec& body) {
-  Polygon outline;
-  for (const auto& corner : body.polygon) outline.push_back({corner[0], corner[1]});
-  if (!outline.empty()) return outline;
-  return {
-      {body.min[0], body.min[1]}, {body.max[0], body.min[1]}, {body.max[0], body.max[1]}, {body.min[0], body.max[1]}};
-}
 
 double perimeter(const Polygon& polygon) {
   double sum = 0;
