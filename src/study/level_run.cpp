@@ -2,34 +2,28 @@
 
 #include <stillpoint/simulation.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
 #include "output/exact_error.hpp"
+#include "output/point_fields.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
 namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<std::string_view, 4> stress_fields = {"stress.xx", "stress.yy", "stress.zz", "stress.xy"};
 
-// Of "u", "u.x", "u.y" where the displacement is known, of "stress" and "stress.xx", … where the stress is.
-double exact_value(const Scene& scene, const std::string& field, ConstVec x, double t) {
-  const std::size_t axis = field == "u.y" ? 1 : 0;
-  const bool is_u = field == "u" || field == "u.x" || field == "u.y";
-  if (is_u && axis < scene.exact_u.size()) return scene.exact_u[axis](x, t);
-  const auto component = std::ranges::find(stress_fields, field);
-  if (field == "stress" && scene.exact_stress.size() == 1) return scene.exact_stress[0](x, t);
-  if (component != stress_fields.end() && scene.exact_stress.size() == stress_fields.size())
-    return scene.exact_stress[static_cast<std::size_t>(component - stress_fields.begin())](x, t);
-  return not_known;
+// Of the displacement and the stress, where they are known.
+double exact_value(const Scene& scene, const LagrangianPhase& phase, const std::string& field, ConstVec x, double t) {
+  const auto [name, component, components] = find_point_field(phase, field);
+  const std::vector<Expression>* exact = name == "u"        ? &scene.exact_u
+                                         : name == "stress" ? &scene.exact_stress
+                                                            : nullptr;
+  return exact && exact->size() == components ? (*exact)[component](x, t) : not_known;
 }
 
 // The grid's functions belong to places when the phase began: those of the start in a single phase alone.
@@ -55,8 +49,9 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
     const auto at = s.probe_positions.find(name);
     for (const auto& [field, value] : fields) {
       run.probes.emplace_back(fmt::format("{}.{}", name, field), value);
-      run.probe_errors.push_back(
-          at == s.probe_positions.end() ? not_known : std::abs(value - exact_value(scene, field, at->second, s.t)));
+      run.probe_errors.push_back(at == s.probe_positions.end() ? not_known
+                                                               : std::abs(value - exact_value(scene, simulation.phase(),
+                                                                                              field, at->second, s.t)));
     }
   }
   if (places) return read_at_places(simulation, *places, run);

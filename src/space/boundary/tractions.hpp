@@ -49,34 +49,19 @@ class Tractions final : public BoundaryCondition<B, K> {
     }
   }
   void add_load(const Parts& phase, double t, Vec F) const override {
-    for (const Piece& piece : pieces_) {
-      if (piece.traction->pressure) continue;
-      for (int i = 0; i < dim; ++i) {
-        const double stress = piece.traction->value[static_cast<std::size_t>(i)]({}, t);
-        add_component(piece, phase.dofs, i, stress * piece.area, F);
-      }
-    }
+    for (const Piece& piece : pieces_)
+      if (!piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, t, nullptr), F);
   }
   bool follows() const override {
     return std::ranges::any_of(scene_.tractions, [](const TractionSpec& t) { return t.pressure.has_value(); });
   }
   void add_following_force(const Parts& phase, double t, const double* u, Vec F) const override {
-    for (const Piece& piece : pieces_) {
-      if (!piece.traction->pressure) continue;
-      const auto area = deformed_area(piece, u);
-      for (int i = 0; i < dim; ++i)
-        add_component(piece, phase.dofs, i, -(*piece.traction->pressure)({}, t) * area[i], F);
-    }
+    for (const Piece& piece : pieces_)
+      if (piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, t, u), F);
   }
   void add_load_on_supports(const Parts& phase, double t, const double* u, Vec F_s) const override {
     for (const Piece& piece : pieces_) {
-      std::array<double, dim> force;
-      if (piece.traction->pressure) {
-        force = deformed_area(piece, u);
-        for (double& along : force) along *= -(*piece.traction->pressure)({}, t);
-      } else {
-        for (int i = 0; i < dim; ++i) force[i] = piece.traction->value[static_cast<std::size_t>(i)]({}, t) * piece.area;
-      }
+      const auto force = force_of(piece, t, u);
       piece.at.for_prescribed(phase.dofs, [&](int a, int i, std::size_t s) { F_s[s] += force[i] * piece.at.w[a]; });
     }
   }
@@ -241,10 +226,21 @@ class Tractions final : public BoundaryCondition<B, K> {
     }
   }
 
-  static void add_component(const Piece& piece, const DegreesOfFreedom& dofs, int component, double force, Vec F) {
-    piece.at.for_free(dofs, [&](int a, int i, int dof) {
-      if (i == component) F[static_cast<std::size_t>(dof)] += force * piece.at.w[a];
-    });
+  // t A; or −p n da, for which u is needed [N].
+  std::array<double, dim> force_of(const Piece& piece, double t, const double* u) const {
+    std::array<double, dim> force;
+    if (piece.traction->pressure) {
+      force = deformed_area(piece, u);
+      const double p = (*piece.traction->pressure)({}, t);
+      for (double& along : force) along *= -p;
+    } else {
+      for (int i = 0; i < dim; ++i) force[i] = piece.traction->value[static_cast<std::size_t>(i)]({}, t) * piece.area;
+    }
+    return force;
+  }
+  static void add_force(const Piece& piece, const DegreesOfFreedom& dofs, const std::array<double, dim>& force, Vec F) {
+    piece.at.for_free(dofs,
+                      [&](int a, int i, int dof) { F[static_cast<std::size_t>(dof)] += force[i] * piece.at.w[a]; });
   }
 
   const Scene& scene_;

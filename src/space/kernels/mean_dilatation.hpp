@@ -49,17 +49,18 @@ requires(dimensions(K) == 2) class MeanDilatation {
  public:
   static constexpr std::size_t slack = 3;  // entries after the last share, for who reads a few at a time
 
-  /// V_p/W of each point in its cell, (P + slack), for a phase.
+  /// V_p/W of points from … to − 1, which share their change of volume.
+  static void take_shares(const MaterialPoints<2>& points, std::size_t from, std::size_t to, double* shares) {
+    double volume = 0;
+    for (std::size_t p = from; p < to; ++p) volume += points.volume[p];
+    for (std::size_t p = from; p < to; ++p) shares[p - from] = points.volume[p] / volume;
+  }
+  /// Of all points in their cells, (P + slack), for a phase; of a cell in parts of each by itself.
   static std::vector<double> volume_shares(const MaterialPoints<2>& points) {
     std::vector<double> shares(points.size() + slack, 0.0);
     for (std::size_t k = 0; k < points.cells(); ++k) {
-      // Of a cell in parts each by itself.
-      for (std::size_t from = points.begin(k); from < points.end(k); from += Block::size) {
-        const std::size_t to = std::min(from + Block::size, points.end(k));
-        double volume = 0;
-        for (std::size_t p = from; p < to; ++p) volume += points.volume[p];
-        for (std::size_t p = from; p < to; ++p) shares[p] = points.volume[p] / volume;
-      }
+      for (std::size_t from = points.begin(k); from < points.end(k); from += Block::size)
+        take_shares(points, from, std::min(from + Block::size, points.end(k)), shares.data() + from);
     }
     return shares;
   }

@@ -124,7 +124,6 @@ class MaterialPointPhase final : public LagrangianPhase,
   template <bool Increments>
   double stress(std::size_t m, Block& block, double dt, double* history) const;
   void tangent(Tangent kind, std::size_t m, Block& block, double dt) const;
-  TensorOf<K> gradient_of_law(const double* grid_u, std::size_t k, std::size_t p) const;
   SparseMatrix matrix_of_means(Tangent kind, double dt) const;
   double* scratch_history(std::size_t m) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "space/kernels/point_fit.hpp"
+#include "space/phase/law_gradients.hpp"
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
@@ -17,8 +18,9 @@ double MaterialPointPhase<B, K>::null_space_stress(double t, ConstVec u) const {
   typename Fit::Values of_points;
   of_points.value.resize(points.size());
   of_points.gradient.resize(points.size());  // not known
+  LawGradients<B, K> gradients(body_, weights_, scene_.phase.dilatation, grid_u_.data());
   for_points([&](std::size_t k, std::size_t p, std::size_t) {
-    of_points.value[p] = material_of(k).cauchy(gradient_of_law(grid_u_.data(), k, p), p);
+    of_points.value[p] = material_of(k).cauchy(gradients.at(k, p), p);
   });
   const auto square = [](const auto& values) {
     double sum = 0;

@@ -1,8 +1,12 @@
 // What the laws of a phase answer to: each point's own change of volume, or the mean of its cell's.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "space/kernels/gather_scatter_bilinear.hpp"
 #include "space/kernels/mean_dilatation.hpp"
-#include "space/phase/law_gradient.hpp"
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
@@ -55,66 +59,55 @@ void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block
   law.tangent(kind, block, V, dt);
 }
 
-// H of point p in cell k as its law sees it.
-template <AxisBasis B, Kinematics K>
-TensorOf<K> MaterialPointPhase<B, K>::gradient_of_law(const double* grid_u, std::size_t k, std::size_t p) const {
-  return law_gradient<B, K>(body_, weights_, scene_.phase.dilatation, grid_u, k, p);
-}
-
-// As matrix(), column by column: the points of a cell answer together. grid_u_ and grid_du_ hold u and what of it came
-// since commit.
+// As matrix(), column by column: the points of a cell answer together.
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix_of_means([[maybe_unused]] Tangent kind,
                                                        [[maybe_unused]] double dt) const {
   if constexpr (Dim == 2) {
+    using Cells = GatherScatter<B, K>;
     const MaterialPoints<Dim>& points = body_.points;
-    const double* V = points.volume.data();
-    std::vector<typename PointMaterial<K>::ModuliMatrix> A(Block::size);
     Block block;
+    std::vector<typename PointMaterial<K>::ModuliMatrix> A(Block::size);
+    // block.direction of a unit of component i of the cell's local function b
+    const auto take_unit = [&](std::size_t k, int b, int i) {
+      for (auto& row : block.direction) std::fill_n(row.begin(), block.count, 0.0);
+      for (std::size_t q = 0; q < block.count; ++q) {
+        const auto dN = weights_.dN(k, block.first + q);
+        for (int j = 0; j < Dim; ++j) block.direction[Dim * i + j][q] = dN[per_cell * j + b];
+        if constexpr (K == Kinematics::axisymmetric)
+          if (i == 0) block.direction[Dim * Dim][q] = dN[per_cell * Dim + b];
+      }
+    };
+    // block.VP = V A : block.direction
+    const auto answer = [&] {
+      for (std::size_t q = 0; q < block.count; ++q) {
+        for (int c = 0; c < components; ++c) {
+          double dP = 0;
+          for (int e = 0; e < components; ++e) dP += A[q][components * c + e] * block.direction[e][q];
+          block.VP[c][q] = points.volume[block.first + q] * dP;
+        }
+      }
+    };
     const auto add_part = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {
       const auto m = static_cast<std::size_t>(points.material_of_cell(k));
       const PointMaterial<K>& law = *body_.materials[m];
-      for (std::size_t q = 0; q < block.count; ++q) {
-        const auto H = weights_.gradient(grid_u_.data(), k, block.first + q);
-        const auto dH = weights_.gradient(grid_du_.data(), k, block.first + q);
-        for (int c = 0; c < components; ++c) block.H[c][q] = H[c], block.dH[c][q] = dH[c];
-      }
+      const std::size_t end = block.first + block.count;
+      Cells::template gather<true>(weights_, k, block.first, end, grid_u_.data(), committed_u_.data(), block.first,
+                                   block.H, block.dH);
       MeanDilatation<K> mean(points, volume_share_.data() + block.first, law.info().finite_strain);
       mean.template average<true>(block);
-      law.stress(block, V, dt, scratch_history(m));
+      law.stress(block, points.volume.data(), dt, scratch_history(m));
       mean.keep_stress(block);
       for (std::size_t q = 0; q < block.count; ++q)
         A[q] = law.moduli(kind, block.H_at(q), block.dH_at(q), dt, block.first + q);
-      for (int b = 0; b < per_cell; ++b) {
-        for (int i = 0; i < Dim; ++i) {
-          for (std::size_t q = 0; q < block.count; ++q) {
-            const auto dN = weights_.dN(k, block.first + q);
-            for (int c = 0; c < components; ++c) block.direction[c][q] = 0;
-            for (int j = 0; j < Dim; ++j) block.direction[Dim * i + j][q] = dN[per_cell * j + b];
-            if constexpr (K == Kinematics::axisymmetric)
-              if (i == 0) block.direction[Dim * Dim][q] = dN[per_cell * Dim + b];
-          }
-          mean.average_direction(block);
-          for (std::size_t q = 0; q < block.count; ++q) {
-            for (int c = 0; c < components; ++c) {
-              double dP = 0;
-              for (int e = 0; e < components; ++e) dP += A[q][components * c + e] * block.direction[e][q];
-              block.VP[c][q] = V[block.first + q] * dP;
-            }
-          }
-          mean.transform_tangent(block);
-          for (std::size_t q = 0; q < block.count; ++q) {
-            const auto dN = weights_.dN(k, block.first + q);
-            for (int a = 0; a < per_cell; ++a) {
-              for (int r = 0; r < Dim; ++r) {
-                double& entry = matrix[Dim * a + r][Dim * b + i];
-                for (int j = 0; j < Dim; ++j) entry += block.VP[Dim * r + j][q] * dN[per_cell * j + a];
-                if constexpr (K == Kinematics::axisymmetric)
-                  if (r == 0) entry += block.VP[Dim * Dim][q] * dN[per_cell * Dim + a];
-              }
-            }
-          }
-        }
+      for (int column = 0; column < Dim * per_cell; ++column) {
+        take_unit(k, column / Dim, column % Dim);
+        mean.average_direction(block);
+        answer();
+        mean.transform_tangent(block);
+        std::array<double, static_cast<std::size_t>(Dim * per_cell)> force;
+        Cells::scatter(weights_, k, block.first, end, block, force.data());
+        for (int row = 0; row < Dim * per_cell; ++row) matrix[row][column] += force[row];
       }
     };
     const auto add_cell = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {

@@ -13,11 +13,10 @@
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/grid/domain_basis.hpp"
 #include "space/kernels/point_weights.hpp"
-#include "space/phase/law_gradient.hpp"
+#include "space/phase/law_gradients.hpp"
 #include "space/phase/place_reader.hpp"
 #include "space/points/body.hpp"
-#include "space/points/local_fit.hpp"
-#include "space/points/nearest_point.hpp"
+#include "space/points/points_around.hpp"
 
 namespace stillpoint {
 
@@ -37,6 +36,7 @@ class PhasePlaces final : public PlaceReader {
   using Spline = typename BasisOfOneCell<B>::type;
   using Basis = TensorBasis<Spline, dim>;
   static constexpr int per_cell = Basis::per_cell;
+  static constexpr int degree = std::max(1, Spline::degree - 1);  // of fits
   static constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
   using Cell = std::array<int, dim>;
 
@@ -51,7 +51,8 @@ class PhasePlaces final : public PlaceReader {
         dilatation_(dilatation),
         u_(std::move(u)),
         v_(std::move(v)),
-        occupied_(static_cast<std::size_t>(grid.cells()), 0) {
+        occupied_(static_cast<std::size_t>(grid.cells()), 0),
+        around_(grid, body.points) {
     mark_occupied();
   }
 
@@ -91,23 +92,23 @@ class PhasePlaces final : public PlaceReader {
     const Point<dim> at = point_at(x);
     if (!cell_for(at)) return;
     std::ranges::fill(out, 0.0);
-    for (const Share& share : fit(at)) {
-      const auto& material = *body_.materials[static_cast<std::size_t>(share.material)];
-      const auto of_point =
-          material.cauchy(law_gradient(body_, weights_, dilatation_, u_.data(), share.k, share.p), share.p);
+    LawGradients<B, K> gradients(body_, weights_, dilatation_, u_.data());
+    for (const auto& share : around_.fit(at, degree)) {
+      const auto& material = *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(share.k))];
+      const auto of_point = material.cauchy(gradients.at(share.k, share.p), share.p);
       for (std::size_t i = 0; i < of_point.size(); ++i) out[i] += share.weight * of_point[i];
     }
   }
   double history(const std::string& name, ConstVec x) const override {
     const Point<dim> at = point_at(x);
     if (!cell_for(at)) return no_value;
-    const std::vector<Share> shares = fit(at);
-    const auto material = static_cast<std::size_t>(shares.front().material);  // the same for all
+    const auto shares = around_.fit(at, degree);
+    const auto material = static_cast<std::size_t>(body_.points.material_of_cell(shares.front().k));  // of all
     const auto begin = static_cast<std::size_t>(body_.points.material_begin[material]);
     for (const auto& [shown, values] : body_.materials[material]->shown_history()) {
       if (shown != name) continue;
       double sum = 0, least = 0;
-      for (const Share& share : shares) {
+      for (const auto& share : shares) {
         sum += share.weight * values[share.p - begin];
         least = std::min(least, values[share.p - begin]);
       }
@@ -117,13 +118,6 @@ class PhasePlaces final : public PlaceReader {
   }
 
  private:
-  // Point p in occupied cell k, and its part in a value.
-  struct Share {
-    std::size_t k, p;
-    int material;
-    double weight;
-  };
-
   static Point<dim> point_at(ConstVec x) {
     Point<dim> at;
     std::copy_n(x.begin(), dim, at.begin());
@@ -190,7 +184,7 @@ class PhasePlaces final : public PlaceReader {
   // The cell whose functions hold at x, or are continued to there.
   std::optional<Cell> cell_for(const Point<dim>& x) const {
     if (const auto cell = cell_with_points(x)) return cell;
-    const Cell cell = grid_.cell_of(body_.points.position(nearest_point(x).p));
+    const Cell cell = grid_.cell_of(body_.points.position(around_.nearest(x).p));
     for (int d = 0; d < dim; ++d) {
       if (!(outside(x, cell, d) <= width(cell, d))) return std::nullopt;
     }
@@ -216,89 +210,6 @@ class PhasePlaces final : public PlaceReader {
     });
   }
 
-  // Points by the cells that they are in: those of cell c begin at list_begin_[c] in list_.
-  void list_points() const {
-    const MaterialPoints<dim>& points = body_.points;
-    std::vector<std::size_t> cell_of(points.size());
-    list_begin_.assign(static_cast<std::size_t>(grid_.cells()) + 1, 0);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      cell_of[p] = static_cast<std::size_t>(grid_.cell_number(grid_.cell_of(points.position(p))));
-      ++list_begin_[cell_of[p] + 1];
-    }
-    for (std::size_t c = 1; c < list_begin_.size(); ++c) list_begin_[c] += list_begin_[c - 1];
-    list_.resize(points.size());
-    std::vector<std::size_t> next = list_begin_;
-    for (std::size_t k = 0; k < points.cells(); ++k) {
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) list_[next[cell_of[p]]++] = {k, p};
-    }
-  }
-  // Those of the cell of x and of all that touch it.
-  std::vector<PointInCell> points_around(const Cell& here) const {
-    if (list_begin_.empty()) list_points();
-    std::vector<PointInCell> found;
-    for (int k = 0; k < power(3, dim); ++k) {
-      Cell cell = here;
-      bool is_cell = true;
-      for (int d = 0; d < dim; ++d) {
-        cell[d] += k / power(3, d) % 3 - 1;
-        is_cell = is_cell && cell[d] >= 0 && cell[d] < grid_.axes[d].cells();
-      }
-      if (!is_cell) continue;
-      const auto number = static_cast<std::size_t>(grid_.cell_number(cell));
-      for (std::size_t l = list_begin_[number]; l < list_begin_[number + 1]; ++l) found.push_back(list_[l]);
-    }
-    return found;
-  }
-
-  // w_p = V_p Π_d (1 − (ξ_d/2)²)², ξ = (x_p − x)/h with the sides h of the widest cell around: nearer points count
-  // more.
-  std::vector<Share> fit(const Point<dim>& x) const {
-    const Cell here = grid_.cell_of(x);
-    Point<dim> h;
-    for (int d = 0; d < dim; ++d) {
-      h[d] = 0;
-      for (Cell cell = here; const int c : {here[d] - 1, here[d], here[d] + 1}) {
-        cell[d] = std::clamp(c, 0, grid_.axes[d].cells() - 1);
-        h[d] = std::max(h[d], width(cell, d));
-      }
-    }
-    std::vector<PointInCell> around = points_around(here);
-    if (around.empty()) around.push_back(nearest_point(x));
-    const auto square_of_distance = [&](const PointInCell& point) {
-      double sum = 0;
-      for (int d = 0; d < dim; ++d) {
-        const double xi = (body_.points.x[d][point.p] - x[d]) / h[d];
-        sum += xi * xi;
-      }
-      return sum;
-    };
-    const PointInCell nearest = *std::ranges::min_element(around, {}, square_of_distance);
-    const int material = body_.points.material_of_cell(nearest.k);
-    std::vector<Share> shares;
-    std::vector<double> xi, weight;
-    for (const auto& [k, p] : around) {
-      if (body_.points.material_of_cell(k) != material) continue;
-      double w = body_.points.volume[p];
-      for (int d = 0; d < dim; ++d) {
-        constexpr double least = 1e-3;  // of a point two cells away
-        xi.push_back((body_.points.x[d][p] - x[d]) / h[d]);
-        const double fall = std::max(1 - xi.back() * xi.back() / 4, least);
-        w *= fall * fall;
-      }
-      weight.push_back(w);
-      shares.push_back({k, p, material, 0});
-    }
-    const double largest = *std::ranges::max_element(weight);
-    for (double& w : weight) w /= largest;
-    const std::vector<double> c = local_fit(xi, weight, dim, std::max(1, Spline::degree - 1));
-    for (std::size_t s = 0; s < shares.size(); ++s) shares[s].weight = c[s];
-    return shares;
-  }
-  PointInCell nearest_point(const Point<dim>& x) const {
-    if (!nearest_) nearest_.emplace(body_.points, grid_);
-    return nearest_->to(x);
-  }
-
   const Grid<dim>& grid_;
   const Body<K>& body_;
   const PointWeights<B, K>& weights_;
@@ -306,10 +217,7 @@ class PhasePlaces final : public PlaceReader {
   Dilatation dilatation_;
   std::vector<double> u_, v_;
   std::vector<char> occupied_;  // cells of the grid whose functions a point takes
-  // Made if they are asked for:
-  mutable std::optional<NearestPoint<dim>> nearest_;
-  mutable std::vector<std::size_t> list_begin_;
-  mutable std::vector<PointInCell> list_;
+  PointsAround<dim> around_;
 };
 
 }  // namespace stillpoint

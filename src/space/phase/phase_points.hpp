@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "space/phase/law_gradients.hpp"
 #include "space/phase/material_point_phase.hpp"
 #include "space/phase/phase_places.hpp"
 
@@ -70,8 +71,9 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
   if (quantity == PointQuantity::strain)
     return write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(u, k, p); });
   if (quantity == PointQuantity::stress) {
-    return write_points(
-        out, [&](std::size_t k, std::size_t p) { return material_of(k).cauchy(gradient_of_law(u, k, p), p); });
+    LawGradients<B, K> gradients(body_, weights_, scene_.phase.dilatation, u);
+    return write_points(out,
+                        [&](std::size_t k, std::size_t p) { return material_of(k).cauchy(gradients.at(k, p), p); });
   }
   write_points(out, [&](std::size_t k, std::size_t p) {
     auto u_p = weights_.value(u, k, p);
@@ -156,6 +158,7 @@ std::vector<SupportReaction> MaterialPointPhase<B, K>::support_reactions(double 
   const std::size_t prescribed = held_.prescribed().size();
   std::vector<double> F_s(prescribed, 0);
   for (const auto& condition : boundary_) condition->add_load_on_supports(parts(), t, grid_u_.data(), F_s);
+  load_control_.add_load_on_supports(parts(), t, grid_u_.data(), F_s);
   const auto is_value = [this](int function) {
     for (int d = 0; d < Dim; ++d) {
       if (!B::is_value(Basis::index_along(grid_, function, d))) return false;

@@ -1,0 +1,61 @@
+// The displacement gradients that the laws of points answer to.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "space/kernels/gather_scatter_bilinear.hpp"
+#include "space/kernels/mean_dilatation.hpp"
+#include "space/kernels/point_weights.hpp"
+#include "space/points/body.hpp"
+
+namespace stillpoint {
+
+/// Point by point. Where cells share their change of volume the points of a cell are averaged once for all that follow
+/// one another.
+template <AxisBasis B, Kinematics K>
+class LawGradients {
+  using Block = PointBlock<K>;
+
+ public:
+  /// u: over the grid's functions. All outlive this.
+  LawGradients(const Body<K>& body, const PointWeights<B, K>& weights, Dilatation dilatation, const double* u)
+      : body_(body), weights_(weights), averages_(dilatation == Dilatation::cells), u_(u) {}
+
+  /// Of point p in occupied cell k.
+  TensorOf<K> at(std::size_t k, std::size_t p) {
+    if constexpr (dimensions(K) == 2) {
+      if (averages_) {
+        if (p < block_.first || p >= block_.first + block_.count) average(k, p);
+        return block_.H_at(p - block_.first);
+      }
+    }
+    return weights_.gradient(u_, k, p);
+  }
+
+ private:
+  // The points of cell k, or the part of them that p is in.
+  void average(std::size_t k, std::size_t p) {
+    const auto& points = body_.points;
+    const std::size_t begin = points.begin(k);
+    block_.first_cell = k;
+    block_.last_cell = k + 1;
+    block_.first = begin + (p - begin) / Block::size * Block::size;
+    block_.count = std::min(Block::size, points.end(k) - block_.first);
+    const std::size_t end = block_.first + block_.count;
+    GatherScatter<B, K>::template gather<false>(weights_, k, block_.first, end, u_, nullptr, block_.first, block_.H,
+                                                block_.dH);
+    std::array<double, Block::size + MeanDilatation<K>::slack> share{};
+    MeanDilatation<K>::take_shares(points, block_.first, end, share.data());
+    const auto& material = *body_.materials[static_cast<std::size_t>(points.material_of_cell(k))];
+    MeanDilatation<K>(points, share.data(), material.info().finite_strain).template average<false>(block_);
+  }
+
+  const Body<K>& body_;
+  const PointWeights<B, K>& weights_;
+  const bool averages_;
+  const double* u_;
+  Block block_;
+};
+
+}  // namespace stillpoint
