@@ -33,8 +33,11 @@ double of_law(const Scene& scene, const MaterialSpec& material) {
   const auto bytes = [&](const auto& made) {
     double sum = 0;
     for (const PointArray& array : made->arrays()) sum += array.bytes_per_point;
-    // What a tangent of averaged cells has no use for.
-    if (averages_dilatation(scene)) sum += static_cast<double>(made->info().history_size) * real;
+    if (averages_dilatation(scene)) {
+      // What a tangent of averaged cells has no use for; and of its volume, and of its mean, committed and tried.
+      sum += static_cast<double>(made->info().history_size) * real;
+      sum += (made->info().history_dependent ? 3 : 2) * real;
+    }
     return sum;
   };
   switch (kinematics(scene.state)) {
@@ -67,8 +70,7 @@ double bytes_per_point(const Scene& scene, const BodySize& size) {
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     laws += size.body_points[k] / size.points * of_law(scene, scene.materials.at(scene.bodies[k].material));
   const double of_any = (scene.dim + 2) * real + sizeof(int);  // position, mass, volume; number
-  const double of_shares = averages_dilatation(scene) ? real : 0;
-  return of_any + of_weights(scene) + of_shares + of_motion(scene) + laws;
+  return of_any + of_weights(scene) + of_motion(scene) + laws;
 }
 
 // --- the unknowns ----------------------------------------------------------------------------------------------------

@@ -76,6 +76,20 @@ void every_case(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK(plane_step)->Apply(every_case);
 
+// What it costs that a cell's points share their change of volume, one thread.
+void dilatation_step(benchmark::State& state) {
+  const int basis = static_cast<int>(state.range(0)), law = static_cast<int>(state.range(1));
+  Scene scene = block(basis, law, 120);
+  const bool cells = state.range(2) != 0;
+  if (cells) scene.phase.dilatation = Dilatation::cells;
+  step(state, scene, 1, std::string(bases[basis]) + ", " + laws[law] + (cells ? ", cells" : ", points"));
+}
+BENCHMARK(dilatation_step)
+    ->ArgNames({"basis", "law", "cells"})
+    ->ArgsProduct({{0, 1}, {0, 1, 2, 3}, {0, 1}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
+
 // 10⁴ to 10⁷ points, linear basis, Drucker–Prager.
 void size_step(benchmark::State& state) {
   step(state, block(0, 3, static_cast<int>(state.range(0))), static_cast<int>(state.range(1)),

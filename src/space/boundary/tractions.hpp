@@ -105,13 +105,13 @@ class Tractions final : public BoundaryCondition<B, K> {
       const bool upper = is_upper(traction.face.value());
       add_piece(traction, {(upper ? body.max : body.min)[0]}, body.area, {upper ? 1.0 : -1.0});
     } else {
-      cut_line(traction, line_of(traction), grid);
+      for (const BorderLine& line : lines_of(traction)) cut_line(traction, line, grid);
     }
   }
-  BorderLine line_of(const TractionSpec& traction) const {
-    if (traction.face) return side_of_box(scene_, 0, *traction.face);
+  std::vector<BorderLine> lines_of(const TractionSpec& traction) const {
+    if (traction.face) return {side_of_box(scene_, 0, *traction.face)};
     const auto& ends = traction.line;
-    return border_lines(scene_, {ends.at(0).at(0), ends[0].at(1)}, {ends.at(1).at(0), ends[1].at(1)}).at(0);
+    return border_lines(scene_, {ends.at(0).at(0), ends[0].at(1)}, {ends.at(1).at(0), ends[1].at(1)});
   }
 
   // Into pieces of each cell's part.

@@ -20,10 +20,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
-#include "base/lanes.hpp"
 #include "base/unroll.hpp"
+#include "space/kernels/cell_sums.hpp"
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
 
@@ -43,53 +42,34 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }();
   using Block = PointBlock<K>;
   using Rows = typename Block::Rows;
-  using Row = std::array<double, Block::size + Block::slack>;
+  using Row = typename CellSums<K>::Row;
   using Tensor = TensorOf<K>;
 
  public:
-  static constexpr std::size_t slack = 3;  // entries after the last share, for who reads a few at a time
-
-  /// V_p/W of points from … to − 1, which share their change of volume.
-  static void take_shares(const MaterialPoints<2>& points, std::size_t from, std::size_t to, double* shares) {
-    double volume = 0;
-    for (std::size_t p = from; p < to; ++p) volume += points.volume[p];
-    for (std::size_t p = from; p < to; ++p) shares[p - from] = points.volume[p] / volume;
-  }
-  /// Of all points in their cells, (P + slack), for a phase; of a cell in parts of each by itself.
-  static std::vector<double> volume_shares(const MaterialPoints<2>& points) {
-    std::vector<double> shares(points.size() + slack, 0.0);
-    for (std::size_t k = 0; k < points.cells(); ++k) {
-      for (std::size_t from = points.begin(k); from < points.end(k); from += Block::size)
-        take_shares(points, from, std::min(from + Block::size, points.end(k)), shares.data() + from);
-    }
-    return shares;
-  }
-
-  /// finite_strain: of the law. volume_share: of the block's points, with slack. Both outlive this.
+  /// finite_strain: of the law. volume_share: of the block's points, see CellSums. Both outlive this.
   MeanDilatation(const MaterialPoints<2>& points, const double* volume_share, bool finite_strain)
-      : points_(points), volume_share_(volume_share), finite_(finite_strain) {}
+      : sums_(points, volume_share), finite_(finite_strain) {}
 
-  /// block.H becomes H̄, and block.dH, if Increments, the part of H̄ that came since commit.
-  template <bool Increments>
-  void average(Block& block) {
-    if constexpr (Increments) {
-      // H̄(u) − H̄(u_before)
-      alignas(64) Rows before;
-      for_rows(block, [&](int c, std::size_t q) { before[c][q] = block.H[c][q] - block.dH[c][q]; });
-      average<false>(block, before);
-      average<true>(block, block.H);
-      for_rows(block, [&](int c, std::size_t q) { block.dH[c][q] = block.H[c][q] - before[c][q]; });
-    } else {
-      average<true>(block, block.H);
-    }
-  }
+  /// block.H becomes H̄.
+  void average(Block& block) { average_as<false>(block, nullptr, nullptr); }
+  /// And block.dH the part of H̄ that came since commit. before, after: what averaging does to a point, s_p or at small
+  /// strain (t̄ − tr H_p)/d, of the committed state and of this one, of the block's points; nobody asks for after if it
+  /// is null.
+  void average(Block& block, const double* before, double* after) { average_as<true>(block, before, after); }
+  /// What averaging did to the block's points.
+  void write_effect(const Block& block, double* effect) const { std::copy_n(effect_.begin(), block.count, effect); }
 
   /// block.VP, the law's V P̄, becomes V P.
   void transform_stress(Block& block) {
     pressures(block);
     const std::size_t count = block.count;
+    if (finite_) {
 #pragma omp simd
-    for (std::size_t q = 0; q < count; ++q) add_cofactor(block, q, s_[q], push_[q]);  // at small strain cof f = I
+      for (std::size_t q = 0; q < count; ++q) add_cofactor(block, q, s_[q], push_[q]);
+    } else {
+#pragma omp simd
+      for (std::size_t q = 0; q < count; ++q) add_identity(block, q, push_[q]);
+    }
   }
 
   /// The same, keeping what a derivative needs of V P̄; block.VP is left as it is.
@@ -100,7 +80,7 @@ requires(dimensions(K) == 2) class MeanDilatation {
   /// block.direction, δH, becomes δH̄.
   void average_direction(Block& block) {
     for (std::size_t q = 0; q < block.count; ++q) dJ_[q] = volume_rate(block, q);
-    spread_means(block, dJ_, dmean_);
+    sums_.means(block, dJ_, dmean_);
     for (std::size_t q = 0; q < block.count; ++q) {
       // δs = s/d (δJ̄/J̄ − δJ/J)
       ds_[q] = s_[q] / d * (dmean_[q] * inverse_mean_[q] - dJ_[q] * inverse_J_[q]);
@@ -123,7 +103,7 @@ requires(dimensions(K) == 2) class MeanDilatation {
       });
       da[q] = sum / d;
     }
-    spread_shares(block, da, dshare);
+    sums_.shares(block, da, dshare);
     for (std::size_t q = 0; q < block.count; ++q) {
       if (!finite_) {
         add_identity(block, q, dshare[q] - da[q]);
@@ -143,59 +123,79 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
 
  private:
-  // H becomes H̄. What is kept of it, if Keeps, is at small strain that of J = J̄ = s = 1.
-  template <bool Keeps>
-  [[gnu::always_inline]] void average(const Block& block, Rows& H) {
-    const std::size_t count = block.count;
+  template <bool Increments>
+  void average_as(Block& block, const double* before, double* after) {
     if (finite_) {
-#pragma omp simd
-      for (std::size_t q = 0; q < count; ++q) {
-        const double in_plane = (1 + H[0][q]) * (1 + H[3][q]) - H[1][q] * H[2][q];
-        J_[q] = d == 3 ? in_plane * (1 + H[components - 1][q]) : in_plane;
-      }
-      spread_means(block, J_, mean_);
-#pragma omp simd
-      for (std::size_t q = 0; q < count; ++q) {
-        const double inverse_J = 1 / J_[q], ratio = mean_[q] * inverse_J;
-        s_[q] = d == 3 ? std::cbrt(ratio) : std::sqrt(ratio);
-        if constexpr (Keeps) {
-          inverse_J_[q] = inverse_J;
-          inverse_mean_[q] = 1 / mean_[q];
-          inverse_s_[q] = d == 3 ? 1 / s_[q] : s_[q] * J_[q] * inverse_mean_[q];
-        }
-        unroll<components>([&](auto c) __attribute__((always_inline)) {
-          constexpr double one = on_diagonal[c] ? 1 : 0;
-          H[c][q] = s_[q] * (one + H[c][q]) - one;
-        });
-      }
+      average_finite<Increments>(block, before);
     } else {
-      for (std::size_t q = 0; q < count; ++q) J_[q] = H[0][q] + H[3][q] + (d == 3 ? H[components - 1][q] : 0);
-      spread_means(block, J_, mean_);
-      for (std::size_t q = 0; q < count; ++q) {
-        const double more = (mean_[q] - J_[q]) / d;
-        inverse_J_[q] = inverse_mean_[q] = s_[q] = inverse_s_[q] = 1;
-        unroll<components>([&](auto c) __attribute__((always_inline)) {
-          if constexpr (on_diagonal[c]) H[c][q] += more;
-        });
-      }
+      average_small<Increments>(block, before);
+    }
+    if (after) write_effect(block, after);
+  }
+  template <bool Increments>
+  void average_finite(Block& block, const double* before) {
+    const std::size_t count = block.count;
+#pragma omp simd
+    for (std::size_t q = 0; q < count; ++q) {
+      const double in_plane = (1 + block.H[0][q]) * (1 + block.H[3][q]) - block.H[1][q] * block.H[2][q];
+      J_[q] = d == 3 ? in_plane * (1 + block.H[components - 1][q]) : in_plane;
+    }
+    sums_.means(block, J_, mean_);
+#pragma omp simd
+    for (std::size_t q = 0; q < count; ++q) {
+      const double product = 1 / (J_[q] * mean_[q]);
+      inverse_J_[q] = mean_[q] * product;
+      inverse_mean_[q] = J_[q] * product;
+      s_[q] = d == 3 ? std::cbrt(mean_[q] * inverse_J_[q]) : mean_[q] * std::sqrt(product);
+      inverse_s_[q] = d == 3 ? 1 / s_[q] : s_[q] * J_[q] * inverse_mean_[q];
+      effect_[q] = s_[q];
+      const double s_before = Increments ? before[q] : 1;
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        constexpr double one = on_diagonal[c] ? 1 : 0;
+        const double f = one + block.H[c][q];
+        if constexpr (Increments) block.dH[c][q] = s_[q] * f - s_before * (f - block.dH[c][q]);
+        block.H[c][q] = s_[q] * f - one;
+      });
+    }
+  }
+  template <bool Increments>
+  void average_small(Block& block, const double* before) {
+    const std::size_t count = block.count;
+#pragma omp simd
+    for (std::size_t q = 0; q < count; ++q)
+      J_[q] = block.H[0][q] + block.H[3][q] + (d == 3 ? block.H[components - 1][q] : 0);
+    sums_.means(block, J_, mean_);
+#pragma omp simd
+    for (std::size_t q = 0; q < count; ++q) {
+      effect_[q] = (mean_[q] - J_[q]) / d;
+      inverse_J_[q] = inverse_mean_[q] = s_[q] = inverse_s_[q] = 1;
+      const double more = Increments ? effect_[q] - before[q] : 0;
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        if constexpr (on_diagonal[c] && Increments) block.dH[c][q] += more;
+        if constexpr (on_diagonal[c]) block.H[c][q] += effect_[q];
+      });
     }
   }
 
   // a, A V/W and what both push with along cof f, from the law's V P̄.
-  [[gnu::always_inline]] void pressures(const Block& block) {
+  void pressures(const Block& block) { finite_ ? pressures_as<true>(block) : pressures_as<false>(block); }
+  template <bool Finite>
+  void pressures_as(const Block& block) {
     const std::size_t count = block.count;
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
       double work = 0;
       unroll<components>([&](auto c) __attribute__((always_inline)) {
         constexpr double one = on_diagonal[c] ? 1 : 0;
-        work += block.VP[c][q] * (finite_ ? one + block.H[c][q] : one);
+        if constexpr (Finite) work += block.VP[c][q] * (one + block.H[c][q]);
+        if constexpr (!Finite && on_diagonal[c]) work += block.VP[c][q];
       });
       a_[q] = work / d;
     }
-    spread_shares(block, a_, share_);
+    sums_.shares(block, a_, share_);
 #pragma omp simd
-    for (std::size_t q = 0; q < count; ++q) push_[q] = share_[q] * inverse_mean_[q] - a_[q] * inverse_J_[q];
+    for (std::size_t q = 0; q < count; ++q)
+      push_[q] = Finite ? share_[q] * inverse_mean_[q] - a_[q] * inverse_J_[q] : share_[q] - a_[q];
   }
 
   // f, of small strain I
@@ -244,42 +244,6 @@ requires(dimensions(K) == 2) class MeanDilatation {
     });
   }
 
-  /// visit(first, last) of each cell's points in the block, by their rows in it.
-  template <class Visit>
-  [[gnu::always_inline]] void for_cells(const Block& block, const Visit& visit) const {
-    const std::size_t end = block.first + block.count;
-    for (std::size_t k = block.first_cell; k < block.last_cell; ++k) {
-      const std::size_t from = std::max(points_.begin(k), block.first), to = std::min(points_.end(k), end);
-      if (from < to) visit(from - block.first, to - block.first);
-    }
-  }
-  using Four = Lanes<4>;
-  [[gnu::always_inline]] static double sum_of(const Four& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
-  [[gnu::always_inline]] static Four four(double x) {
-    const LaneRegister<4>::Type lanes{x, x, x, x};
-    return {lanes};
-  }
-  // Σ V x/W over each cell, at its points. Four at a time: what is written past a cell's end the next one writes again.
-  [[gnu::always_inline]] void spread_means(const Block& block, const Row& x, Row& mean) const {
-    for_cells(
-        block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
-          Four sum{};
-          for (std::size_t q = from; q < to; q += 4)
-            sum = sum.plus(Four::load(&x[q]).times(Four::load(volume_share_ + q)).first(to - q));
-          const Four of_cell = four(sum_of(sum));
-          for (std::size_t q = from; q < to; q += 4) of_cell.store(&mean[q]);
-        });
-  }
-  // V/W Σ x over each cell
-  [[gnu::always_inline]] void spread_shares(const Block& block, const Row& x, Row& share) const {
-    for_cells(
-        block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
-          Four sum{};
-          for (std::size_t q = from; q < to; q += 4) sum = sum.plus(Four::load(&x[q]).first(to - q));
-          const Four of_cell = four(sum_of(sum));
-          for (std::size_t q = from; q < to; q += 4) of_cell.times(Four::load(volume_share_ + q)).store(&share[q]);
-        });
-  }
   template <class Visit>
   [[gnu::always_inline]] static void for_rows(const Block& block, const Visit& visit) {
     for (int c = 0; c < components; ++c) {
@@ -287,13 +251,12 @@ requires(dimensions(K) == 2) class MeanDilatation {
     }
   }
 
-  const MaterialPoints<2>& points_;
-  const double* volume_share_;  // of the block's points
+  const CellSums<K> sums_;
   const bool finite_;
-  alignas(64) Row J_, mean_, s_, inverse_J_, inverse_mean_, inverse_s_;  // of u
-  alignas(64) Row a_, share_, push_;                                     // of V P̄
-  alignas(64) Row dJ_, dmean_, ds_;                                      // of δu
-  alignas(64) Rows kept_, direction_;                                    // V P̄, δH
+  alignas(64) Row J_, mean_, s_, inverse_J_, inverse_mean_, inverse_s_, effect_;  // of u; at small strain J = J̄ = s = 1
+  alignas(64) Row a_, share_, push_;                                              // of V P̄
+  alignas(64) Row dJ_, dmean_, ds_;                                               // of δu
+  alignas(64) Rows kept_, direction_;                                             // V P̄, δH
 };
 
 }  // namespace stillpoint

@@ -45,10 +45,10 @@ class LawGradients {
     const std::size_t end = block_.first + block_.count;
     GatherScatter<B, K>::template gather<false>(weights_, k, block_.first, end, u_, nullptr, block_.first, block_.H,
                                                 block_.dH);
-    std::array<double, Block::size + MeanDilatation<K>::slack> share{};
-    MeanDilatation<K>::take_shares(points, block_.first, end, share.data());
+    std::array<double, Block::size + CellSums<K>::slack> share{};
+    CellSums<K>::take_shares(points, block_.first, end, share.data());
     const auto& material = *body_.materials[static_cast<std::size_t>(points.material_of_cell(k))];
-    MeanDilatation<K>(points, share.data(), material.info().finite_strain).template average<false>(block_);
+    MeanDilatation<K>(points, share.data(), material.info().finite_strain).average(block_);
   }
 
   const Body<K>& body_;

@@ -20,6 +20,7 @@
 #include "space/boundary/weak_supports.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
+#include "space/kernels/mean_dilatation.hpp"
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
 #include "space/kernels/velocity_transfer.hpp"
@@ -103,6 +104,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   struct TrialArrays {
     std::vector<double> u;                     // over the grid's functions, (functions × Dim)
     std::vector<std::vector<double>> history;  // of each material
+    std::vector<double> averages;              // what MeanDilatation does to each point, if cells share theirs
   };
   struct Trial final : TrialState {
     const MaterialPointPhase* of = nullptr;
@@ -119,10 +121,11 @@ class MaterialPointPhase final : public LagrangianPhase,
 
   // --- the law of a block of points, phase_dilatation.hpp ------------------------------------------
   bool averages_dilatation() const { return Dim == 2 && scene_.phase.dilatation == Dilatation::cells; }
-  template <bool Increments>
+  auto mean_dilatation(std::size_t m, const Block& block) const;
   void average_dilatation(std::size_t m, Block& block) const;
+  void commit_averages();
   template <bool Increments>
-  double stress(std::size_t m, Block& block, double dt, double* history) const;
+  double stress(std::size_t m, Block& block, double dt, double* history, double* averages) const;
   void tangent(Tangent kind, std::size_t m, Block& block, double dt) const;
   SparseMatrix matrix_of_means(Tangent kind, double dt) const;
   double* scratch_history(std::size_t m) const;
@@ -275,7 +278,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)
   std::vector<double> committed_u_;     // likewise
   double committed_t_ = 0;
-  std::vector<double> volume_share_;  // of MeanDilatation, if cells share their change of volume
+  // If cells share their change of volume, what MeanDilatation needs: V/W, and what it does to the committed state.
+  std::vector<double> volume_share_, committed_averages_;
 
   // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
   mutable NodalForce<B, K> nodal_force_;

@@ -29,6 +29,7 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   }
   state("committed_u", Vec(committed_u_));
   state("committed_t", committed_t_);
+  if (averages_dilatation()) state("committed_averages", Vec(committed_averages_));
   state.none_or(grid_u_.size(), "start_velocity", start_velocity_);
   state("looks", looks_);
   state("motion_since_deformation", motion_since_deformation_);

@@ -91,7 +91,10 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   spread_prescribed(t, committed_u_);
   committed_t_ = t;
   if constexpr (Dim == 2) {
-    if (averages_dilatation()) volume_share_ = MeanDilatation<K>::volume_shares(body_.points);
+    if (averages_dilatation()) {
+      volume_share_ = CellSums<K>::volume_shares(body_.points);
+      commit_averages();
+    }
   }
   if (averages_dilatation() && history_dependent_) {
     scratch_history_.resize(body_.materials.size());
@@ -215,7 +218,7 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   keep_spin(grid_v);
   nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
     if (!body_.materials[m]->info().finite_strain) return;
-    average_dilatation<false>(m, block);
+    average_dilatation(m, block);
     body_.materials[m]->end_phase(block);
     double* V = body_.points.volume.data() + block.first;
     for (std::size_t q = 0; q < block.count; ++q) V[q] *= determinant<K>(plus_identity<K>(block.H_at(q)));

@@ -82,7 +82,7 @@ std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
     double* history = history_dependent_ ? trial.arrays->history[m].data() : nullptr;
     std::array<double, Block::size> det;  // of the displacement itself, not of a mean
     for (std::size_t q = 0; q < block.count; ++q) det[q] = determinant<K>(plus_identity<K>(block.H_at(q)));
-    stress<true>(m, block, history_dependent_ ? dt : 0, history);
+    stress<true>(m, block, history_dependent_ ? dt : 0, history, nullptr);
     for (std::size_t q = 0; q < block.count; ++q) {
       for (int c = 0; c < components; ++c) {
         if (std::isfinite(block.VP[c][q])) continue;

@@ -11,27 +11,51 @@
 
 namespace stillpoint {
 
-// block.H, and block.dH if Increments, as the law of material m sees them.
 template <AxisBasis B, Kinematics K>
-template <bool Increments>
+auto MaterialPointPhase<B, K>::mean_dilatation([[maybe_unused]] std::size_t m,
+                                               [[maybe_unused]] const Block& block) const {
+  if constexpr (Dim == 2) {
+    return MeanDilatation<K>(body_.points, volume_share_.data() + block.first,
+                             body_.materials[m]->info().finite_strain);
+  }
+}
+
+// block.H as the law of material m sees it.
+template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m, [[maybe_unused]] Block& block) const {
   if constexpr (Dim == 2) {
-    if (!averages_dilatation()) return;
-    MeanDilatation<K> mean(body_.points, volume_share_.data() + block.first, body_.materials[m]->info().finite_strain);
-    mean.template average<Increments>(block);
+    if (averages_dilatation()) mean_dilatation(m, block).average(block);
+  }
+}
+
+// What averaging does to the committed state.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::commit_averages() {
+  if constexpr (Dim == 2) {
+    committed_averages_.resize(body_.points.size());
+    nodal_force_.visit(committed_u_.data(), [this](std::size_t m, Block& block) {
+      MeanDilatation<K> mean = mean_dilatation(m, block);
+      mean.average(block);
+      mean.write_effect(block, committed_averages_.data() + block.first);
+    });
   }
 }
 
 // block.VP = V P. As PointMaterial::stress().
 template <AxisBasis B, Kinematics K>
 template <bool Increments>
-double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, double* history) const {
+double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, double* history,
+                                        [[maybe_unused]] double* averages) const {
   const PointMaterial<K>& law = *body_.materials[m];
   const double* V = body_.points.volume.data();
   if constexpr (Dim == 2) {
     if (averages_dilatation()) {
-      MeanDilatation<K> mean(body_.points, volume_share_.data() + block.first, law.info().finite_strain);
-      mean.template average<Increments>(block);
+      MeanDilatation<K> mean = mean_dilatation(m, block);
+      if constexpr (Increments) {
+        mean.average(block, committed_averages_.data() + block.first, averages ? averages + block.first : nullptr);
+      } else {
+        mean.average(block);
+      }
       const double bad = law.stress(block, V, dt, history);
       mean.transform_stress(block);
       return bad;
@@ -47,8 +71,8 @@ void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block
   const double* V = body_.points.volume.data();
   if constexpr (Dim == 2) {
     if (averages_dilatation()) {
-      MeanDilatation<K> mean(body_.points, volume_share_.data() + block.first, law.info().finite_strain);
-      mean.template average<true>(block);
+      MeanDilatation<K> mean = mean_dilatation(m, block);
+      mean.average(block, committed_averages_.data() + block.first, nullptr);
       law.stress(block, V, dt, scratch_history(m));
       mean.keep_stress(block);
       mean.average_direction(block);
@@ -94,8 +118,8 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_means([[maybe_unused]] Tangent 
       const std::size_t end = block.first + block.count;
       Cells::template gather<true>(weights_, k, block.first, end, grid_u_.data(), committed_u_.data(), block.first,
                                    block.H, block.dH);
-      MeanDilatation<K> mean(points, volume_share_.data() + block.first, law.info().finite_strain);
-      mean.template average<true>(block);
+      MeanDilatation<K> mean = mean_dilatation(m, block);
+      mean.average(block, committed_averages_.data() + block.first, nullptr);
       law.stress(block, points.volume.data(), dt, scratch_history(m));
       mean.keep_stress(block);
       for (std::size_t q = 0; q < block.count; ++q)

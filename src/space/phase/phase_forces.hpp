@@ -42,6 +42,7 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
     trial->arrays->history[m].resize(body_.materials[m]->info().history_size);
   }
+  if (averages_dilatation() && history_dependent_) trial->arrays->averages.resize(body_.points.size());
   return trial;
 }
 
@@ -56,13 +57,14 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   if (trial.too_far) return false;
   if (history_dependent_) {
     const double dt = t - committed_t_;
-    const auto answer = [this, dt, history = trial.arrays->history.data()](std::size_t m, Block& block) {
-      return stress<true>(m, block, dt, history[m].data());
+    double* const averages = averages_dilatation() ? trial.arrays->averages.data() : nullptr;
+    const auto answer = [this, dt, history = trial.arrays->history.data(), averages](std::size_t m, Block& block) {
+      return stress<true>(m, block, dt, history[m].data(), averages);
     };
     trial.evaluated =
         nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), answer, *dofs_, R, trial.reactions);
   } else {
-    const auto answer = [this](std::size_t m, Block& block) { return stress<false>(m, block, 0, nullptr); };
+    const auto answer = [this](std::size_t m, Block& block) { return stress<false>(m, block, 0, nullptr, nullptr); };
     trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
   }
   const std::size_t of_supports = trial.reactions.size() - load_control_.springs().size();
@@ -79,6 +81,7 @@ void MaterialPointPhase<B, K>::commit(TrialState& any) {
   trial.evaluated = false;
   for (std::size_t m = 0; m < body_.materials.size(); ++m) body_.materials[m]->commit(trial.arrays->history[m]);
   committed_u_.swap(trial.arrays->u);
+  if (averages_dilatation()) committed_averages_.swap(trial.arrays->averages);
   committed_t_ = trial.t;
 }
 
@@ -152,7 +155,7 @@ double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
   const auto largest_bound = [&] {
     double largest = 0;
     nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
-      average_dilatation<false>(m, block);
+      average_dilatation(m, block);
       const double bound = body_.materials[m]->stiffness_bound(block);
 #pragma omp critical(stillpoint_stiffening)
       largest = bound <= largest ? largest : bound;

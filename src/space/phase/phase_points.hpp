@@ -207,6 +207,7 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
   std::ranges::copy(PointWeights<B, K>::arrays(), std::back_inserter(arrays));
   if (averages_dilatation()) {
     arrays.push_back({"share of the cell's volume", real});
+    arrays.push_back({"change of volume, averaged", (history_dependent_ ? 2 : 1) * real});
     double scratch = 0;
     for (const std::vector<double>& history : scratch_history_) scratch += static_cast<double>(history.size());
     if (scratch > 0) arrays.push_back({"history, of tangents", scratch * real / static_cast<double>(points())});

@@ -1,0 +1,96 @@
+// Sums over the points of each cell in a block, given back to the points.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/lanes.hpp"
+#include "space/materials/point_material.hpp"
+#include "space/points/material_points.hpp"
+
+namespace stillpoint {
+
+/// A cell with more points than a block holds is summed in parts: it is alone in its block.
+template <Kinematics K>
+class CellSums {
+  using Block = PointBlock<K>;
+  using Four = Lanes<4>;
+
+ public:
+  using Row = std::array<double, Block::size + Block::slack>;
+  static constexpr std::size_t slack = 3;  // entries after the last share, for who reads four at a time
+
+  /// V_p/W of points from … to − 1, W the sum of theirs.
+  static void take_shares(const MaterialPoints<2>& points, std::size_t from, std::size_t to, double* shares) {
+    double volume = 0;
+    for (std::size_t p = from; p < to; ++p) volume += points.volume[p];
+    for (std::size_t p = from; p < to; ++p) shares[p - from] = points.volume[p] / volume;
+  }
+  /// Of all points in their cells, (P + slack), for a phase; of a cell in parts of each by itself.
+  static std::vector<double> volume_shares(const MaterialPoints<2>& points) {
+    std::vector<double> shares(points.size() + slack, 0.0);
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      for (std::size_t from = points.begin(k); from < points.end(k); from += Block::size)
+        take_shares(points, from, std::min(from + Block::size, points.end(k)), shares.data() + from);
+    }
+    return shares;
+  }
+
+  /// volume_share: of the block's points, with slack. Both outlive this.
+  CellSums(const MaterialPoints<2>& points, const double* volume_share)
+      : points_(points), volume_share_(volume_share) {}
+
+  // Four at a time: what is written past a cell's end the next one writes again.
+
+  /// Σ V x/W over each cell, at its points.
+  [[gnu::always_inline]] void means(const Block& block, const Row& x, Row& mean) const {
+    for_cells(
+        block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
+          const Four of_cell = sum_of(
+              from, to, [&](std::size_t q) __attribute__((always_inline)) {
+                return Four::load(&x[q]).times(Four::load(volume_share_ + q));
+              });
+          for (std::size_t q = from; q < to; q += 4) of_cell.store(&mean[q]);
+        });
+  }
+  /// V/W Σ x over each cell.
+  [[gnu::always_inline]] void shares(const Block& block, const Row& x, Row& share) const {
+    for_cells(
+        block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
+          const Four of_cell = sum_of(
+              from, to, [&](std::size_t q) __attribute__((always_inline)) { return Four::load(&x[q]); });
+          for (std::size_t q = from; q < to; q += 4) of_cell.times(Four::load(volume_share_ + q)).store(&share[q]);
+        });
+  }
+
+ private:
+  /// visit(first, last) of each cell's points in the block, by their rows in it.
+  template <class Visit>
+  [[gnu::always_inline]] void for_cells(const Block& block, const Visit& visit) const {
+    std::size_t from = 0;
+    for (std::size_t k = block.first_cell; k < block.last_cell; ++k) {
+      const std::size_t to = k + 1 < block.last_cell ? points_.end(k) - block.first : block.count;
+      visit(from, to);
+      from = to;
+    }
+  }
+  // Σ term(q) over from … to − 1, in all lanes; term gives four at a time. Most cells have four points.
+  template <class Term>
+  [[gnu::always_inline]] static Four sum_of(std::size_t from, std::size_t to, const Term& term) {
+    Four sum = term(from);
+    if (to - from != 4) {
+      sum = sum.first(to - from);
+      for (std::size_t q = from + 4; q < to; q += 4) sum = sum.plus(term(q).first(to - q));
+    }
+    const double in_all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    const LaneRegister<4>::Type lanes{in_all, in_all, in_all, in_all};
+    return {lanes};
+  }
+
+  const MaterialPoints<2>& points_;
+  const double* volume_share_;
+};
+
+}  // namespace stillpoint
