@@ -9,6 +9,7 @@
 #include <stillpoint/scene_error.hpp>
 #include <stillpoint/scene_options.hpp>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -29,10 +30,16 @@ struct GridSpec {                // [grid]
   double cell_length(std::size_t axis) const { return (max[axis] - min[axis]) / cells[axis]; }
 };
 
+struct PointOutline {                                     // of points in the plane
+  std::vector<std::vector<std::array<double, 2>>> loops;  // closed, what they enclose on the left [m]
+  double spacing = 0;                                     // of the points, the widest [m]
+};
+
 struct BodySpec {                // [body], or several [[body]]: material points in a box, in a polygon or from a file
   std::vector<double> min, max;  // the box [m], inside the grid; of a polygon, its bounding box
   std::vector<std::vector<double>> polygon;  // corners in order, (corners × 2) [m]; empty: the whole box
   std::filesystem::path file;                // CSV of points: x, y, volume (with thickness); empty: filled with points
+  PointOutline outline;                      // of these points, if a load acts on it
   std::string material;                      // a [material.<name>]
   std::optional<StressState> state;          // as written; Scene::state holds for all bodies
   double area = 1;                           // cross-section in one dimension [m²], thickness in two [m]
@@ -77,6 +84,7 @@ struct StopSpec {          // [stop]: a test set to 0 is off
   double distance = 0;     // ‖u − u*‖_V/‖u‖_V (ErrorBound), certified; not written: see Model::distance_goal
   double kinetic_energy = 1e-6;  // share of the largest kinetic energy so far; goes with these two
   double dwell = 1;              // both held for this many periods 2π/ω₁
+  double load_growth = 0;        // d ln λ/d ln q of the factor λ of driven loads at their limit
   double time = 0;               // end time [s]
   long steps = 10'000'000;
   double wall_time = 0;  // [s]

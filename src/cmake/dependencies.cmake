@@ -14,6 +14,7 @@ find_dependency(nlohmann_json CONFIG)
 find_dependency(OpenMP COMPONENTS CXX)
 find_dependency(GSL)
 find_dependency(ZLIB)
+find_dependency(Qhull CONFIG)
 find_dependency(SUNDIALS CONFIG COMPONENTS arkode nvecserial)
 
 # SuiteSparse, ARPACK and HDF5 bring no CMake package in Debian: a target for each. (CMake's own FindHDF5 compiles a C

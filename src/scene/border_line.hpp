@@ -18,8 +18,11 @@ struct BorderLine {
 /// A side of the box that a body fills; from its lower to its upper end.
 BorderLine side_of_box(const Scene& scene, std::size_t body, Face face);
 
-/// Of every body of which one straight side, of a box or of a polygon, holds both ends: two where bodies touch, none
-/// where a corner lies between the ends. Positions count as on a side that is within 1e-9 of the body's size.
+/// The border between two positions on it, of every body that has both: of more than one where bodies touch.
+/// Of a box or a polygon it is straight: one line, or none where a corner lies between the ends. Positions count as on
+/// a side that is within 1e-9 of the body's size.
+/// Of points from a file it is the shorter way along their outline, straight or not, between the places next to the
+/// two positions, which may be a point's spacing off it.
 std::vector<BorderLine> border_lines(const Scene& scene, const std::array<double, 2>& from,
                                      const std::array<double, 2>& to);
 

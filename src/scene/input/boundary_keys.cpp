@@ -38,7 +38,9 @@ void add_boundary(Tables& tables) {
 
   tables.add({"traction", "a load on the border of a body, with which it moves", Repeat::array}, &Scene::tractions)
       .key("face", &TractionSpec::face, "of the body, if it is the only one and a box; or line", {.words = faces})
-      .key("line", &TractionSpec::line, "[from, to], positions on one straight side of a box or of a polygon; or face",
+      .key("line", &TractionSpec::line,
+           "[from, to], positions on one straight side of a box or of a polygon, or on the outline of a file's points; "
+           "or face",
            {.unit = "m", .list = true, .dims = kPlane})
       .key("value", &TractionSpec::value, "per undeformed area; keeps its direction", {.unit = "Pa", .variables = "t"})
       .key("pressure", &TractionSpec::pressure, "or: per deformed area, along the normal",

@@ -127,6 +127,9 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
       .key("kinetic_energy", &StopSpec::kinetic_energy, "besides: its share of the largest so far",
            {.range = kNotNegative})
       .key("hold", &StopSpec::dwell, "periods 2 pi/omega_1 for which both have to hold", {.range = kNotNegative})
+      .key("load_growth", &StopSpec::load_growth,
+           "d ln(factor)/d ln(displacement) of [load] over the last fifth of its way, at the limit load",
+           {.range = kNotNegative})
       .key("time", &StopSpec::time, "end time", {.range = kNotNegative, .unit = "s"})
       .key("steps", &StopSpec::steps, "number of steps", {.range = kNotNegative})
       .key("wall_time", &StopSpec::wall_time, "time on the clock", {.range = kNotNegative, .unit = "s"});

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "scene/input/scene_check.hpp"
 #include "scene/outline.hpp"
 #include "scene/point_file.hpp"
+#include "scene/point_outline.hpp"
 
 namespace stillpoint {
 namespace {
@@ -73,6 +75,18 @@ bool check_polygon(SceneCheck& check, std::size_t k) {
   return true;
 }
 
+/// Of points from a file, if a load acts on it. Axisymmetric ones have their volume all the way round.
+void take_outline(const Scene& scene, BodySpec& body, const PointFile& points) {
+  if (scene.dim != 2 || std::ranges::all_of(scene.tractions, [](const TractionSpec& one) { return one.line.empty(); }))
+    return;
+  std::vector<double> area = points.volume;
+  const bool axisymmetric = scene.state == StressState::axisymmetric;
+  for (std::size_t p = 0; p < area.size(); ++p)
+    area[p] /= axisymmetric ? 2 * std::numbers::pi * points.x[0][p] : body.area;
+  body.outline = {.loops = outline_of_points(points.x[0], points.x[1], area),
+                  .spacing = std::sqrt(*std::ranges::max_element(area))};
+}
+
 /// The same for points from a file.
 bool check_file(SceneCheck& check, std::size_t k, bool grid) {
   const Scene& scene = check.scene();
@@ -98,6 +112,7 @@ bool check_file(SceneCheck& check, std::size_t k, bool grid) {
     body.min.push_back(*low);
     body.max.push_back(*high);
   }
+  take_outline(scene, body, points);
   return true;
 }
 

@@ -133,11 +133,11 @@ void check_line(SceneCheck& check, const std::string& key, const std::vector<std
   const std::vector<BorderLine> sides = border_lines(check.scene(), from, to);
   if (sides.empty())
     check.add(key,
-              "no straight side of a box or a polygon holds both positions; expected positions on its border, with "
-              "no corner between them");
-  if (sides.size() > 1)
-    check.add(key, fmt::format("bodies {} and {} touch here, so that nothing can load one of them", sides[0].body + 1,
-                               sides[1].body + 1));
+              "no straight side of a box or a polygon holds both positions, nor the outline of points from a file; "
+              "expected positions on the border, with no corner between them but those of such an outline");
+  if (!sides.empty() && sides.front().body != sides.back().body)
+    check.add(key, fmt::format("bodies {} and {} touch here, so that nothing can load one of them",
+                               sides.front().body + 1, sides.back().body + 1));
 }
 
 void check_tractions(SceneCheck& check, bool bodies) {
@@ -167,7 +167,10 @@ void check_tractions(SceneCheck& check, bool bodies) {
 /// Loads of one proportion are as large as their displacement makes them.
 void check_load_control(SceneCheck& check) {
   const Scene& scene = check.scene();
-  if (!scene.load) return;
+  if (!scene.load) {
+    if (scene.stop.load_growth > 0) check.add("stop.load_growth", "asks for the limit of a load that [load] drives");
+    return;
+  }
   const std::vector<std::string> names = names_of_loads(scene);
   if (names.empty()) check.add("load", "drives the loads of a scene, of which there are none");
   for (const std::string& name : scene.load->of)

@@ -1,0 +1,18 @@
+// The outer surface of a cloud of points in the plane.
+#pragma once
+
+#include <vector>
+
+#include "base/polygon.hpp"
+
+namespace stillpoint {
+
+/// Loops that go round the points, holes included, with what they enclose on the left: the border of the Delaunay
+/// triangles whose circles are no wider than three points' spacing [Edelsbrunner, Kirkpatrick and Seidel 1983], moved
+/// outwards by half a spacing. Of a lattice this is the border of its squares, but for corners that go inwards, which
+/// are cut off. area: of each point [m²], its spacing is the root. Empty where no triangle is left: of one or two
+/// points, or of a row.
+std::vector<Polygon> outline_of_points(const std::vector<double>& x, const std::vector<double>& y,
+                                       const std::vector<double>& area);
+
+}  // namespace stillpoint
