@@ -93,7 +93,7 @@ def rows_of(case, ways, folder):
         if key not in case:
             raise BadTable(f"{name}: {key} is missing")
     expected = as_list(case["expected"])
-    if not case.get("judge") and {"equilibrium", "end-time"} & set(expected):
+    if not case.get("judge") and {"equilibrium", "end-time", "limit-load"} & set(expected):
         raise BadTable(f"{name}: an answer is expected, and nothing judges it")
     taken = {key: case[key] for key in AS_IT_IS & case.keys()}
     taken["figures_tolerance"] = case.get("figures_tolerance", case.get("tolerance", 0.01))

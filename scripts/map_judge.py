@@ -1,7 +1,7 @@
 """Runs a row of the stability map under a time limit, and judges what comes out.
 
 Outcomes
-  equilibrium, end-time   exit status 0, and the answer is right
+  equilibrium, end-time, limit-load   exit status 0, and the answer is right
   FALSE                   exit status 0, and the answer is wrong by more than 1 %, or there should be none
   inaccurate              the same, by more than the case's tolerance but not by 1 %
   noted                   exit status 0, the answer is wrong, and a note says why (`notes` of the case)

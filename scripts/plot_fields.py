@@ -5,7 +5,8 @@ In the plane a panel a stage: the points at their deformed places, coloured by t
 A bar has a panel a run, with a line a stage. NAME is what fields.h5 has (plastic_strain, stress_xy, …); of a vector its
 length (u) or a component (u_x); or `layers`: alternating layers and columns of the undeformed body, to show what
 became of them. Without --field: plastic_strain, or u. N stages are drawn, evenly spread over those in the file: at most
-6, or 3 of each of several runs. FILE is DIR/fields.png if not given. Exit status 2 and a message where there is nothing
+6, or 3 of each of several runs. The last stage of a run that found a limit load has arrows along the velocity, its
+mechanism. FILE is DIR/fields.png if not given. Exit status 2 and a message where there is nothing
 to draw.
 """
 
@@ -35,6 +36,8 @@ class Stage:
     slope_angle: float | None  # [degrees]
     place: np.ndarray  # (points × dim), deformed
     values: np.ndarray  # (points) of the field; colours if that is `layers`
+    mechanism: np.ndarray | None = None  # (points × dim), the velocity at a limit load
+    factor: float | None = None  # of the loads, there
 
 
 @dataclass
@@ -141,6 +144,15 @@ def read_stages(frames, field, angles):
     return stages
 
 
+def add_mechanism(stage, frame, summary):
+    """To the last stage of a run that ended at the limit load."""
+    load = summary.get("load")
+    if summary.get("status") != "limit-load" or not isinstance(load, dict) or "v" not in frame:
+        return
+    known = np.isfinite(frame["place"][:, : frame.attrs["dim"]]).all(axis=1)
+    stage.mechanism, stage.factor = frame["v"][known, : frame.attrs["dim"]], load.get("factor")
+
+
 def read_run(folder, field, wanted):
     """The run, and the field that was chosen for it."""
     summary, label = read_summary(folder)
@@ -164,6 +176,7 @@ def read_run(folder, field, wanted):
             if field not in common:
                 raise Refused(f"{file}: no field '{field}'; there are {', '.join(common)}")
             stages = read_stages(frames, field, slope_angles(summary, folder))
+            add_mechanism(stages[-1], frames[-1], summary)
     except (OSError, KeyError, ValueError) as error:
         raise Refused(f"{file}: {error}") from None
     return Run(label, title_of(summary), dim, stages), field
@@ -224,6 +237,8 @@ def heading(run, stage, many_runs):
     parts = [plain(run.label)] * many_runs + [f"$t$ = {stage.t:.4g}"]
     if stage.slope_angle is not None:
         parts.append(f"slope {stage.slope_angle:.1f}°")
+    if stage.factor is not None:
+        parts.append(rf"limit load $\lambda$ = {stage.factor:.4g}")
     return ",  ".join(parts)
 
 
@@ -262,6 +277,21 @@ class Sheet:
         return self.figure.add_axes((x / self.width, y / self.height, width / self.width, height / self.height))
 
 
+def draw_arrows(axis, place, vectors):
+    """The mean vector of each square of about 18 to the longer side; what hardly moves has none."""
+    length = np.ptp(body(place), axis=0).max() / 18 or 1.0
+    _, square = np.unique(np.floor(place / length), axis=0, return_inverse=True)
+    count = np.bincount(square)
+    mean = [np.bincount(square, values) / count for values in (*place.T, *vectors.T)]
+    size = np.hypot(mean[2], mean[3])
+    if not size.max() > 0:
+        return
+    x, y, along_x, along_y = (values[size > 0.05 * size.max()] for values in mean)
+    scale = size.max() / (1.3 * length)
+    axis.quiver(x, y, along_x, along_y, angles="xy", scale_units="xy", scale=scale, width=0.004, color="white",
+                edgecolor="black", linewidth=0.5)  # fmt: skip
+
+
 def draw_plane(runs, field):
     stages = [stage for run in runs for stage in run.stages]
     bodies = [body(stage.place) for stage in stages]
@@ -291,6 +321,8 @@ def draw_plane(runs, field):
         spacing = scale * spacing_of(stage.place)
         diameter = max(spacing, min(1.4 * spacing, 2.5), 0.9)  # fine ones overlap: gaps as fine as pixels make moirés
         axis.scatter(*stage.place.T, c=stage.values, s=diameter**2, cmap=cmap, norm=norm, linewidths=0, rasterized=True)
+        if stage.mechanism is not None:
+            draw_arrows(axis, stage.place, stage.mechanism)
     if norm:
         add_colour_bar(sheet.figure, sheet.bar(), cmap, norm, extend, name_of(field, 2))
     return sheet.figure

@@ -21,7 +21,7 @@ LEGEND = {RIGHT: "right", NAMED: "a named failure, as expected", FAULT: "a known
 FALSE = "×"  # marks an answer that is wrong at exit status 0
 ASPECT = 4  # of a cell: width over height
 MOST_TEXTS = 3  # side by side in a cell
-SUCCESS = ("equilibrium", "end-time", "noted")
+SUCCESS = ("equilibrium", "end-time", "limit-load", "noted")
 
 
 def colour_of(line):

@@ -32,7 +32,7 @@ COLUMNS = ["case", "way", "expected", "outcome", "evaluations", "error", "fault"
 LARGE_CHANGE = 0.2  # of evaluations
 QUICK_RANDOM, ALL_RANDOM = 40, 500
 KNOWN_SEED = 1  # of the variations whose faults are known
-SUCCESS = {"equilibrium", "end-time", "noted"}
+SUCCESS = {"equilibrium", "end-time", "limit-load", "noted"}
 
 
 def judged(rows, options):

@@ -14,6 +14,7 @@ enum class RunStatus {
   running,
   equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, for the dwell
   unstable_equilibrium,  // the same, but K(u) has a negative eigenvalue: the least disturbance ends it
+  limit_load,            // the factor of driven loads does not grow any more, by stop.load_growth
   end_time,              // t = stop.time
   step_limit,            // stop.steps taken
   time_limit,            // stop.wall_time spent
@@ -48,6 +49,7 @@ struct ExactError {
 struct LoadFigures {                      // of loads that a displacement drives
   double factor = 0, largest_factor = 0;  // λ at the end, and the largest so far
   double displacement = 0;                // their mean displacement [m]
+  std::optional<double> growth = {};      // d ln λ/d ln q over the last fifth of q
 };
 
 /// Empty: not computed.

@@ -14,6 +14,8 @@ std::string to_string(RunStatus status) {
       return "equilibrium";
     case RunStatus::unstable_equilibrium:
       return "unstable-equilibrium";
+    case RunStatus::limit_load:
+      return "limit-load";
     case RunStatus::end_time:
       return "end-time";
     case RunStatus::step_limit:
@@ -66,7 +68,8 @@ std::string to_json(const Summary& s) {
   if (s.load) {
     load = {{"factor", number(s.load->factor)},
             {"largest_factor", number(s.load->largest_factor)},
-            {"displacement", number(s.load->displacement)}};
+            {"displacement", number(s.load->displacement)},
+            {"growth", number(s.load->growth)}};
   }
 
   const Json json = {{"scene", s.scene},

@@ -70,7 +70,9 @@ void Simulation::Impl::end_as_asked(const std::string& where) {
 void Simulation::Impl::say_what_moves() {
   const bool is_limit =
       status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
-  if (is_limit && exit_status() != 0) reason_ += "; " + furthest_from_rest(*motion_, t_);
+  if (!is_limit || exit_status() == 0) return;
+  if (scene_.stop.wants_equilibrium()) reason_ += "; " + furthest_from_rest(*motion_, t_);
+  if (scene_.stop.load_growth > 0) reason_ += "; no limit load: " + limit_load_.description();
 }
 
 // What claims to be an equilibrium may be one that the least disturbance ends.

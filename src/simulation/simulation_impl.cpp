@@ -222,6 +222,7 @@ void Simulation::Impl::look_for_end() {
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
   if (!done() && schedule_.settled(t_)) look_for_mechanism();
   if (!done()) look_for_standstill();
+  if (!done() && scene_.load) look_for_limit_load();
 }
 
 void Simulation::Impl::watch_plastic_path() {
@@ -241,6 +242,14 @@ void Simulation::Impl::look_for_standstill() {
   if (!standstill_.lasts()) return;
   status_ = RunStatus::failed;
   reason_ = failure(now(), standstill_.description(*model_.phase, *motion_, t_));
+}
+
+void Simulation::Impl::look_for_limit_load() {
+  if (!limit_load_.observe(*model_.phase->load_state(t_, motion_->u()))) return;
+  measure();
+  if (!limit_load_.reached(residual_)) return;
+  status_ = RunStatus::limit_load;
+  reason_ = "the limit load: " + limit_load_.description();
 }
 
 bool Simulation::Impl::watches_chatter() const {

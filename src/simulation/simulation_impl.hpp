@@ -15,6 +15,7 @@
 #include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
 #include "simulation/failure.hpp"
+#include "simulation/limit_load.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/mechanism.hpp"
 #include "simulation/memory_need.hpp"
@@ -61,6 +62,7 @@ class Simulation::Impl {
   Chatter chatter_;
   PlasticPath plastic_path_;
   Standstill standstill_;
+  LimitLoad limit_load_{scene_.stop.load_growth};
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::optional<Recorder> recorder_;
 
@@ -86,6 +88,7 @@ class Simulation::Impl {
   void watch_plastic_path();
   void look_for_mechanism();
   void look_for_standstill();
+  void look_for_limit_load();
   void watch();
   void look_for_end();
   void follow_period();

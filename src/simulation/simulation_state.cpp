@@ -136,6 +136,7 @@ void Simulation::Impl::archive(const StateArchive& state) {
   plastic_path_.archive(state.part("plastic_path"));
   standstill_.archive(state.part("standstill"));
   mechanism_.archive(state.part("mechanism"));
+  limit_load_.archive(state.part("limit_load"));
   if (recorder_) recorder_->archive(state.part("records"));
 }
 

@@ -21,9 +21,10 @@ void add_note(Summary& s, const std::optional<std::string>& note) {
 int Simulation::Impl::exit_status() const {
   switch (status_) {
     case RunStatus::equilibrium:
+    case RunStatus::limit_load:
       return 0;
     case RunStatus::end_time:
-      return scene_.stop.wants_equilibrium() ? 3 : 0;
+      return scene_.stop.wants_equilibrium() || scene_.stop.load_growth > 0 ? 3 : 0;
     case RunStatus::diverged:
     case RunStatus::failed:
       return 4;
@@ -101,6 +102,7 @@ void Simulation::Impl::fill_state(Summary& s) {
   }
   fill_supports(scene_, *model_.phase, t_, *motion_, s);
   if (recorder_) recorder_->fill(s, t_, *motion_);
+  if (s.load) s.load->growth = limit_load_.growth();
 }
 
 }  // namespace stillpoint

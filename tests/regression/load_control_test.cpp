@@ -15,7 +15,9 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-LoadFigures driven(const std::string& scene, const std::vector<std::string>& overrides) {
+/// To the end, beyond the limit.
+LoadFigures driven(const std::string& scene, std::vector<std::string> overrides) {
+  overrides.insert(overrides.begin(), "stop.load_growth=0");
   const Summary summary = run(scenes::load(scene, overrides));
   REQUIRE(summary.status == RunStatus::end_time);
   REQUIRE(summary.load);
@@ -50,6 +52,26 @@ TEST_CASE("a strip footing on clay carries Prandtl's limit load within 3 %, and 
   CHECK(load.factor == Approx(half.factor).epsilon(0.005));
   // Without the mean dilatation the same cells carry half as much again, and ever more.
   CHECK(driven("footing_limit", {"phase.dilatation=points"}).factor > 1.25 * load.factor);
+}
+
+TEST_CASE("a run that asks for the limit load ends there, early, with the factor that all the rest of its way has") {
+  const Summary s = run(scenes::load("footing_limit", {}));
+  CHECK(s.status == RunStatus::limit_load);
+  CHECK(s.exit_status == 0);
+  CHECK(s.t < 2);  // of 4 s
+  REQUIRE(s.load);
+  CHECK(s.load->factor == Approx(driven("footing_limit", {}).factor).epsilon(0.005));
+  CHECK(s.load->growth.value() <= 0.01);
+  CHECK_THAT(s.reason, Contains("the limit load"));
+}
+
+TEST_CASE("a limit load that was asked for and is not found is no success, and the summary tells how the load grows") {
+  const Summary s = run(
+      scenes::load("block", pulled({"stop={residual=0, time=15, load_growth=0.01}", "integrator.step_fraction=0.2"})));
+  CHECK(s.status == RunStatus::end_time);
+  CHECK(s.exit_status == 3);
+  CHECK(s.load.value().growth.value() == Approx(1).epsilon(0.1));  // elastic; what damping bears besides
+  CHECK_THAT(s.reason, Contains("no limit load: over the last fifth"));
 }
 
 TEST_CASE("past the limit the factor falls with the strength of a soil that softens, and the peak is remembered") {

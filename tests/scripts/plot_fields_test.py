@@ -197,5 +197,27 @@ def _(folder):
     assert axis.get_ylabel() == r"stress $\sigma$"
 
 
+@claim("the last stage of a run that found a limit load has its factor, and arrows along the velocity where that is")
+def _(folder):
+    from matplotlib.quiver import Quiver
+
+    place = a_body()
+    upper = place[:, 1] > place[:, 1].mean()
+    v = np.where(upper[:, None], [0.0, -2.0, 0.0], 1e-4)  # what is below hardly moves
+    write(folder, [{"t": t, "place": place, "plastic_strain": place[:, 1], "v": v} for t in (0.0, 1.0)])
+
+    def arrows(summary):
+        (folder / "summary.json").write_text(json.dumps(summary))
+        panels = panels_of(figure_of([folder]))
+        return [[one for one in axis.collections if isinstance(one, Quiver)] for axis in panels], panels[-1].get_title()
+
+    found, title = arrows({"status": "limit-load", "load": {"factor": 5.2321}})
+    assert [len(each) for each in found] == [0, 1] and r"$\lambda$ = 5.232" in title, title
+    quiver = found[1][0]
+    assert 50 < len(quiver.U) < 200 and np.allclose(quiver.U, 0, atol=0.1) and np.all(quiver.V < -0.9)
+    assert quiver.Y.min() > place[:, 1].mean() - 0.25  # a square that both share
+    assert arrows({"status": "end-time", "load": {"factor": 5.2321}})[0] == [[], []]
+
+
 if __name__ == "__main__":
     check_the_claim()

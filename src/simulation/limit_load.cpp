@@ -1,0 +1,81 @@
+#include "simulation/limit_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gsl/gsl_fit.h>
+
+namespace stillpoint {
+namespace {
+
+constexpr std::size_t most_pieces = 256;   // then two and two are joined
+constexpr std::size_t fewest_pieces = 64;  // a fifth of which a slope can be fitted to
+
+}  // namespace
+
+// Loads may be driven either way; what turns back is no new displacement.
+bool LimitLoad::observe(const LoadState& load) {
+  const double q = std::abs(load.displacement);
+  if (!(q > 0) || !std::isfinite(load.factor)) return false;
+  if (piece_ == 0) piece_ = q;
+  if (q <= end_ - piece_) return false;
+  sum_q_ += q;
+  sum_factor_ += load.factor;
+  ++steps_;
+  if (q < end_) return false;
+  close_piece();
+  end_ = q + piece_;
+  growth_ = measured_growth();
+  return asked_ > 0 && growth_ && *growth_ <= asked_;
+}
+
+void LimitLoad::close_piece() {
+  if (q_.size() == most_pieces) halve();
+  q_.push_back(sum_q_ / steps_);
+  factor_.push_back(sum_factor_ / steps_);
+  steps_ = sum_q_ = sum_factor_ = 0;
+}
+
+void LimitLoad::halve() {
+  for (std::vector<double>* means : {&q_, &factor_}) {
+    for (std::size_t k = 0; k < most_pieces / 2; ++k) (*means)[k] = ((*means)[2 * k] + (*means)[2 * k + 1]) / 2;
+    means->resize(most_pieces / 2);
+  }
+  piece_ *= 2;
+}
+
+// dλ/dq by least squares.
+std::optional<double> LimitLoad::measured_growth() const {
+  if (q_.size() < fewest_pieces) return {};
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(q_, 0.8 * q_.back()) - q_.begin());
+  const std::size_t count = q_.size() - first;
+  if (count < 8) return {};
+  double at_zero = 0, slope = 0, cov00 = 0, cov01 = 0, cov11 = 0, squares = 0;
+  gsl_fit_linear(&q_[first], 1, &factor_[first], 1, count, &at_zero, &slope, &cov00, &cov01, &cov11, &squares);
+  const double middle = (q_[first] + q_.back()) / 2;
+  const double growth = slope * middle / (at_zero + slope * middle);
+  if (!std::isfinite(growth)) return {};
+  return growth;
+}
+
+std::string LimitLoad::description() const {
+  if (!growth_) return "too few steps to tell how the factor grows";
+  return fmt::format(
+      "over the last fifth of the displacement the factor grew {:.3g} times as fast as it (stop.load_growth = {:.3g})",
+      *growth_, asked_);
+}
+
+void LimitLoad::archive(const StateArchive& state) {
+  state("q", q_);
+  state("factor", factor_);
+  if (q_.size() != factor_.size() || q_.size() > most_pieces) throw StateError("'factor' is not that of each 'q'");
+  state("piece", piece_);
+  state("sum_q", sum_q_);
+  state("sum_factor", sum_factor_);
+  state("steps", steps_);
+  state("end", end_);
+  state("growth", growth_);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,51 @@
+// The limit load: the factor λ that driven loads have when it does not grow any more with their displacement q.
+//
+//   m = d ln λ/d ln q = (q/λ) dλ/dq,   over the last fifth of q
+//
+// is 1 of an elastic body, whatever its stiffness, 0 at the limit, and negative beyond a peak.
+#pragma once
+
+#include <stillpoint/state_archive.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "space/boundary/load_state.hpp"
+
+namespace stillpoint {
+
+class LimitLoad {
+ public:
+  // Of ‖F − R‖/‖F‖: with more out of balance λ is not what the body bears, but what accelerates it.
+  static constexpr double largest_residual = 0.01;
+
+  /// growth: m at the limit; 0: nobody asks for it.
+  explicit LimitLoad(double growth) : asked_(growth) {}
+
+  /// After a step. Whether m is known anew and small enough, so that reached() is to be asked.
+  bool observe(const LoadState& load);
+  /// residual: ‖F − R‖/‖F‖ of the same moment.
+  bool reached(double residual) const { return residual <= largest_residual; }  // false for NaN as well
+  /// m; nothing before there is enough of q.
+  std::optional<double> growth() const { return growth_; }
+  /// "over the last fifth of the displacement …".
+  std::string description() const;
+
+  void archive(const StateArchive& state);
+
+ private:
+  void close_piece();
+  void halve();
+  std::optional<double> measured_growth() const;
+
+  double asked_;
+  // Means over the steps within each piece of q, the pieces one after the other and of about the same length.
+  std::vector<double> q_, factor_;
+  double piece_ = 0;                                         // this length [m]; 0 before q has begun
+  double steps_ = 0, sum_q_ = 0, sum_factor_ = 0, end_ = 0;  // of the open piece
+  std::optional<double> growth_;
+};
+
+}  // namespace stillpoint

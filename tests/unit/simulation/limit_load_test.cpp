@@ -1,0 +1,97 @@
+#include "simulation/limit_load.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace stillpoint;
+
+namespace {
+
+constexpr double asked = 0.01;
+constexpr double balanced = 1e-4;
+
+/// Drives `limit` along factor_at(q) from 0 to q_end; the q at which it says that the limit is reached, q_end if never.
+template <class FactorAt>
+double drive(LimitLoad& limit, double q_end, const FactorAt& factor_at, double residual = balanced) {
+  constexpr int steps = 5000;
+  for (int k = 1; k <= steps; ++k) {
+    const double q = q_end * k / steps;
+    if (limit.observe({.factor = factor_at(q), .displacement = q}) && limit.reached(residual)) return q;
+  }
+  return q_end;
+}
+
+}  // namespace
+
+TEST_CASE("the factor of an elastic body grows as fast as its displacement, whatever the stiffness and the sign") {
+  for (const double k : {1e-6, 3.0, 1e9}) {
+    CAPTURE(k);
+    LimitLoad limit(asked);
+    CHECK(drive(limit, 7, [k](double q) { return k * q; }) == 7);
+    REQUIRE(limit.growth());
+    CHECK(*limit.growth() == Approx(1).epsilon(1e-9));
+    LimitLoad backwards(asked);
+    for (int i = 1; i < 5000; ++i) CHECK_FALSE(backwards.observe({.factor = k * i, .displacement = -1e-3 * i}));
+    CHECK(*backwards.growth() == Approx(1).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the growth of a hyperbolic curve is that of its formula") {
+  // λ = q/(a + q): q/λ dλ/dq = a/(a + q), in the middle of the last fifth
+  LimitLoad limit(0);
+  drive(limit, 3, [](double q) { return q / (0.5 + q); });
+  CHECK(limit.growth().value() == Approx(0.5 / (0.5 + 0.9 * 3)).epsilon(0.02));  // a line through a fifth of a curve
+}
+
+TEST_CASE("a limit is reached once the factor grows no more, and not while the body is out of balance") {
+  const auto capped = [](double q) { return std::min(q, 1.0); };
+  LimitLoad limit(asked);
+  const double q = drive(limit, 5, capped);
+  CHECK(q > 1.2);  // the last fifth of the way has to be flat
+  CHECK(q < 1.3);
+  CHECK(limit.growth().value() <= asked);
+  for (const double residual : {0.5, std::nan("")}) {
+    LimitLoad moving(asked);
+    CHECK(drive(moving, 5, capped, residual) == 5);
+  }
+}
+
+TEST_CASE("a peak is a limit, and what swings a little about a rising curve is none") {
+  LimitLoad peak(asked);
+  CHECK(drive(peak, 3, [](double q) { return q * std::exp(-q); }) == Approx(1.1).epsilon(0.05));  // the peak is at 1
+  LimitLoad swinging(asked);
+  CHECK(drive(swinging, 5, [](double q) { return q + 0.002 * std::sin(100 * q); }) == 5);
+}
+
+TEST_CASE("without a criterion no limit is reached, and what turns back or stands is no new displacement") {
+  LimitLoad unasked(0);
+  CHECK(drive(unasked, 5, [](double) { return 1.0; }) == 5);
+  LimitLoad turned(asked);
+  drive(turned, 1, [](double q) { return q; });
+  const double before = turned.growth().value();
+  for (int k = 0; k < 1000; ++k) turned.observe({.factor = 0.5, .displacement = 0.5});
+  CHECK(turned.growth().value() == before);
+}
+
+TEST_CASE("a limit load that was saved on the way is found at the same displacement") {
+  const auto curve = [](double q) { return std::tanh(q); };
+  LimitLoad whole(asked);
+  const double expected = drive(whole, 10, curve);
+  REQUIRE(expected < 10);
+  LimitLoad first(asked), second(asked);
+  SavedState saved;
+  for (int k = 1; k <= 5000; ++k) {
+    const double q = 10.0 * k / 5000;
+    LimitLoad& now = k <= 777 ? first : second;
+    const bool found = now.observe({.factor = curve(q), .displacement = q});
+    if (k == 777) {
+      first.archive(StateArchive::saving(saved));
+      second.archive(StateArchive::restoring(saved));
+    }
+    if (!found) continue;
+    CHECK(q == expected);
+    return;
+  }
+  FAIL("no limit was found");
+}
