@@ -1,6 +1,7 @@
 // Moving supports against exact motions.
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -83,6 +84,25 @@ TEST_CASE("a support at a position takes its displacement from there") {
   CHECK(run(scenes::bar({"support=[{at=0.0}, {at=10.0, u='0.1*x^2/100'}]", "force=[]", "exact.u=0.01*x",
                          "exact.stress=0.01", "stop.residual=1e-9"}))
             .error->u_rel_max < 1e-7);
+}
+
+TEST_CASE("springs pull their material to the displacement of where it was, in many phases as in one") {
+  const auto foot = [](const std::string& phase) {
+    const Summary s = run(scenes::load(
+        "block",
+        {"support=[{face='left', kind='roller'}, {face='bottom', component='x', u='0.2*x*min(t/40, 1)', "
+         "stiffness=1e2}, {face='bottom', component='y', stiffness=1e2}]",
+         "traction=[]", "grid={min=[0, 0], max=[2, 1.5], cells=[16, 12]}", "body.min=[0, 0]", "body.max=[1, 1]",
+         "probe=[{name='middle', at=[0.5, 0], fields=['u.x']}]", "stop={residual=0, time=80}", phase}));
+    CHECK(s.exit_status == 0);
+    return std::pair(scenes::probe(s, "middle", "u.x"), s.phases);
+  };
+  const auto [in_one, one] = foot("phase={}");
+  const auto [in_many, many] = foot("phase.max_motion=0.1");
+  CHECK(one == 1);
+  CHECK(many > 10);
+  CHECK(in_one == Approx(0.1).epsilon(0.01));  // the springs give way
+  CHECK(in_many == Approx(in_one).epsilon(2e-3));
 }
 
 TEST_CASE("a displacement that varies along a face is refused where unknowns are no values, or leave the face") {

@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
+#include <gsl/gsl_errno.h>
 
+#include "base/quiet_gsl.hpp"
 #include "largest.hpp"
 
 using namespace stillpoint;
@@ -49,4 +51,15 @@ TEST_CASE("a zero is found to rounding, and one that is not there is an error") 
   CHECK(zero_between(0, 1e-9, [](double x) { return x * x - 1e-20; }) == Approx(1e-10).epsilon(1e-12));
   CHECK_THROWS_AS(zero_between(0, 1, [](double x) { return x + 1; }), std::domain_error);
   CHECK_THROWS_AS(zero_between(-1, 1, [](double) { return std::nan(""); }), std::domain_error);
+}
+
+TEST_CASE("a program's own handler of GSL's errors is there again afterwards, however many were quiet at once") {
+  const auto own = [](const char*, const char*, int, int) {};
+  gsl_error_handler_t* const before = gsl_set_error_handler(own);
+  {
+    const QuietGsl one;
+    { const QuietGsl other; }
+    CHECK(std::isnan(lambert_w(-1)));
+  }
+  CHECK(gsl_set_error_handler(before) == static_cast<gsl_error_handler_t*>(own));
 }
