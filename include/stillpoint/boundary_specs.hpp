@@ -5,19 +5,20 @@
 #include <stillpoint/scene_options.hpp>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace stillpoint {
 
-struct SupportSpec {                   // [[support]]: u = motion(t) at a position, or on a face of the grid
+struct SupportSpec {                   // [[support]]: u = motion(X, t) at a position, or on a face of the grid
   std::string name{};                  // for its reaction in history.csv and summary.json; empty: not reported
   std::vector<double> at{};            // [m]; empty: on the face
   std::optional<Face> face{};          // of the grid
   std::optional<double> from{}, to{};  // the part of the face that is held, along it [m]; empty: to its ends
   bool roller = false;                 // on a face: only `component` is held, otherwise the other one too (at 0)
   int component = 0;                   // that moves; on a face its normal, unless another is named
-  Expression motion{};                 // of t [m]; 0: fixed
+  Expression motion{};                 // of the position before the motion and of t [m]; 0: fixed
   std::optional<double> stiffness{};   // of a spring that holds: at a position [N/m], on a face per area [N/m³]
 
   bool on_part() const { return from || to; }
@@ -38,8 +39,12 @@ struct PointForceSpec {           // [[force]]
 struct TractionSpec {                          // [[traction]]: a load on the border of a body
   std::optional<Face> face;                    // of the one body, a box
   std::vector<std::vector<double>> line = {};  // or on a straight side that holds both ends, (2 × 2) [m]
-  std::vector<Expression> value;               // of t, per undeformed area [Pa]; it keeps its direction
-  std::optional<Expression> pressure;  // of t, per deformed area [Pa], instead of value: it follows the face's normal
+  // Of the position before the motion and of t:
+  std::vector<Expression> value;       // per undeformed area [Pa]; it keeps its direction
+  std::optional<Expression> pressure;  // per deformed area [Pa], instead of value: it follows the face's normal
+
+  /// The components of value, or the pressure alone.
+  std::span<const Expression> formulas() const { return pressure ? std::span(&*pressure, 1) : std::span(value); }
 };
 
 struct LoadSpec {               // [load]: loads in one proportion, driven by a displacement

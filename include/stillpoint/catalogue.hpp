@@ -1,16 +1,20 @@
 // What a scene may choose from by name, with the properties that decide what goes with what: plain data. Each row
-// stands beside the code that it names (a law, a damping, a relaxation, an integrator).
+// stands beside the code that it names (a law, a damping, a relaxation, an integrator, an exact solution).
 #pragma once
 
 #include <stillpoint/scene_options.hpp>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace stillpoint {
 
-/// A number that a law takes; allowed if lower < value < upper, and at lower itself if lower_allowed.
+struct Scene;
+
+/// A number that a law or an exact solution takes; allowed if lower < value < upper, and at lower itself if
+/// lower_allowed.
 struct ParameterInfo {
   std::string_view name, unit, meaning;
   double lower, upper;
@@ -20,7 +24,7 @@ struct ParameterInfo {
   std::string_view same_as = {};  // an earlier parameter, whose value is the fallback then; empty: none
 };
 
-/// A word that a law takes.
+/// A word that one takes.
 struct ChoiceInfo {
   std::string_view name, meaning;
   std::vector<std::string_view> values;
@@ -73,16 +77,36 @@ struct MethodInfo {
   std::vector<DampingTreatment> treatments = {DampingTreatment::automatic};  // of integrator.damping
 };
 
+/// What is wrong with a key of [exact].
+struct SolutionFault {
+  std::string_view key;
+  std::string message;
+};
+
+/// A name of exact.solution. Its material is that of the scene's bodies; all else are its parameters.
+struct SolutionInfo {
+  std::string_view name, description, source;
+  std::vector<StressState> states;
+  std::vector<ParameterInfo> parameters;
+  std::vector<ChoiceInfo> choices{};
+  std::vector<std::string_view> laws{};  // for which it holds; empty: for all, at small strain
+  bool has_stress = true;
+  /// Of a scene whose parameters are each in their range; null: nothing can be wrong then.
+  std::optional<SolutionFault> (*fault)(const Scene&) = nullptr;
+};
+
 struct Catalogue {
   std::vector<LawInfo> laws;
   std::vector<StrategyInfo> strategies;  // dampings, then relaxations
   std::vector<StaticMethodInfo> static_methods;
   std::vector<MethodInfo> methods;
+  std::vector<SolutionInfo> solutions;
 
   const LawInfo* law(std::string_view name) const;  // null if there is none of that name; likewise below
   const StrategyInfo* strategy(std::string_view name) const;
   const StaticMethodInfo* static_method(std::string_view name) const;
   const MethodInfo* method(std::string_view name) const;
+  const SolutionInfo* solution(std::string_view name) const;
 };
 
 }  // namespace stillpoint

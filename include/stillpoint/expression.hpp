@@ -39,7 +39,8 @@ class Expression {
   /// x: up to three coordinates [m], the missing ones 0; t [s].
   double operator()(std::span<const double> x, double t) const;
   bool uses(char variable) const;
-  bool constant() const { return !uses('x') && !uses('y') && !uses('z') && !uses('t'); }
+  bool uses_position() const { return uses('x') || uses('y') || uses('z'); }
+  bool constant() const { return !uses_position() && !uses('t'); }
   const std::string& text() const;
 
  private:

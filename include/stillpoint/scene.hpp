@@ -56,6 +56,16 @@ struct MaterialSpec {  // [material.<name>]
   std::map<std::string, std::string> choices;  // likewise, those that are words (cone = "mean")
 };
 
+struct ExactSpec {                   // [exact]: the exact solution, if it is known
+  std::vector<Expression> u{};       // of x, y, z, t [m]; empty: not known by formulas
+  std::vector<Expression> stress{};  // Cauchy's, likewise, (stress components) [Pa]
+  std::string solution{};            // or the name of one that the program knows; its material is that of the bodies
+  std::map<std::string, double> parameters{};    // of that: complete
+  std::map<std::string, std::string> choices{};  // likewise
+
+  bool known() const { return !u.empty() || !solution.empty(); }
+};
+
 struct SolveSpec {                    // [solve]
   std::string method = "relaxation";  // or a static solver: "newton", "newton-cg", "cg", "lbfgs"
   bool is_static() const { return method != "relaxation"; }
@@ -171,8 +181,7 @@ struct Scene : BoundarySpecs {
   PhaseSpec phase;
   std::vector<Expression> initial_u, initial_v;  // of x, y, z [m], [m/s]; empty: 0
   std::optional<GeostaticSpec> geostatic;
-  std::vector<Expression> exact_u;       // of x, y, z, t [m]; empty: not known
-  std::vector<Expression> exact_stress;  // Cauchy's, likewise, (stress components) [Pa]; empty: not known
+  ExactSpec exact;
   SolveSpec solve;
   DampingSpec damping;
   IntegratorSpec integrator;

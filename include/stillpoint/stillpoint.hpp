@@ -6,6 +6,7 @@
 
 #include <stillpoint/compare.hpp>
 #include <stillpoint/converge.hpp>
+#include <stillpoint/exact_solution.hpp>
 #include <stillpoint/run.hpp>
 #include <stillpoint/scene.hpp>
 #include <stillpoint/spectrum.hpp>

@@ -41,6 +41,11 @@ void list_static_methods() {
   }
 }
 
+void list_choices(const std::vector<ChoiceInfo>& choices) {
+  for (const ChoiceInfo& c : choices)
+    fmt::print("    {:<18}{}: {}, default {}\n", c.name, c.meaning, fmt::join(c.values, " | "), c.fallback);
+}
+
 void list_materials() {
   fmt::print("materials (material.<name>.law)\n");
   for (const LawInfo& law : catalogue().laws) {
@@ -55,9 +60,22 @@ void list_materials() {
       fmt::print("    {:<18}{} [{}], {} {} {} < {}{}\n", p.name, p.meaning, p.unit, p.lower,
                  p.lower_allowed ? "<=" : "<", p.name, p.upper, fallback);
     }
-    for (const ChoiceInfo& c : law.choices) {
-      fmt::print("    {:<18}{}: {}, default {}\n", c.name, c.meaning, fmt::join(c.values, " | "), c.fallback);
-    }
+    list_choices(law.choices);
+  }
+}
+
+void list_solutions() {
+  fmt::print("exact solutions (exact.solution), for the material and the state of the bodies\n");
+  for (const SolutionInfo& info : catalogue().solutions) {
+    fmt::print("  {:<16}{}   [{}]\n", info.name, info.description, info.source);
+    std::vector<std::string_view> states;
+    for (const StressState state : info.states) states.push_back(to_string(state));
+    fmt::print("    for {}{}{}\n", fmt::join(states, ", "), info.laws.empty() ? ", small strain" : "; law ",
+               fmt::join(info.laws, ", "));
+    for (const ParameterInfo& p : info.parameters)
+      fmt::print("    {:<18}{} [{}]{}\n", p.name, p.meaning, p.unit,
+                 p.required ? "" : fmt::format(", default {}", p.fallback));
+    list_choices(info.choices);
   }
 }
 
@@ -83,6 +101,7 @@ int list(const std::string& topic, const std::string& format) {
   if (all || topic == "relaxations") list_strategies("relaxations", true);
   if (all || topic == "solvers") list_static_methods();
   if (all || topic == "materials") list_materials();
+  if (all || topic == "solutions") list_solutions();
   if (all || topic == "bases") list_bases();
   if (all || topic == "keys") fmt::print("{}", key_list(catalogue()));
   return 0;

@@ -137,8 +137,9 @@ int dispatch(int argc, char** argv) {
   CLI::App& list_app = *app.add_subcommand("list", "what there is to choose from");
   list_app
       .add_option("TOPIC", topic,
-                  "integrators, dampings, relaxations, solvers, materials, bases or keys (default: all)")
-      ->check(CLI::IsMember({"integrators", "dampings", "relaxations", "solvers", "materials", "bases", "keys"}));
+                  "integrators, dampings, relaxations, solvers, materials, solutions, bases or keys (default: all)")
+      ->check(CLI::IsMember(
+          {"integrators", "dampings", "relaxations", "solvers", "materials", "solutions", "bases", "keys"}));
   std::string format = "text";
   list_app.add_option("--format", format, "of keys: text, markdown or schema (a JSON schema for editors)")
       ->check(CLI::IsMember({"text", "markdown", "schema"}));

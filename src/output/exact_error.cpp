@@ -1,5 +1,6 @@
 #include "output/exact_error.hpp"
 
+#include <stillpoint/exact_solution.hpp>
 #include <stillpoint/material.hpp>
 
 #include <algorithm>
@@ -37,17 +38,15 @@ double contracted(std::span<const double> sigma) {
 
 /// visit(p, σ_h − σ, σ) for every material point.
 template <class Visit>
-void for_stresses(const Scene& scene, const LagrangianPhase& phase, const PointData& data, double t, ConstVec u,
-                  const Visit& visit) {
+void for_stresses(const ExactSolution& solution, const LagrangianPhase& phase, const PointData& data, double t,
+                  ConstVec u, const Visit& visit) {
   const auto dim = static_cast<std::size_t>(phase.dim());
   const auto components = static_cast<std::size_t>(phase.info().stress_components);
   std::vector<double> stress(components * phase.points()), exact(components), difference(components);
   phase.point_stress(t, u, stress);
   for (std::size_t p = 0; p < phase.points(); ++p) {
-    for (std::size_t i = 0; i < components; ++i) {
-      exact[i] = scene.exact_stress[i]({data.positions.data() + dim * p, dim}, t);
-      difference[i] = stress[components * p + i] - exact[i];
-    }
+    solution.stress({data.positions.data() + dim * p, dim}, t, exact);
+    for (std::size_t i = 0; i < components; ++i) difference[i] = stress[components * p + i] - exact[i];
     visit(p, difference, exact);
   }
 }
@@ -68,21 +67,22 @@ double energy(const MaterialSpec& material, StressState state, std::span<const d
 }  // namespace
 
 std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
-  if (scene.exact_u.empty()) return std::nullopt;
+  const auto solution = exact_solution(scene);
+  if (!solution) return std::nullopt;
   const auto dim = static_cast<std::size_t>(phase.dim());
-  std::vector<double> displacement(dim * phase.points());
+  std::vector<double> displacement(dim * phase.points()), exact_u(dim);
   phase.point_displacement(t, u, displacement);
   const PointData data = phase.point_data();
   Norms in_u;
   for (std::size_t p = 0; p < phase.points(); ++p) {
-    const std::span<const double> x(data.positions.data() + dim * p, dim);
-    for (std::size_t i = 0; i < dim; ++i) in_u.add(data.volumes[p], displacement[dim * p + i], scene.exact_u[i](x, t));
+    solution->displacement({data.positions.data() + dim * p, dim}, t, exact_u);
+    for (std::size_t i = 0; i < dim; ++i) in_u.add(data.volumes[p], displacement[dim * p + i], exact_u[i]);
   }
   if (in_u.exact == 0) return std::nullopt;
   ExactError error{.u_rel_l2 = in_u.rel_l2(), .u_rel_max = in_u.max_difference / in_u.max_exact, .stress_rel_l2 = {}};
-  if (scene.exact_stress.empty()) return error;
+  if (!solution->has_stress()) return error;
   double difference = 0, exact = 0;
-  for_stresses(scene, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
+  for_stresses(*solution, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
     difference += data.volumes[p] * contracted(off);
     exact += data.volumes[p] * contracted(sigma);
   });
@@ -91,7 +91,9 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
 }
 
 EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
-  if (scene.exact_stress.empty()) return {{}, "the scene has no exact stress; expected exact.stress"};
+  const auto solution = exact_solution(scene);
+  if (!solution || !solution->has_stress())
+    return {{}, "the scene has no exact stress; expected exact.stress, or a solution that has it"};
   std::set<std::string> names;
   for (const BodySpec& body : scene.bodies) names.insert(body.material);
   std::vector<const MaterialSpec*> materials;  // by number, in the order of the names of those that bodies have
@@ -104,7 +106,7 @@ EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, doubl
   }
   double difference = 0, exact = 0;
   const PointData data = phase.point_data();
-  for_stresses(scene, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
+  for_stresses(*solution, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
     const MaterialSpec& material = *materials[static_cast<std::size_t>(data.materials[p])];
     difference += data.volumes[p] * energy(material, scene.state, off);
     exact += data.volumes[p] * energy(material, scene.state, sigma);

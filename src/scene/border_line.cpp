@@ -135,4 +135,10 @@ std::vector<BorderLine> border_lines(const Scene& scene, const std::array<double
   return lines;
 }
 
+std::vector<BorderLine> border_lines(const Scene& scene, const TractionSpec& traction) {
+  if (traction.face) return {side_of_box(scene, 0, *traction.face)};
+  const auto& ends = traction.line;
+  return border_lines(scene, {ends.at(0).at(0), ends[0].at(1)}, {ends.at(1).at(0), ends[1].at(1)});
+}
+
 }  // namespace stillpoint

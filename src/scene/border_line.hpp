@@ -18,6 +18,9 @@ struct BorderLine {
 /// A side of the box that a body fills; from its lower to its upper end.
 BorderLine side_of_box(const Scene& scene, std::size_t body, Face face);
 
+/// Those of a traction of a plane scene, on a face of its one body or on a line.
+std::vector<BorderLine> border_lines(const Scene& scene, const TractionSpec& traction);
+
 /// The border between two positions on it, of every body that has both: of more than one where bodies touch.
 /// Of a box or a polygon it is straight: one line, or none where a corner lies between the ends. Positions count as on
 /// a side that is within 1e-9 of the body's size.

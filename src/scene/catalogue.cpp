@@ -33,5 +33,8 @@ const StaticMethodInfo* Catalogue::static_method(std::string_view name) const {
   return find_row(static_methods, name, &StaticMethodInfo::name);
 }
 const MethodInfo* Catalogue::method(std::string_view name) const { return find_row(methods, name, &MethodInfo::name); }
+const SolutionInfo* Catalogue::solution(std::string_view name) const {
+  return find_row(solutions, name, &SolutionInfo::name);
+}
 
 }  // namespace stillpoint

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include "base/special_functions.hpp"
 #include "base/text.hpp"
 #include "scene/expression_functions.hpp"
 
@@ -23,6 +24,13 @@ constexpr std::string_view kVariables = "xyzt";
 constexpr std::size_t kLongest = 4000;
 /// Of muParser's operators; by its default letters are as well, and it reads on to the end of x+x+x… at each of them.
 constexpr const char* kOperatorCharacters = "+-*/^?<>=#!$%&|~";
+
+/// What formulas have beyond muParser's own functions: Bessel's of the first kind.
+struct OwnFunction {
+  const char* name;
+  double (*value)(double);
+};
+constexpr std::array<OwnFunction, 2> kOwnFunctions = {{{"bessel_j0", bessel_j0}, {"bessel_j1", bessel_j1}}};
 
 /// Known in every formula, if the scene has no others of these names.
 const Constants& default_constants() {
@@ -126,6 +134,7 @@ const std::vector<std::string>& expression_functions() {
     std::vector<std::string> found;
     const mu::Parser parser;
     for (const auto& function : parser.GetFunDef()) found.push_back(function.first);
+    for (const OwnFunction& function : kOwnFunctions) found.emplace_back(function.name);
     return found;
   }();
   return names;
@@ -195,6 +204,7 @@ struct Expression::Compiled {
   explicit Compiled(const Source& source) {
     parser.ClearConst();  // muParser's own are called _pi and _e
     parser.DefineOprtChars(kOperatorCharacters);
+    for (const auto& [name, value] : kOwnFunctions) parser.DefineFun(name, value);
     for (const char name : source.used) parser.DefineVar(std::string(1, name), &values.at(kVariables.find(name)));
     for (const auto& [name, value] : source.constants) parser.DefineConst(name, value);
     parser.SetExpr(source.text);

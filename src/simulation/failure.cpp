@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "simulation/load_schedule.hpp"
+#include "simulation/formula_positions.hpp"
 #include "system/largest_at.hpp"
 
 namespace stillpoint {
@@ -12,18 +12,22 @@ namespace {
 
 // "body_force.value is not a number at t = 0.3 at material point 12 at (0.5, 0.25)"; empty: all formulas have values.
 std::string formula_without_value(const Scene& scene, const LagrangianPhase& phase, double t, double step) {
-  const std::vector<double> positions = phase.positions();
   const auto dim = static_cast<std::size_t>(phase.dim());
   std::string said;
   scene.for_each_formula([&](const std::string& key, const Expression& formula) {
-    const std::size_t places = uses_position(formula) ? phase.points() : 1;
+    if (!said.empty()) return;
+    const bool somewhere = formula.uses_position();
+    const std::vector<double> positions = somewhere ? formula_positions(scene, phase, key) : std::vector<double>();
+    const std::size_t places = somewhere ? positions.size() / dim : 1;
     for (std::size_t p = 0; p < places && said.empty(); ++p) {
-      const ConstVec x = uses_position(formula) ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
+      const ConstVec x = somewhere ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
       for (const double at : {t, t + step / 2, t + step}) {
         const double value = formula(x, at);
         if (std::isfinite(value) || !said.empty()) continue;
         said = fmt::format("{} is {} at t = {:.6g}", key, std::isnan(value) ? "not a number" : "infinite", at);
-        if (!x.empty()) said += " at " + to_string(phase.diagnosis().of_point(p));
+        if (x.empty()) continue;
+        said += !key.starts_with("body_force") ? fmt::format(" at ({:.6g})", fmt::join(x, ", "))
+                                               : " at " + to_string(phase.diagnosis().of_point(p));
       }
     }
   });

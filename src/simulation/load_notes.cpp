@@ -10,14 +10,14 @@
 #include <fmt/format.h>
 
 #include "scene/throw_scene_error.hpp"
-#include "simulation/load_schedule.hpp"
+#include "simulation/formula_positions.hpp"
 
 namespace stillpoint {
 namespace {
 
 using Notes = std::vector<std::string>;
 
-// Whether a load is zero wherever there are points, until stop.time; empty: not known, as that would take too long to
+// Whether a load is zero at all positions, until stop.time; empty: not known, as that would take too long to
 // see or the load has no end.
 // `of` many loads this is one.
 std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const std::vector<double>& positions,
@@ -25,13 +25,13 @@ std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const
   const auto dim = static_cast<std::size_t>(scene.dim);
   const bool varies = formula.uses('t');
   if (varies && !(scene.stop.time > 0)) return std::nullopt;
-  const std::size_t places = uses_position(formula) ? positions.size() / dim : 1;
+  const std::size_t places = formula.uses_position() ? positions.size() / dim : 1;
   const std::size_t most = 2'000'000 / std::max<std::size_t>(1, of / 100);
   constexpr std::size_t most_moments = 20'000, fewest_moments = 200;
   const std::size_t moments = varies ? std::min(most_moments, most / places) : 1;
   const bool thoroughly = !varies || moments >= fewest_moments;
   for (std::size_t p = 0; p < places; ++p) {
-    const ConstVec x = ConstVec(positions).subspan(dim * p, dim);
+    const ConstVec x = formula.uses_position() ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
     for (std::size_t k = 0; k < std::max<std::size_t>(1, moments); ++k) {
       const double t = varies ? scene.stop.time * static_cast<double>(k + 1) / static_cast<double>(moments + 1) : 0;
       if (formula(x, t) != 0) return false;
@@ -50,9 +50,7 @@ std::vector<Load> loads_of(const Scene& scene) {
   for (std::size_t k = 0; k < scene.forces.size(); ++k)
     loads.push_back({fmt::format("force[{}]", k), scene.forces[k].value});
   for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
-    const TractionSpec& traction = scene.tractions[k];
-    loads.push_back({fmt::format("traction[{}]", k),
-                     traction.pressure ? std::span(&*traction.pressure, 1) : std::span(traction.value)});
+    loads.push_back({fmt::format("traction[{}]", k), scene.tractions[k].formulas()});
   }
   if (!scene.body_force.empty()) loads.push_back({"body_force", scene.body_force});
   return loads;
@@ -66,12 +64,14 @@ bool is_still(const Scene& scene) {
 }
 
 void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
-  const std::vector<double> positions = phase.positions();
   const std::vector<Load> loads = loads_of(scene);
   constexpr std::size_t most_told = 20;
   std::size_t zeros = 0;
   bool some_act = false;
   for (const auto& [key, components] : loads) {
+    const std::vector<double> positions = std::ranges::any_of(components, &Expression::uses_position)
+                                              ? formula_positions(scene, phase, key)
+                                              : std::vector<double>();
     const bool zero = std::ranges::all_of(components, [&](const Expression& component) {
       return is_zero(scene, component, positions, loads.size()).value_or(false);
     });

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "scene/throw_scene_error.hpp"
+#include "simulation/formula_positions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -59,8 +60,8 @@ LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, dou
   const auto dim = static_cast<std::size_t>(scene.dim);
   scene.for_each_formula([&](const std::string& key, const Expression& formula) {
     if (!formula.uses('t')) return;
-    if (!uses_position(formula)) return look_at(scene, key, formula, {}, moments, end);
-    const std::vector<double> positions = phase.positions();
+    if (!formula.uses_position()) return look_at(scene, key, formula, {}, moments, end);
+    const std::vector<double> positions = formula_positions(scene, phase, key);
     for (const ConstVec x : where_it_differs(formula, positions, dim, end))
       look_at(scene, key, formula, x, moments_at_a_point, end);
   });

@@ -10,10 +10,6 @@
 
 namespace stillpoint {
 
-inline bool uses_position(const Expression& formula) {
-  return formula.uses('x') || formula.uses('y') || formula.uses('z');
-}
-
 /// Q(t) = F(t) − R(u = 0, t): loads and the force of displaced supports on the undeformed body, (n) [N].
 std::vector<double> total_load_at(const SemiDiscrete& system, double t);
 

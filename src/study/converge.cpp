@@ -102,7 +102,7 @@ class Converging {
 
   // In the cells of the finest level, if they are not too many to read.
   void choose_places() {
-    if (has_same_points(options_.refine) || !scene_.exact_u.empty()) return;
+    if (has_same_points(options_.refine) || scene_.exact.known()) return;
     constexpr double most = 2e5;
     for (auto level = levels_.rbegin(); level != levels_.rend() && !places_; ++level)
       if (const Scene scene = load(level->set); count_of_places(scene) <= most) places_ = common_places(scene);

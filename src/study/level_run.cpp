@@ -1,5 +1,6 @@
 #include "study/level_run.hpp"
 
+#include <stillpoint/exact_solution.hpp>
 #include <stillpoint/simulation.hpp>
 
 #include <cmath>
@@ -18,12 +19,18 @@ namespace {
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 // Of the displacement and the stress, where they are known.
-double exact_value(const Scene& scene, const LagrangianPhase& phase, const std::string& field, ConstVec x, double t) {
+double exact_value(const ExactSolution* exact, const LagrangianPhase& phase, const std::string& field, ConstVec x,
+                   double t) {
   const auto [name, component, components] = find_point_field(phase, field);
-  const std::vector<Expression>* exact = name == "u"        ? &scene.exact_u
-                                         : name == "stress" ? &scene.exact_stress
-                                                            : nullptr;
-  return exact && exact->size() == components ? (*exact)[component](x, t) : not_known;
+  const bool is_stress = name == "stress";
+  if (!exact || !(name == "u" || (is_stress && exact->has_stress()))) return not_known;
+  std::vector<double> values(components, not_known);
+  if (is_stress) {
+    exact->stress(x, t, values);
+  } else {
+    exact->displacement(x, t, values);
+  }
+  return values[component];
 }
 
 // The grid's functions belong to places when the phase began: those of the start in a single phase alone.
@@ -45,13 +52,15 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
     run.no_energy = energy.why_not;
     if (s.error->stress_rel_l2) run.norms.emplace_back("stress_l2", *s.error->stress_rel_l2);
   }
+  const auto exact = exact_solution(scene);
   for (const auto& [name, fields] : s.probes) {
     const auto at = s.probe_positions.find(name);
     for (const auto& [field, value] : fields) {
       run.probes.emplace_back(fmt::format("{}.{}", name, field), value);
-      run.probe_errors.push_back(at == s.probe_positions.end() ? not_known
-                                                               : std::abs(value - exact_value(scene, simulation.phase(),
-                                                                                              field, at->second, s.t)));
+      run.probe_errors.push_back(
+          at == s.probe_positions.end()
+              ? not_known
+              : std::abs(value - exact_value(exact.get(), simulation.phase(), field, at->second, s.t)));
     }
   }
   if (places) return read_at_places(simulation, *places, run);

@@ -85,9 +85,9 @@ class Gathering {
       study_.reference = probes;
       study_.notes.push_back(fmt::format(
           "only probes are studied: {}",
-          scene_.exact_u.empty() ? "there is no exact solution, and later phases know no place of the start at which "
-                                   "levels could be compared; expected a single phase"
-                                 : "the exact displacement vanishes; expected another moment, stop.time"));
+          !scene_.exact.known() ? "there is no exact solution, and later phases know no place of the start at which "
+                                  "levels could be compared; expected a single phase"
+                                : "the exact displacement vanishes; expected another moment, stop.time"));
       return;
     }
     study_.reference = fmt::format("the finest level, and {}", probes);

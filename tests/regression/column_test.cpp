@@ -74,7 +74,7 @@ struct InPhases {
 };
 InPhases in_phases(const std::string& law, const std::vector<std::string>& overrides) {
   Scene scene = column(overrides);
-  scene.exact_u.clear();  // of small strain, and of undeformed places
+  scene.exact = {};  // of small strain, and of undeformed places
   scene.phase.max_motion = 0.3;
   Summary s = run(scene);
   const double off = scenes::probe(s, "top", "u.y") / ExactColumn{law}.u(s.probe_positions.at("top")[1]) - 1;
@@ -167,7 +167,7 @@ TEST_CASE("relaxed at large strain in a single phase, the column is the static s
   for (const std::string& law : laws) {
     CAPTURE(law);
     Scene scene = column(at_large_strain(law, "plane-strain"));
-    scene.exact_u.clear();  // of small strain
+    scene.exact = {};  // of small strain
     const Summary s = run(scene);
     CHECK(s.status == RunStatus::equilibrium);
     CHECK(s.phases == 1);

@@ -1,4 +1,9 @@
 // Moving supports against exact motions.
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
@@ -19,7 +24,106 @@ Summary pulled(const std::string& motion, const std::vector<std::string>& more) 
   return run(scenes::bar(overrides));
 }
 
+/// The block, held on all its faces by these displacements, with them as its exact solution.
+std::vector<std::string> held_all_round(const std::string& u_x, const std::string& u_y, const std::string& more = "") {
+  std::string supports;
+  for (const std::string face : {"left", "right", "bottom", "top"}) {
+    for (const std::string component : {"x", "y"})
+      supports += "{face='" + face + "', component='" + component + "', u='" + (component == "x" ? u_x : u_y) + "'" +
+                  more + "}, ";
+  }
+  return {"support=[" + supports + "]",
+          "traction=[]",
+          "probe=[]",
+          "material.rubber.law=linear-elastic",
+          "exact.u=['" + u_x + "', '" + u_y + "']",
+          "solve.method=newton",
+          "damping={}",
+          "body.placement=gauss"};
+}
+double error_of(std::vector<std::string> overrides, const std::string& more = "grid.basis=linear") {
+  overrides.push_back(more);
+  return run(scenes::load("block", overrides)).error->u_rel_l2;
+}
+
 }  // namespace
+
+TEST_CASE("a body whose border is displaced linearly in the position strains uniformly, to rounding") {
+  const auto linear = held_all_round("1e-3*(2*x - y)", "1e-3*(0.5 + x + 3*y)");
+  CHECK(error_of(linear) < 1e-12);
+  CHECK(error_of(linear, "body.state=plane-stress") < 1e-12);
+}
+
+TEST_CASE("springs hold a border to displacements that vary, as closely as they are stiff, on any basis") {
+  for (const std::string basis : {"linear", "quadratic", "cubic"}) {
+    CAPTURE(basis);
+    const auto held = [&](const std::string& stiffness) {
+      return error_of(held_all_round("1e-3*(2*x - y)", "1e-3*(0.5 + x + 3*y)", ", stiffness=" + stiffness),
+                      "grid.basis=" + basis);
+    };
+    const double soft = held("1e4"), stiff = held("1e6");
+    CHECK(soft < 1e-3);  // E/L over the stiffness is 1e-4
+    CHECK(stiff < soft / 90);
+  }
+}
+
+TEST_CASE("a manufactured solution with displacements prescribed all round converges with the order of the basis") {
+  // u = ∇(e^x cos y) has neither divergence nor rotation: in equilibrium without a load, whatever ν
+  const auto harmonic = held_all_round("1e-4*exp(x)*cos(y)", "-1e-4*exp(x)*sin(y)");
+  const double coarse = error_of(harmonic, "grid.cells=[8, 8]"), fine = error_of(harmonic, "grid.cells=[16, 16]");
+  CHECK(std::log2(coarse / fine) == Approx(2).margin(0.1));
+}
+
+TEST_CASE("a displacement that varies along a face follows t, too") {
+  auto overrides = held_all_round("1e-3*x*t", "1e-3*y*min(t, 0.5)");
+  overrides.insert(overrides.end(), {"stop.time=2"});
+  CHECK(error_of(overrides) < 1e-12);
+}
+
+TEST_CASE("a support at a position takes its displacement from there") {
+  CHECK(run(scenes::bar({"support=[{at=0.0}, {at=10.0, u='0.1*x^2/100'}]", "force=[]", "exact.u=0.01*x",
+                         "exact.stress=0.01", "stop.residual=1e-9"}))
+            .error->u_rel_max < 1e-7);
+}
+
+TEST_CASE("springs pull their material to the displacement of where it was, in many phases as in one") {
+  const auto foot = [](const std::string& phase) {
+    const Summary s = run(scenes::load(
+        "block",
+        {"support=[{face='left', kind='roller'}, {face='bottom', component='x', u='0.2*x*min(t/40, 1)', "
+         "stiffness=1e2}, {face='bottom', component='y', stiffness=1e2}]",
+         "traction=[]", "grid={min=[0, 0], max=[2, 1.5], cells=[16, 12]}", "body.min=[0, 0]", "body.max=[1, 1]",
+         "probe=[{name='middle', at=[0.5, 0], fields=['u.x']}]", "stop={residual=0, time=80}", phase}));
+    CHECK(s.exit_status == 0);
+    return std::pair(scenes::probe(s, "middle", "u.x"), s.phases);
+  };
+  const auto [in_one, one] = foot("phase={}");
+  const auto [in_many, many] = foot("phase.max_motion=0.1");
+  CHECK(one == 1);
+  CHECK(many > 10);
+  CHECK(in_one == Approx(0.1).epsilon(0.01));  // the springs give way
+  CHECK(in_many == Approx(in_one).epsilon(2e-3));
+}
+
+TEST_CASE("a displacement that varies along a face is refused where unknowns are no values, or leave the face") {
+  const auto refused = [](const std::string& support, const std::vector<std::string>& more) {
+    std::vector<std::string> overrides = {"support=[{face='bottom', u='1e-3*x'" + support + "}]", "traction=[]"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return scenes::refusal("block", overrides);
+  };
+  using Catch::Contains;
+  CHECK(refused("", {}).empty());
+  CHECK_THAT(refused("", {"grid.basis=quadratic"}), Contains("support[0].u") && Contains("no values at positions"));
+  CHECK(refused(", stiffness=1e3", {"grid.basis=quadratic"}).empty());
+  CHECK_THAT(refused("", {"phase.max_motion=0.1"}), Contains("support[0].u") && Contains("leaves its face"));
+  CHECK_THAT(refused(", kind='u'", {}), Contains("kind"));
+  try {
+    run(scenes::load("block", {"support=[{face='bottom', u='1e-3*sqrt(0.5-x)'}]"}));
+    FAIL("expected an error");
+  } catch (const SceneError& error) {
+    CHECK_THAT(error.what(), Contains("not a number at (0.75, 0)"));
+  }
+}
 
 TEST_CASE("a support that moves at constant speed from the start carries the body along without stress") {
   // u = 0.3 t is an exact solution: no acceleration, no strain. Initial velocity 0.3 everywhere.

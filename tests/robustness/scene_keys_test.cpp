@@ -46,7 +46,7 @@ std::string scene_with(const TableInfo& table, const std::string& entry, int dim
   if (table.repeat == Repeat::named) path = path.substr(0, path.find('<')) + "a";
   std::string text = top && entry.starts_with("dim") ? "" : fmt::format("dim = {}\n", dim);
   if (!top) text += (table.repeat == Repeat::array ? "[[" + path + "]]" : "[" + path + "]") + "\n";
-  if (!table.law.empty()) text += fmt::format("law = \"{}\"\n", table.law);
+  if (!table.choice.empty()) text += fmt::format("{} = \"{}\"\n", table.choice_key, table.choice);
   return text + entry + "\n";
 }
 
@@ -96,6 +96,7 @@ TEST_CASE("the reader takes every key of the table, with an example and with its
     for (const KeyInfo& key : table.keys) {
       for (const int dim : {1, 2}) {
         if (!key.is_in(dim) || key.name == "law" || key.name.starts_with('<')) continue;
+        if (!table.choice.empty() && key.name == table.choice_key) continue;
         std::vector<std::string> values = {example_of(key, dim)};
         const auto words = key.words_in(dim);
         if (std::ranges::find(words, key.fallback) != words.end()) values.push_back('"' + key.fallback + '"');
@@ -124,7 +125,7 @@ TEST_CASE("the reader takes every key of the table, with an example and with its
 TEST_CASE("the reader refuses a key that is in no row of its table") {
   for (const TableInfo& table : scene_tables(catalogue())) {
     if (!table.keys.empty() && table.keys[0].name.starts_with('<')) continue;
-    if (table.repeat == Repeat::named && table.law.empty()) continue;  // which keys it has depends on its law
+    if (table.repeat == Repeat::named && table.choice.empty()) continue;  // which keys it has depends on its law
     const std::string text = scene_with(table, "surely_no_key = 1", 2);
     INFO(text);
     CHECK(says_of(read(text), "unknown key 'surely_no_key'"));

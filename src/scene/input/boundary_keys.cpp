@@ -20,8 +20,10 @@ void add_boundary(Tables& tables) {
             .fallback = "0; on a face by kind"})
       .key("kind", &SupportSpec::roller, "on a face: a roller holds the normal component only",
            {.words = {"fixed", "roller"}})
-      .key("u", &SupportSpec::motion, "displacement of the component; on a face by kind along its normal",
-           {.unit = "m", .variables = "t"})
+      .key("u", &SupportSpec::motion,
+           "displacement of the component; on a face by kind along its normal. It may vary along a face of a linear "
+           "grid, or where a stiffness holds",
+           {.unit = "m", .variables = "xt"})
       .key("stiffness", &SupportSpec::stiffness, "of a spring that holds instead: at a position N/m, on a face N/m3",
            {.range = kPositive, .fallback = "as stiff as a cell, where the basis has no value of its own"});
 
@@ -42,9 +44,11 @@ void add_boundary(Tables& tables) {
            "[from, to], positions on one straight side of a box or of a polygon, or on the outline of a file's points; "
            "or face",
            {.unit = "m", .list = true, .dims = kPlane})
-      .key("value", &TractionSpec::value, "per undeformed area; keeps its direction", {.unit = "Pa", .variables = "t"})
-      .key("pressure", &TractionSpec::pressure, "or: per deformed area, along the normal",
-           {.unit = "Pa", .variables = "t"});
+      .key("value", &TractionSpec::value,
+           "per undeformed area; keeps its direction. x, y: where the material was before the motion",
+           {.unit = "Pa", .variables = "xt"})
+      .key("pressure", &TractionSpec::pressure, "or: per deformed area, along the normal; x, y likewise",
+           {.unit = "Pa", .variables = "xt"});
 
   tables.add({"body_force", "a load on all bodies"}, std::identity())
       .key("value", &Scene::body_force, "per mass", {.unit = "m/s2", .variables = "xt", .required = true});

@@ -71,7 +71,8 @@ std::string told_help(const KeyInfo& key) {
 /// "[stop]", or "[material.<name>] with law = "hencky"".
 std::string told_heading(const TableInfo& table) {
   if (table.path.empty()) return "top of the file";
-  return table.heading() + (table.law.empty() ? "" : fmt::format(" with law = \"{}\"", table.law));
+  return table.heading() +
+         (table.choice.empty() ? "" : fmt::format(" with {} = \"{}\"", table.choice_key, table.choice));
 }
 
 std::string escaped(std::string text) {
@@ -114,8 +115,9 @@ Json schema_of(const TableInfo& table) {
     if (key.name.starts_with('<'))
       return {{"type", "object"}, {"description", table.help}, {"additionalProperties", schema_of(key)}};
     properties[std::string(key.name)] = schema_of(key);
-    if (key.name == "law") properties["law"] = {{"const", table.law}, {"description", table.help}};
-    if (key.required) required.push_back(key.name);
+    if (!table.choice.empty() && key.name == table.choice_key)
+      properties[std::string(key.name)] = {{"const", table.choice}, {"description", table.help}};
+    if (key.required || (!table.choice.empty() && key.name == table.choice_key)) required.push_back(key.name);
   }
   Json schema = {{"type", "object"}, {"description", table.help}, {"properties", properties}};
   if (!required.empty()) schema["required"] = required;
@@ -130,7 +132,7 @@ std::string key_list(const Catalogue& catalogue) {
   for (const TableInfo& table : scene_tables(catalogue)) {
     text += fmt::format("  {}: {}\n", told_heading(table), table.help);
     for (const KeyInfo& key : table.keys) {
-      if (!table.law.empty() && key.name == "law") continue;
+      if (!table.choice.empty() && key.name == table.choice_key) continue;
       const std::string fallback = told_default(key);
       text += fmt::format("    {:<18}{}{}{}\n    {:<18}  {}\n", key.name, told_type(key),
                           key.unit.empty() ? "" : fmt::format(" [{}]", key.unit),
@@ -151,10 +153,10 @@ std::string key_reference(const Catalogue& catalogue) {
   for (const TableInfo& table : scene_tables(catalogue)) {
     text += fmt::format("\n### {}{}\n\n{}{}\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n",
                         table.path.empty() ? "The top of the file" : fmt::format("`{}`", table.heading()),
-                        table.law.empty() ? "" : fmt::format(" with `law = \"{}\"`", table.law),
+                        table.choice.empty() ? "" : fmt::format(" with `{} = \"{}\"`", table.choice_key, table.choice),
                         escaped(std::string(table.help)), table.needed_for.empty() ? "" : ". Required");
     for (const KeyInfo& key : table.keys)
-      if (table.law.empty() || key.name != "law")
+      if (table.choice.empty() || key.name != table.choice_key)
         text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, escaped(told_type(key)), key.unit,
                             escaped(told_default(key)), escaped(told_help(key)));
   }
@@ -179,7 +181,7 @@ std::string key_schema(const Catalogue& catalogue) {
     Json* around = &schema["properties"];
     if (table.repeat == Repeat::named) {
       Json& named = (*around)[path.substr(0, dot)];
-      if (table.law.empty()) {
+      if (table.choice.empty()) {
         named = {{"type", "object"}, {"description", table.help}};
       } else {
         named["additionalProperties"]["anyOf"].push_back(schema_of(table));
@@ -189,9 +191,18 @@ std::string key_schema(const Catalogue& catalogue) {
     if (dot != std::string::npos) around = &(*around)[path.substr(0, dot)]["properties"];
     const Json one = schema_of(table);
     const Json array = {{"type", "array"}, {"items", one}};
-    (*around)[path.substr(dot + 1)] = table.repeat == Repeat::array           ? array
-                                      : table.repeat == Repeat::once_or_array ? Json{{"anyOf", {one, array}}}
-                                                                              : one;
+    Json& own = (*around)[path.substr(dot + 1)];
+    if (!table.choice.empty()) {  // beside the table without this choice
+      if (!own.contains("anyOf")) {
+        own["properties"].erase(std::string(table.choice_key));
+        own = {{"anyOf", {own}}};
+      }
+      own["anyOf"].push_back(one);
+      continue;
+    }
+    own = table.repeat == Repeat::array           ? array
+          : table.repeat == Repeat::once_or_array ? Json{{"anyOf", {one, array}}}
+                                                  : one;
     if (!table.needed_for.empty()) schema["required"].push_back(path);
   }
   return schema.dump(1) + "\n";

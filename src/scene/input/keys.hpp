@@ -71,7 +71,8 @@ struct TableInfo {
   std::string_view path, help;  // path: empty for the top of the file
   Repeat repeat = Repeat::once;
   std::string_view needed_for{};  // why a scene has to have it; empty: it may be left out
-  std::string_view law{};         // of a material: its keys are those of this law
+  /// Its keys are those that there are if the key `choice_key`, such as a material's law, has the value `choice`.
+  std::string_view choice_key{}, choice{};
   std::vector<KeyInfo> keys{};
   std::vector<std::string> tables{};  // the names of the tables below it
   /// Reads all that the file says in such tables.

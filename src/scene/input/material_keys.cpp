@@ -2,48 +2,9 @@
 
 #include <map>
 
-#include "scene/input/key_reader.hpp"
+#include "scene/input/choice_keys.hpp"
 
 namespace stillpoint {
-namespace {
-
-/// The keys of a material: its law's.
-std::vector<Key> keys_of(const LawInfo& law, const Key& law_key) {
-  std::vector<Key> keys = {law_key};
-  for (const ParameterInfo& p : law.parameters) {
-    const auto value = [name = std::string(p.name)](MaterialSpec& m) -> double& { return m.parameters[name]; };
-    keys.push_back(key_of<MaterialSpec>(p.name, value, p.meaning,
-                                        {.range = {p.lower, p.upper, p.lower_allowed, false},
-                                         .unit = p.unit,
-                                         .fallback = p.required          ? ""
-                                                     : p.same_as.empty() ? fmt::format("{}", p.fallback)
-                                                                         : std::string(p.same_as),
-                                         .required = p.required}));
-  }
-  for (const ChoiceInfo& c : law.choices) {
-    const auto value = [name = std::string(c.name)](MaterialSpec& m) -> std::string& { return m.choices[name]; };
-    keys.push_back(key_of<MaterialSpec>(
-        c.name, value, c.meaning, {.words = {c.values.begin(), c.values.end()}, .fallback = std::string(c.fallback)}));
-  }
-  return keys;
-}
-
-/// Sets what a material does not say, unless what it says is wrong.
-void set_defaults(MaterialSpec& material, const LawInfo& law, const FoundTable& found, const Reading& reading) {
-  const auto missing = [&](const auto& values, std::string_view name) {
-    return !values.contains(std::string(name)) && !reading.wrong.contains(fmt::format("{}.{}", found.path, name));
-  };
-  for (const ParameterInfo& p : law.parameters) {
-    if (!missing(material.parameters, p.name)) continue;
-    const auto same = material.parameters.find(std::string(p.same_as));
-    material.parameters[std::string(p.name)] = same == material.parameters.end() ? p.fallback : same->second;
-  }
-  for (const ChoiceInfo& c : law.choices)
-    if (missing(material.choices, c.name)) material.choices[std::string(c.name)] = c.fallback;
-}
-
-}  // namespace
-
 std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
   const auto law_key =
       key_of<MaterialSpec>("law", &MaterialSpec::law, "`stillpoint list materials` has their equations",
@@ -52,11 +13,13 @@ std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
       {.path = "material.<name>", .help = "what bodies are made of", .repeat = Repeat::named, .keys = {law_key.info}}};
   std::map<std::string, std::vector<Key>> keys;
   for (const LawInfo& law : catalogue.laws) {
-    const auto& of_law = keys[std::string(law.name)] = keys_of(law, law_key);
+    std::vector<Key>& of_law = keys[std::string(law.name)] = keys_of_choice<MaterialSpec>(law);
+    of_law.insert(of_law.begin(), law_key);
     tables.push_back({.path = "material.<name>",
                       .help = law.equation,
                       .repeat = Repeat::named,
-                      .law = law.name,
+                      .choice_key = "law",
+                      .choice = law.name,
                       .keys = infos_of(of_law)});
   }
   tables[0].read = [&catalogue, law_key, keys](const TableInfo& self, const toml::table& root, Scene& scene,

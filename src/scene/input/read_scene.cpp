@@ -48,6 +48,8 @@ void drop_keys_of_other_choices(toml::table& root, const Catalogue& catalogue) {
     for (const char* key : {"step", "step_fraction"})
       if (strategy->has_own_step) drop(root, "integrator", key);
   }
+  if (!chosen("exact", "solution").empty())
+    for (const char* key : {"u", "stress"}) drop(root, "exact", key);
   if (catalogue.static_method(chosen("solve", "method"))) {
     for (const std::string_view name : kTablesOfMotion) {
       std::vector<std::string> keys;

@@ -24,6 +24,7 @@ class SceneCheck {
 
   const Catalogue& catalogue() const { return catalogue_; }
   Scene& scene() { return scene_; }
+  const Scene& scene() const { return scene_; }
   const std::vector<Problem>& problems() const { return reading_.problems; }
 
   /// Reports a key, or a table, as wrong.
@@ -100,6 +101,8 @@ void check_overlaps(SceneCheck& check);
 long known_points(SceneCheck& check);
 /// Supports, walls, loads and initial stress.
 void check_loads(SceneCheck& check, bool grid, const std::optional<BodyBox>& body);
+/// The exact solution. bodies: whether all of them are in order.
+void check_exact(SceneCheck& check, bool bodies);
 /// When phases end, and what scenes of more than one phase can have.
 void check_phases(SceneCheck& check, bool grid);
 /// What is written out.

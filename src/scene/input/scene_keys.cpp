@@ -4,6 +4,7 @@
 
 #include "scene/input/boundary_keys.hpp"
 #include "scene/input/constants.hpp"
+#include "scene/input/exact_keys.hpp"
 #include "scene/input/key_reader.hpp"
 #include "scene/input/material_keys.hpp"
 
@@ -55,8 +56,8 @@ std::string hint(const auto* row, const char* is, const char* key) {
   return row ? fmt::format("'{}' is {}; write {} = \"{}\"", row->name, is, key, row->name) : "";
 }
 
-/// The state at the beginning, and the exact one.
-void add_states(Tables& tables) {
+/// The state at the beginning.
+void add_initial(Tables& tables) {
   tables.add({"initial", "the state at t = 0"}, std::identity())
       .key("u", &Scene::initial_u, "displacement", {.unit = "m", .variables = "x", .fallback = "0"})
       .key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"});
@@ -66,12 +67,6 @@ void add_states(Tables& tables) {
            &Scene::geostatic)
       .key("K0", &GeostaticSpec::K0, "coefficient of earth pressure at rest", {.range = kPositive, .required = true})
       .key("surface", &GeostaticSpec::surface, "height of the surface", {.unit = "m", .required = true});
-
-  tables.add({"exact", "the exact solution, if it is known: the run reports its error"}, std::identity())
-      .key("u", &Scene::exact_u, "displacement", {.unit = "m", .variables = "xt"})
-      .key("stress", &Scene::exact_stress,
-           "Cauchy's, beside u; with dim = 2 the components [xx, yy, zz, xy], axisymmetric [rr, zz, theta-theta, rz]",
-           {.unit = "Pa", .variables = "xt", .of_stress = true});
 }
 
 void add_method(Tables& tables, const Catalogue& catalogue) {
@@ -252,7 +247,8 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
            "B-bar), so that nearly incompressible material does not lock",
            {.words = {"points", "cells"}, .dims = kPlane});
   add_boundary(tables);
-  add_states(tables);
+  add_initial(tables);
+  for (TableInfo& exact : exact_tables(catalogue)) tables.all.push_back(std::move(exact));
   add_method(tables, catalogue);
   add_output(tables);
   for (TableInfo& above : tables.all) {

@@ -147,11 +147,6 @@ void check_stop(SceneCheck& check) {
     check.add("stop.residual", "nothing would ever stop this run: set residual, distance, time, steps or wall_time");
 }
 
-void check_exact(SceneCheck& check) {
-  if (check.written("exact.stress") && check.sound("exact.stress") && !check.written("exact.u"))
-    check.add("exact.stress", "needs exact.u beside it");
-}
-
 }  // namespace
 
 bool check_grid(SceneCheck& check) {
@@ -199,7 +194,7 @@ void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
   const std::optional<BodyBox> body = check_bodies(check, grid);
   check_mass(check);
   check_loads(check, grid, body);
-  check_exact(check);
+  check_exact(check, body.has_value());
   check_phases(check, grid);
   check_output(check, body);
   if (const StaticMethodInfo* const solver = catalogue.static_method(scene.solve.method)) {

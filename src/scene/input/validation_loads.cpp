@@ -83,6 +83,19 @@ void check_part(SceneCheck& check, const std::string& name, const SupportSpec& s
   }
 }
 
+/// A motion that varies along a face takes values of its own at the nodes there, or springs.
+void check_varying_motion(SceneCheck& check, const std::string& name, const SupportSpec& support) {
+  const BasisKind basis = check.scene().grid.basis;
+  if (!support.face || !support.motion.uses_position() || check.scene().dim == 1) return;
+  if (basis == BasisKind::linear || holds_by_springs(check.scene().grid, support)) return;
+  check.add(name + ".u",
+            fmt::format("varies along the face, where {}; expected a linear basis, or a stiffness, by which springs "
+                        "hold each place",
+                        basis == BasisKind::hermite
+                            ? "a hermite basis has slopes as unknowns besides"
+                            : "the unknowns of a quadratic or cubic basis are no values at positions"));
+}
+
 void check_supports(SceneCheck& check, bool grid) {
   Scene& scene = check.scene();
   std::map<std::pair<std::vector<double>, int>, std::size_t> owners;  // of positions and components
@@ -101,6 +114,7 @@ void check_supports(SceneCheck& check, bool grid) {
     if (grid && !scene.grid.cells.empty() && scene.dim > 1 && support.face && support.on_part() &&
         check.sound(name + ".from") && check.sound(name + ".to"))
       check_part(check, name, support);
+    check_varying_motion(check, name, support);
     if (!grid || support.at.empty()) continue;
     check.inside(support.at, scene.grid.min, scene.grid.max, "grid", name + ".at");
     const auto [owner, is_first] = owners.try_emplace({support.at, support.component}, k);

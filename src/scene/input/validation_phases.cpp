@@ -51,7 +51,7 @@ void check_moving_supports(SceneCheck& check, bool grid, const std::string& one_
   const Scene& scene = check.scene();
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     const SupportSpec& support = scene.supports[k];
-    if (!support.motion.uses('t') && support.motion({}, 0) == 0) continue;
+    if (support.motion.constant() && support.motion({}, 0) == 0) continue;
     if (!grid || scene.grid.cells.empty() || holds_by_springs(scene.grid, support))
       continue;  // the springs go with the material
     check.add(
@@ -165,8 +165,8 @@ void check_phases(SceneCheck& check, bool grid) {
         fmt::format("velocities are carried from phase to phase by a lumped mass; take mass.kind = \"lumped\", {}",
                     one_phase));
   }
-  if (!scene.exact_u.empty())
-    check.add("exact.u",
+  if (scene.exact.known())
+    check.add(scene.exact.solution.empty() ? "exact.u" : "exact.solution",
               fmt::format("is a function of undeformed positions, which later phases do not know; leave it out, {}",
                           one_phase));
   if (scene.stop.distance > 0)

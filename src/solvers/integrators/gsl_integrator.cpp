@@ -13,6 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include "base/quiet_gsl.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
 #include "solvers/spectrum/two_by_two.hpp"
 
@@ -21,18 +22,6 @@ namespace {
 
 using Stepper = std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)>;
 using Driver = std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)>;
-
-/// While it lives GSL returns its errors in place of aborting the program.
-class QuietErrors {
- public:
-  QuietErrors() : former_(gsl_set_error_handler_off()) {}
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-  ~QuietErrors() { gsl_set_error_handler(former_); }
-
- private:
-  gsl_error_handler_t* former_;
-};
 
 struct StepperInfo {
   const char* name;
@@ -124,7 +113,7 @@ class Gsl final : public SteppingIntegrator {
         ydot_(adaptive() ? 0 : size_),
         next_ydot_(ydot_.size()),
         error_(ydot_.size()) {
-    const QuietErrors quiet;
+    const QuietGsl quiet;
     if (adaptive()) {
       // error ≤ rtol |y| + 1 · atol, atol apart for u and v
       std::vector<double> atol(size_, options.atol_u);
@@ -141,7 +130,7 @@ class Gsl final : public SteppingIntegrator {
 
  private:
   void begin(double t, const Vector& y) override {
-    const QuietErrors quiet;
+    const QuietGsl quiet;
     suggested_h_ = options().max_step;
     if (adaptive()) {
       refused();
@@ -154,7 +143,7 @@ class Gsl final : public SteppingIntegrator {
 
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) override {
     if (!admissible_) return {.status = StepReport::Status::inadmissible};
-    const QuietErrors quiet;
+    const QuietGsl quiet;
     std::ranges::copy(std::as_const(y).span(), trial.span().begin());
     return adaptive() ? adaptive_step(t, h, t_stop, trial.span().data()) : fixed_step(t, h, trial.span().data());
   }
@@ -226,7 +215,7 @@ class Gsl final : public SteppingIntegrator {
 }  // namespace
 
 std::vector<Method> gsl_methods() {
-  const QuietErrors quiet;
+  const QuietGsl quiet;
   std::vector<Method> methods;
   for (const StepperInfo& stepper : steppers()) {
     Method method;

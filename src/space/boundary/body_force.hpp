@@ -21,8 +21,8 @@ class BodyForce final : public BoundaryCondition<B, K> {
 
   void begin_phase(const Parts& phase, Vec F) override {
     if (varies()) return;
-    const auto uniform = [](const Expression& b) { return !b.uses('x') && !b.uses('y') && !b.uses('z'); };
-    if (B::partition_of_unity && std::ranges::all_of(b_, uniform)) {  // it acts on the nodes' masses
+    if (B::partition_of_unity &&
+        std::ranges::none_of(b_, &Expression::uses_position)) {  // it acts on the nodes' masses
       std::array<double, dim> b;
       for (std::size_t i = 0; i < dim; ++i) b[i] = b_[i]({}, 0);
       for (std::size_t k = 0; k < F.size(); ++k) {

@@ -32,4 +32,20 @@ inline std::vector<FacePoint> face_rule(const BodySpec& body, std::size_t along,
   return rule;
 }
 
+/// For what varies along the face: of cubics the products with the functions are exact. Five Gauss points, to degree 9,
+/// as cubic functions have 6 along an oblique line; three in each of the n equal parts of it that material points
+/// carry.
+inline std::vector<FacePoint> varying_face_rule(const BodySpec& body, std::size_t along, bool carried) {
+  const int parts = carried ? body.points_per_cell[along] : 1;
+  const std::vector<double> xi = line_positions(Placement::gauss, carried ? 3 : 5);
+  const Eigen::MatrixXd row = Eigen::Map<const Eigen::RowVectorXd>(xi.data(), static_cast<Eigen::Index>(xi.size()));
+  const MomentFit gauss = fit_moments(row);
+  std::vector<FacePoint> rule;
+  for (const double middle : line_positions(Placement::uniform, parts)) {
+    for (std::size_t k = 0; k < xi.size(); ++k)
+      rule.push_back({middle + xi[k] / parts, 2 * gauss.weights(static_cast<Eigen::Index>(k)) / parts});
+  }
+  return rule;
+}
+
 }  // namespace stillpoint

@@ -2,6 +2,10 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "scene/throw_scene_error.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -47,6 +51,14 @@ double PrescribedMotion::acceleration_over(double t, double h) const {
     return (displacement(at - h) - 2 * displacement(at) + displacement(at + h)) / (h * h);
   };
   return where_defined(difference, t, h);
+}
+
+void check_motion(const Scene& scene, std::size_t support, const PrescribedMotion& motion) {
+  const double u = motion.displacement(0);
+  if (motion.moves() || std::isfinite(u)) return;
+  throw_scene_error(scene, fmt::format("support[{}].u", support),
+                    fmt::format("the formula is {} at ({:.6g}); expected a finite number wherever the support holds",
+                                std::isnan(u) ? "not a number" : "infinite", fmt::join(motion.position(), ", ")));
 }
 
 }  // namespace stillpoint

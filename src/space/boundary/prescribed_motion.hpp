@@ -1,9 +1,12 @@
-// A displacement prescribed as a formula in t, with its velocity and acceleration.
+// A displacement prescribed as a formula in t, and in the position, with its velocity and acceleration.
 #pragma once
 
-#include <stillpoint/expression.hpp>
+#include <stillpoint/scene.hpp>
 
+#include <cstddef>
+#include <memory>
 #include <utility>
+#include <vector>
 
 namespace stillpoint {
 
@@ -11,14 +14,25 @@ class PrescribedMotion {
  public:
   /// time_scale [s]: about 1/omega_max of the body. A motion that the grid resolves varies over much longer times, and
   /// a kink is spread over about a critical step, so that its impulse is right.
-  PrescribedMotion(Expression motion, double time_scale)
-      : motion_(std::move(motion)),
-        moves_(motion_.uses('t')),
-        fixed_(moves_ ? 0 : motion_({}, 0)),
+  /// A formula of the position as well is that at X [m].
+  PrescribedMotion(Expression motion, double time_scale, std::vector<double> X = {})
+      : motion_(std::make_shared<const Expression>(std::move(motion))),
+        X_(std::move(X)),
+        moves_(motion_->uses('t')),
+        fixed_(moves_ ? 0 : (*motion_)(X_, 0)),
         h_(time_scale / 4) {}
+  /// The same formula at another position; both share what it was compiled to.
+  PrescribedMotion at(std::vector<double> X) const {
+    PrescribedMotion moved = *this;
+    moved.X_ = std::move(X);
+    if (!moves_) moved.fixed_ = (*motion_)(moved.X_, 0);
+    return moved;
+  }
 
+  const std::vector<double>& position() const { return X_; }  // empty: the formula needs none
+  bool varies_in_space() const { return motion_->uses_position(); }
   bool moves() const { return moves_; }
-  double displacement(double t) const { return moves_ ? motion_({}, t) : fixed_; }
+  double displacement(double t) const { return moves_ ? (*motion_)(X_, t) : fixed_; }
   /// By central differences of fourth order, off by (h ω)⁴/30 for a motion of frequency ω. If the formula has no
   /// value before t (a root, say), they are taken a little later.
   double velocity(double t) const;
@@ -30,10 +44,14 @@ class PrescribedMotion {
   double acceleration_over(double t, double h) const;
 
  private:
-  Expression motion_;
+  std::shared_ptr<const Expression> motion_;
+  std::vector<double> X_;  // [m]
   bool moves_;
   double fixed_;  // the displacement if it does not move [m]
   double h_;      // [s]
 };
+
+/// Throws SceneError if the motion of a support has no value where it is, whatever the time.
+void check_motion(const Scene& scene, std::size_t support, const PrescribedMotion& motion);
 
 }  // namespace stillpoint

@@ -5,7 +5,9 @@
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,7 +26,7 @@ class Supports final : public BoundaryCondition<B, K> {
 
  public:
   Supports(const Scene& scene, double time_scale) : scene_(scene), rest_(Expression(0.0), time_scale) {
-    for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale);
+    for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale, support.at);
   }
 
   void hold(const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) override {
@@ -60,7 +62,7 @@ class Supports final : public BoundaryCondition<B, K> {
 
   // Every function that is not zero on the face, of a part those of its nodes: values move with the support, slopes
   // along it stay.
-  void hold_face(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {
+  void hold_face(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) {
     const SupportSpec& support = scene_.supports[s];
     const int axis = axis_of(*support.face);
     const std::vector<int> values = Basis::face_values(grid, axis, is_upper(*support.face));
@@ -71,9 +73,21 @@ class Supports final : public BoundaryCondition<B, K> {
         const bool named = component == support.component;
         if ((!named && support.roller) || held.is_prescribed(unknown)) continue;
         const bool moves = named && std::ranges::binary_search(values, function);
-        held.prescribe(unknown, moves ? motions_[s] : rest_, s);
+        held.prescribe(unknown, moves ? motion_at(s, grid, function) : rest_, s);
       }
     }
+  }
+
+  // Of a formula of the position that at the function's node, where the value is its own (support_kind.hpp).
+  const PrescribedMotion& motion_at(std::size_t s, const GridOf& grid, int function) {
+    if (!motions_[s].varies_in_space()) return motions_[s];
+    std::vector<double> X(dim);
+    for (int d = 0; d < dim; ++d)
+      X[static_cast<std::size_t>(d)] = B::centre(grid.axes[d], Basis::index_along(grid, function, d));
+    const PrescribedMotion& motion =
+        at_nodes_.insert_or_assign({s, function}, motions_[s].at(std::move(X))).first->second;
+    check_motion(scene_, s, motion);
+    return motion;
   }
 
   bool is_in_part(const SupportSpec& support, const GridOf& grid, int function) const {
@@ -87,7 +101,8 @@ class Supports final : public BoundaryCondition<B, K> {
 
   const Scene& scene_;
   PrescribedMotion rest_;
-  std::vector<PrescribedMotion> motions_;  // of each support
+  std::vector<PrescribedMotion> motions_;                             // of each support
+  std::map<std::pair<std::size_t, int>, PrescribedMotion> at_nodes_;  // of those that vary, and each of their functions
 };
 
 }  // namespace stillpoint

@@ -6,19 +6,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "scene/border_line.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
 #include "space/boundary/face_rule.hpp"
+#include "space/boundary/grid_crossings.hpp"
 
 namespace stillpoint {
 
-/// Dead ones, t dA per undeformed area, and pressures that follow the deformed surface, −p n da = −p cof(f) N dA.
+/// Dead ones, t(X, t) dA per undeformed area, and pressures that follow the deformed surface, −p(X, t) n da =
+/// −p cof(f) N dA. X: the undeformed position.
 /// A straight part of a body's border is cut into pieces, some to a cell; they carry the undeformed area, 2 π r ds if
 /// axisymmetric.
 template <AxisBasis B, Kinematics K>
@@ -30,6 +34,7 @@ class Tractions final : public BoundaryCondition<B, K> {
  public:
   Tractions(const Scene& scene, const GridOf& grid) : scene_(scene) {
     for (const TractionSpec& traction : scene.tractions) cut_border(traction, grid);
+    check_values();
   }
 
   void begin_phase(const Parts& phase, Vec) override {
@@ -49,27 +54,31 @@ class Tractions final : public BoundaryCondition<B, K> {
     }
   }
   void add_load(const Parts& phase, double t, Vec F) const override {
+    evaluate(t);
     for (const Piece& piece : pieces_)
-      if (!piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, t, nullptr), F);
+      if (!piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, nullptr), F);
   }
   bool follows() const override {
     return std::ranges::any_of(scene_.tractions, [](const TractionSpec& t) { return t.pressure.has_value(); });
   }
   void add_following_force(const Parts& phase, double t, const double* u, Vec F) const override {
+    evaluate(t);
     for (const Piece& piece : pieces_)
-      if (piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, t, u), F);
+      if (piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, u), F);
   }
   void add_load_on_supports(const Parts& phase, double t, const double* u, Vec F_s) const override {
+    evaluate(t);
     for (const Piece& piece : pieces_) {
-      const auto force = force_of(piece, t, u);
+      const auto force = force_of(piece, u);
       piece.at.for_prescribed(phase.dofs, [&](int a, int i, std::size_t s) { F_s[s] += force[i] * piece.at.w[a]; });
     }
   }
   // Unsymmetric.
   void add_following_tangent(const Parts& phase, double t, const double* u, MatrixEntries& K_F) const override {
+    evaluate(t);
     for (const Piece& piece : pieces_) {
       if (!piece.traction->pressure) continue;
-      const double p = (*piece.traction->pressure)({}, t);
+      const double p = piece.value[0];
       piece.at.for_free(phase.dofs, [&](int b, int j, int column) {
         const auto change = area_derivative(piece, u, b, j);
         piece.at.for_free(
@@ -94,6 +103,8 @@ class Tractions final : public BoundaryCondition<B, K> {
  private:
   struct Piece {
     const TractionSpec* traction;
+    Point<dim> X;                           // undeformed [m]
+    mutable std::array<double, dim> value;  // at the time of the last evaluation: the traction, or the pressure [Pa]
     CarriedPoint<B, K> at;
     double area;                     // undeformed [m²]
     std::array<double, dim> vector;  // n da when the phase begins [m²]
@@ -105,21 +116,18 @@ class Tractions final : public BoundaryCondition<B, K> {
       const bool upper = is_upper(traction.face.value());
       add_piece(traction, {(upper ? body.max : body.min)[0]}, body.area, {upper ? 1.0 : -1.0});
     } else {
-      for (const BorderLine& line : lines_of(traction)) cut_line(traction, line, grid);
+      for (const BorderLine& line : border_lines(scene_, traction)) cut_line(traction, line, grid);
     }
   }
-  std::vector<BorderLine> lines_of(const TractionSpec& traction) const {
-    if (traction.face) return {side_of_box(scene_, 0, *traction.face)};
-    const auto& ends = traction.line;
-    return border_lines(scene_, {ends.at(0).at(0), ends[0].at(1)}, {ends.at(1).at(0), ends[1].at(1)});
-  }
-
   // Into pieces of each cell's part.
   void cut_line(const TractionSpec& traction, const BorderLine& line, const GridOf& grid) {
     const BodySpec& body = scene_.bodies[line.body];
     const std::size_t across = std::abs(line.normal[0]) > std::abs(line.normal[1]) ? 0 : 1;
-    const auto rule = face_rule(body, 1 - across, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
-    const std::vector<Point<dim>> ends = crossings(line, grid);
+    const bool carried = has_phases(scene_);
+    const bool varies = std::ranges::any_of(traction.formulas(), &Expression::uses_position);
+    const auto rule = varies ? varying_face_rule(body, 1 - across, carried)
+                             : face_rule(body, 1 - across, carried, scene_.phase.quadrature == Quadrature::domains);
+    const std::vector<Point<dim>> ends = grid_crossings(line, grid);
     for (std::size_t c = 0; c + 1 < ends.size(); ++c) {
       const Point<dim>&from = ends[c], &to = ends[c + 1];
       const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
@@ -131,34 +139,11 @@ class Tractions final : public BoundaryCondition<B, K> {
       }
     }
   }
-  // Its ends, and where it crosses grid lines between them, in order.
-  static std::vector<Point<dim>> crossings(const BorderLine& line, const GridOf& grid) {
-    constexpr double rounding = 1e-12;  // of the line's length: no piece is shorter
-    std::vector<std::pair<double, Point<dim>>> found = {{0, line.from}, {1, line.to}};
-    for (std::size_t d = 0; d < dim; ++d) {
-      const double length = line.to[d] - line.from[d];
-      if (length == 0) continue;
-      for (const double node : grid.axes[d].nodes) {
-        const double share = (node - line.from[d]) / length;
-        if (!(share > rounding && share < 1 - rounding)) continue;
-        Point<dim> x;
-        x[1 - d] = line.from[1 - d] + share * (line.to[1 - d] - line.from[1 - d]);
-        x[d] = node;
-        found.emplace_back(share, x);
-      }
-    }
-    std::ranges::sort(found, {}, &std::pair<double, Point<dim>>::first);
-    std::vector<Point<dim>> ends = {line.from};
-    double last = 0;
-    for (const auto& [share, x] : found) {
-      if (share - last > rounding) ends.push_back(x), last = share;
-    }
-    return ends;
-  }
   void add_piece(const TractionSpec& traction, const Point<dim>& x, double area, const Point<dim>& normal) {
     CarriedPoint<B, K> at{};
     at.x = x;
-    Piece& piece = pieces_.emplace_back(Piece{.traction = &traction, .at = at, .area = area, .vector = {}});
+    Piece& piece =
+        pieces_.emplace_back(Piece{.traction = &traction, .X = x, .value = {}, .at = at, .area = area, .vector = {}});
     for (std::size_t d = 0; d < dim; ++d) piece.vector[d] = normal[d] * area;
   }
 
@@ -226,15 +211,48 @@ class Tractions final : public BoundaryCondition<B, K> {
     }
   }
 
-  // t A; or −p n da, for which u is needed [N].
-  std::array<double, dim> force_of(const Piece& piece, double t, const double* u) const {
+  // The values of all pieces at t: of formulas of t alone once for all pieces of a traction, of formulas of the
+  // position again if t has changed and they depend on it.
+  void evaluate(double t) const {
+    if (t == evaluated_at_) return;
+    const bool first = std::isnan(evaluated_at_);
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const Piece& piece = pieces_[k];
+      const auto formulas = piece.traction->formulas();
+      const bool same_traction = k > 0 && pieces_[k - 1].traction == piece.traction;
+      for (std::size_t i = 0; i < formulas.size(); ++i) {
+        if (!first && !formulas[i].uses('t')) continue;
+        piece.value[i] =
+            same_traction && !formulas[i].uses_position() ? pieces_[k - 1].value[i] : formulas[i](piece.X, t);
+      }
+    }
+    evaluated_at_ = t;
+  }
+  // Those of t are looked at in all moments of a run, at some positions; the others once, at all of them.
+  void check_values() const {
+    evaluate(0);
+    for (const Piece& piece : pieces_) {
+      const auto formulas = piece.traction->formulas();
+      for (std::size_t i = 0; i < formulas.size(); ++i) {
+        if (formulas[i].uses('t') || std::isfinite(piece.value[i])) continue;
+        throw_scene_error(
+            scene_,
+            fmt::format("traction[{}].{}", piece.traction - scene_.tractions.data(),
+                        piece.traction->pressure ? "pressure" : "value"),
+            fmt::format("the formula is {} at ({:.6g}); expected a finite number along the whole traction",
+                        std::isnan(piece.value[i]) ? "not a number" : "infinite", fmt::join(piece.X, ", ")));
+      }
+    }
+  }
+
+  // t A; or −p n da, for which u is needed [N]. evaluate() comes before.
+  std::array<double, dim> force_of(const Piece& piece, const double* u) const {
     std::array<double, dim> force;
     if (piece.traction->pressure) {
       force = deformed_area(piece, u);
-      const double p = (*piece.traction->pressure)({}, t);
-      for (double& along : force) along *= -p;
+      for (double& along : force) along *= -piece.value[0];
     } else {
-      for (int i = 0; i < dim; ++i) force[i] = piece.traction->value[static_cast<std::size_t>(i)]({}, t) * piece.area;
+      for (int i = 0; i < dim; ++i) force[i] = piece.value[i] * piece.area;
     }
     return force;
   }
@@ -245,7 +263,8 @@ class Tractions final : public BoundaryCondition<B, K> {
 
   const Scene& scene_;
   std::vector<Piece> pieces_;
-  bool has_begun_ = false;  // the first phase
+  mutable double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();  // the t of their values [s]
+  bool has_begun_ = false;                                                  // the first phase
 };
 
 }  // namespace stillpoint

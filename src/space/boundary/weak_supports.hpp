@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -49,7 +50,7 @@ class WeakSupports {
   WeakSupports(const Scene& scene, const GridOf& grid, double time_scale) : scene_(scene) {
     motions_.reserve(scene.supports.size() + 1);
     motions_.emplace_back(Expression(0.0), time_scale);
-    for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale);
+    for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale, support.at);
     for (std::size_t s = 0; s < scene.supports.size(); ++s) {
       if (!holds_by_springs(scene.grid, scene.supports[s])) continue;
       if (scene.supports[s].face) {
@@ -131,12 +132,18 @@ class WeakSupports {
     double stiffness = 0;  // k [N/m]
     double moved = 0;      // displacement in the phases before [m]
     double frequency = 0;  // k wᵀM⁻¹w of the first phase, if the mass is lumped [1/s²]
+    std::shared_ptr<const PrescribedMotion> motion{};  // its own, of a formula of where it was before the motion
   };
 
   void add(std::size_t support, int component, const Point<dim>& x, double area, double share) {
     CarriedPoint<B, K> at{};
     at.x = x;
-    held_.push_back({.support = support, .component = component, .at = at, .area = area, .share = share});
+    Held& held =
+        held_.emplace_back(Held{.support = support, .component = component, .at = at, .area = area, .share = share});
+    const PrescribedMotion& motion = motion_of(held);
+    if (!motion.varies_in_space() || !scene_.supports[support].face) return;
+    held.motion = std::make_shared<const PrescribedMotion>(motion.at({x.begin(), x.end()}));
+    check_motion(scene_, support, *held.motion);
   }
   // Where bodies are, some pieces to a cell.
   void cut_face([[maybe_unused]] std::size_t s, [[maybe_unused]] const GridOf& grid) {
@@ -173,6 +180,7 @@ class WeakSupports {
     }
   }
   const PrescribedMotion& motion_of(const Held& held) const {
+    if (held.motion) return *held.motion;
     const bool moves = held.component == scene_.supports[held.support].component;
     return motions_[moves ? held.support + 1 : 0];
   }

@@ -183,3 +183,9 @@ TEST_CASE("endless formulas are refused or computed, without harm") {
   for (int k = 0; k < 1000; ++k) choices += "x?t:";
   CHECK(survives(choices + "1"));
 }
+
+TEST_CASE("formulas know Bessel's functions") {
+  CHECK(value("bessel_j0(x)", 2.404825557695773) == Approx(0).margin(1e-15));
+  CHECK(value("2*bessel_j1(x) + P0", 1) == Approx(2 * 0.440050585744933516 + 2).epsilon(1e-15));
+  CHECK(error_of("besel_j1(x)").first.find("did you mean 'bessel_j1'") != std::string::npos);
+}

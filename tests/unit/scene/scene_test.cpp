@@ -52,9 +52,9 @@ TEST_CASE("the bar of the paper loads with the values of its file") {
   CHECK(bar.forces.at(0).value.at(0)({}, 0) == 0.001);
   CHECK(bar.damping.c == 0.45);
   CHECK(bar.stop.residual == 1e-10);
-  CHECK(bar.exact_u.at(0)(std::array{10.0}, 0) == Approx(0.01));
-  REQUIRE(bar.exact_stress.size() == 1);
-  CHECK(bar.exact_stress[0](std::array{10.0}, 0) == 0.001);
+  CHECK(bar.exact.u.at(0)(std::array{10.0}, 0) == Approx(0.01));
+  REQUIRE(bar.exact.stress.size() == 1);
+  CHECK(bar.exact.stress[0](std::array{10.0}, 0) == 0.001);
   CHECK(bar.probes.at(1).name == "p12");
   CHECK(bar.probes.at(1).point == 12);
   CHECK(bar.probes.at(1).fields == std::vector<std::string>{"u", "stress"});
@@ -85,7 +85,7 @@ TEST_CASE("what a scene leaves out has its default") {
   CHECK(scene.integrator.method == "leapfrog");
   CHECK_FALSE(scene.integrator.rtol);
   CHECK(scene.stop.residual == 1e-6);
-  CHECK(scene.exact_u.empty());
+  CHECK(scene.exact.u.empty());
 }
 
 TEST_CASE("every number may be an integer, a float or a formula of the constants") {

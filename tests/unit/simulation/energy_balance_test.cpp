@@ -41,7 +41,7 @@ Balance balance_of(const std::vector<std::string>& more, double step, double c =
                                   "integrator.step=" + std::to_string(step), "output.every=" + std::to_string(step)};
   set.insert(set.end(), more.begin(), more.end());
   Scene scene = scenes::load("column", set);
-  scene.exact_u.clear();  // of the column's own weight
+  scene.exact = {};  // of the column's own weight
   scene.phase.max_motion = max_motion;
   Simulation simulation(scene);
   Balance balance;

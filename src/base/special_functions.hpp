@@ -1,0 +1,34 @@
+// Functions that exact solutions need beyond those of <cmath>, by GSL. Arguments outside what is told give NaN.
+#pragma once
+
+#include <functional>
+
+namespace stillpoint {
+
+/// The w ≥ −1 with w e^w = x, x ≥ −1/e (Lambert's W_0).
+double lambert_w(double x);
+
+/// (e^x − 1 − x)/(x²/2), 1 at 0.
+double relative_exponential_2(double x);
+
+/// ∫₀^φ (1 − k² sin²)^(−1/2), and of (1 − k² sin²)^(1/2); 0 ≤ k < 1.
+double elliptic_f(double phi, double k);
+double elliptic_e(double phi, double k);
+/// The first of them at π/2.
+double elliptic_k(double k);
+
+/// sin φ and cos φ of the φ with elliptic_f(φ, k) = u.
+struct JacobiFunctions {
+  double sn, cn;
+};
+JacobiFunctions jacobi(double u, double k);
+
+/// Bessel's functions of the first kind.
+double bessel_j0(double x);
+double bessel_j1(double x);
+
+/// The zero of f between a < b, at whose ends it has different signs, to rounding (Brent's method). Throws
+/// std::domain_error if it has not, or has no value.
+double zero_between(double a, double b, const std::function<double(double)>& f);
+
+}  // namespace stillpoint

@@ -1,0 +1,29 @@
+// The exact solutions that the program knows: a file for each, and a row here.
+#pragma once
+
+#include <stillpoint/catalogue.hpp>
+#include <stillpoint/exact_solution.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace stillpoint {
+
+struct KnownSolution {
+  SolutionInfo about;
+  /// Of a scene that has passed the checks of its parameters.
+  std::unique_ptr<ExactSolution> (*make)(const Scene& scene);
+};
+
+const std::vector<KnownSolution>& known_solutions();
+
+// The rows.
+KnownSolution column_solution();
+KnownSolution lame_cylinder_solution();
+KnownSolution kirsch_solution();
+KnownSolution strip_load_solution();
+KnownSolution elastica_solution();
+KnownSolution vortex_solution();
+KnownSolution radial_mode_solution();
+
+}  // namespace stillpoint

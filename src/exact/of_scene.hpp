@@ -1,0 +1,64 @@
+// What an exact solution takes from its scene.
+#pragma once
+
+#include <stillpoint/catalogue.hpp>
+#include <stillpoint/scene.hpp>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace stillpoint {
+
+/// Of the one material that the bodies have, and of their state.
+struct ElasticConstants {
+  double E, nu, rho;     // [Pa], [1], [kg/m³]
+  double lambda, mu;     // Lamé's [Pa]
+  double kappa;          // Kolosov's: 3 − 4ν in plane strain and around an axis, (3 − ν)/(1 + ν) in plane stress
+  bool is_plane_stress;  // σ_zz = 0, otherwise ε_zz = 0
+};
+
+inline const MaterialSpec& material_of(const Scene& scene) { return scene.materials.at(scene.bodies.at(0).material); }
+
+inline ElasticConstants elastic_constants(const Scene& scene) {
+  const MaterialSpec& material = material_of(scene);
+  const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
+  const bool is_plane_stress = scene.state == StressState::plane_stress;
+  return {.E = E,
+          .nu = nu,
+          .rho = material.parameters.at("rho"),
+          .lambda = E * nu / ((1 + nu) * (1 - 2 * nu)),
+          .mu = E / (2 * (1 + nu)),
+          .kappa = is_plane_stress ? (3 - nu) / (1 + nu) : 3 - 4 * nu,
+          .is_plane_stress = is_plane_stress};
+}
+
+/// σ_zz of a plane body.
+inline double across(const ElasticConstants& of, double sigma_xx, double sigma_yy) {
+  return of.is_plane_stress ? 0 : of.nu * (sigma_xx + sigma_yy);
+}
+
+inline double parameter(const Scene& scene, const char* name) { return scene.exact.parameters.at(name); }
+
+/// A centre x0, y0 away from the axis.
+inline std::optional<SolutionFault> fault_of_centre(const Scene& scene) {
+  if (scene.state != StressState::axisymmetric) return std::nullopt;
+  for (const char* key : {"x0", "y0"}) {
+    if (parameter(scene, key) != 0)
+      return SolutionFault{.key = key, .message = "an axisymmetric scene has its axis at r = 0; leave this out"};
+  }
+  return std::nullopt;
+}
+
+// Rows of parameters.
+inline ParameterInfo positive_parameter(std::string_view name, std::string_view unit, std::string_view meaning) {
+  return {name, unit, meaning, 0, std::numeric_limits<double>::infinity(), false, true, 0};
+}
+inline ParameterInfo any_parameter(std::string_view name, std::string_view unit, std::string_view meaning,
+                                   double fallback = 0) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {name, unit, meaning, -infinity, infinity, false, false, fallback};
+}
+
+}  // namespace stillpoint

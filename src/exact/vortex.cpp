@@ -1,0 +1,105 @@
+// A generalised vortex: a ring R_1 < R < R_2 turns inside itself, each circle as a whole, and nothing moves elsewhere
+// [after Kamojjala, Brannon, Sadeghirad and Guilkey 2015, Eng. Comput. 31:193-213]:
+//
+//   x = Q(α(R)) X,   α = A (1 − s²)ⁿ,   s = (2R − R_1 − R_2)/(R_2 − R_1)
+//
+// Nothing changes its volume. For the neo-Hookean law, in the directions of the angle Θ + α and with γ = R α':
+//
+//   σ_rθ = μ γ,   σ_θθ = μ γ²,   σ_rr = σ_zz = 0
+//
+// which is in equilibrium with the body force
+//
+//   ρ b = μ R α'² e_r − μ (3 α' + R α'') e_θ.
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "exact/known_solutions.hpp"
+#include "exact/of_scene.hpp"
+#include "exact/polar.hpp"
+
+namespace stillpoint {
+namespace {
+
+class Vortex final : public ExactSolution {
+ public:
+  explicit Vortex(const Scene& scene)
+      : mu_(elastic_constants(scene).mu),
+        centre_{parameter(scene, "x0"), parameter(scene, "y0")},
+        middle_((parameter(scene, "inner_radius") + parameter(scene, "outer_radius")) / 2),
+        half_((parameter(scene, "outer_radius") - parameter(scene, "inner_radius")) / 2),
+        A_(parameter(scene, "angle")),
+        n_(parameter(scene, "power")) {}
+
+  void displacement(std::span<const double> X, double, std::span<double> u) const override {
+    const PolarPosition at(X, centre_);
+    const double angle = angle_at(at.r).first;
+    // Q − I, by half the angle: a small one keeps its digits
+    const double c = -2 * std::sin(angle / 2) * std::sin(angle / 2), s = std::sin(angle);
+    const double x = at.r * at.cos, y = at.r * at.sin;
+    u[0] = c * x - s * y;
+    u[1] = s * x + c * y;
+  }
+  bool has_stress() const override { return true; }
+  void stress(std::span<const double> X, double, std::span<double> sigma) const override {
+    PolarPosition at(X, centre_);
+    const auto [angle, slope] = angle_at(at.r);
+    const double gamma = at.r * slope, c = std::cos(angle), s = std::sin(angle);
+    const double cosine = at.cos * c - at.sin * s;
+    at.sin = at.sin * c + at.cos * s;
+    at.cos = cosine;
+    const auto [xx, yy, xy] = at.cartesian(0, mu_ * gamma * gamma, mu_ * gamma);
+    sigma[0] = xx;
+    sigma[1] = yy;
+    sigma[2] = 0;
+    sigma[3] = xy;
+  }
+
+ private:
+  // α and α'
+  std::pair<double, double> angle_at(double R) const {
+    const double s = (R - middle_) / half_, q = 1 - s * s;
+    if (!(q > 0)) return {0, 0};
+    return {A_ * std::pow(q, n_), -2 * n_ * A_ * s / half_ * std::pow(q, n_ - 1)};
+  }
+
+  double mu_;                     // [Pa]
+  std::array<double, 2> centre_;  // [m]
+  double middle_, half_;          // of the ring [m]
+  double A_, n_;
+};
+
+std::optional<SolutionFault> vortex_fault(const Scene& scene) {
+  const double inner = parameter(scene, "inner_radius"), outer = parameter(scene, "outer_radius");
+  if (outer > inner) return std::nullopt;
+  return SolutionFault{"outer_radius",
+                       fmt::format("must be greater than exact.inner_radius = {}, not {}", inner, outer)};
+}
+
+}  // namespace
+
+KnownSolution vortex_solution() {
+  using enum StressState;
+  ParameterInfo power = positive_parameter("power", "1", "n of the angle A (1 - s^2)^n; 2 is that of the paper");
+  power.lower = 2;
+  power.lower_allowed = true;
+  power.required = false;
+  power.fallback = 3;
+  ParameterInfo angle = any_parameter("angle", "rad", "A, by which the middle of the ring turns");
+  angle.required = true;
+  return {
+      .about = {.name = "vortex",
+                .description = "a ring that turns inside itself, under rho b = mu R alpha'^2 e_r - mu (3 alpha' + R "
+                               "alpha'') e_theta",
+                .source = "after Kamojjala, Brannon, Sadeghirad and Guilkey 2015",
+                .states = {plane_strain},
+                .parameters = {positive_parameter("inner_radius", "m", "of the ring"),
+                               positive_parameter("outer_radius", "m", "of the ring"), angle, power,
+                               any_parameter("x0", "m", "of its centre"), any_parameter("y0", "m", "likewise")},
+                .laws = {"neo-hookean"},
+                .fault = vortex_fault},
+      .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Vortex>(scene); }};
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,62 @@
+#include "simulation/formula_positions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "scene/border_line.hpp"
+#include "scene/support_kind.hpp"
+
+namespace stillpoint {
+namespace {
+
+std::vector<double> along(const std::array<double, 2>& from, const std::array<double, 2>& to, const GridSpec& grid) {
+  constexpr int fewest = 1000;
+  double cells = 0;
+  for (std::size_t d = 0; d < 2; ++d) cells += std::abs(to[d] - from[d]) / grid.cell_length(d);
+  const int count = std::max(fewest, static_cast<int>(8 * cells));
+  std::vector<double> positions;
+  for (int k = 0; k < count; ++k) {
+    const double share = (k + 0.5) / count;
+    for (std::size_t d = 0; d < 2; ++d) positions.push_back(from[d] + share * (to[d] - from[d]));
+  }
+  return positions;
+}
+
+}  // namespace
+
+std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase& phase, const std::string& key) {
+  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
+    if (!key.starts_with(fmt::format("traction[{}]", k))) continue;
+    const TractionSpec& traction = scene.tractions[k];
+    if (scene.dim == 2) {
+      std::vector<double> positions;
+      for (const BorderLine& line : border_lines(scene, traction)) {
+        const std::vector<double> of_line = along(line.from, line.to, scene.grid);
+        positions.insert(positions.end(), of_line.begin(), of_line.end());
+      }
+      return positions;
+    }
+    const BodySpec& body = scene.bodies.front();
+    return is_upper(*traction.face) ? body.max : body.min;
+  }
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    if (!key.starts_with(fmt::format("support[{}]", k))) continue;
+    const SupportSpec& support = scene.supports[k];
+    if (!support.face) return support.at;
+    const auto axis = static_cast<std::size_t>(axis_of(*support.face));
+    const double face = (is_upper(*support.face) ? scene.grid.max : scene.grid.min)[axis];
+    if (scene.dim == 1) return {face};
+    const FacePart part = held_part(scene.grid, support);
+    std::array<double, 2> from{face, face}, to{face, face};
+    from[part.along] = part.from;
+    to[part.along] = part.to;
+    return along(from, to, scene.grid);
+  }
+  return phase.positions();
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,18 @@
+// Where in a body a formula of a scene is evaluated.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <string>
+#include <vector>
+
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// Positions, (n × dim) [m], that stand for all at which the formula of a key such as "traction[0].value" is needed: of
+/// a traction or a support a thousand along its line or face, or eight to a cell, none at the ends; otherwise the
+/// material points.
+std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase& phase, const std::string& key);
+
+}  // namespace stillpoint
