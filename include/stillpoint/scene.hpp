@@ -94,7 +94,7 @@ struct StopSpec {          // [stop]: a test set to 0 is off
   double distance = 0;     // ‖u − u*‖_V/‖u‖_V (ErrorBound), certified; not written: see Model::distance_goal
   double kinetic_energy = 1e-6;  // share of the largest kinetic energy so far; goes with these two
   double dwell = 1;              // both held for this many periods 2π/ω₁
-  double load_growth = 0;        // d ln λ/d ln q of the factor λ of driven loads at their limit
+  double load_growth = 0;        // (q − q₀)/(λ − λ₀) dλ/dq of driven loads at their limit (LimitLoad)
   double time = 0;               // end time [s]
   long steps = 10'000'000;
   double wall_time = 0;  // [s]

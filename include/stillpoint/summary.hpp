@@ -49,7 +49,7 @@ struct ExactError {
 struct LoadFigures {                      // of loads that a displacement drives
   double factor = 0, largest_factor = 0;  // λ at the end, and the largest so far
   double displacement = 0;                // their mean displacement [m]
-  std::optional<double> growth = {};      // d ln λ/d ln q over the last fifth of q
+  std::optional<double> growth = {};      // (q − q₀)/(λ − λ₀) dλ/dq over the last fifth of q
 };
 
 /// Empty: not computed.

@@ -14,18 +14,23 @@ constexpr std::size_t fewest_pieces = 64;  // a fifth of which a slope can be fi
 
 }  // namespace
 
-// Loads may be driven either way; what turns back is no new displacement.
+// Loads may be driven either way; where q(t) turns back there is nothing new.
 bool LimitLoad::observe(const LoadState& load) {
-  const double q = std::abs(load.displacement);
-  if (!(q > 0) || !std::isfinite(load.factor)) return false;
-  if (piece_ == 0) piece_ = q;
-  if (q <= end_ - piece_) return false;
+  const double driven = std::abs(load.prescribed), q = std::copysign(1, load.prescribed) * load.displacement;
+  if (!std::isfinite(load.factor) || !std::isfinite(q)) return false;
+  if (piece_ == 0) {
+    first_q_ = q;
+    first_factor_ = load.factor;
+    piece_ = end_ = driven;
+    return false;
+  }
+  if (driven <= end_ - piece_) return false;
   sum_q_ += q;
   sum_factor_ += load.factor;
   ++steps_;
-  if (q < end_) return false;
+  if (driven < end_) return false;
   close_piece();
-  end_ = q + piece_;
+  end_ = driven + piece_;
   growth_ = measured_growth();
   return asked_ > 0 && growth_ && *growth_ <= asked_;
 }
@@ -47,14 +52,13 @@ void LimitLoad::halve() {
 
 // dλ/dq by least squares.
 std::optional<double> LimitLoad::measured_growth() const {
+  const std::size_t count = q_.size() / 5;
   if (q_.size() < fewest_pieces) return {};
-  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(q_, 0.8 * q_.back()) - q_.begin());
-  const std::size_t count = q_.size() - first;
-  if (count < 8) return {};
+  const std::size_t first = q_.size() - count;
   double at_zero = 0, slope = 0, cov00 = 0, cov01 = 0, cov11 = 0, squares = 0;
   gsl_fit_linear(&q_[first], 1, &factor_[first], 1, count, &at_zero, &slope, &cov00, &cov01, &cov11, &squares);
   const double middle = (q_[first] + q_.back()) / 2;
-  const double growth = slope * middle / (at_zero + slope * middle);
+  const double growth = slope * (middle - first_q_) / (at_zero + slope * middle - first_factor_);
   if (!std::isfinite(growth)) return {};
   return growth;
 }
@@ -67,6 +71,8 @@ std::string LimitLoad::description() const {
 }
 
 void LimitLoad::archive(const StateArchive& state) {
+  state("first_q", first_q_);
+  state("first_factor", first_factor_);
   state("q", q_);
   state("factor", factor_);
   if (q_.size() != factor_.size() || q_.size() > most_pieces) throw StateError("'factor' is not that of each 'q'");

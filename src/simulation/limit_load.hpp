@@ -1,8 +1,9 @@
 // The limit load: the factor λ that driven loads have when it does not grow any more with their displacement q.
 //
-//   m = d ln λ/d ln q = (q/λ) dλ/dq,   over the last fifth of q
+//   m = (q − q₀)/(λ − λ₀) dλ/dq,   over the last fifth of q(t)
 //
-// is 1 of an elastic body, whatever its stiffness, 0 at the limit, and negative beyond a peak.
+// is 1 of an elastic body, whatever its stiffness, 0 at the limit, and negative beyond a peak. q₀ and λ₀ are those with
+// which it begins to be driven, what other loads have done before.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>
@@ -41,9 +42,10 @@ class LimitLoad {
   std::optional<double> measured_growth() const;
 
   double asked_;
-  // Means over the steps within each piece of q, the pieces one after the other and of about the same length.
+  double first_q_ = 0, first_factor_ = 0;
+  // Means over the steps within each piece of q(t), the pieces one after the other and of about the same length.
   std::vector<double> q_, factor_;
-  double piece_ = 0;                                         // this length [m]; 0 before q has begun
+  double piece_ = 0;                                         // this length [m]; 0 before q(t) has begun
   double steps_ = 0, sum_q_ = 0, sum_factor_ = 0, end_ = 0;  // of the open piece
   std::optional<double> growth_;
 };

@@ -123,7 +123,8 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
            {.range = kNotNegative})
       .key("hold", &StopSpec::dwell, "periods 2 pi/omega_1 for which both have to hold", {.range = kNotNegative})
       .key("load_growth", &StopSpec::load_growth,
-           "d ln(factor)/d ln(displacement) of [load] over the last fifth of its way, at the limit load",
+           "d(factor)/d(displacement) of [load] over the last fifth of its way, as a share of the mean from the start, "
+           "at the limit load",
            {.range = kNotNegative})
       .key("time", &StopSpec::time, "end time", {.range = kNotNegative, .unit = "s"})
       .key("steps", &StopSpec::steps, "number of steps", {.range = kNotNegative})

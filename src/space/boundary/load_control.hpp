@@ -97,8 +97,8 @@ class LoadControl {
   }
   /// At (t, u), u over the grid's functions.
   LoadState state(double t, const double* u) const {
-    return {.factor = -stiffness_ * springs_.gap(0, t, u) / total_,
-            .displacement = moved_ + springs_.displacement(0, u)};
+    const double q = moved_ + springs_.displacement(0, u), gap = springs_.gap(0, t, u);
+    return {.factor = -stiffness_ * gap / total_, .displacement = q, .prescribed = q - gap};
   }
 
  private:

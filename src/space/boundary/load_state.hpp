@@ -6,6 +6,7 @@ namespace stillpoint {
 struct LoadState {
   double factor = 0;        // λ of the reference loads
   double displacement = 0;  // q, their mean displacement [m]
+  double prescribed = 0;    // what it is driven to, q(t) [m]
 };
 
 }  // namespace stillpoint

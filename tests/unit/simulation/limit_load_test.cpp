@@ -17,7 +17,8 @@ double drive(LimitLoad& limit, double q_end, const FactorAt& factor_at, double r
   constexpr int steps = 5000;
   for (int k = 1; k <= steps; ++k) {
     const double q = q_end * k / steps;
-    if (limit.observe({.factor = factor_at(q), .displacement = q}) && limit.reached(residual)) return q;
+    if (limit.observe({.factor = factor_at(q), .displacement = q, .prescribed = q}) && limit.reached(residual))
+      return q;
   }
   return q_end;
 }
@@ -32,7 +33,8 @@ TEST_CASE("the factor of an elastic body grows as fast as its displacement, what
     REQUIRE(limit.growth());
     CHECK(*limit.growth() == Approx(1).epsilon(1e-9));
     LimitLoad backwards(asked);
-    for (int i = 1; i < 5000; ++i) CHECK_FALSE(backwards.observe({.factor = k * i, .displacement = -1e-3 * i}));
+    for (int i = 1; i < 5000; ++i)
+      CHECK_FALSE(backwards.observe({.factor = k * i, .displacement = -1e-3 * i, .prescribed = -1e-3 * i}));
     CHECK(*backwards.growth() == Approx(1).epsilon(1e-9));
   }
 }
@@ -57,6 +59,16 @@ TEST_CASE("a limit is reached once the factor grows no more, and not while the b
   }
 }
 
+TEST_CASE("what other loads do before and beside is no limit: an elastic body grows by 1 from wherever it begins") {
+  LimitLoad held(asked);  // before it is driven, other loads settle against what holds it
+  for (int k = 1; k <= 5000; ++k)
+    CHECK_FALSE(held.observe({.factor = 1e-3 * std::tanh(0.01 * k), .displacement = -1e-9 * k, .prescribed = 0}));
+  CHECK_FALSE(held.growth());
+  LimitLoad preloaded(asked);
+  CHECK(drive(preloaded, 5, [](double q) { return 1e4 + q; }) == 5);
+  CHECK(preloaded.growth().value() == Approx(1).epsilon(1e-6));
+}
+
 TEST_CASE("a peak is a limit, and what swings a little about a rising curve is none") {
   LimitLoad peak(asked);
   CHECK(drive(peak, 3, [](double q) { return q * std::exp(-q); }) == Approx(1.1).epsilon(0.05));  // the peak is at 1
@@ -70,7 +82,7 @@ TEST_CASE("without a criterion no limit is reached, and what turns back or stand
   LimitLoad turned(asked);
   drive(turned, 1, [](double q) { return q; });
   const double before = turned.growth().value();
-  for (int k = 0; k < 1000; ++k) turned.observe({.factor = 0.5, .displacement = 0.5});
+  for (int k = 0; k < 1000; ++k) turned.observe({.factor = 0.5, .displacement = 0.5, .prescribed = 0.5});
   CHECK(turned.growth().value() == before);
 }
 
@@ -84,7 +96,7 @@ TEST_CASE("a limit load that was saved on the way is found at the same displacem
   for (int k = 1; k <= 5000; ++k) {
     const double q = 10.0 * k / 5000;
     LimitLoad& now = k <= 777 ? first : second;
-    const bool found = now.observe({.factor = curve(q), .displacement = q});
+    const bool found = now.observe({.factor = curve(q), .displacement = q, .prescribed = q});
     if (k == 777) {
       first.archive(StateArchive::saving(saved));
       second.archive(StateArchive::restoring(saved));
