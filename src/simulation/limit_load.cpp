@@ -19,9 +19,13 @@ bool LimitLoad::observe(const LoadState& load) {
   const double driven = std::abs(load.prescribed), q = std::copysign(1, load.prescribed) * load.displacement;
   if (!std::isfinite(load.factor) || !std::isfinite(q)) return false;
   if (piece_ == 0) {
-    first_q_ = q;
-    first_factor_ = load.factor;
-    piece_ = end_ = driven;
+    if (driven > 0) {
+      piece_ = end_ = driven;
+      first_q_ = std::copysign(1, load.prescribed) * first_q_;
+    } else {
+      first_q_ = load.displacement;  // its sign is that of q(t) once that is known
+      first_factor_ = load.factor;
+    }
     return false;
   }
   if (driven <= end_ - piece_) return false;
@@ -32,7 +36,12 @@ bool LimitLoad::observe(const LoadState& load) {
   close_piece();
   end_ = driven + piece_;
   growth_ = measured_growth();
-  return asked_ > 0 && growth_ && *growth_ <= asked_;
+  if (!(asked_ > 0 && growth_ && *growth_ <= asked_)) {
+    flat_since_ = 0;
+  } else if (flat_since_ == 0) {
+    flat_since_ = driven;
+  }
+  return flat_since_ > 0 && driven >= confirmed_after * flat_since_;
 }
 
 void LimitLoad::close_piece() {
@@ -73,6 +82,7 @@ std::string LimitLoad::description() const {
 void LimitLoad::archive(const StateArchive& state) {
   state("first_q", first_q_);
   state("first_factor", first_factor_);
+  state("flat_since", flat_since_);
   state("q", q_);
   state("factor", factor_);
   if (q_.size() != factor_.size() || q_.size() > most_pieces) throw StateError("'factor' is not that of each 'q'");
