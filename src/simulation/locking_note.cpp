@@ -49,7 +49,7 @@ std::optional<std::string> locking_note(const Scene& scene) {
           "each of a cell's points keeps to the flow rule of material.{}: where it flows freely, as below a footing, "
           "the cells carry too much; {} lets them flow",
           material.name,
-          dilates(material) ? "one point a cell of a linear basis, in a single phase,"
+          dilates(material) ? "one point a cell (of a linear basis, that stays in it)"
                             : "phase.dilatation = \"cells\"");
     }
     if (flows(material) || shares) continue;
