@@ -15,7 +15,9 @@ and [[case.quantity]] tables:
   name       of the row
   read       "error.u_rel_l2", "load.factor" and the like of summary.json, "PROBE.FIELD"; "history.COLUMN", the mean of its last values,
              from the time `from` on; "fields.u", "fields.u.y", "fields.stress.yy", …: all points beside an answer of
-             closed_answers.py, the relative difference in L2; "order.NAME": the order of a quantity of converge.json,
+             closed_answers.py, the relative difference in L2; "heap.runout": how much farther to the right than before
+             a heap reaches where it is `grain` deep over a piece `h` wide, of the scene's constants, with the `area` of
+             all points; "heap.height"; "order.NAME": the order of a quantity of converge.json,
              or of the error of any of these over the runs of `halve`
   exact      a number, or a formula of the scene's constants, of x, y (the probe's position before the motion), and of
              the closed answers; what is an error itself has 0. Of fields: the name of the answer. Of orders not needed

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import closed_answers
+import heap
 from limited_run import Run, difference, limited, run_in
 from scene_constants import constants_of, value_of
 
@@ -76,7 +77,7 @@ def commands_of(program, case):
     found = []
     for level in case.halve or [[]]:
         settings = case.settings + level
-        if any("fields." in quantity.read for quantity in case.quantities):
+        if any(quantity.read.removeprefix("order.").startswith(("fields.", "heap.")) for quantity in case.quantities):
             settings = settings + [LAST]
         command = [str(program), "run", str(case.scene)] + sum((["--set", one] for one in settings), [])
         found.append((command, settings))
@@ -148,6 +149,18 @@ def field_error(run, read, answer, constants):
     return difference(points_field(run.last, read.removeprefix("fields.")), right)
 
 
+def of_heap(run, what, constants):
+    """Of "heap.runout" and "heap.height", at the end."""
+    start = run.last["place"] - run.last["u"]
+    volume, depth, width = constants["area"] / len(start), constants["grain"], constants["h"]
+    if what == "height":
+        return float(run.last["place"][:, 1].max())
+    if what != "runout":
+        raise Missing(f"a heap has no {what}; expected runout or height")
+    ends, began = (heap.front(x[:, 0], volume, depth, width) for x in (run.last["place"], start))
+    return ends - began
+
+
 def value_and_exact(case, quantity, read, outcome, number=-1):
     """(computed, exact) of a run."""
     folder, settings, run = outcome.runs[number]
@@ -158,6 +171,8 @@ def value_and_exact(case, quantity, read, outcome, number=-1):
     names = names_of(constants)
     if first in ("error", "load"):
         computed = run.summary[first][rest]
+    elif first == "heap":
+        computed = of_heap(run, rest, constants)
     elif first == "history":
         computed = mean_of_history(folder / "history.csv", rest, value_of(quantity.since, names))
     else:

@@ -14,6 +14,14 @@ namespace {
 // eight across the wall); quadratic ones of nine by 3 % at 0.4999 (Cook's membrane, 32 cells a side).
 double nearly_incompressible(BasisKind basis) { return basis == BasisKind::linear ? 0.48 : 0.499; }
 
+// Sharing the change of volume is a remedy for one that is 0 everywhere. Where flow dilates, points that are sheared
+// more have to swell more: a footing on four points of φ = ψ = 20° carries 7 % too much on 30 × 20 cells, on one point
+// 0.1 %.
+bool dilates(const MaterialSpec& material) {
+  const auto psi = material.parameters.find("psi");
+  return psi != material.parameters.end() && psi->second > 0;
+}
+
 // p² Gauss points of a cell under-integrate just enough; a file's points are as they are.
 bool has_many_points(const BodySpec& body, BasisKind basis) {
   const int p = degree_of(basis);
@@ -31,17 +39,20 @@ bool flows(const MaterialSpec& material) {
 
 std::optional<std::string> locking_note(const Scene& scene) {
   const bool volume_is_kept = scene.state == StressState::plane_strain || scene.state == StressState::axisymmetric;
-  if (!volume_is_kept || scene.phase.dilatation == Dilatation::cells) return std::nullopt;
+  if (!volume_is_kept) return std::nullopt;
+  const bool shares = scene.phase.dilatation == Dilatation::cells;
   for (const BodySpec& body : scene.bodies) {
     if (!has_many_points(body, scene.grid.basis)) continue;
     const MaterialSpec& material = scene.materials.at(body.material);
-    if (flows(material)) {
+    if (flows(material) && (dilates(material) || !shares)) {
       return fmt::format(
           "each of a cell's points keeps to the flow rule of material.{}: where it flows freely, as below a footing, "
-          "the "
-          "cells carry too much; phase.dilatation = \"cells\" lets them flow",
-          material.name);
+          "the cells carry too much; {} lets them flow",
+          material.name,
+          dilates(material) ? "one point a cell (of a linear basis, that stays in it)"
+                            : "phase.dilatation = \"cells\"");
     }
+    if (flows(material) || shares) continue;
     const auto nu = material.parameters.find("nu");
     if (nu == material.parameters.end() || nu->second < nearly_incompressible(scene.grid.basis)) continue;
     return fmt::format(

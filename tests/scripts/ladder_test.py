@@ -249,5 +249,18 @@ def _(_folder):
         assert abs(1 + function(one, 1, 0, 1, s0, 1)[0] - top) < 1e-6, (function, s0)
 
 
+@claim("a heap ends where it is less than a grain deep, whatever a few loose points beyond do")
+def _(_folder):
+    numpy, heap = script_module("numpy"), script_module("heap")
+    # 1 deep at x = 0 and of slope 1/2, it is 0.1 deep at 1.8; points of equal shares of its area, and two far off.
+    x = 2 - 2 * numpy.sqrt(1 - (numpy.arange(20000) + 0.5) / 20000)
+    end = heap.front(x, 1 / 20000, depth=0.1, width=0.01)
+    assert abs(end - 1.8) < 0.02
+    assert heap.front(numpy.append(x, [5.0, 5.001]), 1 / 20000, depth=0.1, width=0.01) == end
+    # The last points of a block are its end, unless there is a gap before.
+    for width, block in ((0.6, 0.75), (0.2, 0.25)):
+        assert heap.front(numpy.repeat([0.25, 0.75], 4), 1 / 8, depth=0.1, width=width) == block
+
+
 if __name__ == "__main__":
     check_the_claim()

@@ -139,6 +139,21 @@ TEST_CASE("what points from a file integrate is not told, since it is not known"
   CHECK_FALSE(says(notes, "integrate"));
 }
 
+TEST_CASE("soil that flows is said to make cells too stiff, by whichever of its points' volumes the scene keeps") {
+  const auto notes_with = [](const std::string& psi, const std::string& dilatation, const std::string& points) {
+    return notes_of(
+        scenes::load("footing_limit", {"material.clay.phi=20", "material.clay.psi=" + psi,
+                                       "phase.dilatation=" + dilatation, "body.points_per_cell=" + points}));
+  };
+  CHECK(says(notes_with("0", "points", "4"), "phase.dilatation = \"cells\" lets them flow"));
+  CHECK_FALSE(says(notes_with("0", "cells", "4"), "carry too much"));
+  // Sharing the change of volume is no remedy where points that are sheared differently swell differently.
+  CHECK(says(notes_with("20", "cells", "4"), "one point a cell"));
+  CHECK(says(notes_with("20", "points", "4"), "one point a cell"));
+  for (const char* dilatation : {"points", "cells"})
+    CHECK_FALSE(says(notes_with("20", dilatation, "1"), "carry too much"));
+}
+
 TEST_CASE("a load that loads nothing is named") {
   CHECK(says(notes_of(block_scene({"body_force.value=[0, '-g*(y > 4)']"})),
              "body_force is zero at every material point"));
