@@ -39,7 +39,7 @@ struct SimulationOptions {
   std::filesystem::path out{};  // folder for history.csv, the fields and checkpoints; empty: no files
   /// A checkpoint of the same scene to go on from, with the files in `out`; empty: from the start.
   std::filesystem::path resume{};
-  int threads = 0;  // 0: as many as OpenMP would take
+  int threads = 0;  // 0: as many as OpenMP would take, or one where that is quicker
   /// Whether steps land on the times of rows and snapshots, and these are taken.
   bool records = true;
   /// Whether the scene's stop tests end it; otherwise only a failure does.

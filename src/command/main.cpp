@@ -102,6 +102,13 @@ void wait_briefly(char** argv, int threads) {
   if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", argv);
 }
 
+// Of threads: auto becomes 0.
+std::string number_or_auto(std::string& text) {
+  if (text != "auto") return CLI::Range(1, 1024)(text);
+  text = "0";
+  return {};
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("Quasi-static equilibrium by dynamic relaxation in the material point method", "stillpoint");
   app.set_version_flag("--version", STILLPOINT_VERSION);
@@ -117,7 +124,11 @@ int dispatch(int argc, char** argv) {
                              ->type_name("DIR");
   scene.required(false)->excludes(&resume);
   resume.excludes(&out)->excludes(run_app.get_option("--set"));
-  run_app.add_option("--threads", run_arguments.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  run_app
+      .add_option("--threads", run_arguments.threads,
+                  "threads to use; auto, the default: all or one, whichever the run finds quicker")
+      ->transform(CLI::Validator(number_or_auto, ""))
+      ->type_name("N|auto");
   run_app.add_flag("--quiet", run_arguments.quiet, "print nothing but errors");
 
   CompareArguments compare_arguments;

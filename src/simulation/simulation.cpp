@@ -14,13 +14,12 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 RunStatus Simulation::step(double t_stop) {
-  const ThreadScope threads(impl_->options_.threads);
+  const ThreadScope threads(impl_->thread_choice_.threads());
   return impl_->step(t_stop);
 }
 
 RunStatus Simulation::run_until(double t) {
-  const ThreadScope threads(impl_->options_.threads);
-  while (!impl_->done() && impl_->t_ < t) impl_->step(t);
+  while (!done() && impl_->t_ < t) step(t);
   return impl_->status_;
 }
 

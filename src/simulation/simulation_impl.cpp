@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
@@ -51,6 +52,8 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
       schedule_(scene_, *model_.phase, scene_.stop.time),
       plastic_path_(scene_, model_),
       standstill_(model_.integrator.max_step),
+      // What a static solver does in one step and in the next are not the same.
+      thread_choice_(model_.static_method ? omp_get_max_threads() : options_.threads, omp_get_max_threads()),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
   if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);
@@ -79,7 +82,9 @@ RunStatus Simulation::Impl::step(double t_stop) {
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(failure(now(), "no memory is left for what a step takes"));
   }
-  stepping_s_ += watch.seconds();
+  const double seconds = watch.seconds();
+  stepping_s_ += seconds;
+  thread_choice_.observe(seconds);
   if (done()) finish();
   return status_;
 }

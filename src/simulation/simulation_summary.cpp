@@ -71,7 +71,7 @@ void Simulation::Impl::fill_effort(Summary& s) const {
   s.rejected_steps = earlier_rejected_ + motion_->integrator->rejected_steps();
   s.rhs_evaluations = evaluations();
   s.phases = phases_;
-  s.threads = omp_get_max_threads();
+  s.threads = thread_choice_.usual();
   s.wall_s = earlier_wall_s_ + wall_.seconds();
   if (s.steps > 0)
     s.ns_per_point_step = 1e9 * stepping_s_ / (static_cast<double>(s.steps) * static_cast<double>(s.points));

@@ -1,0 +1,61 @@
+#include "simulation/thread_choice.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace stillpoint {
+namespace {
+
+constexpr int turns = 4;
+
+}  // namespace
+
+int ThreadChoice::threads() const {
+  if (!chooses_ || trial_ == turns) return best_;
+  return trial_ % 2 == 0 ? 1 : all_;
+}
+
+void ThreadChoice::observe(double seconds) {
+  if (!chooses_) return;
+  ++steps_[threads() == all_];
+  if (trial_ < turns) {
+    Timing& timing = timings_[static_cast<std::size_t>(trial_ % 2)];
+    timing.seconds += seconds;
+    ++timing.steps;
+    in_trial_ += seconds;
+    if (in_trial_ < trial_s) return;
+    in_trial_ = 0;
+    ++trial_;
+    // Where a first look says enough, no time is lost with a second.
+    const bool hopeless = trial_ == 2 && timings_[1].mean() > 2 * timings_[0].mean();
+    if (trial_ == turns || hopeless) end_trial();
+    return;
+  }
+  until_trial_ -= seconds;
+  since_.seconds += seconds;
+  ++since_.steps;
+  if (since_.seconds >= watch_s) {
+    if (best_ == all_ && since_.mean() > of_one_) {  // it was a gain, and is none any more
+      best_ = 1;
+      until_trial_ = interval_ = shortest_s;
+    }
+    since_ = {};
+  }
+  if (until_trial_ <= 0) begin_trial();
+}
+
+void ThreadChoice::begin_trial() {
+  trial_ = 0;
+  timings_ = {};
+}
+
+void ThreadChoice::end_trial() {
+  trial_ = turns;
+  of_one_ = timings_[0].mean();
+  const int before = std::exchange(best_, timings_[1].mean() < least_gain * of_one_ ? all_ : 1);
+  interval_ = best_ == before ? std::min(2 * interval_, longest_s) : shortest_s;
+  until_trial_ = interval_;
+  since_ = {};
+}
+
+}  // namespace stillpoint

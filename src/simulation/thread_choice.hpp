@@ -1,0 +1,51 @@
+// How many threads a run works with: one, or all that it may have, whichever is quicker. Results do not depend on it.
+#pragma once
+
+#include <array>
+
+namespace stillpoint {
+
+/// Tries both at the start and now and then, a few milliseconds each: a second thread is no gain in a small scene, and
+/// a loss where another program keeps a core busy, since every loop waits for the thread that is not let run.
+class ThreadChoice {
+ public:
+  static constexpr double trial_s = 0.005;    // that each is tried for, twice
+  static constexpr double watch_s = 0.025;    // after which all of them are compared with one
+  static constexpr double shortest_s = 2;     // from trial to trial; twice as long after each that changes nothing,
+  static constexpr double longest_s = 8;      // up to this
+  static constexpr double least_gain = 0.95;  // of the time of one thread: otherwise one it is
+
+  /// asked: for good; 0: chosen between one and all.
+  ThreadChoice(int asked, int all) : all_(asked > 0 ? asked : all), chooses_(asked == 0 && all > 1) {
+    if (!chooses_) best_ = all_;
+  }
+
+  /// For the next step.
+  int threads() const;
+  /// That most steps were taken with.
+  int usual() const { return !chooses_ || steps_[1] > steps_[0] ? all_ : 1; }
+  /// After each step: how long it took [s].
+  void observe(double seconds);
+
+ private:
+  struct Timing {
+    double seconds = 0;
+    long steps = 0;
+    double mean() const { return seconds / static_cast<double>(steps); }
+  };
+  void begin_trial();
+  void end_trial();
+
+  int all_;
+  bool chooses_;
+  int best_ = 1;
+  int trial_ = 0;                                   // 0 … 3: one, all, one, all; 4: no trial
+  double in_trial_ = 0;                             // [s]
+  std::array<Timing, 2> timings_;                   // of the trial: one, all
+  Timing since_;                                    // since the last look
+  double of_one_ = 0;                               // seconds a step of one thread, at the last trial
+  double until_trial_ = 0, interval_ = shortest_s;  // [s]
+  std::array<long, 2> steps_{};                     // taken with one, with all
+};
+
+}  // namespace stillpoint
