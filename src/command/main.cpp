@@ -102,9 +102,10 @@ void wait_briefly(char** argv, int threads) {
   if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", argv);
 }
 
-// Of threads: auto becomes 0.
+// Of threads: the word becomes 0.
 std::string number_or_auto(std::string& text) {
-  if (text != "auto") return CLI::Range(1, 1024)(text);
+  constexpr std::string_view all_or_one = "auto";
+  if (text != all_or_one) return CLI::Range(1, 1024)(text);
   text = "0";
   return {};
 }

@@ -1,13 +1,17 @@
 #include <stillpoint/simulation.hpp>
 
+#include <omp.h>
+
+#include "simulation/body_size.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/thread_scope.hpp"
 
 namespace stillpoint {
 
 Simulation::Simulation(Scene scene, SimulationOptions options) {
-  const ThreadScope threads(options.threads);
-  impl_ = std::make_unique<Impl>(std::move(scene), std::move(options));
+  const int all = omp_get_max_threads();
+  const ThreadScope threads(threads_to_begin_with(options.threads, body_size(scene).points));
+  impl_ = std::make_unique<Impl>(std::move(scene), std::move(options), all);
 }
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -37,7 +41,7 @@ double Simulation::residual() { return impl_->residual(); }
 ConstVec Simulation::field(std::string_view name) { return impl_->field(name); }
 void Simulation::save(const std::filesystem::path& checkpoint) { impl_->save(checkpoint); }
 Summary Simulation::summary() {
-  const ThreadScope threads(impl_->options_.threads);
+  const ThreadScope threads(impl_->thread_choice_.threads());
   return impl_->summary();
 }
 const Model& Simulation::model() const { return impl_->model_; }

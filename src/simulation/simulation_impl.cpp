@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
@@ -42,7 +41,7 @@ RunStatus status_of(StepReport::Status status) {
 
 }  // namespace
 
-Simulation::Impl::Impl(Scene scene, SimulationOptions options)
+Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
     : scene_(std::move(scene)),
       options_(std::move(options)),
       end_request_(scene_.stop.wall_time, options_.interrupted),
@@ -53,7 +52,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options)
       plastic_path_(scene_, model_),
       standstill_(model_.integrator.max_step),
       // What a static solver does in one step and in the next are not the same.
-      thread_choice_(model_.static_method ? omp_get_max_threads() : options_.threads, omp_get_max_threads()),
+      thread_choice_(model_.static_method && options_.threads == 0 ? threads : options_.threads, threads),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
   if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);

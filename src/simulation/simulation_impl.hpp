@@ -31,7 +31,8 @@ namespace stillpoint {
 
 class Simulation::Impl {
  public:
-  Impl(Scene scene, SimulationOptions options);
+  /// threads: that there are.
+  Impl(Scene scene, SimulationOptions options, int threads);
 
   RunStatus step(double t_stop);
   bool done() const { return status_ != RunStatus::running; }

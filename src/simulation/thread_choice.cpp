@@ -2,11 +2,30 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
+
+#include <omp.h>
+
+#include "base/parallel_loop.hpp"
+#include "base/stopwatch.hpp"
+#include "simulation/thread_scope.hpp"
 
 namespace stillpoint {
 namespace {
 
 constexpr int turns = 4;
+
+// Of a loop over a vector that stays in the cache, many times over: longer than a program is let run at a time.
+double seconds_of_loops(std::vector<double>& x, int threads, double at_least) {
+  const ThreadScope scope(threads);
+  const Stopwatch watch;
+  int loops = 0;
+  do {
+    for_each_index(x.size(), [to = x.data()](std::size_t i) { to[i] = 0.5 * to[i] + 1; });
+    ++loops;
+  } while (watch.seconds() < at_least);
+  return watch.seconds() / loops;
+}
 
 }  // namespace
 
@@ -56,6 +75,18 @@ void ThreadChoice::end_trial() {
   interval_ = best_ == before ? std::min(2 * interval_, longest_s) : shortest_s;
   until_trial_ = interval_;
   since_ = {};
+}
+
+int threads_to_begin_with(int asked, double points) {
+  constexpr double large_body = 5000;  // whose set-up takes longer than this trial
+  const int all = omp_get_max_threads();
+  if (asked > 0) return asked;
+  if (all == 1 || points < large_body) return all;
+  constexpr double at_least = 0.006;  // [s]
+  std::vector<double> x(1 << 16);
+  seconds_of_loops(x, all, 0);  // starts the threads
+  const double one = seconds_of_loops(x, 1, at_least), of_all = seconds_of_loops(x, all, at_least);
+  return of_all < one ? all : 1;
 }
 
 }  // namespace stillpoint

@@ -11,7 +11,7 @@ class ThreadChoice {
  public:
   static constexpr double trial_s = 0.005;    // that each is tried for, twice
   static constexpr double watch_s = 0.025;    // after which all of them are compared with one
-  static constexpr double shortest_s = 2;     // from trial to trial; twice as long after each that changes nothing,
+  static constexpr double shortest_s = 0.5;   // from trial to trial; twice as long after each that changes nothing,
   static constexpr double longest_s = 8;      // up to this
   static constexpr double least_gain = 0.95;  // of the time of one thread: otherwise one it is
 
@@ -47,5 +47,9 @@ class ThreadChoice {
   double until_trial_ = 0, interval_ = shortest_s;  // [s]
   std::array<long, 2> steps_{};                     // taken with one, with all
 };
+
+/// For what comes before the steps, of a body of so many points: all threads, or one where they are busy elsewhere,
+/// which loops of a few milliseconds tell; these pay for large bodies alone. asked: as above.
+int threads_to_begin_with(int asked, double points);
 
 }  // namespace stillpoint
