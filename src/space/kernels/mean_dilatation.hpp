@@ -62,14 +62,7 @@ requires(dimensions(K) == 2) class MeanDilatation {
   /// block.VP, the law's V P̄, becomes V P.
   void transform_stress(Block& block) {
     pressures(block);
-    const std::size_t count = block.count;
-    if (finite_) {
-#pragma omp simd
-      for (std::size_t q = 0; q < count; ++q) add_cofactor(block, q, s_[q], push_[q]);
-    } else {
-#pragma omp simd
-      for (std::size_t q = 0; q < count; ++q) add_identity(block, q, push_[q]);
-    }
+    finite_ ? push_as<true>(block) : push_as<false>(block);
   }
 
   /// The same, keeping what a derivative needs of V P̄; block.VP is left as it is.
@@ -196,6 +189,16 @@ requires(dimensions(K) == 2) class MeanDilatation {
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q)
       push_[q] = Finite ? share_[q] * inverse_mean_[q] - a_[q] * inverse_J_[q] : share_[q] - a_[q];
+  }
+
+  template <bool Finite>
+  void push_as(Block& block) const {
+    const std::size_t count = block.count;
+#pragma omp simd
+    for (std::size_t q = 0; q < count; ++q) {
+      if constexpr (Finite) add_cofactor(block, q, s_[q], push_[q]);
+      if constexpr (!Finite) add_identity(block, q, push_[q]);
+    }
   }
 
   // f, of small strain I
