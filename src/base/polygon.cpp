@@ -5,12 +5,19 @@
 #include <limits>
 
 namespace stillpoint {
-namespace {
 
-/// Twice the signed area of the triangle a, b, c: positive if c lies left of the way from a to b.
+double distance(const PlanePoint& a, const PlanePoint& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
+
+PlanePoint normal_of_edge(const PlanePoint& a, const PlanePoint& b) {
+  const double length = distance(a, b);
+  return {(b[1] - a[1]) / length, (a[0] - b[0]) / length};
+}
+
 double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
+
+namespace {
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
@@ -132,14 +139,15 @@ double overlap_area(const Polygon& a, const Polygon& b) {
   return area;
 }
 
-double distance_to_border(const Polygon& polygon, const PlanePoint& x) {
-  double nearest = std::numeric_limits<double>::infinity();
+PlaceOnBorder nearest_on_border(const Polygon& polygon, const PlanePoint& x) {
+  PlaceOnBorder nearest{.distance = std::numeric_limits<double>::infinity(), .edge = 0, .at = {}};
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
     const double dx = b[0] - a[0], dy = b[1] - a[1];
     const double along = ((x[0] - a[0]) * dx + (x[1] - a[1]) * dy) / (dx * dx + dy * dy);
     const double share = std::clamp(along, 0.0, 1.0);
-    nearest = std::min(nearest, std::hypot(x[0] - a[0] - share * dx, x[1] - a[1] - share * dy));
+    const PlanePoint at{a[0] + share * dx, a[1] + share * dy};
+    if (const double away = distance(x, at); away < nearest.distance) nearest = {away, k, at};
   }
   return nearest;
 }

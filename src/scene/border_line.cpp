@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "scene/outline.hpp"
 
 namespace stillpoint {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Counter-clockwise, so that outwards is to the right of each side.
 Polygon sides_of(const BodySpec& body) {
   Polygon corners = outline_of(body);
   if (signed_area(corners) < 0) std::ranges::reverse(corners);
   return corners;
-}
-
-// Of a side from a to b, to its right.
-PlanePoint normal_of(const PlanePoint& a, const PlanePoint& b) {
-  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-  return {(b[1] - a[1]) / length, (a[0] - b[0]) / length};
 }
 
 double size_of(const Polygon& corners) {
@@ -48,48 +39,25 @@ std::vector<BorderLine> straight_line(const Scene& scene, std::size_t body, cons
   for (std::size_t c = 0; c < corners.size(); ++c) {
     const PlanePoint &a = corners[c], &b = corners[(c + 1) % corners.size()];
     if (on_side(a, b, from, tolerance) && on_side(a, b, to, tolerance))
-      return {{.body = body, .from = from, .to = to, .normal = normal_of(a, b)}};
+      return {{.body = body, .from = from, .to = to, .normal = normal_of_edge(a, b)}};
   }
   return {};
 }
 
-// A place on a loop.
-struct PlaceOnLoop {
-  double distance = kInfinity;  // from where it was looked for
-  std::size_t side = 0;         // from corner `side` to the next
-  PlanePoint at{};
-};
-
-PlaceOnLoop next_to(const PlanePoint& x, const Polygon& loop) {
-  PlaceOnLoop nearest;
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    const PlanePoint &a = loop[k], &b = loop[(k + 1) % loop.size()];
-    const double dx = b[0] - a[0], dy = b[1] - a[1];
-    const double share = std::clamp(((x[0] - a[0]) * dx + (x[1] - a[1]) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-    const PlanePoint at{a[0] + share * dx, a[1] + share * dy};
-    const double distance = std::hypot(at[0] - x[0], at[1] - x[1]);
-    if (distance < nearest.distance) nearest = {distance, k, at};
-  }
-  return nearest;
-}
-
 double length_of(const Polygon& way) {
   double length = 0;
-  for (std::size_t k = 0; k + 1 < way.size(); ++k)
-    length += std::hypot(way[k + 1][0] - way[k][0], way[k + 1][1] - way[k][1]);
+  for (std::size_t k = 0; k + 1 < way.size(); ++k) length += distance(way[k], way[k + 1]);
   return length;
 }
 
 // With what the loop encloses on the left.
-Polygon way_between(const Polygon& loop, const PlaceOnLoop& from, const PlaceOnLoop& to) {
-  const auto along = [&](const PlaceOnLoop& place) {
-    return std::hypot(place.at[0] - loop[place.side][0], place.at[1] - loop[place.side][1]);
-  };
+Polygon way_between(const Polygon& loop, const PlaceOnBorder& from, const PlaceOnBorder& to) {
+  const auto along = [&](const PlaceOnBorder& place) { return distance(loop[place.edge], place.at); };
   Polygon way = {from.at};
   const std::size_t n = loop.size();
-  std::size_t sides = (to.side + n - from.side) % n;
+  std::size_t sides = (to.edge + n - from.edge) % n;
   if (sides == 0 && along(to) < along(from)) sides = n;
-  for (std::size_t k = 1; k <= sides; ++k) way.push_back(loop[(from.side + k) % n]);
+  for (std::size_t k = 1; k <= sides; ++k) way.push_back(loop[(from.edge + k) % n]);
   way.push_back(to.at);
   return way;
 }
@@ -98,15 +66,15 @@ std::vector<BorderLine> lines_along(const Scene& scene, std::size_t body, const 
                                     const PlanePoint& to) {
   const PointOutline& outline = scene.bodies[body].outline;
   for (const Polygon& loop : outline.loops) {
-    const PlaceOnLoop first = next_to(from, loop), last = next_to(to, loop);
+    const PlaceOnBorder first = nearest_on_border(loop, from), last = nearest_on_border(loop, to);
     if (!(std::max(first.distance, last.distance) <= outline.spacing)) continue;
     const Polygon there = way_between(loop, first, last), back = way_between(loop, last, first);
     const Polygon& way = length_of(there) <= length_of(back) ? there : back;
     constexpr double rounding = 1e-9;
     std::vector<BorderLine> lines;
     for (std::size_t k = 0; k + 1 < way.size(); ++k) {
-      if (std::hypot(way[k + 1][0] - way[k][0], way[k + 1][1] - way[k][1]) <= rounding * outline.spacing) continue;
-      lines.push_back({.body = body, .from = way[k], .to = way[k + 1], .normal = normal_of(way[k], way[k + 1])});
+      if (distance(way[k], way[k + 1]) <= rounding * outline.spacing) continue;
+      lines.push_back({.body = body, .from = way[k], .to = way[k + 1], .normal = normal_of_edge(way[k], way[k + 1])});
     }
     return lines;
   }

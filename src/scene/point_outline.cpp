@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 extern "C" {
@@ -18,15 +19,13 @@ namespace {
 using Triangle = std::array<std::size_t, 3>;
 using Loop = std::vector<std::size_t>;  // numbers of points
 
-double cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-double distance(const PlanePoint& a, const PlanePoint& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
-
 // What Qhull holds while it works.
 class Qhull {
  public:
-  Qhull() { qh_zero(&state_, log_); }
+  Qhull() {
+    if (!log_) throw std::runtime_error("no temporary file for the messages of Qhull");
+    qh_zero(&state_, log_);
+  }
   Qhull(const Qhull&) = delete;
   Qhull& operator=(const Qhull&) = delete;
   ~Qhull() {
@@ -54,7 +53,7 @@ class Qhull {
         const auto* vertex = static_cast<const vertexT*>(facet->vertices->e[k].p);
         corners[static_cast<std::size_t>(k)] = static_cast<std::size_t>(qh_pointid(qh, vertex->point));
       }
-      if (cross(points[corners[0]], points[corners[1]], points[corners[2]]) < 0) std::swap(corners[1], corners[2]);
+      if (turn(points[corners[0]], points[corners[1]], points[corners[2]]) < 0) std::swap(corners[1], corners[2]);
       triangles.push_back(corners);
     }
     return triangles;
@@ -67,7 +66,7 @@ class Qhull {
 
 // R = abc/(4 A)
 double radius(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
-  return distance(a, b) * distance(b, c) * distance(c, a) / (2 * cross(a, b, c));
+  return distance(a, b) * distance(b, c) * distance(c, a) / (2 * turn(a, b, c));
 }
 
 // Edges of one triangle alone, each from its start to its ends.
@@ -106,9 +105,7 @@ std::vector<Loop> loops_of(std::multimap<std::size_t, std::size_t> border) {
 PlanePoint moved_out(const Polygon& loop, std::size_t k, double by) {
   const PlanePoint &before = loop[(k + loop.size() - 1) % loop.size()], &here = loop[k],
                    &after = loop[(k + 1) % loop.size()];
-  const double a = distance(before, here), b = distance(here, after);
-  const PlanePoint n{(here[1] - before[1]) / a, (before[0] - here[0]) / a};
-  const PlanePoint m{(after[1] - here[1]) / b, (here[0] - after[0]) / b};
+  const PlanePoint n = normal_of_edge(before, here), m = normal_of_edge(here, after);
   constexpr double sharpest = 0.3;  // a spike goes no farther than that of 45° would
   const double share = by / std::max(1 + n[0] * m[0] + n[1] * m[1], sharpest);
   return {here[0] + share * (n[0] + m[0]), here[1] + share * (n[1] + m[1])};
@@ -121,7 +118,7 @@ Polygon without_straight_corners(const Polygon& loop) {
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const PlanePoint &before = kept.empty() ? loop.back() : kept.back(), &after = loop[(k + 1) % loop.size()];
     const double size = distance(before, loop[k]) * distance(loop[k], after);
-    if (std::abs(cross(before, loop[k], after)) > rounding * size) kept.push_back(loop[k]);
+    if (std::abs(turn(before, loop[k], after)) > rounding * size) kept.push_back(loop[k]);
   }
   return kept;
 }
@@ -138,7 +135,7 @@ std::vector<Polygon> outline_of_points(const std::vector<double>& x, const std::
   std::vector<Triangle> triangles = Qhull().delaunay(points);
   std::erase_if(triangles, [&](const Triangle& t) {
     const double widest = (spacing(t[0]) + spacing(t[1]) + spacing(t[2])) / 2;
-    return !(cross(points[t[0]], points[t[1]], points[t[2]]) > 0) ||
+    return !(turn(points[t[0]], points[t[1]], points[t[2]]) > 0) ||
            !(radius(points[t[0]], points[t[1]], points[t[2]]) <= widest);
   });
   std::vector<Polygon> outline;

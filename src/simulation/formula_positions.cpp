@@ -13,8 +13,10 @@
 namespace stillpoint {
 namespace {
 
-std::vector<double> along(const std::array<double, 2>& from, const std::array<double, 2>& to, const GridSpec& grid) {
-  constexpr int fewest = 1000;
+constexpr int fewest_of_all = 1000;
+
+std::vector<double> along(const std::array<double, 2>& from, const std::array<double, 2>& to, const GridSpec& grid,
+                          int fewest = fewest_of_all) {
   double cells = 0;
   for (std::size_t d = 0; d < 2; ++d) cells += std::abs(to[d] - from[d]) / grid.cell_length(d);
   const int count = std::max(fewest, static_cast<int>(8 * cells));
@@ -34,8 +36,10 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
     const TractionSpec& traction = scene.tractions[k];
     if (scene.dim == 2) {
       std::vector<double> positions;
-      for (const BorderLine& line : border_lines(scene, traction)) {
-        const std::vector<double> of_line = along(line.from, line.to, scene.grid);
+      const std::vector<BorderLine> lines = border_lines(scene, traction);
+      const int fewest = 1 + (fewest_of_all - 1) / static_cast<int>(lines.size());
+      for (const BorderLine& line : lines) {
+        const std::vector<double> of_line = along(line.from, line.to, scene.grid, fewest);
         positions.insert(positions.end(), of_line.begin(), of_line.end());
       }
       return positions;

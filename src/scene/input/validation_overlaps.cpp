@@ -1,6 +1,5 @@
 // Two bodies cannot be in the same place.
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@ double perimeter(const Polygon& polygon) {
   double sum = 0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    sum += std::hypot(b[0] - a[0], b[1] - a[1]);
+    sum += distance(a, b);
   }
   return sum;
 }

@@ -97,8 +97,9 @@ class LoadControl {
   }
   /// At (t, u), u over the grid's functions.
   LoadState state(double t, const double* u) const {
-    const double q = moved_ + springs_.displacement(0, u), gap = springs_.gap(0, t, u);
-    return {.factor = -stiffness_ * gap / total_, .displacement = q, .prescribed = q - gap};
+    return {.factor = -stiffness_ * springs_.gap(0, t, u) / total_,
+            .displacement = moved_ + springs_.displacement(0, u),
+            .prescribed = motion_.front().displacement(t)};
   }
 
  private:
