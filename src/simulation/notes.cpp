@@ -53,8 +53,10 @@ double fewest_domains_across(const Scene& scene) {
   return fewest;
 }
 
-// A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 [Strang and Fix
-// 1973, 4.3].
+// A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 in each coordinate [Strang
+// and Fix 1973, 4.3]. In a cell that a polygon's border cuts they integrate a total degree m, and gradients of products
+// of p have the total degree 2p − 1: what is missed of their work with a stress is of order m + 1 − (2p − 1) in h,
+// which is p for m = 3p − 2.
 std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
   std::vector<std::string> notes;
   const QuadratureReport quadrature = phase.discretisation().quadrature;
@@ -64,7 +66,8 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
   }
   if (quadrature.joined > 0) {
     notes.push_back(fmt::format(
-        "{} cells that the body hardly reaches take the functions of their neighbours, for the frequencies' sake",
+        "in {} cells that the body hardly reaches the outermost functions follow those further inside, for the "
+        "frequencies' sake",
         quadrature.joined));
   }
   if (quadrature.smallest_share < 0.05 && quadrature.slivers > quadrature.joined &&
@@ -95,15 +98,16 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
         "the points integrate degree {}, this basis needs {} for its full order: {}", *quadrature.degree, needed,
         quadrature.equal_volumes ? "take consistent volumes" : "take more points per cell or Gauss points"));
   }
-  if (const int below = quadrature.border_cells_below(needed); below > 0) {
+  const int needed_at_border = 3 * degree_of(scene.grid.basis) - 2;
+  if (const int below = quadrature.border_cells_below(needed_at_border); below > 0) {
     int along = 1;  // fewest for as many points as a polynomial of this degree has coefficients
-    while (2 * along * along < (needed + 1) * (needed + 2)) ++along;
+    while (2 * along * along < (needed_at_border + 1) * (needed_at_border + 2)) ++along;
     const bool equal = std::ranges::any_of(
         scene.bodies, [](const BodySpec& body) { return !body.polygon.empty() && body.volumes == VolumeRule::equal; });
     notes.push_back(fmt::format(
         "in {} of the {} cells that a polygon's border cuts the points integrate less than degree {}, which this basis "
         "needs for its full order: take {}body.placement = \"gauss\" with {} points per cell",
-        below, quadrature.border_cells_below(highest_cut_cell_degree + 1), needed,
+        below, quadrature.border_cells_below(highest_cut_cell_degree + 1), needed_at_border,
         equal ? "consistent volumes and " : "", along * along));
   }
   return notes;

@@ -207,6 +207,23 @@ TEST_CASE("a block with slivers along two faces is stretched evenly by a tractio
   }
 }
 
+TEST_CASE("supports bear the weight and the tractions of a block with slivers") {
+  const double stress = 1e-3, weight = 2e-3;
+  for (const std::string& basis : bases) {
+    for (const std::string sliver : {"0.1", "1e-3", "1e-5"}) {
+      CAPTURE(basis, sliver);
+      const Summary s = run(
+          block({"grid.basis=" + basis, "constants.sliver=" + sliver, fmt::format("body_force.value=[0, {}]", -weight),
+                 "support=[{face='left', kind='roller', name='side'}, {face='bottom', kind='roller', name='base'}]",
+                 "solve.method=newton"}));
+      REQUIRE(s.status == RunStatus::equilibrium);
+      const double L = 1 + 0.125 * std::stod(sliver);
+      CHECK(s.reactions.at("side")[0] == Approx(-stress * L).epsilon(1e-9));
+      CHECK(s.reactions.at("base")[1] == Approx(weight * L * L).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("a block that cuts cells has the omega_1 of one that does not") {
   for (const std::string basis : {"linear", "quadratic", "hermite"}) {
     const double uncut = omega_1(*make_phase(block({"grid.basis=" + basis})));

@@ -44,12 +44,13 @@ class BodyForce final : public BoundaryCondition<B, K> {
     for (std::size_t k = 0; k < points.cells(); ++k) {
       for (int a = 0; a < phase.weights.per_cell; ++a) {
         for (int i = 0; i < dim; ++i) {
-          const int dof = phase.dofs.number[static_cast<std::size_t>(dim * phase.weights.function(k, a) + i)];
-          if (dof < 0 || phase.dofs.is_free(dof)) continue;
-          for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-            const double b = b_[static_cast<std::size_t>(i)](points.position(p), t);
-            F_s[static_cast<std::size_t>(dof) - n] += points.mass[p] * b * phase.weights.N(k, p)[a];
-          }
+          phase.dofs.for_sources(dim * phase.weights.function(k, a) + i, [&](int, int dof, double share) {
+            if (phase.dofs.is_free(dof)) return;
+            for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+              const double b = b_[static_cast<std::size_t>(i)](points.position(p), t);
+              F_s[static_cast<std::size_t>(dof) - n] += share * points.mass[p] * b * phase.weights.N(k, p)[a];
+            }
+          });
         }
       }
     }

@@ -136,31 +136,32 @@ struct CarriedPoint {
     }
   }
 
-  /// visit(entry, component, free degree of freedom)
+  /// visit(entry, component, free degree of freedom, its share of the entry's function)
   template <class Visit>
   void for_free(const DegreesOfFreedom& dofs, const Visit& visit) const {
-    for (int a = 0; a < entries; ++a) {
-      if (function[a] < 0) continue;
-      for (int i = 0; i < dim; ++i) {
-        const int dof = dofs.number[static_cast<std::size_t>(dim * function[a] + i)];
-        if (dofs.is_free(dof)) visit(a, i, dof);
-      }
-    }
+    for_sources(dofs, [&](int a, int i, int dof, double share) {
+      if (dofs.is_free(dof)) visit(a, i, dof, share);
+    });
   }
 
-  /// visit(entry, component, number of the prescribed unknown)
+  /// visit(entry, component, number of the prescribed unknown, its share)
   template <class Visit>
   void for_prescribed(const DegreesOfFreedom& dofs, const Visit& visit) const {
-    for (int a = 0; a < entries; ++a) {
-      if (function[a] < 0) continue;
-      for (int i = 0; i < dim; ++i) {
-        const int dof = dofs.number[static_cast<std::size_t>(dim * function[a] + i)];
-        if (dof >= 0 && !dofs.is_free(dof)) visit(a, i, static_cast<std::size_t>(dof) - dofs.size());
-      }
-    }
+    for_sources(dofs, [&](int a, int i, int dof, double share) {
+      if (!dofs.is_free(dof)) visit(a, i, static_cast<std::size_t>(dof) - dofs.size(), share);
+    });
   }
 
  private:
+  template <class Visit>
+  void for_sources(const DegreesOfFreedom& dofs, const Visit& visit) const {
+    for (int a = 0; a < entries; ++a) {
+      if (function[a] < 0) continue;
+      for (int i = 0; i < dim; ++i) {
+        dofs.for_sources(dim * function[a] + i, [&](int, int dof, double share) { visit(a, i, dof, share); });
+      }
+    }
+  }
   void clear() {
     function.fill(-1);
     w.fill(0);
@@ -185,7 +186,7 @@ struct CarriedPoint {
 /// The cell whose functions are taken at a position of the grid.
 template <AxisBasis B, int Dim>
 std::array<int, Dim> cell_with_functions_at(const Grid<Dim>& grid, const Point<Dim>& x) {
-  auto cell = grid.host_of(x);
+  auto cell = grid.cell_of(x);
   for (int d = 0; d < Dim; ++d) cell[d] = std::clamp(cell[d], 0, std::max(grid.axes[d].cells() - B::window, 0));
   return cell;
 }

@@ -47,8 +47,8 @@ class PointForces final : public BoundaryCondition<B, K> {
   }
   void add_load_on_supports(const Parts& phase, double t, const double*, Vec F_s) const override {
     for (std::size_t f = 0; f < at_.size(); ++f) {
-      at_[f].for_prescribed(phase.dofs, [&](int a, int i, std::size_t s) {
-        F_s[s] += at_[f].w[a] * scene_.forces[f].value[static_cast<std::size_t>(i)]({}, t);
+      at_[f].for_prescribed(phase.dofs, [&](int a, int i, std::size_t s, double share) {
+        F_s[s] += at_[f].w[a] * share * scene_.forces[f].value[static_cast<std::size_t>(i)]({}, t);
       });
     }
   }
@@ -89,8 +89,8 @@ class PointForces final : public BoundaryCondition<B, K> {
   static std::vector<std::pair<int, double>> weights_of(const CarriedPoint<B, K>& at, int component,
                                                         const DegreesOfFreedom& dofs) {
     std::vector<std::pair<int, double>> weights;
-    at.for_free(dofs, [&](int a, int i, int dof) {
-      if (i == component && at.w[a] != 0) weights.emplace_back(dof, at.w[a]);
+    at.for_free(dofs, [&](int a, int i, int dof, double share) {
+      if (i == component && at.w[a] != 0) weights.emplace_back(dof, at.w[a] * share);
     });
     return weights;
   }

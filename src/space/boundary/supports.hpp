@@ -49,9 +49,7 @@ class Supports final : public BoundaryCondition<B, K> {
     const auto function = Basis::interpolating_function(grid, at);
     if (!function) {
       throw_scene_error(scene_, key,
-                        "the basis has no value of its own here, as the body hardly reaches this cell; expected a "
-                        "stiffness, by which "
-                        "a spring holds");
+                        "the basis has no value of its own here; expected a stiffness, by which a spring holds");
     }
     const int unknown = dim * *function + support.component;
     if (!reached[static_cast<std::size_t>(*function)])

@@ -70,7 +70,8 @@ class Tractions final : public BoundaryCondition<B, K> {
     evaluate(t);
     for (const Piece& piece : pieces_) {
       const auto force = force_of(piece, u);
-      piece.at.for_prescribed(phase.dofs, [&](int a, int i, std::size_t s) { F_s[s] += force[i] * piece.at.w[a]; });
+      piece.at.for_prescribed(
+          phase.dofs, [&](int a, int i, std::size_t s, double share) { F_s[s] += force[i] * piece.at.w[a] * share; });
     }
   }
   // Unsymmetric.
@@ -79,10 +80,11 @@ class Tractions final : public BoundaryCondition<B, K> {
     for (const Piece& piece : pieces_) {
       if (!piece.traction->pressure) continue;
       const double p = piece.value[0];
-      piece.at.for_free(phase.dofs, [&](int b, int j, int column) {
+      piece.at.for_free(phase.dofs, [&](int b, int j, int column, double share_b) {
         const auto change = area_derivative(piece, u, b, j);
-        piece.at.for_free(
-            phase.dofs, [&](int a, int i, int row) { K_F.emplace_back(row, column, -p * change[i] * piece.at.w[a]); });
+        piece.at.for_free(phase.dofs, [&](int a, int i, int row, double share_a) {
+          K_F.emplace_back(row, column, -p * change[i] * share_b * piece.at.w[a] * share_a);
+        });
       });
     }
   }
@@ -157,7 +159,7 @@ class Tractions final : public BoundaryCondition<B, K> {
       const double h = nodes[static_cast<std::size_t>(here[d]) + 1] - nodes[static_cast<std::size_t>(here[d])];
       inside[d] -= inwards * h * (piece.vector[d] > 0 ? 1 : piece.vector[d] < 0 ? -1 : 0);
     }
-    return grid.host_of(inside);
+    return grid.cell_of(inside);
   }
 
   // cof(f) n da; cof(f) = [f_yy, −f_yx; −f_xy, f_xx] in the plane, times f_θθ if axisymmetric
@@ -257,8 +259,9 @@ class Tractions final : public BoundaryCondition<B, K> {
     return force;
   }
   static void add_force(const Piece& piece, const DegreesOfFreedom& dofs, const std::array<double, dim>& force, Vec F) {
-    piece.at.for_free(dofs,
-                      [&](int a, int i, int dof) { F[static_cast<std::size_t>(dof)] += force[i] * piece.at.w[a]; });
+    piece.at.for_free(dofs, [&](int a, int i, int dof, double share) {
+      F[static_cast<std::size_t>(dof)] += force[i] * piece.at.w[a] * share;
+    });
   }
 
   const Scene& scene_;

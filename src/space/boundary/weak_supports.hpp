@@ -196,8 +196,8 @@ class WeakSupports {
       for (int a = 0; a < one.at.entries; ++a) {
         if (std::abs(one.at.w[a]) <= rounding) continue;
         if (one.at.function[a] < 0) return no_material;
-        const auto unknown = static_cast<std::size_t>(dim * one.at.function[a] + one.component);
-        is_free = is_free || phase.dofs.is_free(phase.dofs.number[unknown]);
+        phase.dofs.for_sources(dim * one.at.function[a] + one.component,
+                               [&](int, int dof, double) { is_free = is_free || phase.dofs.is_free(dof); });
       }
       return is_free ? held : supported;
     };
@@ -242,9 +242,15 @@ class WeakSupports {
     std::vector<Springs::Weight> weights;
     for (int a = 0; a < held.at.entries; ++a) {
       if (held.at.function[a] < 0 || held.at.w[a] == 0) continue;
-      const int unknown = dim * held.at.function[a] + held.component;
-      const int dof = dofs.number[static_cast<std::size_t>(unknown)];
-      if (dof >= 0) weights.push_back({unknown, dof, held.at.w[a]});
+      dofs.for_sources(dim * held.at.function[a] + held.component, [&](int unknown, int dof, double share) {
+        const double w = held.at.w[a] * share;
+        const auto known = std::ranges::find(weights, dof, &Springs::Weight::dof);
+        if (known == weights.end()) {
+          weights.push_back({unknown, dof, w});
+        } else {
+          known->w += w;
+        }
+      });
     }
     return weights;
   }

@@ -191,7 +191,7 @@ struct TensorBasis {
   /// spline.
   static std::optional<int> interpolating_function(const Grid<Dim>& grid, const Point<Dim>& x) {
     constexpr double rounding = 1e-12;
-    const auto cell = grid.host_of(x);
+    const auto cell = grid.cell_of(x);
     const Values values = evaluate(grid, cell, x);
     const auto offset = offsets(grid);
     std::optional<int> found;

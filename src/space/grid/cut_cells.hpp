@@ -1,4 +1,4 @@
-// Cells that a body hardly reaches, and the cells whose functions hold there instead.
+// Cells that a body hardly reaches, and the cells further inside that can speak for them.
 //
 // Of the functions that lie in a sliver of width ε h alone, that of degree p is (x/h)^p, so that
 //
@@ -6,9 +6,8 @@
 //
 // with a lumped mass a cubic function becomes as slow as you like, in a corner of the plane a quadratic one too, and
 // the body's ω₁ is theirs; linear functions, and all with a consistent mass, become as fast. Either way the functions
-// add nothing to the answer. So they are left out: in a sliver hold the functions of a neighbour cell, each continued
-// as the polynomial that it is there, which keeps every polynomial that the basis has [Höllig, Reif, Wipper 2001,
-// weighted extended B-splines; Badia, Verdugo, Martín 2018, aggregated finite elements].
+// add nothing to the answer. So their coefficients follow from those of a cell nearby that the body fills better, the
+// host of the sliver, see sliver_extension.hpp.
 #pragma once
 
 #include <algorithm>
@@ -39,6 +38,8 @@ class CutCells {
     }
   }
 
+  /// Whether the body covers enough of a cell for its functions to be unknowns.
+  bool has_enough(int cell) const { return share(cell) >= enough_; }
   /// In ascending order.
   const std::vector<int>& slivers() const { return slivers_; }
 
@@ -59,7 +60,7 @@ class CutCells {
       if (distance == 0 || distance > nearest || !is_inside(candidate)) continue;
       const int number = grid_.cell_number(candidate);
       const double common = in_common(sliver, number);
-      if (share(number) < enough_ || common == 0 || (distance == nearest && common <= most)) continue;
+      if (!has_enough(number) || common == 0 || (distance == nearest && common <= most)) continue;
       if (!ends_here(at, offset) || !may_host(sliver, number)) continue;
       host = number;
       nearest = distance;

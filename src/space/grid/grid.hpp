@@ -40,7 +40,6 @@ using Point = std::array<double, Dim>;
 template <int Dim>
 struct Grid {
   std::array<Axis, Dim> axes;
-  std::vector<int> host{};  // of each cell: the one whose functions, continued, hold in it; empty: its own
 
   int cells() const {
     int count = 1;
@@ -51,11 +50,6 @@ struct Grid {
     std::array<int, Dim> cell;
     for (int d = 0; d < Dim; ++d) cell[d] = axes[d].cell_of(x[d]);
     return cell;
-  }
-  /// The cell whose functions hold at x.
-  std::array<int, Dim> host_of(const Point<Dim>& x) const {
-    const auto cell = cell_of(x);
-    return host.empty() ? cell : cell_at(host[static_cast<std::size_t>(cell_number(cell))]);
   }
   int cell_number(const std::array<int, Dim>& cell) const {
     int number = 0;

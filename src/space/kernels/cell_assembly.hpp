@@ -60,6 +60,41 @@ class NeighbourMatrix {
     }
   }
 
+  /// Over the free unknowns u = E_f u_f + E_p u_p of which those of extended functions are made, E_fᵀ A E_f and
+  /// E_fᵀ A E_p.
+  SplitMatrix extended(const DegreesOfFreedom& dofs) const {
+    using Entries = std::vector<Eigen::Triplet<double>>;
+    Entries of_all, of_free, of_prescribed;
+    const auto n = static_cast<int>(dofs.size());
+    for (std::size_t unknown = 0; unknown < dofs.number.size(); ++unknown) {
+      heed_stop_request();
+      const int column = dofs.number[unknown];
+      if (column < 0) continue;
+      visit_all(static_cast<int>(unknown), [&](int row_unknown, double value) {
+        const int row = dofs.number[static_cast<std::size_t>(row_unknown)];
+        if (row >= 0) of_all.emplace_back(row, column, value);
+      });
+      dofs.for_sources(static_cast<int>(unknown), [&](int, int dof, double weight) {
+        if (dof < n) {
+          of_free.emplace_back(column, dof, weight);
+        } else {
+          of_prescribed.emplace_back(column, dof - n, weight);
+        }
+      });
+    }
+    const auto matrix = [&](const Entries& entries, std::size_t columns) {
+      Eigen::SparseMatrix<double> made(static_cast<Eigen::Index>(dofs.with_all_others()),
+                                       static_cast<Eigen::Index>(columns));
+      made.setFromTriplets(entries.begin(), entries.end());
+      return made;
+    };
+    const Eigen::SparseMatrix<double> A = matrix(of_all, dofs.with_all_others());
+    const Eigen::SparseMatrix<double> E_f = matrix(of_free, dofs.size());
+    const Eigen::SparseMatrix<double> E_p = matrix(of_prescribed, dofs.prescribed.size());
+    const Eigen::SparseMatrix<double> A_E_f = A * E_f, A_E_p = A * E_p;
+    return {E_f.transpose() * A_E_f, E_f.transpose() * A_E_p};
+  }
+
   /// The columns of the given unknowns, the rows of the free ones.
   Eigen::SparseMatrix<double> columns(const std::vector<int>& unknowns, const DegreesOfFreedom& dofs) const {
     Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(dofs.size()),
@@ -95,14 +130,21 @@ class NeighbourMatrix {
   /// take(free row, value) of a column's entries, rows ascending.
   template <class Take>
   void visit(int unknown, const DegreesOfFreedom& dofs, const Take& take) const {
+    visit_all(unknown, [&](int row_unknown, double value) {
+      const int row = dofs.number[static_cast<std::size_t>(row_unknown)];
+      if (dofs.is_free(row)) take(row, value);
+    });
+  }
+  /// take(unknown of the row, value) of a column's entries, in ascending order.
+  template <class Take>
+  void visit_all(int unknown, const Take& take) const {
     const int function = unknown / Dim;
     const double* column = entry_.data() + blocks_of(function) + unknown % Dim * neighbours * Dim;
     for (int k = 0; k < neighbours; ++k) {
       for (int i = 0; i < Dim; ++i) {
         const double value = column[k * Dim + i];
         if (value == 0 && std::signbit(value)) continue;
-        const int row = dofs.number[static_cast<std::size_t>(Dim * (function + offset_[k]) + i)];
-        if (dofs.is_free(row)) take(row, value);
+        take(Dim * (function + offset_[k]) + i, value);
       }
     }
   }
@@ -124,6 +166,7 @@ SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const Material
     add_cell(k, matrix);
     sum.add(matrix, [&](int a) { return weights.function(k, a); });
   }
+  if (!dofs.extended.empty()) return sum.extended(dofs);
   return {sum.columns(dofs.free, dofs), sum.columns(dofs.prescribed, dofs)};
 }
 

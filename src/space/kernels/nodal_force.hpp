@@ -58,7 +58,8 @@ class NodalForce {
     double bad = 0;
     const std::size_t blocks = blocks_.size();
     const int* number = dofs.number.data();
-    const int n = static_cast<int>(R.size());
+    const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
+    at_extended_.assign(dofs.extended.size(), 0.0);
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
       Block block;
@@ -79,7 +80,9 @@ class NodalForce {
         const auto total = corner_sum_.template sum<dim>(f, corners);
         for (int i = 0; i < dim; ++i) {
           const int dof = number[dim * f + i];
-          if (dof >= n) {
+          if (dof >= first_extended) {
+            at_extended_[static_cast<std::size_t>(dof - first_extended)] = total[i];
+          } else if (dof >= n) {
             if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
           } else if (dof >= 0) {
             R[static_cast<std::size_t>(dof)] = total[i];
@@ -87,6 +90,13 @@ class NodalForce {
         }
       }
     }
+    dofs.give_to_sources(at_extended_, [&](int dof, double force) {
+      if (dof < n) {
+        R[static_cast<std::size_t>(dof)] += force;
+      } else if constexpr (!Directed) {
+        reactions[static_cast<std::size_t>(dof - n)] += force;
+      }
+    });
     return bad == 0;
   }
 
@@ -172,7 +182,8 @@ class NodalForce {
   CornerSum corner_sum_;
   std::vector<int> function_of_corner_;  // (cells × per_cell)
   std::vector<BlockOfCells> blocks_;
-  std::vector<double> corner_;  // (cells × per_cell × dim) [N]
+  std::vector<double> corner_;       // (cells × per_cell × dim) [N]
+  std::vector<double> at_extended_;  // forces at the extended unknowns [N]
 };
 
 }  // namespace stillpoint

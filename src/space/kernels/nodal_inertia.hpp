@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "space/grid/extrapolation.hpp"
-#include "space/kernels/nodal_sum.hpp"
+#include "space/kernels/extended_sums.hpp"
 
 namespace stillpoint {
 
@@ -54,12 +54,13 @@ class NodalInertia {
   /// (functions).
   void begin_phase(const Grid<dim>& grid, const MaterialPoints<dim>& points, const PointWeights<B, K>& weights,
                    const CornerSum& corner_sum, const std::vector<double>& wave_modulus,
-                   const std::vector<char>& is_free) {
+                   const std::vector<char>& is_free, const ExtendedFunctions& extension) {
     mass_ = nodal_mass(points, weights, corner_sum);
+    give_mass_to_sources<B>(grid, extension, mass_);
     inertia_ = mass_;
     added_.clear();
     const bool gershgorin = spec_.scaling == MassScaling::gershgorin;
-    const std::vector<double> G = stiffness_bound(points, weights, corner_sum, wave_modulus);
+    const std::vector<double> G = stiffness_bound(points, weights, corner_sum, wave_modulus, extension);
     const double all_mass = sum_over(mass_.size(), [&](std::size_t f) { return mass_[f]; });
     if (!(omega_squared_ > 0)) {
       omega_squared_ = sum_over(G.size(), [&](std::size_t f) { return G[f]; }) / all_mass;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <vector>
 
 #include "base/parallel_loop.hpp"
@@ -58,12 +59,14 @@ std::vector<double> nodal_mass(const MaterialPoints<dimensions(K)>& points, cons
 
 /// G_i = Σ_p V_p A_p |∇N_ip| Σ_j |∇N_jp| with the wave modulus A_p = λ + 2μ, (functions) [N/m]: a bound of Σ_j |K_ij|
 /// in the norm of 2 × 2 blocks, since |B_iᵀ C B_j| ≤ (λ + 2μ) |∇N_i| |∇N_j|. By Gershgorin no frequency of a lumped M
-/// exceeds max √(G_i/M_i).
-template <AxisBasis B, Kinematics K>
-std::vector<double> stiffness_bound(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
-                                    const CornerSum& corner_sum, const std::vector<double>& wave_modulus) {
+/// exceeds max √(G_i/M_i). Over the occupied cells k for which counts(k).
+template <AxisBasis B, Kinematics K, class Counts>
+requires(std::predicate<Counts, std::size_t>) std::vector<double> stiffness_bound(
+    const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights, const CornerSum& corner_sum,
+    const std::vector<double>& wave_modulus, const Counts& counts) {
   constexpr int per_cell = PointWeights<B, K>::per_cell, rows = PointWeights<B, K>::rows;
   return nodal_sum<1>(points, weights, corner_sum, [&](std::size_t k, Corners<1, per_cell>& corner) {
+    if (!counts(k)) return;
     const double A = wave_modulus[static_cast<std::size_t>(points.material_of_cell(k))];
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
       const auto dN = weights.dN(k, p);

@@ -111,8 +111,9 @@ class PointWeights {
                         Vec F) const {
     const auto values = N(k, p);
     for (int a = 0; a < per_cell; ++a) {
-      const int dof = dofs.number[static_cast<std::size_t>(dim * function(k, a) + component)];
-      if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += value * values[a];
+      dofs.for_sources(dim * function(k, a) + component, [&](int, int dof, double share) {
+        if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += value * share * values[a];
+      });
     }
   }
   /// Σ_a N_ap u_a at point p of cell k; u over the grid's functions, component i at [dim function + i].

@@ -34,9 +34,11 @@ std::vector<FreePart> find_free_parts(const MaterialPoints<dimensions(K)>& point
     if (!as_one) last = nowhere;
     for (int a = 0; a < per_cell; ++a) {
       const int f = weights.function(k, a);
-      if (dofs.number[static_cast<std::size_t>(dim * f)] < 0) continue;  // no point reaches it
-      if (last != nowhere) next[static_cast<std::size_t>(first_of(f))] = first_of(last);
-      last = f;
+      dofs.for_sources(dim * f, [&](int unknown, int, double) {
+        const int source = unknown / dim;
+        if (last != nowhere) next[static_cast<std::size_t>(first_of(source))] = first_of(last);
+        last = source;
+      });
     }
   }
 
@@ -53,7 +55,7 @@ std::vector<FreePart> find_free_parts(const MaterialPoints<dimensions(K)>& point
       for (int i = first_axis; i < dim && Basis::is_value(a); ++i) {
         const auto unknown = static_cast<std::size_t>(dim * f + i);
         const int dof = dofs.number[unknown];
-        if (dof < 0 || std::exchange(seen[unknown], 1)) continue;
+        if (dof < 0 || dofs.is_extended(dof) || std::exchange(seen[unknown], 1)) continue;
         auto [found, is_new] = all.try_emplace({first_of(f), i});
         FreePart& part = found->second.part;
         if (is_new) part.axis = i, part.point = static_cast<std::size_t>(points.number[points.begin(k)]);

@@ -18,6 +18,7 @@
 #include "space/boundary/boundary_conditions.hpp"
 #include "space/boundary/load_control.hpp"
 #include "space/boundary/weak_supports.hpp"
+#include "space/grid/extended_functions.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/mean_dilatation.hpp"
@@ -59,7 +60,7 @@ class MaterialPointPhase final : public LagrangianPhase,
       if (found && contact_) throw std::logic_error("two kinds of boundary conditions have contact");
       if (found) contact_ = found;
     }
-    join_slivers();
+    extend_into_slivers();
     origin_ = point_positions();
     if (scene_.geostatic) set_geostatic_stress();
     if (updated_lagrangian()) set_initial_point_velocity();
@@ -156,8 +157,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   static bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
   bool updated_lagrangian() const { return info_.updated_lagrangian; }
   void describe();
-  void join_slivers();
-  bool is_held(const HeldUnknowns& held, int cell, int component) const;
+  void extend_into_slivers();
   void begin_phase(double t);
   void place_functions(double t);
   void make_forces(double t);
@@ -211,12 +211,14 @@ class MaterialPointPhase final : public LagrangianPhase,
   void spread(double t, ConstVec u, std::vector<double>& grid) const {
     for_each_index(u.size(),
                    [u, to = grid.data(), number = dofs_->free.data()](std::size_t k) { to[number[k]] = u[k]; });
-    spread_prescribed(t, grid);
+    spread_others(t, grid);
   }
-  void spread_prescribed(double t, std::vector<double>& grid) const {
+  // Those that are not free, from those that are.
+  void spread_others(double t, std::vector<double>& grid) const {
     for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
       grid[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.displacement(s, t);
     }
+    dofs_->extend(grid.data());
   }
   /// visit(occupied cell, point, number of the point)
   template <class Visit>
@@ -265,6 +267,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   long looks_ = 0;              // of progress() at the strain
   DeformationFromPositions<B, K> deformation_;
   double motion_since_deformation_ = 0;  // was taken from the positions, at most [cells]
+
+  ExtendedFunctions extension_;  // into slivers of a body that does not move on
 
   // Of the present phase:
   long phase_ = 0;

@@ -79,7 +79,7 @@ void MaterialPointPhase<B, K>::place_functions(double t) {
   const std::vector<char> reached = active_functions();
   held_ = HeldUnknowns(Dim * functions, t);
   for (const auto& condition : boundary_) condition->hold(grid_, reached, held_);
-  dofs_.emplace(reached, Dim, held_.prescribed());
+  dofs_.emplace(reached, Dim, held_.prescribed(), extension_);
 }
 
 template <AxisBasis B, Kinematics K>
@@ -88,7 +88,7 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   grid_u_.assign(unknowns, 0);
   grid_du_.assign(unknowns, 0);
   committed_u_.assign(unknowns, 0);
-  spread_prescribed(t, committed_u_);
+  spread_others(t, committed_u_);
   committed_t_ = t;
   if constexpr (Dim == 2) {
     if (averages_dilatation()) {
@@ -105,7 +105,7 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   constant_force_.assign(size(), 0);
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
   const auto bound = [this] {
-    return stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli());
+    return stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), extension_);
   };
   weak_supports_.begin_phase(parts(), bound);
   load_control_.begin_phase(parts(), bound);

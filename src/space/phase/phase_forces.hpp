@@ -90,6 +90,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   spread(t, u, grid_u_);
   std::ranges::fill(grid_du_, 0.0);
   for (std::size_t k = 0; k < du.size(); ++k) grid_du_[static_cast<std::size_t>(dofs_->free[k])] = du[k];
+  dofs_->extend(grid_du_.data());
   const double dt = t - committed_t_;
   const auto answer = [this, kind, dt](std::size_t m, Block& block) {
     tangent(kind, m, block, dt);

@@ -15,7 +15,8 @@ std::vector<double> MaterialPointPhase<B, K>::wave_moduli() const {
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::make_mass() {
-  inertia_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), untouched_functions());
+  inertia_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), untouched_functions(),
+                       extension_);
   const bool is_consistent = scene_.mass.kind == MassKind::consistent;
   if (is_consistent || (projects() && !updated_lagrangian())) {
     consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);
@@ -96,6 +97,7 @@ std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec 
   for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
     grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.motion(s).velocity(t);
   }
+  dofs_->extend(grid_v.data());
   return grid_v;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "space/grid/degrees_of_freedom.hpp"
-#include "space/grid/domain_basis.hpp"
+#include "space/grid/sliver_extension.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/phase/law_gradients.hpp"
 #include "space/phase/place_reader.hpp"
@@ -19,16 +19,6 @@
 #include "space/points/points_around.hpp"
 
 namespace stillpoint {
-
-/// The basis whose functions are those of a single cell.
-template <AxisBasis B>
-struct BasisOfOneCell {
-  using type = B;
-};
-template <int Degree>
-struct BasisOfOneCell<DomainBSpline<Degree>> {
-  using type = BSpline<Degree>;
-};
 
 template <AxisBasis B, Kinematics K>
 class PhasePlaces final : public PlaceReader {
@@ -176,7 +166,6 @@ class PhasePlaces final : public PlaceReader {
                   outside(x, cell, d) <= rounding * width(cell, d);
       }
       if (!is_cell) continue;
-      if (!grid_.host.empty()) cell = grid_.cell_at(grid_.host[static_cast<std::size_t>(grid_.cell_number(cell))]);
       if (occupied_[static_cast<std::size_t>(grid_.cell_number(cell))] && is_whole(cell, x)) return cell;
     }
     return std::nullopt;

@@ -64,7 +64,9 @@ struct QuadratureReport {
   std::array<int, highest_cut_cell_degree + 1> border_cells{};
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
-  int slivers = 0, joined = 0;    // cells that the body hardly reaches, and those of them that have a host
+  // Cells that the body hardly reaches, with functions that reach it nowhere else, and those of them in which these
+  // follow others.
+  int slivers = 0, joined = 0;
 
   void add(const QuadratureReport& other);
   /// Those that integrate less than a total degree, at most highest_cut_cell_degree + 1.

@@ -68,7 +68,6 @@ class PointOrder {
         for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], cells_per_length[d]);
       }
       cell_[p] = grid.cell_number(cell);
-      if (!grid.host.empty()) cell_[p] = grid.host[static_cast<std::size_t>(cell_[p])];
     });
     order_.resize(n);
     points.cell.clear();
