@@ -1,6 +1,7 @@
 // A few doubles that are computed together, in one register of the processor.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -73,6 +74,18 @@ template <int N>
 }
 [[gnu::always_inline]] inline Lanes<4> halves_swapped(const Lanes<4>& a) {
   return {__builtin_shufflevector(a.lanes, a.lanes, 2, 3, 0, 1)};
+}
+
+/// Lane k of each of these in the k-th: rows become columns.
+[[gnu::always_inline]] inline std::array<Lanes<4>, 4> transposed(const std::array<Lanes<4>, 4>& rows) {
+  const auto ab_even = __builtin_shufflevector(rows[0].lanes, rows[1].lanes, 0, 4, 2, 6);  // a0, b0, a2, b2
+  const auto ab_odd = __builtin_shufflevector(rows[0].lanes, rows[1].lanes, 1, 5, 3, 7);
+  const auto cd_even = __builtin_shufflevector(rows[2].lanes, rows[3].lanes, 0, 4, 2, 6);
+  const auto cd_odd = __builtin_shufflevector(rows[2].lanes, rows[3].lanes, 1, 5, 3, 7);
+  return {{{__builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5)},
+           {__builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5)},
+           {__builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7)},
+           {__builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7)}}};
 }
 
 /// The sum over the lanes of a, of b, of c and of d.

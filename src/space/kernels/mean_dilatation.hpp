@@ -1,7 +1,8 @@
 // Mean dilatation, F-bar and B-bar: the points of a cell share its change of volume. Material that is nearly
 // incompressible, or yields at constant volume, then does not lock: n points of a cell that each keep their volume are
-// n constraints on its few nodes, their mean is one. One it is for smooth functions of higher degree too, which have two
-// unknowns a cell in the plane, whatever their degree: a mean that is linear in each cell would be three constraints.
+// n constraints on its few nodes, their mean is one. One it is for smooth functions of higher degree too, which have
+// two unknowns a cell in the plane, whatever their degree: a mean that is linear in each cell would be three
+// constraints.
 //
 // At finite strain, with f = I + H since the phase began, J = det f, and d = 2 in plane strain or 3 if axisymmetric,
 //

@@ -57,8 +57,6 @@ class NodalForce {
                 Vec reactions, const double* direction = nullptr) {
     double bad = 0;
     const std::size_t blocks = blocks_.size();
-    const int* number = dofs.number.data();
-    const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
     at_extended_.assign(dofs.extended.size(), 0.0);
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
@@ -73,30 +71,28 @@ class NodalForce {
           scatter(blocks_[b], block);
         });
       }
-      const double* corners = corner_.data();
-#pragma omp for schedule(static)
-      for (std::size_t f = 0; f < corner_sum_.functions(); ++f) {
-        if (!corner_sum_.reaches(f)) continue;
-        const auto total = corner_sum_.template sum<dim>(f, corners);
-        for (int i = 0; i < dim; ++i) {
-          const int dof = number[dim * f + i];
-          if (dof >= first_extended) {
-            at_extended_[static_cast<std::size_t>(dof - first_extended)] = total[i];
-          } else if (dof >= n) {
-            if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
-          } else if (dof >= 0) {
-            R[static_cast<std::size_t>(dof)] = total[i];
-          }
-        }
-      }
+      sum_corners<Directed>(dofs, R, reactions);
     }
-    dofs.give_to_sources(at_extended_, [&](int dof, double force) {
-      if (dof < n) {
-        R[static_cast<std::size_t>(dof)] += force;
-      } else if constexpr (!Directed) {
-        reactions[static_cast<std::size_t>(dof - n)] += force;
-      }
-    });
+    give_to_sources<Directed>(dofs, R, reactions);
+    return bad == 0;
+  }
+
+  /// The same where the forces of cells are known without a law: of_cells(begin, end, corner) writes those of the
+  /// occupied cells begin … end − 1, [dim × per_cell] each, and returns 0, or NaN if it cannot.
+  template <bool Directed, class OfCells>
+  bool evaluate_cells(const OfCells& of_cells, const DegreesOfFreedom& dofs, Vec R, Vec reactions) {
+    constexpr std::size_t together = 64;
+    const std::size_t cells = points_->cells(), parts = (cells + together - 1) / together;
+    double bad = 0;
+    at_extended_.assign(dofs.extended.size(), 0.0);
+#pragma omp parallel if (points_->size() > points_for_threads)
+    {
+#pragma omp for schedule(static) reduction(+ : bad)
+      for (std::size_t part = 0; part < parts; ++part)
+        bad += of_cells(together * part, std::min(together * (part + 1), cells), corner_.data());
+      sum_corners<Directed>(dofs, R, reactions);
+    }
+    give_to_sources<Directed>(dofs, R, reactions);
     return bad == 0;
   }
 
@@ -117,6 +113,40 @@ class NodalForce {
   }
 
  private:
+  // The corners' forces into R and reactions, by all threads of the team that calls it.
+  template <bool Directed>
+  void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions) {
+    const double* corners = corner_.data();
+    const int* number = dofs.number.data();
+    const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
+#pragma omp for schedule(static)
+    for (std::size_t f = 0; f < corner_sum_.functions(); ++f) {
+      if (!corner_sum_.reaches(f)) continue;
+      const auto total = corner_sum_.template sum<dim>(f, corners);
+      for (int i = 0; i < dim; ++i) {
+        const int dof = number[dim * f + i];
+        if (dof >= first_extended) {
+          at_extended_[static_cast<std::size_t>(dof - first_extended)] = total[i];
+        } else if (dof >= n) {
+          if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
+        } else if (dof >= 0) {
+          R[static_cast<std::size_t>(dof)] = total[i];
+        }
+      }
+    }
+  }
+  template <bool Directed>
+  void give_to_sources(const DegreesOfFreedom& dofs, Vec R, Vec reactions) const {
+    dofs.give_to_sources(at_extended_, [n = R.size(), R, reactions](int dof, double force) {
+      const auto k = static_cast<std::size_t>(dof);
+      if (k < n) {
+        R[k] += force;
+      } else if constexpr (!Directed) {
+        reactions[k - n] += force;
+      }
+    });
+  }
+
   struct BlockOfCells {
     std::size_t first_cell, last_cell;  // one past the last
     std::size_t material;

@@ -21,6 +21,7 @@
 #include "space/grid/extended_functions.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
+#include "space/kernels/elastic_cells.hpp"
 #include "space/kernels/mean_dilatation.hpp"
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
@@ -129,12 +130,23 @@ class MaterialPointPhase final : public LagrangianPhase,
   double stress(std::size_t m, Block& block, double dt, double* history, double* averages) const;
   void tangent(Tangent kind, std::size_t m, Block& block, double dt) const;
   SparseMatrix matrix_of_means(Tangent kind, double dt) const;
+  // --- linear elastic cells, phase_forces.hpp ------------------------------------------------------
+  void take_elastic_moments();
+  auto of_elastic_cells(const std::vector<double>& grid_u) const {
+    return [this, u = grid_u.data()](std::size_t begin, std::size_t end, double* corner) {
+      return elastic_cells_.forces(u, begin, end, corner);
+    };
+  }
   double* scratch_history(std::size_t m) const;
 
   // --- Tangents, see phase_forces.hpp --------------------------------------------------------------
   void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const override;
   SparseMatrix matrix(Tangent kind, double t, ConstVec u) const override;
   SparseMatrix of_loads(double t, ConstVec u) const override;
+  void add_springs_product(Vec dR) const {
+    weak_supports_.springs().add_product(grid_du_.data(), dR);
+    load_control_.springs().add_product(grid_du_.data(), dR);
+  }
 
   // --- PhaseControl, see phase_change.hpp ----------------------------------------------------------
   double progress(double t, ConstVec u) override;
@@ -273,6 +285,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   // Of the present phase:
   long phase_ = 0;
   PointWeights<B, K> weights_;
+  ElasticCells elastic_cells_;  // of a linear body in bilinear cells
   HeldUnknowns held_;
   std::optional<DegreesOfFreedom> dofs_;
   std::vector<double> motion_weight_;      // cells that a unit of each unknown moves points by, at most, (n) [1/m]

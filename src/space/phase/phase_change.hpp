@@ -101,6 +101,7 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
     for (std::size_t m = 0; m < body_.materials.size(); ++m)
       scratch_history_[m].resize(body_.materials[m]->info().history_size);
   }
+  take_elastic_moments();
   make_mass();
   constant_force_.assign(size(), 0);
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);

@@ -46,6 +46,21 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   return trial;
 }
 
+// Where R(u) = K u in cells whose functions are bilinear their points are needed no more than by moments.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::take_elastic_moments() {
+  if constexpr (K == Kinematics::plane && std::same_as<B, BSpline<1>>) {
+    if (info_.nonlinear || updated_lagrangian() || averages_dilatation() || scene_.geostatic) return;
+    std::vector<ElasticCells::Moduli> moduli;
+    for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+      const auto p = static_cast<std::size_t>(body_.points.material_begin[m]);
+      const auto A = body_.materials[m]->moduli(Tangent::elastic, {}, {}, 0, p);  // of xx, xy, yx, yy
+      moduli.push_back({.normal = A[0], .cross = A[3], .shear = A[5]});
+    }
+    elastic_cells_.rebuild(body_.points, weights_, std::move(moduli));
+  }
+}
+
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, TrialState& any) const {
   Trial& trial = own(any);
@@ -63,9 +78,11 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
     };
     trial.evaluated =
         nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), answer, *dofs_, R, trial.reactions);
-  } else {
+  } else if (elastic_cells_.empty()) {
     const auto answer = [this](std::size_t m, Block& block) { return stress<false>(m, block, 0, nullptr, nullptr); };
     trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
+  } else {
+    trial.evaluated = nodal_force_.template evaluate_cells<false>(of_elastic_cells(grid_u), *dofs_, R, trial.reactions);
   }
   const std::size_t of_supports = trial.reactions.size() - load_control_.springs().size();
   weak_supports_.springs().add_force(t, grid_u.data(), R, Vec(trial.reactions).first(of_supports));
@@ -91,6 +108,10 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   std::ranges::fill(grid_du_, 0.0);
   for (std::size_t k = 0; k < du.size(); ++k) grid_du_[static_cast<std::size_t>(dofs_->free[k])] = du[k];
   dofs_->extend(grid_du_.data());
+  if (!elastic_cells_.empty()) {
+    nodal_force_.template evaluate_cells<true>(of_elastic_cells(grid_du_), *dofs_, dR, {});
+    return add_springs_product(dR);
+  }
   const double dt = t - committed_t_;
   const auto answer = [this, kind, dt](std::size_t m, Block& block) {
     tangent(kind, m, block, dt);
@@ -98,8 +119,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   };
   nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR, {},
                                              grid_du_.data());
-  weak_supports_.springs().add_product(grid_du_.data(), dR);
-  load_control_.springs().add_product(grid_du_.data(), dR);
+  add_springs_product(dR);
 }
 
 // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i

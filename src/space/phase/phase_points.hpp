@@ -212,6 +212,8 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
     for (const std::vector<double>& history : scratch_history_) scratch += static_cast<double>(history.size());
     if (scratch > 0) arrays.push_back({"history, of tangents", scratch * real / static_cast<double>(points())});
   }
+  if (!elastic_cells_.empty())
+    arrays.push_back({"moments of cells", elastic_cells_.bytes() / static_cast<double>(points())});
   if (updated_lagrangian()) {
     arrays.push_back({"velocity", Dim * real});
     arrays.push_back({"position at the start", Dim * real});

@@ -1,0 +1,55 @@
+// Forces of linear elastic cells from moments of their points, against the stiffness matrix that the points assemble.
+#include <random>
+
+#include <Eigen/SparseCore>
+#include <catch2/catch.hpp>
+
+#include "largest.hpp"
+#include "scenes.hpp"
+#include "statics.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+std::vector<double> random_vector(std::size_t n) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<double> u(n);
+  for (double& value : u) value = uniform(random);
+  return u;
+}
+
+void check_force(const std::string& scene, const std::vector<std::string>& set) {
+  const auto phase = make_phase(scenes::load(scene, set));
+  CAPTURE(scene, set);
+  const std::vector<double> u = random_vector(phase->size());
+  const SparseMatrix K = phase->tangents().matrix(Tangent::elastic, 0, u);
+  const Eigen::VectorXd expected = K * Eigen::Map<const Eigen::VectorXd>(u.data(), K.cols());
+  const std::vector<double> Ku(expected.begin(), expected.end()), R = statics::internal_force(*phase, u);
+  CHECK(largest_difference(R, Ku) < 1e-13 * largest_magnitude(Ku));  // rounding
+  std::vector<double> dR(u.size());
+  phase->tangents().apply(Tangent::consistent, 0, Ku, u, dR);
+  CHECK(largest_difference(dR, Ku) < 1e-13 * largest_magnitude(Ku));
+}
+
+}  // namespace
+
+TEST_CASE("forces of linear elastic cells from moments are those of the stiffness matrix that the points assemble") {
+  const std::string linear = "grid.basis=linear";
+  for (const std::string points : {"1", "4", "9"}) {
+    check_force("cantilever", {linear, "material.rubber={law='linear-elastic', E=1e6, nu=0.3, rho=1000}",
+                               "body.points_per_cell=" + points});
+    check_force("inclusion", {linear, "body[0].points_per_cell=" + points, "body[1].points_per_cell=" + points});
+  }
+  check_force("ladder/kirsch", {linear, "grid.cells=[11, 13]"});  // cut cells, and functions that follow others
+}
+
+TEST_CASE("a displacement that is not a number is refused by cells that know their points by moments") {
+  const auto phase = make_phase(scenes::load("ladder/kirsch", {"grid.basis=linear", "grid.cells=[11, 13]"}));
+  std::vector<double> u(phase->size(), 0.0), R(phase->size());
+  const auto trial = phase->make_trial();
+  REQUIRE(phase->internal_force(0, u, R, *trial));
+  u[u.size() / 2] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(phase->internal_force(0, u, R, *trial));
+}
