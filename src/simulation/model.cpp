@@ -204,7 +204,9 @@ void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
                     .peak = scene.damping.peak,
                     .quotient = scene.damping.quotient,
                     .omega_1 = model.omega_1.value_or(0),
-                    .steady = wants_equilibrium_only(scene)};
+                    .steady = wants_equilibrium_only(scene),
+                    .single_phase = !model.phase->info().updated_lagrangian,
+                    .linear = !model.phase->info().nonlinear};
 }
 
 // begin(what) is told of each part before it is made.

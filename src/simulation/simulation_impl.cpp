@@ -213,14 +213,21 @@ void Simulation::Impl::watch() {
   }
 }
 
+// An iterate is no motion, whose residual is small for a moment: it is looked at as soon as it may be the answer.
+bool Simulation::Impl::iterate_is_balanced() {
+  if (!motion_->integrator->static_iteration()) return false;
+  return scene_.stop.residual <= 0 || motion_->residual(t_) <= scene_.stop.residual;
+}
+
 void Simulation::Impl::look_for_end() {
-  if (monitor_.due(t_)) {
+  if (monitor_.due(t_) || iterate_is_balanced()) {
     follow_period();
     measure();
     const bool may_be_over = scene_.stop.residual <= 0 || residual_ <= scene_.stop.residual;
     if (may_be_over && distance_to_go().value_or(std::numeric_limits<double>::infinity()) <= model_.distance_goal)
       refresh_distance();
-    status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
+    status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go(),
+                               !motion_->integrator->static_iteration());
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps());
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();

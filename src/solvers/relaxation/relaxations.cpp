@@ -72,8 +72,9 @@ const std::vector<Row>& rows() {
                   .resets_velocity = true}},
        make_nesterov},
       {{.about = {.name = "auto",
-                  .equation = "M a = Q - c M v, step, mass and c found by itself",
-                  .source = "Underwood 1983 with v = 0 if v.Q < 0, kinetic if that stalls",
+                  .equation = "conjugate directions; M a = Q - c M v, step, mass and c found by itself, where points "
+                              "remember or touch, loads vary, or that finds no way on",
+                  .source = "Hestenes and Stiefel 1952; Nocedal 1980; Underwood 1983",
                   .integrators = {"leapfrog"},
                   .is_relaxation = true,
                   .has_own_step = true},
