@@ -2,8 +2,8 @@
 //
 // Where equilibrium is all that is asked for, of a body that remembers nothing, touches nothing and stays in one phase,
 // steps are those of a conjugate descent, which no motion is as short as (conjugate_descent.hpp): iterates without a
-// velocity. Where that finds no way on, or √(QᵀM⁻¹Q) has not halved for long, and everywhere else, it is a damped
-// motion
+// velocity. Where that finds no way on, twice within a few steps leads to what cannot be evaluated, or √(QᵀM⁻¹Q) has
+// not halved for long, and everywhere else, it is a damped motion
 //
 //   M a = Q − c M v,   c = 2 √(vᵀΔR/(h vᵀMv)), the global quotient of adaptive damping, one scalar
 //
@@ -79,12 +79,19 @@ class Auto final : public StaggeredIteration {
   }
 
   // By 1/ω_max² at first.
-  void begin_descent() { descent_->begin(Q(), a(), relaxation().max_step * relaxation().max_step / 4); }
+  void begin_descent() { descent_->begin(Q(), a(), options().max_step * options().max_step / 4); }
 
   void descended(double step) {
     is_tried_ = false;
     const double unbalanced = this->unbalanced();
     if (is_cut_) {
+      constexpr long few = 20;
+      const bool again = cut_at_ > 0 && steps_ - cut_at_ < few;
+      cut_at_ = steps_;
+      if (again) {
+        leave_descent();
+        return;
+      }
       begin_descent();
     } else if (!descent_->evaluated(Q(), a())) {
       leave_descent();
@@ -148,6 +155,7 @@ class Auto final : public StaggeredIteration {
     state("share", share_);
     state("kinetic", kinetic_);
     state("descends", descends_);
+    state("cut_at", cut_at_);
     state("left_at", left_at_);
     state("apart", apart_);
     if (descent_) descent_->archive(state.part("descent"));
@@ -192,6 +200,7 @@ class Auto final : public StaggeredIteration {
   std::optional<ConjugateDescent> descent_;  // if it may
   bool is_tried_ = false, is_cut_ = false;   // whether there was a trial of this step; whether the last one was shorter
   double full_step_ = 0;                     // of the first trial [s]
+  long cut_at_ = 0;                          // the last such step
   long left_at_ = 0, apart_ = 25;            // when the descent was left, and how long that is for at least [steps]
   bool steady_;
   double c_;      // [1/s]

@@ -72,8 +72,7 @@ const std::vector<Row>& rows() {
                   .resets_velocity = true}},
        make_nesterov},
       {{.about = {.name = "auto",
-                  .equation = "conjugate directions; M a = Q - c M v, step, mass and c found by itself, where points "
-                              "remember or touch, loads vary, or that finds no way on",
+                  .equation = "conjugate directions; elsewhere M a = Q - c M v, step, mass and c found by itself",
                   .source = "Hestenes and Stiefel 1952; Nocedal 1980; Underwood 1983",
                   .integrators = {"leapfrog"},
                   .is_relaxation = true,
