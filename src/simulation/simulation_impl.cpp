@@ -243,7 +243,9 @@ void Simulation::Impl::watch_plastic_path() {
 }
 
 void Simulation::Impl::look_for_mechanism() {
-  const auto found = mechanism_.look(*model_.phase, t_, motion_->u(), evaluations());
+  // Where K is constant any u will do, and this one has been carried off.
+  const ConstVec u = model_.phase->info().nonlinear ? motion_->u() : ConstVec(model_.u);
+  const auto found = mechanism_.look(*model_.phase, t_, u, evaluations());
   if (!found) return;
   status_ = RunStatus::failed;
   reason_ = failure(now(), to_string(*found));

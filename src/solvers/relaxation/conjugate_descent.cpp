@@ -24,22 +24,27 @@ void ConjugateDescent::begin(const Vector& Q, const Vector& z, double h) {
     way[i] = h * z[i];
   });
   slope_ = Q_dot_z_ = pMp_ = dot(Q_, z_);
-  h_ = h;
+  h_ = first_h_ = h;
   trials_ = 0;
   if (memory_) memory_->forget();
 }
 
 bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
-  constexpr double sigma = 0.8, longest = 10, rounding = 1e-12;
+  constexpr double sigma = 0.8, longest = 10, rounding = 1e-13;  // of pᵀKp, beside ω_max²
   constexpr int most_trials = 8;
   if (slope_ == 0) {  // it was in balance to the last bit, or thought so
-    begin(Q, z, h_);
+    begin(Q, z, first_h_);
     return true;
   }
   const double slope = dot(Q, p_), fall = slope_ - slope;  // Q(w)·p, h pᵀKp
   quotient_ = fall / (h_ * pMp_);
-  if (!(fall > rounding * slope_)) return false;
+  if (!(quotient_ * first_h_ > rounding)) return false;
   const double theta = slope_ / fall;
+  constexpr double far = 1e6;  // no step of conjugate gradients is so unlike the one before, but where Q is rounding
+  if (h_ != first_h_ && theta > far) {
+    begin(Q, z, first_h_);
+    return true;
+  }
   if (!memory_ || std::abs(slope) <= sigma * slope_) {
     const double alpha = theta * h_;
     const double next = memory_ ? turn_by_memory(theta, Q) : turn_by_beta(theta, Q, z);
@@ -97,6 +102,7 @@ void ConjugateDescent::archive(const StateArchive& state) {
   state("z", z_.span());
   state("way", way_.span());
   state("h", h_);
+  state("first_h", first_h_);
   state("slope", slope_);
   state("Q_dot_z", Q_dot_z_);
   state("pMp", pMp_);

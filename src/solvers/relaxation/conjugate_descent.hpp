@@ -33,7 +33,7 @@ class ConjugateDescent {
   /// linear: whether Q is. The mass outlives this.
   ConjugateDescent(const VectorSpace& vectors, const Mass& mass, bool linear);
 
-  /// Begins at w: straight down, by h M⁻¹Q at first. Q, z = M⁻¹Q at w, (n).
+  /// Begins at w: straight down, by h M⁻¹Q at first, h about 1/ω_max². Q, z = M⁻¹Q at w, (n).
   void begin(const Vector& Q, const Vector& z, double h);
   /// After an evaluation at w; Q, z: there. False if there is no way on: no positive stiffness along p, no direction
   /// downhill, or no end of the search on its line.
@@ -52,7 +52,7 @@ class ConjugateDescent {
   const Mass& mass_;
   std::optional<LimitedMemory> memory_;
   Vector p_, Q_, z_, way_;  // p, Q(x), M⁻¹Q(x) or work, w⁺ − w, (n)
-  double h_ = 0;
+  double h_ = 0, first_h_ = 0;
   double slope_ = 0;    // Q(x)·p
   double Q_dot_z_ = 0;  // Q(x)·M⁻¹Q(x)
   double pMp_ = 0;      // pᵀMp

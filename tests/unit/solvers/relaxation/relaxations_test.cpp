@@ -206,8 +206,7 @@ TEST_CASE("auto needs at most 1.15 times the evaluations of the best matrix-free
   for (const std::string scene : {"chain", "bar", "column", "cylinder", "mms_bar", "block", "neo_hookean_bar",
                                   "incompressible", "ladder/column", "ladder/mms_square", "ladder/compaction"}) {
     const auto evaluations_of_run = [&](const std::string& strategy) {
-      const Summary summary = run(
-          scenes::load(scene, {"solve.method=relaxation", test::override_of(strategy), "integrator.method=leapfrog"}));
+      const Summary summary = run(scenes::load(scene, {"solve.method=relaxation", test::override_of(strategy)}));
       CAPTURE(scene, strategy, summary.reason);
       CHECK(summary.status == RunStatus::equilibrium);
       return static_cast<double>(summary.rhs_evaluations);
@@ -217,6 +216,29 @@ TEST_CASE("auto needs at most 1.15 times the evaluations of the best matrix-free
       best = std::min({best, evaluations_of_run("cg"), evaluations_of_run("lbfgs")});
     CAPTURE(scene, best);
     CHECK(evaluations_of_run("auto") <= 1.15 * best);
+  }
+}
+
+TEST_CASE("auto stays where nothing but rounding is left", "[strategies]") {
+  for (const bool linear : {true, false}) {
+    test::Chain chain(long_chain());
+    const Values solution = static_solution(chain);
+    const auto damping = test::damping_of("auto", 0, 0);
+    RelaxationSystem system(chain, *damping);
+    IntegratorOptions options;
+    options.max_step = 0.9 * 2 / chain.exact_omega(chain.size());
+    const auto integrator = test::stepper_of("auto", options, system, {.linear = linear});
+    Values y(2 * chain.size());
+    Vector state = system.vectors().view(y);
+    integrator->start(0, state);
+    for (int k = 0; k < 5000; ++k) {
+      REQUIRE(integrator->step(1e9).status == StepReport::Status::ok);
+      if (k < 300) continue;
+      double error = 0;
+      for (std::size_t i = 0; i < solution.size(); ++i) error = std::max(error, std::abs(y[i] - solution[i]));
+      CAPTURE(linear, k);
+      REQUIRE(error <= 1e-9 * solution[chain.size() / 2]);
+    }
   }
 }
 
