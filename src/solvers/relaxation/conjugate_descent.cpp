@@ -30,7 +30,7 @@ void ConjugateDescent::begin(const Vector& Q, const Vector& z, double h) {
 }
 
 bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
-  constexpr double sigma = 0.8, longest = 10, rounding = 1e-13;  // of pᵀKp, beside ω_max²
+  constexpr double sigma = 0.8, rounding = 1e-13;  // of pᵀKp, beside ω_max²
   constexpr int most_trials = 8;
   if (slope_ == 0) {  // it was in balance to the last bit, or thought so
     begin(Q, z, first_h_);
@@ -40,12 +40,9 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
   quotient_ = fall / (h_ * pMp_);
   if (!(quotient_ * first_h_ > rounding)) return false;
   const double theta = slope_ / fall;
-  constexpr double far = 1e6;  // no step of conjugate gradients is so unlike the one before, but where Q is rounding
-  if (h_ != first_h_ && theta > far) {
-    begin(Q, z, first_h_);
-    return true;
-  }
-  if (!memory_ || std::abs(slope) <= sigma * slope_) {
+  // How far a secant reaches. Where Q is linear that is a matter of rounding alone, which may be all there is left.
+  const double reach = memory_ ? 10 : 1e3;
+  if (memory_ ? std::abs(slope) <= sigma * slope_ : theta <= reach) {
     const double alpha = theta * h_;
     const double next = memory_ ? turn_by_memory(theta, Q) : turn_by_beta(theta, Q, z);
     for_each_index(p_.size(), [=, back = alpha - h_, way = way_.span().data(), p = p_.span().data()](std::size_t i) {
@@ -58,7 +55,7 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
     return slope_ >= 0;  // also if it is not a number
   }
   if (++trials_ == most_trials) return false;
-  const double h = h_ * std::clamp(theta, 1 / longest, longest);
+  const double h = h_ * std::clamp(theta, 1 / reach, reach);
   for_each_index(p_.size(), [step = h - h_, way = way_.span().data(), p = p_.span().data()](std::size_t i) {
     way[i] = step * p[i];
   });

@@ -12,7 +12,8 @@
 //
 // Where it is not, conjugacy is lost faster than what steps tell of K⁻¹: p⁺ = H Q(x⁺) by BFGS with limited memory,
 // h⁺ = 1, which with such steps is conjugate gradients as well if Q is linear; and h has to be near α,
-// |Q(w)·p| ≤ σ Q(x)·p, or w moves on the same line. As what was not exact in Q(x) is taken (1 − θ) times, it fades.
+// |Q(w)·p| ≤ σ Q(x)·p, or w moves on along the same line. As what was not exact in Q(x) is taken (1 − θ) times, it
+// fades.
 #pragma once
 
 #include <stillpoint/mass.hpp>
