@@ -213,12 +213,6 @@ void Simulation::Impl::watch() {
   }
 }
 
-// An iterate is no motion, whose residual is small for a moment: it is looked at as soon as it may be the answer.
-bool Simulation::Impl::iterate_is_balanced() {
-  if (!motion_->integrator->static_iteration()) return false;
-  return scene_.stop.residual <= 0 || motion_->residual(t_) <= scene_.stop.residual;
-}
-
 void Simulation::Impl::look_for_end() {
   if (monitor_.due(t_) || iterate_is_balanced()) {
     follow_period();
