@@ -2,8 +2,9 @@
 // in src/solvers/relaxation:
 //
 //   kinetic     v = 0 at every peak of the kinetic energy                   (with erk:* by ARKODE's root finding)
-//   adaptive, papadrakakis, chebyshev, nesterov, auto                       v⁺ = β v⁻ + γ h M⁻¹Q,  u⁺ = u + h v⁺
+//   adaptive, papadrakakis, chebyshev, nesterov                             v⁺ = β v⁻ + γ h M⁻¹Q,  u⁺ = u + h v⁺
 //   fire, fire2                                                             the same, v turned towards M⁻¹Q
+//   auto                                                                    conjugate directions, or as adaptive
 #pragma once
 
 #include <stillpoint/integrator.hpp>
@@ -22,6 +23,8 @@ struct RelaxationOptions {
   Quotient quotient = Quotient::global;  // of adaptive
   double omega_1 = 0;                    // of chebyshev [rad/s]; ω_max it has from max_step
   bool steady = true;                    // of auto: the loads do not depend on t, so that velocities may be reset
+  bool single_phase = true;              // of auto: no other will follow
+  bool linear = false;                   // of auto: Q is linear in u
   CarriedOver from{};
 };
 

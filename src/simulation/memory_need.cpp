@@ -14,6 +14,7 @@
 #include "simulation/catalogue.hpp"
 #include "simulation/highest_frequency.hpp"
 #include "simulation/omega_1_needs.hpp"
+#include "solvers/relaxation/conjugate_descent.hpp"
 #include "solvers/statics/static_methods.hpp"
 #include "space/materials/point_material.hpp"
 
@@ -168,6 +169,8 @@ MemoryNeed memory_need(const Scene& scene) {
       size.most_points);
   constexpr double vectors = 25;
   add("vectors of unknowns", vectors * real * size.unknowns, "grid.cells");
+  if (chooses_mass && is_nonlinear(scene))
+    add("steps that auto remembers", 2 * ConjugateDescent::memory * real * size.unknowns, "grid.cells");
 
   constexpr double little = 1e7;
   if (const MemoryNeed::Part of_loads = formulas(scene); of_loads.bytes > little) need.parts.push_back(of_loads);

@@ -190,6 +190,11 @@ bool residual_bounds_error(const Scene& scene, const Model& model) {
   return model.omega_1 && !info.nonlinear && !info.updated_lagrangian && !loads_vary(scene) && !model.phase->contact();
 }
 
+// Whether Q = F − R is linear in u, and symmetric.
+bool is_linear(const LagrangianPhase& phase, ConstVec u) {
+  return !phase.info().nonlinear && phase.tangents().of_loads(0, u).nonZeros() == 0;
+}
+
 // How the way to rest is gone: the damping and what steps it.
 void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
   if (takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
@@ -204,7 +209,9 @@ void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
                     .peak = scene.damping.peak,
                     .quotient = scene.damping.quotient,
                     .omega_1 = model.omega_1.value_or(0),
-                    .steady = wants_equilibrium_only(scene)};
+                    .steady = wants_equilibrium_only(scene),
+                    .single_phase = !model.phase->info().updated_lagrangian,
+                    .linear = is_linear(*model.phase, model.u)};
 }
 
 // begin(what) is told of each part before it is made.

@@ -9,7 +9,7 @@
 namespace stillpoint {
 
 RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale, bool settled,
-                           std::optional<double> distance) {
+                           std::optional<double> distance, bool moves) {
   next_check_ = t + options_.dwell / checks_a_dwell;
   peak_kinetic_energy_ = std::max(peak_kinetic_energy_, kinetic_energy);
   if (!std::isfinite(residual) || !std::isfinite(kinetic_energy)) {
@@ -29,12 +29,13 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
     return RunStatus::running;
   }
   if (balanced_since_ < 0) balanced_since_ = t;
-  if (options_.must_last && t - balanced_since_ < options_.dwell * (1 - 1e-12)) return RunStatus::running;
+  const bool must_last = options_.must_last && moves;
+  if (must_last && t - balanced_since_ < options_.dwell * (1 - 1e-12)) return RunStatus::running;
   std::vector<std::string> tests;
   if (options_.residual > 0) tests.push_back(fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual));
   if (options_.distance > 0 && distance)
     tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
-  if (options_.kinetic_energy > 0) {
+  if (options_.kinetic_energy > 0 && moves) {
     if (!small) {
       tests.push_back(fmt::format("kinetic energy {:.3g} of the work, which is rounding", kinetic_energy / work_scale));
     } else if (peak_kinetic_energy_ > 0) {
@@ -45,7 +46,7 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
     }
   }
   reason_ = fmt::format("{}", fmt::join(tests, " and "));
-  if (options_.must_last) reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);
+  if (must_last) reason_ += fmt::format(", held for {:.4g} s", t - balanced_since_);
   return RunStatus::equilibrium;
 }
 

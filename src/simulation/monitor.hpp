@@ -32,9 +32,10 @@ class Monitor {
   /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
   /// the work counts as rest, also in a body that never moved.
   /// settled: whether the loads are what they will be at the end; before, balance is none.
-  /// distance: if there is a test of it; unknown counts as far.
+  /// distance: if there is a test of it; unknown counts as far. moves: false of an iterate without a motion, whose
+  /// balance need not last.
   RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true,
-                    std::optional<double> distance = std::nullopt);
+                    std::optional<double> distance = std::nullopt, bool moves = true);
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps);
 

@@ -214,13 +214,14 @@ void Simulation::Impl::watch() {
 }
 
 void Simulation::Impl::look_for_end() {
-  if (monitor_.due(t_)) {
+  if (monitor_.due(t_) || iterate_is_balanced()) {
     follow_period();
     measure();
     const bool may_be_over = scene_.stop.residual <= 0 || residual_ <= scene_.stop.residual;
     if (may_be_over && distance_to_go().value_or(std::numeric_limits<double>::infinity()) <= model_.distance_goal)
       refresh_distance();
-    status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go());
+    status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go(),
+                               !motion_->integrator->static_iteration());
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps());
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
@@ -236,7 +237,9 @@ void Simulation::Impl::watch_plastic_path() {
 }
 
 void Simulation::Impl::look_for_mechanism() {
-  const auto found = mechanism_.look(*model_.phase, t_, motion_->u(), evaluations());
+  // Where K is constant any u will do, and this one has been carried off.
+  const ConstVec u = model_.phase->info().nonlinear ? motion_->u() : ConstVec(model_.u);
+  const auto found = mechanism_.look(*model_.phase, t_, u, evaluations());
   if (!found) return;
   status_ = RunStatus::failed;
   reason_ = failure(now(), to_string(*found));

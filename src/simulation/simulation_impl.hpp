@@ -94,6 +94,7 @@ class Simulation::Impl {
   void look_for_limit_load();
   void watch();
   void look_for_end();
+  bool iterate_is_balanced();
   void follow_period();
 
   void measure();

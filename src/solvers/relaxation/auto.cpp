@@ -1,8 +1,14 @@
-// Relaxation that finds its own damping, with no number from the user.
+// Relaxation that finds its own way, with no number from the user.
+//
+// Where equilibrium is all that is asked for, of a body that remembers nothing, touches nothing and stays in one phase,
+// steps are those of a conjugate descent, which no motion is as short as (conjugate_descent.hpp): iterates without a
+// velocity. Where that finds no way on, twice within a few steps leads to what cannot be evaluated, or √(QᵀM⁻¹Q) has
+// not halved for long, and everywhere else, it is a damped motion
 //
 //   M a = Q − c M v,   c = 2 √(vᵀΔR/(h vᵀMv)), the global quotient of adaptive damping, one scalar
 //
-// The step given is a safe share of the critical one. What may go wrong is watched for:
+// from which the descent is taken up again after 50 steps, 100, 200, ... The step given is a safe share of the critical
+// one. What may go wrong with the motion is watched for:
 //
 //   overshoot    v·Q < 0, the motion as a whole goes uphill:  v = 0
 //   stall        √(QᵀM⁻¹Q) has not halved in three periods of the slowest motion seen:  c = 0 from then on, so that
@@ -16,7 +22,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
+#include "base/parallel_loop.hpp"
+#include "solvers/relaxation/conjugate_descent.hpp"
 #include "solvers/relaxation/rayleigh_quotient.hpp"
 #include "solvers/relaxation/relaxations.hpp"
 #include "solvers/relaxation/staggered_iteration.hpp"
@@ -28,32 +38,106 @@ class Auto final : public StaggeredIteration {
  public:
   Auto(const RelaxationOptions& options, RelaxationSystem& system)
       : StaggeredIteration(options, system),
+        may_descend_(options.steady && options.single_phase && !system.system().history_dependent() &&
+                     !system.system().contact()),
+        descends_(may_descend_),
         steady_(options.steady),
         c_(options.from.rate.value_or(0)),
-        share_(options.from.step_share > 0 ? options.from.step_share : 1) {}
+        share_(options.from.step_share > 0 ? options.from.step_share : 1) {
+    if (may_descend_) descent_.emplace(system.vectors(), system.system().mass(), options.linear);
+  }
 
-  std::optional<double> damping_rate() const override { return c_; }
+  std::optional<double> damping_rate() const override { return descends_ ? std::nullopt : std::optional(c_); }
+  bool static_iteration() const override { return descends_; }
 
  private:
   double step_share() const override { return share_; }
 
+  void on_restart() override {
+    if (descends_) begin_descent();
+  }
+
   // share_ only changes at a halt, so that h⁻ was of the same share.
   void propose(double step, Vec u_new, Vec v_new) override {
+    if (descends_) {
+      descend(step, u_new, v_new);
+      return;
+    }
     const double k = share_ * kick(step);
     kick_and_drift(leapfrog(std::min(c_, 2 / k), k), k, share_ * step, u_new, v_new);
   }
 
+  // Time is that of the step given, and less of the way where all of it leads to what cannot be evaluated.
+  void descend(double step, Vec u_new, Vec v_new) {
+    if (!std::exchange(is_tried_, true)) full_step_ = step;
+    const double share = step / full_step_;
+    is_cut_ = share < 1;
+    for_each_index(u_new.size(), [=, u = u().span().data(), way = descent_->way().data()](std::size_t i) {
+      u_new[i] = u[i] + share * way[i];
+      v_new[i] = 0;
+    });
+  }
+
+  // By 1/ω_max² at first.
+  void begin_descent() { descent_->begin(Q(), a(), options().max_step * options().max_step / 4); }
+
+  void descended(double step) {
+    is_tried_ = false;
+    const double unbalanced = this->unbalanced();
+    if (is_cut_) {
+      constexpr long few = 20;
+      const bool again = cut_at_ > 0 && steps_ - cut_at_ < few;
+      cut_at_ = steps_;
+      if (again) {
+        leave_descent();
+        return;
+      }
+      begin_descent();
+    } else if (!descent_->evaluated(Q(), a())) {
+      leave_descent();
+      return;
+    }
+    if (!(unbalanced > goal_)) begin_watch(unbalanced);
+    if (descent_->quotient() > 0) slowest_ = std::min(slowest_, descent_->quotient());
+    if (is_stalled(share_ * step)) leave_descent();
+  }
+
+  void leave_descent() {
+    descends_ = false;
+    left_at_ = steps_;
+    apart_ *= 2;
+    halt();
+    begin_watch(unbalanced());
+  }
+
+  // Where the stiffness along the motion is positive.
+  bool takes_up_descent(double quotient) {
+    if (!may_descend_ || !(quotient > 0) || steps_ - left_at_ < apart_) return false;
+    descends_ = true;
+    stop();
+    begin_watch(unbalanced());
+    begin_descent();
+    return true;
+  }
+
   void moved(double step) override {
     ++steps_;
+    if (descends_) {
+      descended(step);
+      return;
+    }
     const double h = share_ * step;
     const double quotient = global_quotient(v(), last_Q(), Q(), h, mass_dot(v(), v()), work());
     c_ = kinetic_ ? 0 : 2 * std::sqrt(quotient);
     set_rate(c_);
-    const double unbalanced = std::sqrt(std::max(0.0, dot(Q(), a())));
+    const double unbalanced = this->unbalanced();
     least_ = std::min(least_, unbalanced);
     if (is_unstable(quotient, h, unbalanced)) return;
+    if (takes_up_descent(quotient)) return;
     if (steady_) watch(quotient, h, unbalanced);
   }
+
+  double unbalanced() const { return std::sqrt(std::max(0.0, dot(Q(), a()))); }  // √(QᵀM⁻¹Q)
 
   // At equilibrium the quotient is rounding and may be anything: an instability also grows.
   bool is_unstable(double quotient, double h, double unbalanced) {
@@ -70,6 +154,11 @@ class Auto final : public StaggeredIteration {
     state("c", c_);
     state("share", share_);
     state("kinetic", kinetic_);
+    state("descends", descends_);
+    state("cut_at", cut_at_);
+    state("left_at", left_at_);
+    state("apart", apart_);
+    if (descent_) descent_->archive(state.part("descent"));
     state("least", least_);
     state("steps_taken", steps_);
     state("halted_at", halted_at_);
@@ -84,12 +173,16 @@ class Auto final : public StaggeredIteration {
     constexpr int settling = 3;  // steps after a halt in which v is of no direction yet
     if (steps_ - halted_at_ >= settling && dot(v(), Q()) < 0) halt();
 
-    constexpr double periods = 3, fewest = 500;
-    const double patience = std::max(fewest, periods * 2 * std::numbers::pi / (std::sqrt(slowest_) * h));
-    if (static_cast<double>(steps_ - watched_from_) < patience) return;
+    if (!is_stalled(h)) return;
     kinetic_ = !kinetic_;
     halt();
     begin_watch(unbalanced);
+  }
+
+  bool is_stalled(double h) const {
+    constexpr double periods = 3, fewest = 500;
+    const double patience = std::max(fewest, periods * 2 * std::numbers::pi / (std::sqrt(slowest_) * h));
+    return static_cast<double>(steps_ - watched_from_) >= patience;
   }
 
   void begin_watch(double unbalanced) {
@@ -103,6 +196,12 @@ class Auto final : public StaggeredIteration {
     halted_at_ = steps_;
   }
 
+  bool may_descend_, descends_;
+  std::optional<ConjugateDescent> descent_;  // if it may
+  bool is_tried_ = false, is_cut_ = false;   // whether there was a trial of this step; whether the last one was shorter
+  double full_step_ = 0;                     // of the first trial [s]
+  long cut_at_ = 0;                          // the last such step
+  long left_at_ = 0, apart_ = 25;            // when the descent was left, and how long that is for at least [steps]
   bool steady_;
   double c_;      // [1/s]
   double share_;  // of the step given

@@ -34,6 +34,14 @@ TEST_CASE("a kinetic energy is called small beside its peak only if it is") {
   CHECK(resting.reason() == "residual 0.0001 <= 0.001 and nothing has moved, held for 0 s");
 }
 
+TEST_CASE("an iterate, which has no motion, is in equilibrium as soon as it is balanced, and no sooner") {
+  Monitor monitor(options);
+  CHECK(monitor.observe(0, 2e-3, 0, 1, true, std::nullopt, false) == RunStatus::running);
+  CHECK(monitor.observe(1, 1e-4, 0, 1, false, std::nullopt, false) == RunStatus::running);  // loads still change
+  CHECK(monitor.observe(2, 1e-4, 0, 1, true, std::nullopt, false) == RunStatus::equilibrium);
+  CHECK(monitor.reason() == "residual 0.0001 <= 0.001");
+}
+
 TEST_CASE("a turning point, where the kinetic energy alone is small, is not equilibrium") {
   Monitor monitor(options);
   for (int k = 0; k < 100; ++k) CHECK(monitor.observe(k, 0.5, k % 2 == 0 ? 0.0 : 1.0) == RunStatus::running);

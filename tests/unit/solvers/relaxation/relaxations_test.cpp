@@ -181,6 +181,112 @@ TEST_CASE("conjugate gradients end after 78 steps of two evaluations: the load m
   CHECK(evaluations_of(chain, {.strategy = "lbfgs"}, 1e-6) < 350);
 }
 
+TEST_CASE("auto takes the steps of conjugate gradients for one evaluation each, whatever step it is given first",
+          "[strategies]") {
+  const test::Chain chain(long_chain());
+  for (const double share : {0.1, 0.9, 3.0}) {
+    const Way way = {.strategy = "auto", .step_fraction = share, .options = {.linear = true}};
+    CAPTURE(share);
+    CHECK(evaluations_of(chain, way, 1e-9) == Approx(79).margin(2));  // 78 modes, and the one at rest
+  }
+}
+
+TEST_CASE("auto costs no more than lbfgs where the stiffness changes", "[strategies]") {
+  for (const double cubic : {1.0, 1e2, 1e4}) {
+    test::ChainOptions options = long_chain();
+    options.n = 40, options.cubic = cubic;
+    const test::Chain chain(options);
+    CAPTURE(cubic);
+    CHECK(evaluations_of(chain, {.strategy = "auto"}) <= evaluations_of(chain, {.strategy = "lbfgs"}));
+  }
+}
+
+TEST_CASE("auto needs at most 1.15 times the evaluations of the best matrix-free way, on elastic scenes of every kind",
+          "[strategies]") {
+  for (const std::string scene : {"chain", "bar", "column", "cylinder", "mms_bar", "block", "neo_hookean_bar",
+                                  "incompressible", "ladder/column", "ladder/mms_square", "ladder/compaction"}) {
+    const auto evaluations_of_run = [&](const std::string& strategy) {
+      const Summary summary = run(scenes::load(scene, {"solve.method=relaxation", test::override_of(strategy)}));
+      CAPTURE(scene, strategy, summary.reason);
+      CHECK(summary.status == RunStatus::equilibrium);
+      return static_cast<double>(summary.rhs_evaluations);
+    };
+    double best = evaluations_of_run("kinetic");
+    if (scene != "ladder/compaction")  // in phases
+      best = std::min({best, evaluations_of_run("cg"), evaluations_of_run("lbfgs")});
+    CAPTURE(scene, best);
+    CHECK(evaluations_of_run("auto") <= 1.15 * best);
+  }
+}
+
+TEST_CASE("auto stays where nothing but rounding is left", "[strategies]") {
+  for (const bool linear : {true, false}) {
+    test::Chain chain(long_chain());
+    const Values solution = static_solution(chain);
+    const auto damping = test::damping_of("auto", 0, 0);
+    RelaxationSystem system(chain, *damping);
+    IntegratorOptions options;
+    options.max_step = 0.9 * 2 / chain.exact_omega(chain.size());
+    const auto integrator = test::stepper_of("auto", options, system, {.linear = linear});
+    Values y(2 * chain.size());
+    Vector state = system.vectors().view(y);
+    integrator->start(0, state);
+    for (int k = 0; k < 5000; ++k) {
+      REQUIRE(integrator->step(1e9).status == StepReport::Status::ok);
+      if (k < (linear ? 80 : 500)) continue;
+      double error = 0;
+      for (std::size_t i = 0; i < solution.size(); ++i) error = std::max(error, std::abs(y[i] - solution[i]));
+      CAPTURE(linear, k);
+      REQUIRE(error <= 1e-9 * solution[chain.size() / 2]);
+    }
+  }
+}
+
+TEST_CASE("auto moves on from where the stiffness is negative, and ends where it is positive", "[strategies]") {
+  test::Chain chain({.n = 8, .stiffness = -1, .cubic = 1, .load = 0.01});  // stable at extensions past 1/√3
+  const auto damping = test::damping_of("auto", 0, 0);
+  RelaxationSystem system(chain, *damping);
+  IntegratorOptions options;
+  options.max_step = 0.2;
+  const auto integrator = test::stepper_of("auto", options, system);
+  Values y(2 * chain.size());
+  Vector state = system.vectors().view(y);
+  integrator->start(0, state);
+  bool moved = false, settled = false;
+  for (int k = 0; k < 5000 && !settled; ++k) {
+    REQUIRE(integrator->step(1e9).status == StepReport::Status::ok);
+    moved = moved || !integrator->static_iteration();
+    settled = integrator->static_iteration() && system.last_residual() < 1e-10;
+  }
+  CHECK(moved);
+  CHECK(settled);
+  for (std::size_t i = 0; i < chain.size(); ++i) CHECK(std::abs(y[i] - (i > 0 ? y[i - 1] : 0)) > 1 / std::sqrt(3.0));
+}
+
+TEST_CASE("auto has a motion only where loads vary, another phase may follow, or points remember or touch",
+          "[strategies]") {
+  const auto moves = [](const RelaxationOptions& relaxing) {
+    test::Chain chain({.load = 1});
+    const auto damping = test::damping_of("auto", 0, 0);
+    RelaxationSystem system(chain, *damping);
+    IntegratorOptions options;
+    options.max_step = 0.5;
+    return !test::stepper_of("auto", options, system, relaxing)->static_iteration();
+  };
+  CHECK_FALSE(moves({}));
+  CHECK(moves({.steady = false}));
+  CHECK(moves({.single_phase = false}));
+  const auto scene_moves = [](const std::string& name, std::vector<std::string> set = {}) {
+    set.emplace_back("damping.strategy=auto");
+    return !Simulation(scenes::load(name, set), {.records = false}).integrator().static_iteration();
+  };
+  CHECK_FALSE(scene_moves("block"));
+  CHECK(scene_moves("footing"));
+  CHECK(scene_moves("block_on_wall", {"stop.residual=1e-6", "stop.time=0"}));
+  CHECK(scene_moves("ladder/compaction"));
+  CHECK(scene_moves("hard/load_that_changes"));
+}
+
 TEST_CASE(
     "on linear scenes leapfrog with c = 2 omega_1 at 0.95 of the critical step costs 1.3 Chebyshev estimates at most, "
     "and auto, which is told nothing, 1.6",
@@ -591,11 +697,12 @@ TEST_CASE("auto scales the mass where that makes the condition number smaller, a
   CHECK_THAT(note_of({"stop.residual=0", "stop.time=1"}), Catch::Contains("physical mass"));
 }
 
-TEST_CASE("auto recovers from a step past the critical one", "[strategies]") {
+TEST_CASE("the motion of auto recovers from a step past the critical one", "[strategies]") {
   test::Chain chain({.n = 40, .left_held = true, .right_held = true, .load = 1e-3});
   const Values solution = static_solution(chain);
   const double omega_max = chain.exact_omega(40);
-  CHECK(evaluations_to(1e-6, chain, solution, omega_max, {.strategy = "auto", .step_fraction = 1.2}, 2000) < 1000);
+  CHECK(evaluations_to(1e-6, chain, solution, omega_max,
+                       {.strategy = "auto", .step_fraction = 1.2, .options = {.single_phase = false}}, 2000) < 1000);
 }
 
 /// A chain whose forces are never better than to an amplitude: equilibrium cannot be approached further.
@@ -612,14 +719,14 @@ class NoisyChain final : public test::Chain {
   mutable std::mt19937 random_{3};
 };
 
-TEST_CASE("auto that makes no way any more gives up its c, and takes it up again where that does not help",
+TEST_CASE("a motion of auto that makes no way any more gives up its c, and takes it up again where that does not help",
           "[strategies]") {
   NoisyChain chain({.n = 40, .left_held = true, .right_held = true, .load = 1});
   const auto damping = test::damping_of("auto", 0, 0);
   RelaxationSystem system(chain, *damping);
   IntegratorOptions options;
   options.max_step = 0.95 * 2 / chain.exact_omega(40);
-  const auto integrator = test::stepper_of("auto", options, system);
+  const auto integrator = test::stepper_of("auto", options, system, {.single_phase = false});
   Values y(2 * chain.size());
   Vector state = system.vectors().view(y);
   integrator->start(0, state);

@@ -1,0 +1,64 @@
+// Conjugate directions in one force evaluation an iteration.
+//
+//   x, p:  an iterate and its direction;  w = x + h p, where Q is evaluated, h a guess of the step α
+//   α = h Q(x)·p/(Q(x)·p − Q(w)·p),  θ = α/h                                  the secant's zero of Q·p
+//   x⁺ = w + (α − h) p,  Q(x⁺) = (1 − θ) Q(x) + θ Q(w)                        exact where Q is linear
+//   w⁺ = x⁺ + h⁺ p⁺
+//
+// Where Q is linear p⁺ and h⁺ are those of conjugate gradients, preconditioned by M, and so are the iterates, whatever
+// the h [Hestenes and Stiefel 1952]:
+//
+//   p⁺ = M⁻¹Q(x⁺) + β p,  β = max(0, Q(x⁺)·M⁻¹(Q(x⁺) − Q(x))/Q(x)·M⁻¹Q(x)),  h⁺ = α
+//
+// Where it is not, conjugacy is lost faster than what steps tell of K⁻¹: p⁺ = H Q(x⁺) by BFGS with limited memory,
+// h⁺ = 1, which with such steps is conjugate gradients as well if Q is linear; and h has to be near α,
+// |Q(w)·p| ≤ σ Q(x)·p, or w moves on along the same line. As what was not exact in Q(x) is taken (1 − θ) times, it
+// fades.
+#pragma once
+
+#include <stillpoint/mass.hpp>
+#include <stillpoint/state_archive.hpp>
+#include <stillpoint/vector.hpp>
+
+#include <optional>
+
+#include "solvers/relaxation/limited_memory.hpp"
+
+namespace stillpoint {
+
+class ConjugateDescent {
+ public:
+  /// Pairs of steps that are remembered where Q is not linear.
+  static constexpr std::size_t memory = 15;
+
+  /// linear: whether Q is. The mass outlives this.
+  ConjugateDescent(const VectorSpace& vectors, const Mass& mass, bool linear);
+
+  /// Begins at w: straight down, by h M⁻¹Q at first, h about 1/ω_max². Q, z = M⁻¹Q at w, (n).
+  void begin(const Vector& Q, const Vector& z, double h);
+  /// After an evaluation at w; Q, z: there. False if there is no way on: no positive stiffness along p, no direction
+  /// downhill, or no end of the search on its line.
+  bool evaluated(const Vector& Q, const Vector& z);
+  /// From w to the next one, (n).
+  ConstVec way() const { return way_.span(); }
+  /// pᵀKp/pᵀMp of the last line [1/s²].
+  double quotient() const { return quotient_; }
+
+  void archive(const StateArchive& state);
+
+ private:
+  double turn_by_beta(double theta, const Vector& Q, const Vector& z);
+  double turn_by_memory(double theta, const Vector& Q);
+
+  const Mass& mass_;
+  std::optional<LimitedMemory> memory_;
+  Vector p_, Q_, z_, way_;  // p, Q(x), M⁻¹Q(x) or work, w⁺ − w, (n)
+  double h_ = 0, first_h_ = 0;
+  double slope_ = 0;    // Q(x)·p
+  double Q_dot_z_ = 0;  // Q(x)·M⁻¹Q(x)
+  double pMp_ = 0;      // pᵀMp
+  double quotient_ = 0;
+  int trials_ = 0;  // on this line
+};
+
+}  // namespace stillpoint
