@@ -154,5 +154,26 @@ def _(folder):
     assert result.returncode == 2 and "no-such-commit" in result.stderr, result
 
 
+@claim("scripts/benchmark builds an older commit in a worktree that does not stay, once")
+def _(folder):
+    scripts, environment = copy_of_scripts(folder, STILLPOINT)
+    root = scripts.parent
+    given = programs(folder, "given")
+    # A build copies the two programs to where it stands.
+    (scripts / "build_preset").write_text(
+        f'#!/bin/bash\ncd "$(dirname "$0")/.." && mkdir -p build/release && cp "{given}"/* build/release && echo built\n'
+    )
+    (root / ".gitignore").write_text("build/\n")
+    author = ["-c", "user.name=nobody", "-c", "user.email=nobody@example.org"]
+    for words in (["init", "-q"], ["add", "."], [*author, "commit", "-q", "-m", "An older one"]):
+        assert call("git", "-C", root, *words).returncode == 0
+    for builds in (2, 1):
+        result = call(scripts / "benchmark", "HEAD", "--quick", "--repeats", 1, "--threads", 1, env=environment)
+        assert result.returncode == 0 and "new/old" in result.stdout, result
+        assert result.stdout.count("built") == builds, result.stdout
+        assert len(call("git", "-C", root, "worktree", "list").stdout.splitlines()) == 1
+    assert not list((root / "build").glob("*/tree"))
+
+
 if __name__ == "__main__":
     check_the_claim()
