@@ -100,7 +100,7 @@ def measure(programs, options):
     return figures
 
 
-def described(options):
+def described(options, load):
     def git(*words):
         done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
         return done.stdout.strip()
@@ -109,7 +109,8 @@ def described(options):
     changed = " with changes" if git("status", "--porcelain", "--untracked-files=no") else ""
     against = f", beside {options.old_name}" if options.old else ""
     return (
-        f"Commit {name}{changed}{against}, {os.cpu_count()} cores, the least of {options.repeats} repetitions in turn"
+        f"Commit {name}{changed}{against}, {os.cpu_count()} cores, the least of {options.repeats} repetitions in turn, "
+        f"others' load {load:.1f} when they began"
         + (", short runs." if options.quick else ".")
     )
 
@@ -133,12 +134,14 @@ def parse():
 
 def main():
     options = parse()
-    programs = ({"old": options.old.resolve()} if options.old else {}) | {"new": options.new.resolve()}
+    new = options.new.resolve()
+    programs = {"old": options.old.resolve(), "new": new} if options.old else {"least": new}
+    load = os.getloadavg()[0]
     try:
         figures = measure(programs, options)
-        print(described(options) + "\n\n" + terminal_table(figures))
+        print(described(options, load) + "\n\n" + terminal_table(figures))
         if options.accept:
-            write_readme(options.readme, markdown(figures, described(options)))
+            write_readme(options.readme, markdown(figures, described(options, load)))
     except (BadFigures, OSError, KeyError, ValueError) as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2
