@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stillpoint {
@@ -25,7 +26,7 @@ struct CompareOptions {
   int repeats = 3;                          // timed ones, in random order
   unsigned seed = 1;                        // of that order
   bool overshoot = false;                   // also the distance from a slow ramp of the load
-  int threads = 0;                          // 0: as many as OpenMP would take
+  int threads = 0;                          // 0: as many as OpenMP would take, or one where that is quicker
   std::function<bool()> interrupted{};      // asked between runs
   std::function<void(const StudyProgress&)> progress{};
 };
@@ -61,8 +62,9 @@ struct ComparedRun {
   long steps = 0, evaluations = 0;  // until the error had reached the goal and stayed there; otherwise all
   long first_evaluations = 0;       // until it first was at the goal; 0: never
   long estimating = 0;              // products K x spent on the spectrum that the method itself needs, of evaluations
-  double setup_s = 0;               // everything before the first step
-  std::optional<Spread> wall_s;     // of those steps; if it converged
+  double setup_s = 0;               // everything before the first step, as if it were alone: body, spectrum, factors
+  std::vector<std::pair<std::string, double>> setup_parts;  // what of it takes time, by name [s]
+  std::optional<Spread> wall_s;                             // of those steps; if it converged
   // At the end; NaN if it did not run.
   double error = std::numeric_limits<double>::quiet_NaN(), residual = std::numeric_limits<double>::quiet_NaN();
   std::optional<double> distance;
@@ -70,14 +72,17 @@ struct ComparedRun {
   std::size_t memory_bytes = 0;     // of unknowns, points and, of Newton's method, matrix and factor
   std::vector<ComparedSample> samples;
   std::string label() const;  // "kinetic", "viscous, erk:rk4 0.9"
+  /// What a user waits for: set-up and steps; if it converged [s].
+  std::optional<double> total_s() const { return wall_s ? std::optional(setup_s + wall_s->median) : std::nullopt; }
 };
 
 struct Comparison {
   std::string scene, title;
   std::size_t dofs = 0, points = 0;
   int threads = 1;
-  bool transient = false;    // error in time at stop.time, against `reference`
-  bool by_residual = false;  // history or friction: the goal is one of the residual, since equilibria differ
+  bool chooses_threads = false;  // each run took all of them or one, whichever it found quicker
+  bool transient = false;        // error in time at stop.time, against `reference`
+  bool by_residual = false;      // history or friction: the goal is one of the residual, since equilibria differ
   double goal = 0;
   std::optional<double> omega_1, omega_max, kappa, chebyshev_estimate;
   std::string reference;  // what u* is from
@@ -85,6 +90,7 @@ struct Comparison {
   std::optional<double> ramp_difference;  // of the reference, one load step, from the slow ramp
   std::vector<ComparedRun> runs;          // in the order of their names' lists
   std::vector<std::string> notes;
+  double wall_s = 0, timed_s = 0;  // all of it, and what of it the timed runs took
 
   /// Evaluations of a run over the Chebyshev estimate; nothing if there is none, or if it made none.
   std::optional<double> over_chebyshev_estimate(const ComparedRun& run) const;
@@ -94,9 +100,11 @@ struct Comparison {
 /// κ: ½ √κ ln(2/ε) [Axelsson 1994, §13.2]. No bound for a given load: one that excites few modes takes fewer.
 double chebyshev_estimate(double kappa, double error);
 
-/// Runs the scene once for each combination to count, in parallel if there are cores, and those that reach the goal
-/// `repeats` times more to time them, one at a time. A combination that the scene refuses is a row with the reason.
-/// Throws SceneError if the scene itself is wrong, or a name in the options is none (in the words of --set).
+/// Runs the scene once for each combination to count, and those that reach the goal `repeats` times to time them, one
+/// at a time: small bodies' runs are counted side by side and then timed, a large one's is timed as it is counted, its
+/// steps alone. What their set-ups have in common is made once, and counts for each. A combination that the scene
+/// refuses is a row with the reason. Throws SceneError if the scene itself is wrong, or a name in the options is none
+/// (in the words of --set).
 Comparison compare(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                    const CompareOptions& options = {});
 

@@ -25,6 +25,7 @@ namespace stillpoint {
 
 class LagrangianPhase;
 class Integrator;
+class SetUpStore;
 struct Model;
 
 /// What a simulation tells while it works.
@@ -50,6 +51,9 @@ struct SimulationOptions {
   std::function<void(const Progress&)> progress{};  // told a few times a second
   /// Told before a phase ends (false) and when the next has begun (true); the Simulation shows that state.
   std::function<void(bool begun)> at_phase_change{};
+  /// What simulations of one body have in common, for those that differ in damping, integrator and solver alone; it
+  /// outlives them (simulation/set_up_store.hpp). Null: each makes all of its own.
+  SetUpStore* store = nullptr;
 };
 
 /// The set-up of a simulation was interrupted, or took longer than stop.wall_time; what() says which.

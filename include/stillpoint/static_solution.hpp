@@ -16,6 +16,7 @@ enum class LinearSolver { automatic, cholesky, lu, conjugate_gradients };
 
 struct NewtonOptions {
   double tolerance = 1e-10;     // of ‖F − R‖/‖F‖
+  double near_enough = 0;       // of the same, above it: will do where an iteration does not make it a tenth smaller
   int max_iterations = 25;      // in a load step
   int load_steps = 1;           // to begin with: halved if one fails, doubled if it is easy
   double max_load_step = 1;     // share of the load, so that a path is followed closely
@@ -62,7 +63,8 @@ struct StaticReport {
 /// halved while ‖Q(u + λ du)‖ > (1 − 10⁻⁴ λ) ‖Q(u)‖ [Kelley 1995, §8.1] or u + λ du is inadmissible; if that comes
 /// down to three short steps in a row, in a body without history, the load step is begun again with full ones.
 /// Conjugate gradients solve K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the order 2 [Dembo, Eisenstat and Steihaug
-/// 1982]. Everything happens at t: supports are where they then are from the first load step on, and a viscous law
+/// 1982]. A matrix K that is that of the iteration before, as in a linear system, is not factorised again. Everything
+/// happens at t: supports are where they then are from the first load step on, and a viscous law
 /// flows in the first one, for the time since the last commit. Throws std::invalid_argument on bad options and if
 /// the system has contact, which has no tangent here.
 StaticReport newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options = {});

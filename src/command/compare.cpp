@@ -38,8 +38,8 @@ std::vector<const ComparedRun*> ranked(const Comparison& c) {
 
 void print_heading(const Comparison& c) {
   fmt::print("{}\n", c.title.empty() ? c.scene : c.title);
-  fmt::print("  {} degrees of freedom, {} points, {} thread{} for the times\n", c.dofs, c.points, c.threads,
-             c.threads == 1 ? "" : "s");
+  fmt::print("  {} degrees of freedom, {} points, {} thread{} for the times{}\n", c.dofs, c.points, c.threads,
+             c.threads == 1 ? "" : "s", c.chooses_threads ? ", or one where that is quicker" : "");
   fmt::print("  reference: {}\n", c.reference);
   if (c.chebyshev_estimate) {
     fmt::print("  kappa {:.4g}; Chebyshev estimate for an error of {:g}: {:.0f} evaluations\n", *c.kappa, c.goal,
@@ -55,15 +55,15 @@ void print_table(const Comparison& c) {
   const bool overshoot = std::ranges::any_of(c.runs, [](const ComparedRun& run) { return run.overshoot.has_value(); });
   std::size_t width = 0;
   for (const ComparedRun& run : c.runs) width = std::max(width, run.label().size());
-  fmt::print("\n  {:<{}}{:>12}{:>12}{:>9}{:>11}{:>8}{:>11}{:>11}{:>11}{}\n", "", width, "status", "evaluations",
-             "x estimate", "time", "+-", "error", "residual", "distance", overshoot ? "  overshoot" : "");
+  fmt::print("\n  {:<{}}{:>12}{:>13}{:>12}{:>11}{:>11}{:>8}{:>11}{:>11}{:>11}{}\n", "", width, "status", "evaluations",
+             "x estimate", "set-up", "time", "+-", "error", "residual", "distance", overshoot ? "  overshoot" : "");
   for (const ComparedRun* run : ranked(c)) {
     const bool converged = run->status == ComparedStatus::converged;
     const auto ratio = c.over_chebyshev_estimate(*run);
     const Spread wall = run->wall_s.value_or(Spread{});
-    fmt::print("  {:<{}}{:>12}{:>12}{:>9}{:>11}{:>8}{:>11}{:>11}{:>11}", run->label(), width, to_string(run->status),
-               run->evaluations, ratio && converged ? fmt::format("{:.2f}", *ratio) : "-",
-               run->wall_s ? seconds(wall.median) : "-",
+    fmt::print("  {:<{}}{:>12}{:>13}{:>12}{:>11}{:>11}{:>8}{:>11}{:>11}{:>11}", run->label(), width,
+               to_string(run->status), run->evaluations, ratio && converged ? fmt::format("{:.2f}", *ratio) : "-",
+               run->setup_s > 0 ? seconds(run->setup_s) : "-", run->wall_s ? seconds(wall.median) : "-",
                wall.median > 0 ? fmt::format("{:.0f} %", 50 * (wall.most - wall.least) / wall.median) : "-",
                small(run->error), small(run->residual), small(run->distance.value_or(none)));
     if (overshoot) fmt::print("{:>11}", small(run->overshoot.value_or(none)));
@@ -73,6 +73,7 @@ void print_table(const Comparison& c) {
     if (run.status != ComparedStatus::converged) fmt::print("  {}: {}\n", run.label(), run.reason);
   }
   for (const std::string& note : c.notes) fmt::print("  note: {}\n", note);
+  fmt::print("  {} in all, {} of it timed runs\n", seconds(c.wall_s), seconds(c.timed_s));
 }
 
 }  // namespace

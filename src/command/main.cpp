@@ -59,7 +59,10 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
   compare.add_option("--seconds", options.seconds, "wall time at most of one run (default: 30)")->check(positive);
   compare.add_option("--repeats", options.repeats, "timed runs of each (default: 3)")->check(CLI::Range(0, 1000));
   compare.add_option("--seed", options.seed, "of the order in which runs are timed");
-  compare.add_option("--threads", options.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  compare
+      .add_option("--threads", options.threads,
+                  "threads to use (default: all, or for the times one where a run finds that quicker)")
+      ->check(CLI::Range(1, 1024));
   compare.add_flag("--overshoot", options.overshoot, "also how far each ends from a slow ramp of the load");
   compare.add_flag("--quiet", arguments.quiet, "print nothing but errors");
   return compare;

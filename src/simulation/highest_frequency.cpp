@@ -15,8 +15,9 @@ namespace stillpoint {
 namespace {
 
 // The same for auto, which counts what it spends.
-double quick_highest_frequency(const Scene& scene, Model& model, const LagrangianPhase& phase, ConstVec u) {
-  const FrequencyEstimate estimate = omega_max_by_lanczos(phase, 0, u);
+double quick_highest_frequency(const Scene& scene, Model& model, SetUp& set_up, const LagrangianPhase& phase) {
+  const FrequencyEstimate estimate = set_up.shared(
+      "omega_max of auto", scene.mass, [&] { return omega_max_by_lanczos(phase, 0, phase.initial_displacement(0)); });
   model.tangent_applications += estimate.iterations;
   if (estimate.converged) return estimate.omega;
   throw_scene_error(
@@ -55,9 +56,8 @@ double highest_frequency(const Scene& scene, const LagrangianPhase& phase, Const
 // auto takes physical masses or those by Gershgorin's bound, whichever gives the smaller κ. Both have the mass of the
 // body in total, and the slowest mode, in which the body moves as a whole, sees little of how it is spread: the ratio
 // of κ is that of ω_max². Gershgorin needs a lumped mass, which auto takes if the scene leaves the kind open.
-bool choose_mass(const Scene& scene, Model& model) {
-  const std::vector<double> u = model.phase->initial_displacement(0);
-  model.omega_max = quick_highest_frequency(scene, model, *model.phase, u);
+bool choose_mass(const Scene& scene, Model& model, SetUp& set_up, SetUpStore* store) {
+  model.omega_max = quick_highest_frequency(scene, model, set_up, *model.phase);
   if (!wants_equilibrium_only(scene)) {
     model.notes.push_back(
         "auto keeps the physical mass and halts no motion, as loads or supports depend on t or the transient is asked "
@@ -69,12 +69,15 @@ bool choose_mass(const Scene& scene, Model& model) {
   Scene scaled = scene;
   scaled.mass.kind = MassKind::lumped;
   scaled.mass.scaling = MassScaling::gershgorin;
-  std::unique_ptr<LagrangianPhase> phase = make_phase(scaled);
-  const double omega_max = quick_highest_frequency(scene, model, *phase, phase->initial_displacement(0));
+  std::unique_ptr<LagrangianPhase> phase = set_up.phase(scaled);
+  const double omega_max = quick_highest_frequency(scaled, model, set_up, *phase);
   const double gain = model.omega_max * model.omega_max / (omega_max * omega_max);
   constexpr double worthwhile = 1.05;
-  if (gain < worthwhile) return false;
-  model.phase = std::move(phase);
+  const bool takes_it = gain >= worthwhile;
+  if (takes_it) std::swap(model.phase, phase);
+  if (store) store->give_back(takes_it ? scene.mass : scaled.mass, std::move(phase));
+  if (!takes_it) return false;
+  model.mass = scaled.mass;
   model.omega_max = omega_max;
   model.notes.push_back(fmt::format(
       "auto scales the mass by Gershgorin's bound: the condition number becomes about {:.3g} times smaller", gain));

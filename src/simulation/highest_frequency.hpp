@@ -15,7 +15,7 @@ bool wants_equilibrium_only(const Scene& scene);
 double highest_frequency(const Scene& scene, const LagrangianPhase& phase, ConstVec u);
 
 /// Physical masses or those by Gershgorin's bound, whichever gives the smaller κ: sets phase, omega_max, and what it
-/// spent on them. True if it took the latter.
-bool choose_mass(const Scene& scene, Model& model);
+/// spent on them. True if it took the latter. store: as of make_model().
+bool choose_mass(const Scene& scene, Model& model, SetUp& set_up, SetUpStore* store);
 
 }  // namespace stillpoint

@@ -69,12 +69,13 @@ double displacement_scale(const Scene& scene, const Model& model) {
   return scale;
 }
 
-void set_tolerances(const Scene& scene, Model& model) {
+void set_tolerances(const Scene& scene, SetUp& set_up, Model& model) {
   const IntegratorSpec& spec = scene.integrator;
   model.integrator.rtol = spec.rtol;
   if (!spec.rtol) return;
   if (!spec.atol_u || !spec.atol_v) {
-    const double scale = model.omega_1 ? displacement_scale(scene, model) : 0;
+    const auto measured = [&] { return displacement_scale(scene, model); };
+    const double scale = model.omega_1 ? set_up.shared("size of the motion", model.mass, measured) : 0;
     if (!(scale > 0)) {
       throw_scene_error(
           scene, "integrator.rtol",
@@ -135,8 +136,9 @@ void choose_step(const Scene& scene, Model& model) {
 }
 
 // ω₁ by inverse iteration. Throws if something cannot do without; a note if equilibrium can.
-void find_omega_1(const Scene& scene, const Omega1Needs& needs, Model& model) {
-  const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*model.phase, 0, model.u);
+void find_omega_1(const Scene& scene, const Omega1Needs& needs, SetUp& set_up, Model& model) {
+  const FrequencyEstimate lowest =
+      set_up.shared(part_omega_1, model.mass, [&] { return omega_1_by_inverse_iteration(*model.phase, 0, model.u); });
   if (lowest.converged) {
     model.omega_1 = lowest.omega;
     const bool physical_mass = !(model.relaxation && model.relaxation->chooses_mass);
@@ -216,18 +218,20 @@ void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
 
 // begin(what) is told of each part before it is made.
 template <class Begin>
-Model make_parts(const Scene& scene, const Begin& begin) {
+Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   Model model;
+  SetUp set_up(store);
   const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
   model.static_method = catalogue().static_method(scene.solve.method);
   if (!model.static_method) model.relaxation = find_relaxation(strategy.name);
   const bool takes_c = !model.static_method && strategy.uses("c");
   model.method = find_method(scene.integrator.method, scene.integrator.treatment);
   begin("the material points, their weights and the mass");
-  model.phase = make_phase(scene);
+  model.phase = set_up.phase(scene);
+  model.mass = scene.mass;
   begin("the choice of a mass");
   const bool chooses_mass = model.relaxation && model.relaxation->chooses_mass;
-  const bool scaled = chooses_mass && choose_mass(scene, model);
+  const bool scaled = chooses_mass && choose_mass(scene, model, set_up, store);
   std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
   begin("the initial state");
   model.u = model.phase->initial_displacement(0);
@@ -236,13 +240,19 @@ Model make_parts(const Scene& scene, const Begin& begin) {
   check_initial_state(scene, *model.phase, model.u);
   std::ranges::move(load_notes(scene, *model.phase, model.u), std::back_inserter(model.notes));
   begin("the highest frequency");
-  if (!chooses_mass) model.omega_max = highest_frequency(scene, *model.phase, model.u);
+  if (!chooses_mass) {
+    model.omega_max =
+        set_up.shared("omega_max", model.mass, [&] { return highest_frequency(scene, *model.phase, model.u); });
+  }
   const Omega1Needs needs = omega_1_needs(scene, model.phase->size());
   begin("the lowest frequency, with a factor of the stiffness");
-  if (needs.any()) find_omega_1(scene, needs, model);
+  if (needs.any()) find_omega_1(scene, needs, set_up, model);
   begin("the norm of errors");
-  if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian)
-    model.volume_norm = volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);
+  if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian) {
+    model.volume_norm = set_up.shared("norm", model.mass, [&] {
+      return volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);
+    });
+  }
   if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
     model.notes.push_back(
         "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
@@ -254,7 +264,7 @@ Model make_parts(const Scene& scene, const Begin& begin) {
   model.distance_goal = distance_goal_of(scene, model);
   model.equilibrium_must_last = !model.static_method && !residual_bounds_error(scene, model);
   choose_strategy(scene, takes_c, model);
-  if (!model.static_method) set_tolerances(scene, model);
+  if (!model.static_method) set_tolerances(scene, set_up, model);
   choose_step(scene, model);
   if (takes_c && model.omega_1) {
     const double c = model.damping->linear().mass;
@@ -265,15 +275,17 @@ Model make_parts(const Scene& scene, const Begin& begin) {
   if (model.phase->info().stiffens && !scene.integrator.step) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);
   }
+  model.parts = set_up.parts();
+  model.spared_s = set_up.spared_s();
   return model;
 }
 
 }  // namespace
 
-Model make_model(const Scene& scene) {
+Model make_model(const Scene& scene, SetUpStore* store) {
   const char* part = "";
   try {
-    return make_parts(scene, [&](const char* what) {
+    return make_parts(scene, store, [&](const char* what) {
       heed_stop_request();
       part = what;
     });

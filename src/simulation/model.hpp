@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/set_up_store.hpp"
 #include "simulation/volume_norm.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
@@ -18,6 +19,7 @@ namespace stillpoint {
 
 struct Model {
   std::unique_ptr<LagrangianPhase> phase;
+  MassSpec mass;                          // that the phase was made with
   std::vector<double> u, v;               // initial values, (n) each
   double t = 0;                           // when it begins; the end of the loads for a static solver [s]
   std::optional<double> omega_1;          // [rad/s]; only if something needs it and the body is held
@@ -39,10 +41,13 @@ struct Model {
   // stiffening() at the beginning, if the step is to follow it: it was not asked for as such.
   std::optional<double> initial_stiffening;
   std::vector<std::string> notes;  // what a user should know of this scene's accuracy, a sentence each
+  std::vector<SetUpPart> parts;    // of the set-up, that take time
+  double spared_s = 0;             // of their times: what was not spent again, as a store had it [s]
 };
 
 /// Throws SceneError for what only shows once the scene is discretised: a body that is not held if c = "critical", a
-/// step past the critical one without a reason, a method that does not fit the damping.
-Model make_model(const Scene& scene);
+/// step past the critical one without a reason, a method that does not fit the damping. store: what others have found
+/// of the same body; null: nobody has.
+Model make_model(const Scene& scene, SetUpStore* store = nullptr);
 
 }  // namespace stillpoint

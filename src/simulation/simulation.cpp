@@ -37,7 +37,10 @@ long Simulation::steps() const { return impl_->steps(); }
 long Simulation::evaluations() const { return impl_->evaluations(); }
 int Simulation::phases() const { return impl_->phases_; }
 std::size_t Simulation::points() const { return impl_->model_.phase->points(); }
-double Simulation::residual() { return impl_->residual(); }
+double Simulation::residual() {
+  const ThreadScope threads(impl_->thread_choice_.threads());
+  return impl_->residual();
+}
 ConstVec Simulation::field(std::string_view name) { return impl_->field(name); }
 void Simulation::save(const std::filesystem::path& checkpoint) { impl_->save(checkpoint); }
 Summary Simulation::summary() {
@@ -49,7 +52,10 @@ LagrangianPhase& Simulation::phase() { return *impl_->model_.phase; }
 const LagrangianPhase& Simulation::phase() const { return *impl_->model_.phase; }
 RelaxationSystem& Simulation::system() { return impl_->motion_->system; }
 const Integrator& Simulation::integrator() const { return *impl_->motion_->integrator; }
-std::optional<double> Simulation::distance() { return impl_->distance(); }
+std::optional<double> Simulation::distance() {
+  const ThreadScope threads(impl_->thread_choice_.threads());
+  return impl_->distance();
+}
 bool Simulation::loads_settled() const { return impl_->schedule_.settled(impl_->t_); }
 
 }  // namespace stillpoint

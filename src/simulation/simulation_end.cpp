@@ -1,6 +1,7 @@
 // How a simulation ends: as it is asked to, wherever it is at, or by itself.
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,16 @@
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
+
+// --- for good ---
+
+// Others may take up the phase. What looks at it goes first.
+Simulation::Impl::~Impl() {
+  if (!options_.store) return;
+  recorder_.reset();
+  motion_.reset();
+  options_.store->give_back(model_.mass, std::move(model_.phase));
+}
 
 // --- because it is asked to ---
 
@@ -22,7 +33,7 @@ Model Simulation::Impl::set_up() {
   try {
     heed_stop_request();
     require_memory(scene_);
-    return make_model(scene_);
+    return make_model(scene_, options_.store);
   } catch (const Stopped&) {
     throw SetUpStopped(end_request_.status(), end_request_.reason() + " in the set-up; the run has not begun",
                        wall_.seconds());
@@ -36,7 +47,7 @@ std::optional<StepReport> Simulation::Impl::try_step(double landing) {
     return motion_->integrator->step(landing);
   } catch (const Stopped&) {
     end_as_asked("the step was not finished");
-    measured_ = false;
+    measured_ = has_residual_ = false;
     sample(true);
     if (leaves_checkpoints()) leave_checkpoint();
     return std::nullopt;

@@ -103,7 +103,7 @@ void Simulation::Impl::take_step(double t_stop) {
   }
   step_ = report.h;
   standstill_.observe(step_, t_ >= landing);
-  measured_ = false;
+  measured_ = has_residual_ = false;
   motion_->accept(t_);
   if (plastic_path_.due(t_)) watch_plastic_path();
   if (options_.stops) watch();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/stopwatch.hpp"
@@ -33,11 +34,15 @@ class Simulation::Impl {
  public:
   /// threads: that there are.
   Impl(Scene scene, SimulationOptions options, int threads);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   RunStatus step(double t_stop);
   bool done() const { return status_ != RunStatus::running; }
+  /// By itself it costs far less than all of measure(): a comparison asks for it after many steps.
   double residual() {
-    measure();
+    if (!measured_ && !std::exchange(has_residual_, true)) residual_ = motion_->residual(t_);
     return residual_;
   }
   std::optional<double> distance() {
@@ -124,8 +129,9 @@ class Simulation::Impl {
 
   long earlier_steps_ = 0, earlier_evaluations_ = 0, earlier_rejected_ = 0;  // of the phases before
   bool started_ = false;
-  bool is_readable_ = true;  // false if the points are between two phases, because the second could not begin
-  bool measured_ = false;    // whether the next five are of now
+  bool is_readable_ = true;    // false if the points are between two phases, because the second could not begin
+  bool measured_ = false;      // whether the next five are of now
+  bool has_residual_ = false;  // whether the first of them is
   double residual_ = 0, kinetic_energy_ = 0, work_scale_ = 0, power_ = 0;
   std::optional<double> distance_;
   EquilibriumStability stability_;

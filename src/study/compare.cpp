@@ -14,6 +14,8 @@
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
+#include "simulation/body_size.hpp"
+#include "simulation/thread_choice.hpp"
 #include "simulation/thread_scope.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/statics/static_methods.hpp"
@@ -25,41 +27,6 @@
 #include "study/transient_run.hpp"
 
 namespace stillpoint {
-
-std::string to_string(ComparedStatus status) {
-  switch (status) {
-    case ComparedStatus::converged:
-      return "converged";
-    case ComparedStatus::stalled:
-      return "stalled";
-    case ComparedStatus::unfinished:
-      return "unfinished";
-    case ComparedStatus::inaccurate:
-      return "inaccurate";
-    case ComparedStatus::diverged:
-      return "diverged";
-    case ComparedStatus::refused:
-      return "refused";
-    case ComparedStatus::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
-}
-
-std::string ComparedRun::label() const {
-  std::string text = strategy;
-  if (!integrator.empty() && integrator != IntegratorSpec{}.method) text += ", " + integrator;
-  if (step_fraction) text += fmt::format(" {:g}", *step_fraction);
-  if (rtol) text += fmt::format(" rtol {:g}", *rtol);
-  return text;
-}
-
-std::optional<double> Comparison::over_chebyshev_estimate(const ComparedRun& run) const {
-  if (!chebyshev_estimate || run.evaluations == 0) return std::nullopt;
-  return static_cast<double>(run.evaluations) / *chebyshev_estimate;
-}
-
-double chebyshev_estimate(double kappa, double error) { return 0.5 * std::sqrt(kappa) * std::log(2 / error); }
 
 namespace {
 
@@ -77,17 +44,22 @@ class Comparing {
     result_.title = scene_.title;
     result_.goal = options_.goal;
     result_.threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+    result_.chooses_threads = options_.threads == 0 && result_.threads > 1;
     result_.transient = scene_.stop.time > 0 && !scene_.stop.wants_equilibrium();
     candidates_ = candidates(options_, scene_, result_.transient);
   }
 
   Comparison compare() {
+    threads_of_solvers_ = threads_to_begin_with(options_.threads, body_size(scene_).points);
     const ThreadScope threads(result_.threads);
     total_ = static_cast<int>(candidates_.size());
+    seconds_.resize(candidates_.size());
     find_reference();
     count();
     time();
     for (Candidate& candidate : candidates_) result_.runs.push_back(std::move(candidate.run));
+    for (const std::vector<double>& times : seconds_) result_.timed_s += std::reduce(times.begin(), times.end());
+    result_.wall_s = wall_.seconds();
     return std::move(result_);
   }
 
@@ -111,6 +83,7 @@ class Comparing {
   // Without one nothing is compared: whoever interrupts this interrupts every candidate.
   void find_reference() {
     const StopScope scope(options_.interrupted);
+    const ThreadScope threads(threads_of_solvers_);
     try {
       if (result_.transient) return find_transient_reference();
       find_equilibrium();
@@ -122,9 +95,9 @@ class Comparing {
   }
 
   void find_equilibrium() {
-    Equilibrium found = stillpoint::find_equilibrium(scene_, result_.threads, options_.interrupted);
-    result_.dofs = found.state.phase->size();
-    result_.points = found.state.phase->points();
+    Equilibrium found = stillpoint::find_equilibrium(scene_, options_.threads, options_.interrupted, store_);
+    result_.dofs = found.state.u().size();
+    result_.points = found.points;
     result_.by_residual = !found.unique;
     result_.reference = found.method;
     result_.reference_residual = found.residual;
@@ -132,14 +105,18 @@ class Comparing {
     exact_.emplace(std::move(found.state));
   }
 
-  // κ of the elastic tangent where the body comes to rest.
+  // κ of the elastic tangent where the body comes to rest. In a linear body that is the one at the start, whose ω₁ the
+  // runs need as well.
   void measure_spectrum() {
-    const auto phase = make_phase(scene_);
-    const FrequencyEstimate lowest = omega_1_by_inverse_iteration(*phase, end_time(), exact_->u);
-    const FrequencyEstimate highest =
-        phase->size() > direct_solver_limit
-            ? omega_max_by_lanczos(*phase, end_time(), exact_->u, 40)
-            : omega_max_by_power_iteration(*phase, end_time(), exact_->u, {.tolerance = 1e-6});
+    std::unique_ptr<LagrangianPhase> phase = store_.phase(scene_).phase;
+    const std::vector<double>& u = exact_->u();
+    const auto omega_1_at_rest = [&] { return omega_1_by_inverse_iteration(*phase, end_time(), u); };
+    const FrequencyEstimate lowest =
+        phase->info().nonlinear ? omega_1_at_rest() : SetUp(&store_).shared(part_omega_1, scene_.mass, omega_1_at_rest);
+    const FrequencyEstimate highest = phase->size() > direct_solver_limit
+                                          ? omega_max_by_lanczos(*phase, end_time(), u, 40)
+                                          : omega_max_by_power_iteration(*phase, end_time(), u, {.tolerance = 1e-6});
+    store_.give_back(scene_.mass, std::move(phase));
     if (!lowest.converged || !(highest.omega > 0)) {
       result_.notes.push_back("there is no Chebyshev estimate: " + (lowest.converged ? highest.status : lowest.status));
       return;
@@ -151,40 +128,47 @@ class Comparing {
   }
 
   void find_ramp() {
-    ramp_ = slow_ramp(scene_, result_.notes);
-    if (ramp_) result_.ramp_difference = ramp_->error(exact_->u);
+    ramp_ = slow_ramp(scene_, store_, result_.notes);
+    if (ramp_) result_.ramp_difference = ramp_->error(exact_->u());
   }
 
   void find_transient_reference() {
-    const auto phase = make_phase(scene_);
+    std::unique_ptr<LagrangianPhase> phase = store_.phase(scene_).phase;
     result_.dofs = phase->size();
     result_.points = phase->points();
-    transient_ = transient_reference(scene_, [&](const std::vector<std::string>& more) { return load(more); });
+    store_.give_back(scene_.mass, std::move(phase));
+    const auto loading = [&](const std::vector<std::string>& more) { return load(more); };
+    transient_ = transient_reference(scene_, loading, store_);
     result_.reference = transient_->what;
   }
 
+  // Runs of a small body count side by side, and are timed later. One of a large body keeps all cores busy, and may as
+  // well be timed at once.
   void count() {
-    side_by_side(result_.threads, candidates_.size(), [&](std::size_t k) {
-      try_candidate(candidates_[k]);
+    constexpr std::size_t large_body = 20'000;
+    const bool one_by_one = result_.points > large_body || result_.threads == 1;
+    side_by_side(one_by_one ? 1 : result_.threads, candidates_.size(), [&](std::size_t k) {
+      const double seconds = try_candidate(candidates_[k], one_by_one ? options_.threads : 1);
+      const bool is_timed = one_by_one && options_.repeats > 0;
+      if (is_timed && candidates_[k].run.status == ComparedStatus::converged) seconds_[k].push_back(seconds);
       tell(candidates_[k].run.label());
     });
   }
 
-  void try_candidate(Candidate& candidate) const {
+  // Returns the wall time of its steps.
+  double try_candidate(Candidate& candidate, int threads) {
     if (is_interrupted()) {
       candidate.run.status = ComparedStatus::interrupted;
-      return;
+      return 0;
     }
     const StopScope scope(options_.interrupted);
     try {
       const Scene scene = load_for(candidate);
-      if (result_.transient) {
-        run_transient(scene, *transient_, options_.interrupted, candidate.run);
-      } else if (candidate.is_newton) {
-        solve(scene, candidate.run);
-      } else {
-        run_benchmark(scene, *exact_, limits(), candidate.run);
-      }
+      const ThreadScope all(threads > 0 ? threads : result_.threads);  // of which the run may choose
+      if (result_.transient)
+        return run_transient(scene, *transient_, threads, options_.interrupted, store_, candidate.run);
+      if (candidate.is_newton) return solve(scene, threads > 0 ? threads : threads_of_solvers_, candidate.run);
+      return run_benchmark(scene, *exact_, limits(threads), store_, candidate.run);
     } catch (const SceneError& error) {
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.problems().front().message;
@@ -198,23 +182,26 @@ class Comparing {
       candidate.run.status = ComparedStatus::diverged;
       candidate.run.reason = error.what();
     }
+    return 0;
   }
 
-  BenchmarkLimits limits() const {
+  BenchmarkLimits limits(int threads) const {
     const double estimate = result_.chebyshev_estimate.value_or(10'000);
     return {.goal = options_.goal,
             .by_residual = result_.by_residual,
             .evaluations = static_cast<long>(std::max(1000.0, options_.limit * estimate)),
             .seconds = options_.seconds,
+            .threads = threads,
             .ramp = ramp_ ? &*ramp_ : nullptr,
             .interrupted = options_.interrupted};
   }
 
   // Newton's method from the scene's start to the goal.
-  void solve(const Scene& scene, ComparedRun& run) const {
-    const Stopwatch setup;
-    const auto phase = make_phase(scene);
-    run.setup_s = setup.seconds();
+  double solve(const Scene& scene, int threads, ComparedRun& run) {
+    const ThreadScope scope(threads);
+    auto [phase, setup_s, made_now] = store_.phase(scene);
+    run.setup_s = setup_s;
+    run.setup_parts = {{"phase", setup_s}};
     std::vector<double> u = phase->initial_displacement(end_time());
     NewtonOptions newton_options;
     newton_options.solver = linear_solver_of(run.strategy);
@@ -232,6 +219,8 @@ class Comparing {
     run.memory_bytes =
         static_cast<std::size_t>(phase->bytes_per_point() * static_cast<double>(phase->points())) + report.factor_bytes;
     run.wall_s = spread_of({report.wall_s});
+    store_.give_back(scene.mass, std::move(phase));
+    return report.wall_s;
   }
 
   // Those that arrived, in random order, so that what the machine does meanwhile falls on all alike.
@@ -239,33 +228,32 @@ class Comparing {
     std::vector<std::size_t> jobs;
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
       if (candidates_[k].run.status != ComparedStatus::converged) continue;
-      jobs.insert(jobs.end(), static_cast<std::size_t>(std::max(0, options_.repeats)), k);
+      const int left = options_.repeats - static_cast<int>(seconds_[k].size());
+      jobs.insert(jobs.end(), static_cast<std::size_t>(std::max(0, left)), k);
     }
     std::shuffle(jobs.begin(), jobs.end(), std::mt19937(options_.seed));
     total_ += static_cast<int>(jobs.size());
-    std::vector<std::vector<double>> seconds(candidates_.size());
     for (const std::size_t k : jobs) {
       if (is_interrupted()) break;
       Candidate& candidate = candidates_[k];
       constexpr double enough = 3;  // seconds of one candidate: a long run says by itself how long it takes
-      if (std::reduce(seconds[k].begin(), seconds[k].end()) > enough) {
+      if (std::reduce(seconds_[k].begin(), seconds_[k].end()) > enough) {
         --total_;
         continue;
       }
       const Scene scene = load_for(candidate);
       if (candidate.is_newton) {
         ComparedRun again = candidate.run;
-        solve(scene, again);
-        seconds[k].push_back(again.wall_s->median);
+        seconds_[k].push_back(solve(scene, threads_of_solvers_, again));
       } else if (result_.transient) {
-        seconds[k].push_back(time_transient(scene, result_.threads));
+        seconds_[k].push_back(time_transient(scene, options_.threads, store_));
       } else {
-        seconds[k].push_back(time_benchmark(scene, candidate.run.steps, result_.threads));
+        seconds_[k].push_back(time_benchmark(scene, candidate.run.steps, options_.threads, store_));
       }
       tell("timing " + candidate.run.label());
     }
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
-      if (!seconds[k].empty()) candidates_[k].run.wall_s = spread_of(seconds[k]);
+      if (!seconds_[k].empty()) candidates_[k].run.wall_s = spread_of(seconds_[k]);
     }
   }
 
@@ -282,6 +270,9 @@ class Comparing {
   Scene scene_;
   Comparison result_;
   std::vector<Candidate> candidates_;
+  std::vector<std::vector<double>> seconds_;  // wall times of each
+  int threads_of_solvers_ = 1;
+  SetUpStore store_;
   std::optional<ReferenceSolution> exact_, ramp_;
   std::optional<TransientReference> transient_;
   Stopwatch wall_;

@@ -18,16 +18,16 @@ std::string cell(const std::optional<double>& value) {
 std::string csv(const Comparison& c) {
   std::string text =
       "strategy,integrator,step_fraction,rtol,status,steps,evaluations,first_evaluations,over_lower_bound,wall_s,"
-      "wall_least_s,wall_most_s,setup_s,error,residual,distance,overshoot,memory_bytes,reason\n";
+      "wall_least_s,wall_most_s,setup_s,error,residual,distance,overshoot,memory_bytes,reason,total_s\n";
   for (const ComparedRun& run : c.runs) {
     const auto& wall = run.wall_s;
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{},{},{},{}\n", run.strategy, run.integrator,
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{},{},{},{},{}\n", run.strategy, run.integrator,
         cell(run.step_fraction), cell(run.rtol), to_string(run.status), run.steps, run.evaluations,
         run.first_evaluations, cell(c.over_chebyshev_estimate(run)),
         cell(wall ? std::optional(wall->median) : std::nullopt), cell(wall ? std::optional(wall->least) : std::nullopt),
         cell(wall ? std::optional(wall->most) : std::nullopt), run.setup_s, cell(run.error), cell(run.residual),
-        cell(run.distance), cell(run.overshoot), run.memory_bytes, quoted(run.reason));
+        cell(run.distance), cell(run.overshoot), run.memory_bytes, quoted(run.reason), cell(run.total_s()));
   }
   return text;
 }
@@ -41,6 +41,8 @@ std::string json(const Comparison& c) {
     }
     Json wall = nullptr;
     if (run.wall_s) wall = {{"median", run.wall_s->median}, {"least", run.wall_s->least}, {"most", run.wall_s->most}};
+    Json parts = Json::object();
+    for (const auto& [part, seconds] : run.setup_parts) parts[part] = number(seconds);
     runs.push_back({{"label", run.label()},
                     {"strategy", run.strategy},
                     {"integrator", run.integrator},
@@ -54,7 +56,9 @@ std::string json(const Comparison& c) {
                     {"estimating", run.estimating},
                     {"over_lower_bound", number(c.over_chebyshev_estimate(run))},
                     {"setup_s", number(run.setup_s)},
+                    {"setup_parts_s", parts},
                     {"wall_s", wall},
+                    {"total_s", number(run.total_s())},
                     {"error", number(run.error)},
                     {"residual", number(run.residual)},
                     {"distance", number(run.distance)},
@@ -67,6 +71,7 @@ std::string json(const Comparison& c) {
                       {"dofs", c.dofs},
                       {"points", c.points},
                       {"threads", c.threads},
+                      {"chooses_threads", c.chooses_threads},
                       {"transient", c.transient},
                       {"goal", c.goal},
                       {"goal_of", c.by_residual ? "residual" : "error"},
@@ -78,6 +83,8 @@ std::string json(const Comparison& c) {
                       {"reference_residual", number(c.reference_residual)},
                       {"ramp_difference", number(c.ramp_difference)},
                       {"sample", {"evaluations", "error", "residual", "distance"}},
+                      {"wall_s", c.wall_s},
+                      {"timed_s", c.timed_s},
                       {"runs", runs},
                       {"notes", c.notes},
                       {"versions", versions_of_libraries()}};

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "base/parallel_loop.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/load_schedule.hpp"
 
@@ -16,59 +19,70 @@ namespace {
 
 constexpr double tight_in_motion = 1e-10;
 
-double mass_norm(const Mass& mass, ConstVec x) {
-  std::vector<double> Mx(x.size());
-  mass.apply(x, Mx);
-  double sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * Mx[i];
-  return std::sqrt(sum);
-}
-
-// As near as rounding lets it come.
-bool solve(const Scene& scene, Equilibrium& found) {
-  std::string reason;
-  for (const double tolerance : {reference_residual, 1e2 * reference_residual, 1e4 * reference_residual}) {
-    const auto phase = make_phase(scene);
-    std::vector<double> u = phase->initial_displacement(scene.stop.time);
-    const StaticReport report = newton(*phase, scene.stop.time, u, {.tolerance = tolerance});
-    reason = report.reason;
-    if (!report.converged) continue;
-    found.state.u = u;
-    found.residual = report.residual;
-    found.method = report.lu_factorisations > 0 ? "Newton's method, UMFPACK" : "Newton's method, CHOLMOD";
-    return true;
+// ‖a − b‖_M, in one pass where M is diagonal.
+double mass_norm_of_difference(const Mass& mass, ConstVec a, ConstVec b) {
+  const std::size_t n = a.size();
+  const double* const a_ = a.data();
+  const double* const b_ = b.data();
+  if (mass.is_diagonal()) {
+    return std::sqrt(sum_over(n, [=, m = mass.diagonal().data()](std::size_t i) {
+      const double difference = a_[i] - b_[i];
+      return m[i] * difference * difference;
+    }));
   }
-  found.notes.push_back("Newton's method found no reference: " + reason);
-  return false;
+  std::vector<double> x(n), Mx(n);
+  for_each_index(n, [=, x = x.data()](std::size_t i) { x[i] = a_[i] - b_[i]; });
+  mass.apply(x, Mx);
+  return std::sqrt(sum_over(n, [x = x.data(), Mx = Mx.data()](std::size_t i) { return x[i] * Mx[i]; }));
 }
 
-void relax(Scene scene, int threads, const std::function<bool()>& interrupted, Equilibrium& found) {
+struct Found {
+  std::vector<double> u;  // (n)
+  std::string method;
+  double residual = 0;
+};
+
+// As near as rounding lets it come. Leaves what it found in the phase.
+std::optional<Found> solve(const Scene& scene, LagrangianPhase& phase, std::vector<std::string>& notes) {
+  constexpr double near_enough = 1e4 * reference_residual;
+  std::vector<double> u = phase.initial_displacement(scene.stop.time);
+  const StaticReport report =
+      newton(phase, scene.stop.time, u, {.tolerance = reference_residual, .near_enough = near_enough});
+  if (report.converged) {
+    const bool by_lu = report.lu_factorisations > 0;
+    return Found{std::move(u), by_lu ? "Newton's method, UMFPACK" : "Newton's method, CHOLMOD", report.residual};
+  }
+  notes.push_back("Newton's method found no reference: " + report.reason);
+  return std::nullopt;
+}
+
+Found relax(Scene scene, int threads, const std::function<bool()>& interrupted, SetUpStore& store,
+            std::vector<std::string>& notes) {
   scene.stop.residual = tight_in_motion;
   scene.stop.distance = 0;
   scene.output.snapshots.clear();
-  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted});
+  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted, .store = &store});
   simulation.run();
   const Summary summary = simulation.summary();
-  found.state.u.assign(simulation.u().begin(), simulation.u().end());
-  found.method = fmt::format("relaxation by {} damping", summary.damping);
-  found.residual = summary.residual;
-  if (summary.status != RunStatus::equilibrium) {
-    found.notes.push_back(fmt::format("the reference is no equilibrium: {}", summary.reason));
-  }
+  if (summary.status != RunStatus::equilibrium)
+    notes.push_back(fmt::format("the reference is no equilibrium: {}", summary.reason));
+  return {{simulation.u().begin(), simulation.u().end()},
+          fmt::format("relaxation by {} damping", summary.damping),
+          summary.residual};
 }
 
 }  // namespace
 
-double ReferenceSolution::size() const { return mass_norm(phase->mass(), u); }
+ReferenceSolution::ReferenceSolution(std::vector<double> u, Mass mass)
+    : u_(std::move(u)),
+      mass_(std::move(mass)),
+      size_(mass_norm_of_difference(mass_, u_, std::vector<double>(u_.size()))) {}
 
-double ReferenceSolution::error(ConstVec at) const {
-  std::vector<double> difference(u.size());
-  for (std::size_t i = 0; i < u.size(); ++i) difference[i] = at[i] - u[i];
-  return mass_norm(phase->mass(), difference) / size();
-}
+double ReferenceSolution::error(ConstVec u) const { return mass_norm_of_difference(mass_, u, u_) / size_; }
 
-Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted) {
-  const std::shared_ptr<LagrangianPhase> phase = make_phase(scene);
+Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted,
+                             SetUpStore& store) {
+  std::unique_ptr<LagrangianPhase> phase = store.phase(scene).phase;
   if (phase->info().updated_lagrangian) {
     throw_scene_error(
         scene, "phase",
@@ -87,16 +101,26 @@ Equilibrium find_equilibrium(const Scene& scene, int threads, const std::functio
   };
   const std::vector<double> load = total_load_at(*phase, scene.stop.time);
   if (!phase->contact() && std::ranges::all_of(load, [](double force) { return force == 0; })) refuse();
-  Equilibrium found;
-  found.state = {phase->initial_displacement(scene.stop.time), phase};
-  found.unique = !phase->history_dependent() && !phase->contact();
-  if (phase->contact() || !solve(scene, found)) relax(scene, threads, interrupted, found);
-  if (!(found.state.size() > 0)) refuse();  // as where walls do not move
-  return found;
+  const bool unique = !phase->history_dependent() && !phase->contact();
+  const std::size_t points = phase->points();
+  const Mass mass = phase->mass();
+  std::vector<std::string> notes;
+  std::optional<Found> found;
+  if (!phase->contact()) found = solve(scene, *phase, notes);
+  store.give_back(scene.mass, std::move(phase));
+  if (!found) found = relax(scene, threads, interrupted, store, notes);
+  Equilibrium equilibrium{.state = {std::move(found->u), mass},
+                          .points = points,
+                          .method = found->method,
+                          .residual = found->residual,
+                          .unique = unique,
+                          .notes = std::move(notes)};
+  if (!(equilibrium.state.size() > 0)) refuse();  // as where walls do not move
+  return equilibrium;
 }
 
-std::optional<ReferenceSolution> slow_ramp(const Scene& scene, std::vector<std::string>& notes) {
-  const std::shared_ptr<LagrangianPhase> phase = make_phase(scene);
+std::optional<ReferenceSolution> slow_ramp(const Scene& scene, SetUpStore& store, std::vector<std::string>& notes) {
+  std::unique_ptr<LagrangianPhase> phase = store.phase(scene).phase;
   if (phase->contact()) {
     notes.emplace_back("no slow ramp: Newton's method has no contact");
     return std::nullopt;
@@ -105,7 +129,9 @@ std::optional<ReferenceSolution> slow_ramp(const Scene& scene, std::vector<std::
   std::vector<double> u = phase->initial_displacement(0);
   const StaticReport report =
       newton(*phase, scene.stop.time, u, {.tolerance = 1e-9, .load_steps = steps, .max_load_step = 1.0 / steps});
-  if (report.converged) return ReferenceSolution{u, phase};
+  const Mass mass = phase->mass();
+  store.give_back(scene.mass, std::move(phase));
+  if (report.converged) return ReferenceSolution(u, mass);
   notes.push_back(fmt::format("the slow ramp ends at {:.3g} of the load: {}", report.load_factor, report.reason));
   return std::nullopt;
 }

@@ -4,30 +4,37 @@
 #include <stillpoint/scene.hpp>
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "space/phase/lagrangian_phase.hpp"
+#include "simulation/set_up_store.hpp"
 
 namespace stillpoint {
 
 /// The residual to which a reference is solved.
 inline constexpr double reference_residual = 1e-12;
 
-struct ReferenceSolution {
-  std::vector<double> u;                         // (n)
-  std::shared_ptr<const LagrangianPhase> phase;  // whose mass errors are measured with
+class ReferenceSolution {
+ public:
+  /// u: u*, (n); mass: what errors are measured with.
+  ReferenceSolution(std::vector<double> u, Mass mass);
+  const std::vector<double>& u() const { return u_; }
   /// ‖u*‖_M
-  double size() const;
+  double size() const { return size_; }
   /// ‖u − u*‖_M/‖u*‖_M
   double error(ConstVec u) const;
+
+ private:
+  std::vector<double> u_;
+  Mass mass_;
+  double size_;
 };
 
 /// Where it comes from.
 struct Equilibrium {
   ReferenceSolution state;
+  std::size_t points = 0;
   std::string method;
   double residual = 0;  // ‖F − R‖/‖F‖
   bool unique = true;   // whether all ways lead there: no history, no contact
@@ -37,10 +44,11 @@ struct Equilibrium {
 /// By Newton's method in one load step, or if it has no answer by the scene's own relaxation. At stop.time if
 /// that is set. Throws SceneError for a scene of several phases, with loads that have no end, or if nothing is
 /// displaced.
-Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted);
+Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted,
+                             SetUpStore& store);
 
 /// The limit of slow loading: equilibrium after equilibrium, in 64 load steps. Nothing, and a note, if there is
 /// none.
-std::optional<ReferenceSolution> slow_ramp(const Scene& scene, std::vector<std::string>& notes);
+std::optional<ReferenceSolution> slow_ramp(const Scene& scene, SetUpStore& store, std::vector<std::string>& notes);
 
 }  // namespace stillpoint

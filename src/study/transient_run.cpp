@@ -6,25 +6,35 @@
 
 #include <fmt/format.h>
 
+#include "base/stopwatch.hpp"
 #include "simulation/catalogue.hpp"
 #include "space/phase/lagrangian_phase.hpp"
+#include "study/benchmark_run.hpp"
 
 namespace stillpoint {
 namespace {
 
 struct Ended {
   Summary summary;
+  ComparedRun set_up;  // its set-up alone
   std::vector<double> displacement;
 };
 
-Ended follow(Scene scene, int threads, const std::function<bool()>& interrupted = {}) {
+Ended follow(Scene scene, int threads, SetUpStore& store, const std::function<bool()>& interrupted = {}) {
   scene.output.snapshots.clear();
   scene.output.fields_every = 0;
   scene.output.every = scene.stop.time;  // a row costs time, and bends the steps
-  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted});
+  const Stopwatch watch;
+  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted, .store = &store});
+  ComparedRun set_up;
+  fill_set_up(simulation.model(), watch.seconds(), set_up);
   simulation.run();
   const ConstVec u = simulation.field("u");
-  return {simulation.summary(), {u.begin(), u.end()}};
+  return {simulation.summary(), std::move(set_up), {u.begin(), u.end()}};
+}
+
+double stepping_s(const Summary& s) {
+  return 1e-9 * s.ns_per_point_step * static_cast<double>(s.steps) * static_cast<double>(s.points);
 }
 
 double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -39,15 +49,17 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
 }  // namespace
 
 TransientReference transient_reference(const Scene& scene,
-                                       const std::function<Scene(const std::vector<std::string>&)>& load) {
-  const auto phase = make_phase(scene);
+                                       const std::function<Scene(const std::vector<std::string>&)>& load,
+                                       SetUpStore& store) {
+  std::unique_ptr<LagrangianPhase> phase = store.phase(scene).phase;
   const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
   const bool smooth = !phase->history_dependent() && !phase->contact() && !phase->info().updated_lagrangian &&
                       !strategy.is_local && !strategy.is_relaxation;
+  store.give_back(scene.mass, std::move(phase));
   const std::vector<std::string> overrides =
       smooth ? std::vector<std::string>{"integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-11"}
              : std::vector<std::string>{"integrator.method=leapfrog", "integrator.step_fraction=0.0625"};
-  Ended ended = follow(load(overrides), 0);
+  Ended ended = follow(load(overrides), 0, store);
   if (ended.summary.status != RunStatus::end_time) {
     throw std::runtime_error("the reference of the transient did not reach stop.time: " + ended.summary.reason);
   }
@@ -55,9 +67,11 @@ TransientReference transient_reference(const Scene& scene,
           smooth ? "erk:fehlberg-13-7-8 at rtol 1e-11" : "leapfrog at a sixteenth of the critical step"};
 }
 
-void run_transient(const Scene& scene, const TransientReference& reference, const std::function<bool()>& interrupted,
-                   ComparedRun& run) {
-  const Ended ended = follow(scene, 1, interrupted);
+double run_transient(const Scene& scene, const TransientReference& reference, int threads,
+                     const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run) {
+  const Ended ended = follow(scene, threads, store, interrupted);
+  run.setup_s = ended.set_up.setup_s;
+  run.setup_parts = ended.set_up.setup_parts;
   run.steps = ended.summary.steps;
   run.evaluations = run.first_evaluations = ended.summary.rhs_evaluations;
   run.residual = ended.summary.residual;
@@ -68,21 +82,22 @@ void run_transient(const Scene& scene, const TransientReference& reference, cons
       break;
     case RunStatus::interrupted:
       run.status = ComparedStatus::interrupted;
-      return;
+      return 0;
     default:
       run.status = ComparedStatus::diverged;
-      return;
+      return 0;
   }
   run.error = relative_difference(ended.displacement, reference.displacement);
   run.samples.push_back({run.evaluations, run.error, run.residual, std::nullopt});
-  if (run.error < 1) return;  // false for NaN as well
+  const double seconds = stepping_s(ended.summary);
+  if (run.error < 1) return seconds;  // false for NaN as well
   run.status = ComparedStatus::inaccurate;
   run.reason = fmt::format("error {:.3g} at t = {:.6g}: as large as the displacement", run.error, ended.summary.t);
+  return seconds;
 }
 
-double time_transient(const Scene& scene, int threads) {
-  const Summary s = follow(scene, threads).summary;
-  return 1e-9 * s.ns_per_point_step * static_cast<double>(s.steps) * static_cast<double>(s.points);
+double time_transient(const Scene& scene, int threads, SetUpStore& store) {
+  return stepping_s(follow(scene, threads, store).summary);
 }
 
 }  // namespace stillpoint

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "simulation/set_up_store.hpp"
+
 namespace stillpoint {
 
 struct TransientReference {
@@ -18,12 +20,13 @@ struct TransientReference {
 /// sixteenth of the critical step if laws remember, walls touch or phases follow each other. load: the scene under
 /// more overrides.
 TransientReference transient_reference(const Scene& scene,
-                                       const std::function<Scene(const std::vector<std::string>&)>& load);
+                                       const std::function<Scene(const std::vector<std::string>&)>& load,
+                                       SetUpStore& store);
 
-/// Fills the row: one point of its way, at stop.time.
-void run_transient(const Scene& scene, const TransientReference& reference, const std::function<bool()>& interrupted,
-                   ComparedRun& run);
+/// Fills the row: one point of its way, at stop.time. Returns the wall time of the steps [s].
+double run_transient(const Scene& scene, const TransientReference& reference, int threads,
+                     const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run);
 /// Wall time of the steps of the same run [s].
-double time_transient(const Scene& scene, int threads);
+double time_transient(const Scene& scene, int threads, SetUpStore& store);
 
 }  // namespace stillpoint

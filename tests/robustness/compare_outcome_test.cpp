@@ -135,11 +135,45 @@ TEST_CASE("a comparison's files are whole: a line and an object a run, and null 
   CHECK(newton["wall_s"]["least"] <= newton["wall_s"]["median"]);
   CHECK(newton["wall_s"]["median"] <= newton["wall_s"]["most"]);
   CHECK(newton["step_fraction"].is_null());
+  CHECK(newton["total_s"].get<double>() >= newton["wall_s"]["median"].get<double>());
   const auto& viscous = json["runs"][0];
   CHECK(viscous["status"] == "diverged");
   CHECK(viscous["wall_s"].is_null());
+  CHECK(viscous["total_s"].is_null());
   CHECK(viscous["samples"].size() == row(c, "viscous 0.9").samples.size());
   CHECK(viscous["samples"][0].size() == json["sample"].size());
+}
+
+TEST_CASE("a row has the time that its own set-up would take, whoever made its parts, by part and in total",
+          "[compare]") {
+  const TemporaryFolder folder;
+  const Comparison c = compared("column", {.strategies = {"viscous", "kinetic", "newton"}, .repeats = 1});
+  for (const ComparedRun& run : c.runs) {
+    CAPTURE(run.label());
+    double parts = 0;
+    for (const auto& [part, seconds] : run.setup_parts) {
+      CHECK(seconds > 0);
+      parts += seconds;
+    }
+    CHECK(parts > 0);
+    CHECK(run.setup_s >= parts);
+    CHECK(run.total_s().value() == run.setup_s + run.wall_s->median);
+  }
+  const auto omega_1 = [&](const char* label) {
+    for (const auto& [part, seconds] : row(c, label).setup_parts)
+      if (part == "omega_1") return seconds;
+    throw std::out_of_range("no omega_1");
+  };
+  CHECK(omega_1("viscous 0.9") == omega_1("kinetic 0.9"));  // made once
+  CHECK(c.timed_s > 0);
+  CHECK(c.wall_s > c.timed_s);
+  write_comparison(c, folder.path());
+  const auto json = json_of(folder.path() / "compare.json");
+  CHECK(json["runs"][0]["setup_parts_s"]["omega_1"].get<double>() == omega_1("viscous 0.9"));
+  std::istringstream csv(contents(folder.path() / "compare.csv"));
+  std::string heading;
+  std::getline(csv, heading);
+  CHECK(heading.ends_with(",total_s"));
 }
 
 TEST_CASE("a row that was refused has no error in the files, not one of 0", "[compare]") {

@@ -1,5 +1,8 @@
 #include <stillpoint/static_solution.hpp>
 
+#include <algorithm>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +21,15 @@ namespace {
 
 bool symmetric(const SparseMatrix& K, double tolerance) {
   return (K - SparseMatrix(K.transpose())).norm() <= tolerance * K.norm();
+}
+
+bool same(const SparseMatrix& A, const SparseMatrix& B) {
+  const auto all = [](const SparseMatrix& matrix, const auto* values) {
+    return std::span(values, static_cast<std::size_t>(matrix.nonZeros()));
+  };
+  return A.rows() == B.rows() && A.nonZeros() == B.nonZeros() &&
+         std::ranges::equal(all(A, A.valuePtr()), all(B, B.valuePtr())) &&
+         std::ranges::equal(all(A, A.innerIndexPtr()), all(B, B.innerIndexPtr()));
 }
 
 class Newton {
@@ -99,7 +111,13 @@ class Newton {
       }
       heed_stop_request();
       ++report_.iterations;
-      if (!(consistent_direction(step.to, u) && descend(step.to, u, residual))) {
+      const double before = residual;
+      const bool nearer = consistent_direction(step.to, u) && descend(step.to, u, before);
+      if (!nearer && before <= options_.near_enough) {
+        balance_.evaluate(step.to, u);
+        break;
+      }
+      if (!nearer) {
         // Open or just yielding points may leave K singular; K_e never is in a body that is held.
         ++report_.elastic_iterations;
         if (!balance_.evaluate(step.to, u) || !elastic_direction(u) || !descend(step.to, u, residual)) {
@@ -109,6 +127,10 @@ class Newton {
       }
       residual = balance_.residual();
       step.residuals.push_back(residual);
+      constexpr double as_of_a_linear_system = 1e-6;
+      if (!is_used_again_ && !(residual <= as_of_a_linear_system * before)) forget_factor();
+      constexpr double hardly = 0.9;
+      if (residual <= options_.near_enough && residual > hardly * before) break;
     }
     if (indefinite_ && !accepts_) {
       refused_ = true;
@@ -117,7 +139,10 @@ class Newton {
     }
     step.converged = true;
     report_.residual = residual;
-    report_.reason = fmt::format("residual {:.3g} ≤ tolerance {:.3g}", residual, options_.tolerance);
+    report_.reason = residual <= options_.tolerance
+                         ? fmt::format("residual {:.3g} ≤ tolerance {:.3g}", residual, options_.tolerance)
+                         : fmt::format("residual {:.3g} > tolerance {:.3g}, as small as rounding lets it become",
+                                       residual, options_.tolerance);
     return true;
   }
 
@@ -170,11 +195,22 @@ class Newton {
   }
 
   bool by_cholesky(const SparseMatrix& K) {
-    const SparseCholesky factor(K);
-    ++report_.cholesky_factorisations;
-    report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
-    if (factor.positive_definite()) factor.solve(balance_.Q.span(), du_);
-    return factor.positive_definite();
+    is_used_again_ = factor_ && same(K, factorised_);
+    if (!is_used_again_) {
+      forget_factor();  // first: there may be no room for two
+      factorised_ = K;
+      factor_.emplace(K);
+      ++report_.cholesky_factorisations;
+      report_.factor_bytes = std::max(report_.factor_bytes, factor_->bytes());
+    }
+    const bool definite = factor_->positive_definite();
+    if (definite) factor_->solve(balance_.Q.span(), du_);
+    if (!definite) forget_factor();
+    return definite;
+  }
+  void forget_factor() {
+    factor_.reset();
+    factorised_ = {};
   }
   bool by_lu(const SparseMatrix& K) {
     const SparseLu factor(K);
@@ -208,6 +244,9 @@ class Newton {
   const NewtonOptions& options_;
   StaticBalance balance_;
   std::vector<double> trial_, du_;
+  SparseMatrix factorised_;               // K of the factor
+  std::optional<SparseCholesky> factor_;  // kept where the next K may be the same
+  bool is_used_again_ = false;            // whether K was
   static constexpr int most_short_steps = 3;
   static constexpr double short_step = 0.3;
   bool full_steps_ = false;  // whatever ‖Q‖ does
@@ -222,6 +261,7 @@ class Newton {
 
 std::string NewtonOptions::validate() const {
   if (!(tolerance > 0)) return fmt::format("tolerance = {}, expected > 0", tolerance);
+  if (!(near_enough >= 0)) return fmt::format("near_enough = {}, expected ≥ 0", near_enough);
   if (max_iterations < 1) return fmt::format("max_iterations = {}, expected ≥ 1", max_iterations);
   if (load_steps < 1) return fmt::format("load_steps = {}, expected ≥ 1", load_steps);
   if (!(max_load_step > 0)) return fmt::format("max_load_step = {}, expected > 0", max_load_step);

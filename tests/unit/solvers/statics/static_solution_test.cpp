@@ -97,6 +97,25 @@ TEST_CASE("Newton's method gives the exact self-weight column in one iteration, 
   CHECK(exact_error(scene, *s.phase, 0, s.u)->u_rel_l2 == Approx(expected).epsilon(0.01));
 }
 
+TEST_CASE(
+    "a tolerance that rounding does not reach is met as nearly as it can be, by one factor, if the caller says so") {
+  const NewtonOptions unreachable{.tolerance = 1e-25};
+  CHECK_FALSE(solve(column(), unreachable).report.converged);
+  NewtonOptions near = unreachable;
+  near.near_enough = 1e-8;
+  const Solved s = solve(column(), near);
+  INFO(shown(s.report));
+  CHECK(s.report.converged);
+  CHECK(s.report.residual < 1e-12);  // a few hundred roundings
+  CHECK(s.report.iterations <= 8);
+  CHECK(s.report.cholesky_factorisations == 1);
+  CHECK(s.report.elastic_iterations == 0);
+  CHECK_THAT(s.report.reason, Contains("as small as rounding lets it become"));
+  CHECK(distance(s.u, solve(column()).u) < 1e-12);
+  near.near_enough = -1;
+  CHECK_THROWS_WITH(solve(column(), near), Contains("near_enough"));
+}
+
 TEST_CASE("Newton's method agrees with an independent one at large strain, and converges with order 2") {
   for (const auto& law : large_strain) {
     for (const std::string state : {"plane-strain", "axisymmetric"}) {

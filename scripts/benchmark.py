@@ -1,0 +1,152 @@
+#!/usr/bin/python3
+"""benchmark.py [--old DIR] [--repeats N] [--quick] [--accept]: how fast Stillpoint is here, in one table.
+
+A step and a change of phase in ns a point (stillpoint_benchmarks), whole runs and runs with a change of phase in each
+step in ns a point and step, what comes before the steps, and force evaluations (stillpoint run); on 1 and 2 threads.
+With --old the same of two other programs, one after the other in each repetition, so that what the machine does
+meanwhile falls on both. Of all repetitions the least counts, as others can only make a program slower; the last column
+says how far the slowest was above it: ratios of figures that swing by more than they differ say nothing. --accept writes
+the table to tests/benchmark/README.md. Exit status 2 and a message if something does not run.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from benchmark_table import BadFigures, Figures, markdown, of_benchmarks, of_summary, terminal_table, write_readme
+
+ROOT = Path(__file__).resolve().parent.parent
+BASES = ["linear", "quadratic"]
+LAWS = {0: "linear elastic", 3: "Drucker-Prager"}  # by their numbers in plane_step.cpp
+ELASTIC = ["problems/incompressible.toml", "constants.nu=0.3", "grid.cells=[120,96]", "damping.strategy=viscous"]
+SLOPE = ["problems/slope.toml", "output.stages=[]"]
+
+
+def microbenchmarks(threads):
+    """[(what, threads, name in stillpoint_benchmarks)]"""
+    rows = [
+        (f"a step, {BASES[b]}, {law}", n, f"plane_step/basis:{b}/law:{number}/threads:{n}")
+        for b in range(2) for number, law in LAWS.items() for n in threads
+    ]  # fmt: skip
+    return rows + [
+        (f"a change of phase, {BASES[b]}", n, f"change_of_phase/basis:{b}/threads:{n}") for b in range(2) for n in threads
+    ]
+
+
+def runs(threads, quick):
+    """[(what, threads, scene and settings, kinds of figures)]"""
+    end = 0.02 if quick else 0.1
+    rows = []
+    for n in threads:
+        for basis in BASES:
+            rows.append((f"the slope, {basis}", n, [*SLOPE, f"grid.basis={basis}", f"stop.time={5 * end}"], ["step"]))
+            classical = [*SLOPE, f"grid.basis={basis}", f"stop.time={end}", "phase.max_motion=0"]
+            rows.append((f"the slope, {basis}, max_motion = 0", n, classical, ["step"]))
+        for basis in BASES:
+            steps = ["stop.steps=100"] if quick else []
+            kinds = ["step", "set-up", "whole", "evaluations"]
+            rows.append((f"an elastic block to rest, {basis}", n, [*ELASTIC, f"grid.basis={basis}", *steps], kinds))
+    return rows
+
+
+def output_of(command):
+    # As the command has it for itself: threads that wait long for each other take a busy machine's cores.
+    environment = {"GOMP_SPINCOUNT": "20000"} | os.environ
+    words = [str(word) for word in command]
+    done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 3):  # 3: ended by stop.steps
+        raise BadFigures(f"{Path(command[0]).name} ended with {done.returncode}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def time_of(program, name, least_seconds):
+    """ns a point; nothing if the program does not have it."""
+    words = ["--benchmark_format=json", f"--benchmark_filter=^{name}/real_time$", f"--benchmark_min_time={least_seconds}"]
+    text = output_of([program / "stillpoint_benchmarks", *words])
+    return of_benchmarks(json.loads(text)).get(name) if text.strip() else None
+
+
+def figures_of(program, scene, threads):
+    with tempfile.TemporaryDirectory() as folder:
+        settings = [word for setting in scene[1:] for word in ("--set", setting)]
+        options = ["--threads", threads, "--quiet", "--out", folder]
+        output_of([program / "stillpoint", "run", scene[0], *settings, *options])
+        return of_summary(json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8")))
+
+
+def measure(programs, options):
+    """programs: {name: folder}"""
+    figures = Figures(list(programs))
+    small, large = microbenchmarks(options.threads), runs(options.threads, options.quick)
+    for repetition in range(options.repeats):
+        print(f"[{repetition + 1}/{options.repeats}]", file=sys.stderr, flush=True)
+        # Each goes first as often as the other.
+        order = list(programs.items())[:: -1 if repetition % 2 else 1]
+        for what, threads, name in small:
+            for program, folder in order:
+                if (value := time_of(folder, name, 0.02 if options.quick else 0.2)) is not None:
+                    figures.add(f"{what}: ns a point", threads, "ns", program, value)
+        for what, threads, scene, kinds in large:
+            for program, folder in order:
+                found = figures_of(folder, scene, threads)
+                for kind in kinds:
+                    value, unit = found[kind]
+                    named = {"step": "ns a point and step", "whole": "in all"}.get(kind, kind)
+                    figures.add(f"{what}: {named}", threads, unit, program, value)
+    return figures
+
+
+def described(options, load):
+    def git(*words):
+        done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+        return done.stdout.strip()
+
+    name = git("rev-parse", "--short", "HEAD") or "no commit"
+    changed = " with changes" if git("status", "--porcelain", "--untracked-files=no") else ""
+    against = f", beside {options.old_name}" if options.old else ""
+    return (
+        f"Commit {name}{changed}{against}, {os.cpu_count()} cores, the least of {options.repeats} repetitions in turn, "
+        f"others' load {load:.1f} when they began"
+        + (", short runs." if options.quick else ".")
+    )
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = parser.add_argument
+    add("--old", type=Path, metavar="DIR", help="a folder with other programs stillpoint and stillpoint_benchmarks")
+    add("--old-name", default="other programs", help=argparse.SUPPRESS)
+    add("--new", type=Path, default=ROOT / "build/release", help=argparse.SUPPRESS)
+    add("--repeats", type=int, default=5)
+    add("--threads", type=int, nargs="+", default=[1, 2], choices=[1, 2])
+    add("--quick", action="store_true", help="short runs, for a first look")
+    add("--accept", action="store_true", help="write the table to tests/benchmark/README.md")
+    add("--readme", type=Path, default=ROOT / "tests/benchmark/README.md", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.repeats < 1:
+        parser.error("--repeats: expected 1 or more")
+    return options
+
+
+def main():
+    options = parse()
+    new = options.new.resolve()
+    programs = {"old": options.old.resolve(), "new": new} if options.old else {"least": new}
+    load = os.getloadavg()[0]
+    try:
+        figures = measure(programs, options)
+        print(described(options, load) + "\n\n" + terminal_table(figures))
+        if options.accept:
+            write_readme(options.readme, markdown(figures, described(options, load)))
+    except (BadFigures, OSError, KeyError, ValueError) as error:
+        print(f"benchmark: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,114 @@
+// What simulations of one body have in common, made once: phases, and what is found of them.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <any>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/stopwatch.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+
+/// A part of a set-up, and how long it takes to make [s].
+struct SetUpPart {
+  std::string name;
+  double seconds = 0;
+};
+
+/// Of scenes that differ in damping, integrator, solver and the scaling of the mass alone. Simulations that share it
+/// may run side by side.
+class SetUpStore {
+ public:
+  /// A phase at its start, in use by nobody else.
+  struct MadePhase {
+    std::unique_ptr<LagrangianPhase> phase;
+    double seconds = 0;  // that it took to make, then or now
+    bool made_now = true;
+  };
+  MadePhase phase(const Scene& scene);
+  /// Keeps it for whoever asks next, if runs leave nothing in it: it remembers nothing, touches nothing and is alone.
+  void give_back(const MassSpec& mass, std::unique_ptr<LagrangianPhase> phase);
+
+  /// What make() gave when it was first asked for by this name, and how long that took.
+  template <class Make>
+  auto once(const std::string& name, const Make& make) {
+    struct Made {
+      decltype(make()) value;
+      double seconds;
+      bool made_now;
+    };
+    const std::scoped_lock lock(making_);
+    const auto found = found_.find(name);
+    if (found != found_.end()) {
+      return Made{std::any_cast<const decltype(make())&>(found->second.value), found->second.seconds, false};
+    }
+    const Stopwatch watch;
+    Made made{make(), 0, true};
+    made.seconds = watch.seconds();
+    found_[name] = {made.value, made.seconds};
+    return made;
+  }
+
+ private:
+  struct Found {
+    std::any value;
+    double seconds = 0;
+  };
+  struct Phases {
+    std::vector<std::unique_ptr<LagrangianPhase>> idle;
+    double seconds = 0;
+  };
+
+  std::mutex making_, keeping_;
+  std::map<std::string, Found> found_;
+  std::map<std::string, Phases> phases_;  // by their mass
+};
+
+/// The name of ω₁ among the parts: of the elastic tangent at the start.
+inline constexpr const char* part_omega_1 = "omega_1";
+
+/// Names a mass among those of one body.
+std::string to_string(const MassSpec& mass);
+
+/// The set-up of one simulation: its parts, made here or taken from a store.
+class SetUp {
+ public:
+  /// store: if there is one; outlives this.
+  explicit SetUp(SetUpStore* store) : store_(store) {}
+
+  std::unique_ptr<LagrangianPhase> phase(const Scene& scene);
+  /// make(), or what it once gave for a body of this mass.
+  template <class Make>
+  auto shared(const char* part, const MassSpec& mass, const Make& make) {
+    if (!store_) {
+      const Stopwatch watch;
+      auto value = make();
+      add(part, watch.seconds(), true);
+      return value;
+    }
+    auto made = store_->once(part + (", " + to_string(mass)), make);
+    add(part, made.seconds, made.made_now);
+    return std::move(made.value);
+  }
+
+  /// Parts and their times, whoever made them.
+  const std::vector<SetUpPart>& parts() const { return parts_; }
+  /// What of these times was spent for another simulation [s].
+  double spared_s() const { return spared_s_; }
+
+ private:
+  void add(const std::string& part, double seconds, bool made_now);
+
+  SetUpStore* store_;
+  std::vector<SetUpPart> parts_;
+  double spared_s_ = 0;
+};
+
+}  // namespace stillpoint
