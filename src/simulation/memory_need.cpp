@@ -66,12 +66,28 @@ double of_motion(const Scene& scene) {
   return numbers * real;
 }
 
+bool is_nonlinear(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
+    const LawInfo& law = *catalogue().law(scene.materials.at(body.material).law);
+    return law.finite_strain || law.history_dependent;
+  });
+}
+
+// Of linear bilinear cells six moments of their points, and their sides, see ElasticCells.
+double of_moments(const Scene& scene, const BodySize& size) {
+  const bool takes_moments = scene.dim == 2 && scene.state != StressState::axisymmetric &&
+                             scene.grid.basis == BasisKind::linear && scene.phase.quadrature == Quadrature::points &&
+                             !is_nonlinear(scene) && !moves_on(scene) && !averages_dilatation(scene) &&
+                             !scene.geostatic;
+  return takes_moments ? 8 * real * size.cells / size.points : 0;
+}
+
 double bytes_per_point(const Scene& scene, const BodySize& size) {
   double laws = 0;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     laws += size.body_points[k] / size.points * of_law(scene, scene.materials.at(scene.bodies[k].material));
   const double of_any = (scene.dim + 2) * real + sizeof(int);  // position, mass, volume; number
-  return of_any + of_weights(scene) + of_motion(scene) + laws;
+  return of_any + of_weights(scene) + of_motion(scene) + of_moments(scene, size) + laws;
 }
 
 // --- the unknowns ----------------------------------------------------------------------------------------------------
@@ -103,13 +119,6 @@ double of_factor(const Scene& scene, const BodySize& size) {
 double of_assembly(const Scene& scene, const BodySize& size) {
   const double along = 2 * degree_of(scene.grid.basis) + 1;
   return size.grid_functions * std::pow(along, scene.dim) * scene.dim * scene.dim * real;
-}
-
-bool is_nonlinear(const Scene& scene) {
-  return std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
-    const LawInfo& law = *catalogue().law(scene.materials.at(body.material).law);
-    return law.finite_strain || law.history_dependent;
-  });
 }
 
 // Those of loads and supports that vary, as muParser has them: one for the schedule of the loads, one for the phase.

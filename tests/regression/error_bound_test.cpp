@@ -154,7 +154,7 @@ TEST_CASE("leapfrog with critical damping is certified to 2.5 times its error, a
 }
 
 // What conjugate directions leave is in high modes, which the bound overrates; but they are soon through with it.
-TEST_CASE("auto ends within 1.2 times the steps after which its error is what was asked", "[error bound]") {
+TEST_CASE("auto ends within 1.2 times the steps, and one, after which its error is what was asked", "[error bound]") {
   for (const Case& problem : linear) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     const auto needed = static_cast<double>(relaxed(with(problem, "auto"), rest).size());
@@ -162,7 +162,7 @@ TEST_CASE("auto ends within 1.2 times the steps after which its error is what wa
     simulation.run();
     CAPTURE(problem.name, needed, simulation.steps());
     CHECK(simulation.status() == RunStatus::equilibrium);
-    CHECK(static_cast<double>(simulation.steps()) <= 1.2 * needed);
+    CHECK(static_cast<double>(simulation.steps()) <= 1.2 * needed + 1);
     CHECK(relative_difference(measure_of(simulation), simulation.u(), rest) <= 1e-6);
   }
 }

@@ -48,7 +48,7 @@ class ElasticCells {
     });
   }
   bool empty() const { return moduli_.empty(); }
-  double bytes() const { return 8.0 * sizeof(double) * static_cast<double>(moments_[0].size()); }
+  double bytes() const { return 8.0 * sizeof(double) * static_cast<double>(points_->cells()); }
 
   /// corner[8 k + 2 a + i]: the force of cell k at its corner a, for the cells begin … end − 1. u: over the grid's
   /// functions. Returns 0, or NaN if a force is not finite.

@@ -38,7 +38,7 @@ void check_force(const std::string& scene, const std::vector<std::string>& set) 
 TEST_CASE("forces of linear elastic cells from moments are those of the stiffness matrix that the points assemble") {
   const std::string linear = "grid.basis=linear";
   for (const std::string points : {"1", "4", "9"}) {
-    check_force("cantilever", {linear, "material.rubber={law='linear-elastic', E=1e6, nu=0.3, rho=1000}",
+    check_force("cantilever", {linear, "material.beam={law='linear-elastic', E=1e6, nu=0.3, rho=1000}",
                                "body.points_per_cell=" + points});
     check_force("inclusion", {linear, "body[0].points_per_cell=" + points, "body[1].points_per_cell=" + points});
   }
