@@ -83,7 +83,7 @@ class Auto final : public StaggeredIteration {
 
   void descended(double step) {
     is_tried_ = false;
-    const double Q_dot_z = dot(Q(), a()), unbalanced = std::sqrt(std::max(0.0, Q_dot_z));
+    const double unbalanced = this->unbalanced();
     if (is_cut_) {
       constexpr long few = 20;
       const bool again = cut_at_ > 0 && steps_ - cut_at_ < few;
@@ -93,7 +93,7 @@ class Auto final : public StaggeredIteration {
         return;
       }
       begin_descent();
-    } else if (!descent_->evaluated(Q(), a(), Q_dot_z)) {
+    } else if (!descent_->evaluated(Q(), a())) {
       leave_descent();
       return;
     }

@@ -36,9 +36,9 @@ class ConjugateDescent {
 
   /// Begins at w: straight down, by h M⁻¹Q at first, h about 1/ω_max². Q, z = M⁻¹Q at w, (n).
   void begin(const Vector& Q, const Vector& z, double h);
-  /// After an evaluation at w; Q, z, Q_dot_z = Q·z: there. False if there is no way on: no positive stiffness along p,
-  /// no direction downhill, or no end of the search on its line.
-  bool evaluated(const Vector& Q, const Vector& z, double Q_dot_z);
+  /// After an evaluation at w; Q, z: there. False if there is no way on: no positive stiffness along p, no direction
+  /// downhill, or no end of the search on its line.
+  bool evaluated(const Vector& Q, const Vector& z);
   /// From w to the next one, (n).
   ConstVec way() const { return way_.span(); }
   /// pᵀKp/pᵀMp of the last line [1/s²].
@@ -47,13 +47,12 @@ class ConjugateDescent {
   void archive(const StateArchive& state);
 
  private:
-  void turn_by_beta(double theta, const Vector& Q, const Vector& z, double Q_dot_z);
-  void turn_by_memory(double theta, const Vector& Q);
+  double turn_by_beta(double theta, const Vector& Q, const Vector& z);
+  double turn_by_memory(double theta, const Vector& Q);
 
   const Mass& mass_;
   std::optional<LimitedMemory> memory_;
-  Vector p_, z_, way_;       // p, M⁻¹Q(x) or work, w⁺ − w, (n)
-  std::optional<Vector> Q_;  // Q(x), where it is not linear, (n)
+  Vector p_, Q_, z_, way_;  // p, Q(x), M⁻¹Q(x) or work, w⁺ − w, (n)
   double h_ = 0, first_h_ = 0;
   double slope_ = 0;    // Q(x)·p
   double Q_dot_z_ = 0;  // Q(x)·M⁻¹Q(x)
