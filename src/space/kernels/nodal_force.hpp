@@ -137,7 +137,8 @@ class NodalForce {
   }
   template <bool Directed>
   void give_to_sources(const DegreesOfFreedom& dofs, Vec R, Vec reactions) const {
-    dofs.give_to_sources(at_extended_, [n = R.size(), R, reactions](int dof, double force) {
+    const std::size_t n = R.size();
+    dofs.give_to_sources(at_extended_, [&](int dof, double force) {
       const auto k = static_cast<std::size_t>(dof);
       if (k < n) {
         R[k] += force;
