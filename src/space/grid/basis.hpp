@@ -174,13 +174,15 @@ struct TensorBasis {
   }
   static std::vector<int> face_values(const Grid<Dim>& grid, int axis, bool upper) {
     std::vector<int> values = face_functions(grid, axis, upper);
-    std::erase_if(values, [&](int number) {
-      for (int d = 0; d < Dim; ++d) {
-        if (!B::is_value(index_along(grid, number, d))) return true;
-      }
-      return false;
-    });
+    std::erase_if(values, [&](int number) { return !is_value(grid, number); });
     return values;
+  }
+  /// Whether a function, by its global number, is a value along each axis.
+  static bool is_value(const Grid<Dim>& grid, int number) {
+    for (int d = 0; d < Dim; ++d) {
+      if (!B::is_value(index_along(grid, number, d))) return false;
+    }
+    return true;
   }
   /// Index along an axis of a function by its global number.
   static int index_along(const Grid<Dim>& grid, int number, int axis) {

@@ -17,12 +17,7 @@ namespace stillpoint {
 /// is shared by W_ek² so that values keep it.
 template <AxisBasis B, int Dim>
 void give_mass_to_sources(const Grid<Dim>& grid, const ExtendedFunctions& extension, std::vector<double>& mass) {
-  const auto is_value = [&](int function) {
-    for (int d = 0; d < Dim; ++d) {
-      if (!B::is_value(TensorBasis<B, Dim>::index_along(grid, function, d))) return false;
-    }
-    return true;
-  };
+  const auto is_value = [&](int function) { return TensorBasis<B, Dim>::is_value(grid, function); };
   for (const int function : extension.functions()) {
     const double given = std::exchange(mass[static_cast<std::size_t>(function)], 0);
     const auto sources = extension.sources_of(function);

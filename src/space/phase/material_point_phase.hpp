@@ -130,23 +130,17 @@ class MaterialPointPhase final : public LagrangianPhase,
   double stress(std::size_t m, Block& block, double dt, double* history, double* averages) const;
   void tangent(Tangent kind, std::size_t m, Block& block, double dt) const;
   SparseMatrix matrix_of_means(Tangent kind, double dt) const;
+
   // --- linear elastic cells, phase_forces.hpp ------------------------------------------------------
   void take_elastic_moments();
-  auto of_elastic_cells(const std::vector<double>& grid_u) const {
-    return [this, u = grid_u.data()](std::size_t begin, std::size_t end, double* corner) {
-      return elastic_cells_.forces(u, begin, end, corner);
-    };
-  }
+  auto of_elastic_cells(const std::vector<double>& grid_u) const;
   double* scratch_history(std::size_t m) const;
 
   // --- Tangents, see phase_forces.hpp --------------------------------------------------------------
   void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const override;
   SparseMatrix matrix(Tangent kind, double t, ConstVec u) const override;
   SparseMatrix of_loads(double t, ConstVec u) const override;
-  void add_springs_product(Vec dR) const {
-    weak_supports_.springs().add_product(grid_du_.data(), dR);
-    load_control_.springs().add_product(grid_du_.data(), dR);
-  }
+  void add_springs_product(Vec dR) const;
 
   // --- PhaseControl, see phase_change.hpp ----------------------------------------------------------
   double progress(double t, ConstVec u) override;

@@ -62,6 +62,13 @@ void MaterialPointPhase<B, K>::take_elastic_moments() {
 }
 
 template <AxisBasis B, Kinematics K>
+auto MaterialPointPhase<B, K>::of_elastic_cells(const std::vector<double>& grid_u) const {
+  return [this, u = grid_u.data()](std::size_t begin, std::size_t end, double* corner) {
+    return elastic_cells_.forces(u, begin, end, corner);
+  };
+}
+
+template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, TrialState& any) const {
   Trial& trial = own(any);
   std::vector<double>& grid_u = trial.arrays->u;
@@ -100,6 +107,13 @@ void MaterialPointPhase<B, K>::commit(TrialState& any) {
   committed_u_.swap(trial.arrays->u);
   if (averages_dilatation()) committed_averages_.swap(trial.arrays->averages);
   committed_t_ = trial.t;
+}
+
+// For grid_du_.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::add_springs_product(Vec dR) const {
+  weak_supports_.springs().add_product(grid_du_.data(), dR);
+  load_control_.springs().add_product(grid_du_.data(), dR);
 }
 
 template <AxisBasis B, Kinematics K>

@@ -159,15 +159,9 @@ std::vector<SupportReaction> MaterialPointPhase<B, K>::support_reactions(double 
   std::vector<double> F_s(prescribed, 0);
   for (const auto& condition : boundary_) condition->add_load_on_supports(parts(), t, grid_u_.data(), F_s);
   load_control_.add_load_on_supports(parts(), t, grid_u_.data(), F_s);
-  const auto is_value = [this](int function) {
-    for (int d = 0; d < Dim; ++d) {
-      if (!B::is_value(Basis::index_along(grid_, function, d))) return false;
-    }
-    return true;
-  };
   for (std::size_t s = 0; s < prescribed; ++s) {
     const auto [function, i] = std::div(held_.prescribed()[s], Dim);
-    if (const std::size_t owner = place[held_.owner(s)]; owner != none && is_value(function))
+    if (const std::size_t owner = place[held_.owner(s)]; owner != none && Basis::is_value(grid_, function))
       named[owner].force[static_cast<std::size_t>(i)] += reactions[s] - F_s[s];
   }
   for (std::size_t s = 0; s < weak_supports_.springs().size(); ++s) {
