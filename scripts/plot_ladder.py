@@ -41,7 +41,7 @@ def name_of(line):
 
 def rows_on(axis, lines):
     axis.set_yticks(range(len(lines)), [name_of(line) for line in lines], fontsize=6)
-    axis.set_ylim(len(lines) - 0.5, -0.5)
+    axis.set_ylim(max(len(lines), 1) - 0.5, -0.5)
     axis.grid(axis="y", color="0.94")
     axis.set_axisbelow(True)
 
@@ -72,7 +72,7 @@ def draw_orders(axis, lines):
                 axis.plot(place, y, marker=marker, color="0.3", markersize=8 if marker == "|" else 5, linestyle="")
         if order is not None:
             axis.plot(order, y, markersize=5, **look_of(line))
-    axis.set(xlim=(-2, 6), xlabel="observed order with its interval (95 %)")
+    axis.set(xlim=(-2, 9), xlabel="observed order with its interval (95 %)")
 
 
 def draw(lines, file):
@@ -90,7 +90,7 @@ def draw(lines, file):
     figure.legend(handles=handles, loc="lower center", ncol=len(marks), frameon=False, fontsize="small")
     good = sum(line["ok"] == "ok" for line in lines)
     figure.suptitle(f"Accuracy ladder: {good} of {len(lines)} rows meet their targets", fontsize="medium")
-    figure.tight_layout(rect=(0, 0.6 / height / 2, 1, 1))
+    figure.tight_layout(rect=(0, 0.6 / height / 2, 1, 1 - 0.4 / height))
     figure.savefig(file, dpi=100)
     plt.close(figure)
 
