@@ -33,7 +33,8 @@ enum class Quadrature {
 /// Whose change of volume a material point in two dimensions answers to.
 enum class Dilatation {
   points,  // its own
-  cells    // the mean of its cell's points: F-bar, or B-bar at small strain
+  cells,   // the mean of its cell's points: F-bar, or B-bar at small strain
+  splines  // likewise a mean over splines of one degree less than the basis; of a linear one its cells
 };
 /// A face of a box, named for a picture with x to the right and y upwards.
 enum class Face { left, right, bottom, top };

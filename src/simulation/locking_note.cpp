@@ -40,7 +40,7 @@ bool flows(const MaterialSpec& material) {
 std::optional<std::string> locking_note(const Scene& scene) {
   const bool volume_is_kept = scene.state == StressState::plane_strain || scene.state == StressState::axisymmetric;
   if (!volume_is_kept) return std::nullopt;
-  const bool shares = scene.phase.dilatation == Dilatation::cells;
+  const bool shares = scene.phase.dilatation != Dilatation::points;
   for (const BodySpec& body : scene.bodies) {
     if (!has_many_points(body, scene.grid.basis)) continue;
     const MaterialSpec& material = scene.materials.at(body.material);
@@ -57,8 +57,8 @@ std::optional<std::string> locking_note(const Scene& scene) {
     if (nu == material.parameters.end() || nu->second < nearly_incompressible(scene.grid.basis)) continue;
     return fmt::format(
         "material.{} is nearly incompressible (nu = {:.6g}) at each of a cell's points, which makes the cells too "
-        "stiff; expected phase.dilatation = \"cells\"",
-        material.name, nu->second);
+        "stiff; expected phase.dilatation = \"{}\"",
+        material.name, nu->second, degree_of(scene.grid.basis) > 2 ? "splines" : "cells");
   }
   return std::nullopt;
 }

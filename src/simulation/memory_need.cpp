@@ -24,7 +24,11 @@ namespace {
 constexpr double real = sizeof(double);
 constexpr double of_entry = sizeof(double) + sizeof(int);  // of a sparse matrix
 
-bool averages_dilatation(const Scene& scene) { return scene.dim == 2 && scene.phase.dilatation == Dilatation::cells; }
+bool averages_dilatation(const Scene& scene) { return scene.dim == 2 && scene.phase.dilatation != Dilatation::points; }
+// Splines whose means points share are those of degree p − 1, see SplineMeans.
+bool means_over_splines(const Scene& scene) {
+  return averages_dilatation(scene) && scene.phase.dilatation == Dilatation::splines && degree_of(scene.grid.basis) > 1;
+}
 bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
 
 // --- the points ------------------------------------------------------------------------------------------------------
@@ -92,11 +96,17 @@ double bytes_per_point(const Scene& scene, const BodySize& size) {
 
 // --- the unknowns ----------------------------------------------------------------------------------------------------
 
-// Neighbours of a function, itself included: those that share a cell with it.
-double neighbours(const Scene& scene) {
-  const double along = scene.grid.basis == BasisKind::hermite ? 6 : 2 * degree_of(scene.grid.basis) + 1;
-  return std::pow(along, scene.dim);
+// Neighbours of a function, itself included, along an axis: those that share a cell with it; or those that feel the
+// same means, through p splines of degree p − 1 to either side of those that they share cells with.
+double own_neighbours_along(const Scene& scene) {
+  return scene.grid.basis == BasisKind::hermite ? 6 : 2 * degree_of(scene.grid.basis) + 1;
 }
+double neighbours_along(const Scene& scene) {
+  if (!means_over_splines(scene)) return own_neighbours_along(scene);
+  const int p = degree_of(scene.grid.basis), values = scene.grid.basis == BasisKind::hermite ? 2 : 1;
+  return own_neighbours_along(scene) + 2 * values * (p + (p - 1) * (2 * p - 1));
+}
+double neighbours(const Scene& scene) { return std::pow(neighbours_along(scene), scene.dim); }
 
 // Entries of a column of L. In the plane nested dissection gives a number that grows with log n; no more than the band.
 double entries_of_factor(const Scene& scene, const BodySize& size) {
@@ -104,7 +114,9 @@ double entries_of_factor(const Scene& scene, const BodySize& size) {
   constexpr double measured_at = 1e5, by_octave = 0.03;
   const double of_basis[] = {125, 340, 620, 760};
   const double growth = 1 + by_octave * std::log2(std::max(size.unknowns, 1.0) / measured_at);
-  return std::min(std::max(0.5, growth) * of_basis[static_cast<std::size_t>(scene.grid.basis)], 2 * size.width);
+  const double by_means = neighbours_along(scene) / own_neighbours_along(scene);  // what separates parts is wider
+  const double entries = std::max(0.5, growth) * of_basis[static_cast<std::size_t>(scene.grid.basis)] * by_means;
+  return std::min(entries, 2 * by_means * size.width);
 }
 
 double of_matrix(const Scene& scene, const BodySize& size) {
@@ -191,6 +203,7 @@ MemoryNeed memory_need(const Scene& scene) {
     add("mass matrix and its factor", (2 * of_matrix(scene, size) + of_factor(scene, size)) / scene.dim, "grid.cells");
   if (factor) {
     add("stiffness matrix", (is_nonlinear(scene) ? 4 : 2) * of_matrix(scene, size), "grid.cells");
+    if (means_over_splines(scene)) add("its products with means", 1.5 * of_matrix(scene, size), "grid.cells");
     add("factor of the stiffness", of_factor(scene, size), "grid.cells");
   }
   return need;

@@ -3,10 +3,12 @@
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/relaxation_system.hpp>
 
+#include <array>
 #include <cmath>
 #include <memory>
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <omp.h>
 
 #include "scenes.hpp"
@@ -76,17 +78,18 @@ void every_case(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK(plane_step)->Apply(every_case);
 
-// What it costs that a cell's points share their change of volume, one thread.
+// What it costs that points share their change of volume, one thread.
 void dilatation_step(benchmark::State& state) {
   const int basis = static_cast<int>(state.range(0)), law = static_cast<int>(state.range(1));
   Scene scene = block(basis, law, 120);
-  const bool cells = state.range(2) != 0;
-  if (cells) scene.phase.dilatation = Dilatation::cells;
-  step(state, scene, 1, std::string(bases[basis]) + ", " + laws[law] + (cells ? ", cells" : ", points"));
+  const auto shared = static_cast<std::size_t>(state.range(2));
+  scene.phase.dilatation = std::array{Dilatation::points, Dilatation::cells, Dilatation::splines}.at(shared);
+  step(state, scene, 1,
+       fmt::format("{}, {}, {}", bases[basis], laws[law], std::array{"points", "cells", "splines"}.at(shared)));
 }
 BENCHMARK(dilatation_step)
-    ->ArgNames({"basis", "law", "cells"})
-    ->ArgsProduct({{0, 1}, {0, 1, 2, 3}, {0, 1}})
+    ->ArgNames({"basis", "law", "shared"})
+    ->ArgsProduct({{0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2}})
     ->UseRealTime()
     ->Unit(benchmark::kMicrosecond);
 

@@ -111,6 +111,10 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   const std::vector<std::string> small = {"grid.cells=[24, 10]", "stop.steps=150", "output.fields_every=0.005"};
   for (const char* transfer : {"flip", "pic", "xpic", "apic"})
     check_same_bits({"slope", with(small, {std::string("phase.transfer=") + transfer})}, 110);
+  for (const char* dilatation : {"cells", "splines"}) {
+    check_same_bits({"slope", with(small, {"grid.basis=quadratic", std::string("phase.dilatation=") + dilatation})},
+                    110);
+  }
   for (const char* strategy : {"viscous", "kinetic", "auto"})
     check_same_bits({"hard/beam_in_phases", {std::string("damping.strategy=") + strategy, "stop.steps=400"}}, 290);
   check_same_bits({"hard/pulled_in_phases", {"stop.steps=400"}}, 290);

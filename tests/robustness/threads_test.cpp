@@ -51,6 +51,7 @@ TEST_CASE("every problem has the same history and the same frequencies for 1, 2,
       {"mms_bar", {"stop.steps=200"}},
       {"neo_hookean_bar", {"stop.steps=200"}},
       {"slope", {"grid.cells=[80, 32]", "stop.steps=20"}},  // 9600 points: loops are threaded
+      {"slope", {"grid.cells=[80, 32]", "stop.steps=20", "grid.basis=quadratic", "phase.dilatation=splines"}},
   };
   for (const Case& one : cases) check_threads(one, {2, 3, 8});
 }

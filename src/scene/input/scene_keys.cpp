@@ -244,9 +244,10 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
             .fallback =
                 "domains for elastic boxes of uniform points on a line or in a plane, if damped; otherwise points"})
       .key("dilatation", &PhaseSpec::dilatation,
-           "the change of volume that a law answers to: that of each point, or the mean of a cell's points (F-bar, "
-           "B-bar), so that nearly incompressible material does not lock",
-           {.words = {"points", "cells"}, .dims = kPlane});
+           "the change of volume that a law answers to: that of each point, or so that nearly incompressible material "
+           "does not lock (F-bar, B-bar) the mean of a cell's points, or a mean over splines of one degree less than "
+           "the basis, which keeps the order of cubic ones",
+           {.words = {"points", "cells", "splines"}, .dims = kPlane});
   add_boundary(tables);
   add_initial(tables);
   for (TableInfo& exact : exact_tables(catalogue)) tables.all.push_back(std::move(exact));

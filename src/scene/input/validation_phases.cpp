@@ -91,16 +91,16 @@ void choose_quadrature(SceneCheck& check, bool remembers) {
   if (rests && scene.phase.quadrature == Quadrature::domains && !says_how) scene.phase.transfer = Transfer::apic;
 }
 
-/// The mean dilatation of a cell's points is one of the displacement since the phase began.
+/// A mean dilatation is one of the displacement since the phase began.
 void check_dilatation(SceneCheck& check) {
   const Scene& scene = check.scene();
-  if (scene.phase.dilatation != Dilatation::cells) return;
+  if (scene.phase.dilatation == Dilatation::points) return;
   if (scene.state == StressState::plane_stress)
     check.add("phase.dilatation",
               "in plane stress the thickness is free to change, and nothing locks; take \"points\"");
   if (check.written("phase.deformation") && scene.phase.deformation == DeformationRule::positions)
     check.add("phase.deformation",
-              "the mean dilatation of a cell is carried on from phase to phase, which positions do not know; take "
+              "a mean dilatation is carried on from phase to phase, which positions do not know; take "
               "\"accumulated\", or phase.dilatation = \"points\"");
 }
 
@@ -140,7 +140,7 @@ void check_phases(SceneCheck& check, bool grid) {
   choose_quadrature(check, remembers);
   const bool jumps = scene.grid.basis == BasisKind::linear && phase.quadrature == Quadrature::points;
   // A strain that jumps at grid lines would feed the motion.
-  if (!check.written("phase.deformation") && (jumps || phase.dilatation == Dilatation::cells))
+  if (!check.written("phase.deformation") && (jumps || phase.dilatation != Dilatation::points))
     phase.deformation = DeformationRule::accumulated;
 
   const std::string one_phase =

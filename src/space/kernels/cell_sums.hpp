@@ -1,4 +1,4 @@
-// Sums over the points of each cell in a block, given back to the points.
+// Means over the points of each cell, T_pq = V_q/W: what MeanDilatation asks of a block of whole cells.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class CellSums {
   using Four = Lanes<4>;
 
  public:
-  using Row = std::array<double, Block::size + Block::slack>;
+  using Row = typename Block::Row;
   static constexpr std::size_t slack = 3;  // entries after the last share, for who reads four at a time
 
   /// V_p/W of points from … to − 1, W the sum of theirs.
@@ -64,6 +64,8 @@ class CellSums {
           for (std::size_t q = from; q < to; q += 4) of_cell.times(Four::load(volume_share_ + q)).store(&share[q]);
         });
   }
+  void rates_of_means(const Block& block, const Row& x, Row& mean) const { means(block, x, mean); }
+  void rates_of_shares(const Block& block, const Row& y, Row& share) const { shares(block, y, share); }
 
  private:
   /// visit(first, last) of each cell's points in the block, by their rows in it.

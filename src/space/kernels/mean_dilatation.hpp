@@ -24,33 +24,32 @@
 #include <cstddef>
 
 #include "base/unroll.hpp"
-#include "space/kernels/cell_sums.hpp"
-#include "space/materials/point_material.hpp"
-#include "space/points/material_points.hpp"
+#include "space/kernels/change_of_volume.hpp"
 
 namespace stillpoint {
 
 /// Of one block of points: average(), then the law's stress(), then transform_stress(). For a derivative these three,
-/// and after them average_direction(), the law's tangent(), transform_tangent(). A cell with more points than a block
-/// holds is averaged in parts.
-template <Kinematics K>
+/// and after them average_direction(), the law's tangent(), transform_tangent().
+///
+/// Means gives what comes from other points, in rows of the block's:
+///   means(block, x, mean)              x̄ of the state's J or tr H
+///   shares(block, y, share)            Σ_q T_qp y_q of its a/J̄
+///   rates_of_means(block, x, mean),    the same of their derivatives.
+///   rates_of_shares(block, y, share)
+template <Kinematics K, class Means>
 requires(dimensions(K) == 2) class MeanDilatation {
-  static constexpr int components = gradient_components(K);
+  using Volume = ChangeOfVolume<K>;
+  static constexpr int components = Volume::components;
+  static constexpr auto on_diagonal = Volume::on_diagonal;
   static constexpr int d = K == Kinematics::axisymmetric ? 3 : 2;
-  static constexpr std::array<bool, components> on_diagonal = [] {
-    std::array<bool, components> diagonal{};
-    diagonal[0] = diagonal[3] = diagonal[components - 1] = true;
-    return diagonal;
-  }();
   using Block = PointBlock<K>;
+  using Row = typename Block::Row;
   using Rows = typename Block::Rows;
-  using Row = typename CellSums<K>::Row;
   using Tensor = TensorOf<K>;
 
  public:
-  /// finite_strain: of the law. volume_share: of the block's points, see CellSums. Both outlive this.
-  MeanDilatation(const MaterialPoints<2>& points, const double* volume_share, bool finite_strain)
-      : sums_(points, volume_share), finite_(finite_strain) {}
+  /// finite_strain: of the law.
+  MeanDilatation(const Means& means, bool finite_strain) : means_(means), finite_(finite_strain) {}
 
   /// block.H becomes H̄.
   void average(Block& block) { average_as<false>(block, nullptr, nullptr); }
@@ -74,8 +73,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
   /// block.direction, δH, becomes δH̄.
   void average_direction(Block& block) {
-    for (std::size_t q = 0; q < block.count; ++q) dJ_[q] = volume_rate(block, q);
-    sums_.means(block, dJ_, dmean_);
+    for (std::size_t q = 0; q < block.count; ++q) dJ_[q] = Volume::rate_at(block, deformation(block, q), q);
+    means_.rates_of_means(block, dJ_, dmean_);
     for (std::size_t q = 0; q < block.count; ++q) {
       // δs = s/d (δJ̄/J̄ − δJ/J)
       ds_[q] = s_[q] / d * (dmean_[q] * inverse_mean_[q] - dJ_[q] * inverse_J_[q]);
@@ -88,7 +87,7 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
   /// block.VP, the law's V δP̄, becomes V δP; after keep_stress() and average_direction().
   void transform_tangent(Block& block) {
-    Row da, dshare;
+    Row da, given, dshare;
     for (std::size_t q = 0; q < block.count; ++q) {
       const Tensor f = deformation(block, q);
       double sum = 0;
@@ -97,20 +96,20 @@ requires(dimensions(K) == 2) class MeanDilatation {
         if (finite_) sum += kept_[c][q] * block.direction[c][q];
       });
       da[q] = sum / d;
+      given[q] = finite_ ? rate_of_ratio(da[q], a_[q], dmean_[q], inverse_mean_[q]) : da[q];
     }
-    sums_.shares(block, da, dshare);
+    means_.rates_of_shares(block, given, dshare);
     for (std::size_t q = 0; q < block.count; ++q) {
       if (!finite_) {
-        add_identity(block, q, dshare[q] - da[q]);
+        Volume::add_identity(block, q, dshare[q] - da[q]);
         continue;
       }
-      // δ(A V/(W J̄) − a/J)
-      const double dpush = (dshare[q] - share_[q] * dmean_[q] * inverse_mean_[q]) * inverse_mean_[q] -
-                           (da[q] - a_[q] * dJ_[q] * inverse_J_[q]) * inverse_J_[q];
-      add_cofactor(block, q, s_[q], dpush);
-      Tensor f = deformation(block, q), df;
+      const Tensor f = deformation(block, q);
+      const double dpush = dshare[q] - rate_of_ratio(da[q], a_[q], dJ_[q], inverse_J_[q]);
+      Volume::add_cofactor(block, f, q, s_[q], dpush);
+      Tensor df;
       unroll<components>([&](auto c) __attribute__((always_inline)) { df[c] = direction_[c][q]; });
-      const Tensor dcof = cofactor_rate(f, df);
+      const Tensor dcof = Volume::cofactor_rate(f, df);
       unroll<components>([&](auto c) __attribute__((always_inline)) {
         block.VP[c][q] += ds_[q] * kept_[c][q] + push_[q] * dcof[c];
       });
@@ -130,12 +129,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
   template <bool Increments>
   void average_finite(Block& block, const double* before) {
     const std::size_t count = block.count;
-#pragma omp simd
-    for (std::size_t q = 0; q < count; ++q) {
-      const double in_plane = (1 + block.H[0][q]) * (1 + block.H[3][q]) - block.H[1][q] * block.H[2][q];
-      J_[q] = d == 3 ? in_plane * (1 + block.H[components - 1][q]) : in_plane;
-    }
-    sums_.means(block, J_, mean_);
+    Volume::template of_block_as<true>(block, J_);
+    means_.means(block, J_, mean_);
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
       const double product = 1 / (J_[q] * mean_[q]);
@@ -156,10 +151,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
   template <bool Increments>
   void average_small(Block& block, const double* before) {
     const std::size_t count = block.count;
-#pragma omp simd
-    for (std::size_t q = 0; q < count; ++q)
-      J_[q] = block.H[0][q] + block.H[3][q] + (d == 3 ? block.H[components - 1][q] : 0);
-    sums_.means(block, J_, mean_);
+    Volume::template of_block_as<false>(block, J_);
+    means_.means(block, J_, mean_);
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
       effect_[q] = (mean_[q] - J_[q]) / d;
@@ -172,11 +165,12 @@ requires(dimensions(K) == 2) class MeanDilatation {
     }
   }
 
-  // a, A V/W and what both push with along cof f, from the law's V P̄.
+  // a, and what pushes along cof f, from the law's V P̄.
   void pressures(const Block& block) { finite_ ? pressures_as<true>(block) : pressures_as<false>(block); }
   template <bool Finite>
   void pressures_as(const Block& block) {
     const std::size_t count = block.count;
+    Row given;
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
       double work = 0;
@@ -186,11 +180,11 @@ requires(dimensions(K) == 2) class MeanDilatation {
         if constexpr (!Finite && on_diagonal[c]) work += block.VP[c][q];
       });
       a_[q] = work / d;
+      given[q] = Finite ? a_[q] * inverse_mean_[q] : a_[q];
     }
-    sums_.shares(block, a_, share_);
+    means_.shares(block, given, push_);
 #pragma omp simd
-    for (std::size_t q = 0; q < count; ++q)
-      push_[q] = Finite ? share_[q] * inverse_mean_[q] - a_[q] * inverse_J_[q] : share_[q] - a_[q];
+    for (std::size_t q = 0; q < count; ++q) push_[q] -= Finite ? a_[q] * inverse_J_[q] : a_[q];
   }
 
   template <bool Finite>
@@ -198,12 +192,17 @@ requires(dimensions(K) == 2) class MeanDilatation {
     const std::size_t count = block.count;
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
-      if constexpr (Finite) add_cofactor(block, q, s_[q], push_[q]);
-      if constexpr (!Finite) add_identity(block, q, push_[q]);
+      if constexpr (Finite) Volume::add_cofactor(block, deformation(block, q), q, s_[q], push_[q]);
+      if constexpr (!Finite) Volume::add_identity(block, q, push_[q]);
     }
   }
 
-  // f, of small strain I
+  // δ(a/J)
+  static double rate_of_ratio(double da, double a, double dJ, double inverse_J) {
+    return (da - a * dJ * inverse_J) * inverse_J;
+  }
+
+  // f of the averaged block, of small strain I
   [[gnu::always_inline]] Tensor deformation(const Block& block, std::size_t q) const {
     Tensor f;
     unroll<components>([&](auto c) __attribute__((always_inline)) {
@@ -211,42 +210,6 @@ requires(dimensions(K) == 2) class MeanDilatation {
       f[c] = finite_ ? (one + block.H[c][q]) * inverse_s_[q] : one;
     });
     return f;
-  }
-  // ∂J/∂f = J f⁻ᵀ
-  [[gnu::always_inline]] static Tensor cofactor(const Tensor& f) {
-    if constexpr (d == 3) {
-      const double hoop = f[4];
-      return {hoop * f[3], -hoop * f[2], -hoop * f[1], hoop * f[0], f[0] * f[3] - f[1] * f[2]};
-    } else {
-      return {f[3], -f[2], -f[1], f[0]};
-    }
-  }
-  static Tensor cofactor_rate(const Tensor& f, const Tensor& df) {
-    Tensor rate{df[3], -df[2], -df[1], df[0]};
-    if constexpr (d == 3) {
-      const Tensor in_plane{f[3], -f[2], -f[1], f[0], 0};
-      for (int c = 0; c < 4; ++c) rate[c] = rate[c] * f[4] + in_plane[c] * df[4];
-      rate[4] = df[0] * f[3] + f[0] * df[3] - df[1] * f[2] - f[1] * df[2];
-    }
-    return rate;
-  }
-  // δJ = cof f : δf
-  double volume_rate(const Block& block, std::size_t q) const {
-    const Tensor cof = cofactor(deformation(block, q));
-    double rate = 0;
-    for (int c = 0; c < components; ++c) rate += cof[c] * block.direction[c][q];
-    return rate;
-  }
-  // V P = scale V P + push cof f
-  [[gnu::always_inline]] void add_cofactor(Block& block, std::size_t q, double scale, double push) const {
-    const Tensor cof = cofactor(deformation(block, q));
-    unroll<components>([&](auto c)
-                           __attribute__((always_inline)) { block.VP[c][q] = scale * block.VP[c][q] + push * cof[c]; });
-  }
-  [[gnu::always_inline]] static void add_identity(Block& block, std::size_t q, double push) {
-    unroll<components>([&](auto c) __attribute__((always_inline)) {
-      if constexpr (on_diagonal[c]) block.VP[c][q] += push;
-    });
   }
 
   template <class Visit>
@@ -256,10 +219,10 @@ requires(dimensions(K) == 2) class MeanDilatation {
     }
   }
 
-  const CellSums<K> sums_;
+  Means means_;
   const bool finite_;
   alignas(64) Row J_, mean_, s_, inverse_J_, inverse_mean_, inverse_s_, effect_;  // of u; at small strain J = J̄ = s = 1
-  alignas(64) Row a_, share_, push_;                                              // of V P̄
+  alignas(64) Row a_, push_;                                                      // of V P̄
   alignas(64) Row dJ_, dmean_, ds_;                                               // of δu
   alignas(64) Rows kept_, direction_;                                             // V P̄, δH
 };

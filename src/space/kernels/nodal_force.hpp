@@ -96,16 +96,20 @@ class NodalForce {
     return bad == 0;
   }
 
-  /// visit(material number, block) with block.H filled, which it may change, in parallel.
-  template <class Visit>
-  void visit(const double* u, const Visit& visit) const {
+  /// visit(material number, block) with block.H filled (and dH, and direction, as in evaluate()), which it may change,
+  /// in parallel.
+  template <bool Increments = false, bool Directed = false, class Visit>
+  void visit(const double* u, const Visit& visit, const double* u_before = nullptr,
+             const double* direction = nullptr) const {
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
       Block block;
 #pragma omp for schedule(static)
       for (std::size_t b = 0; b < blocks_.size(); ++b) {
         for_each_part(blocks_[b], block, [&] {
-          gather<false>(blocks_[b], u, nullptr, block, block.H, block.dH);
+          gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
+          if constexpr (Directed)
+            gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
           visit(blocks_[b].material, block);
         });
       }

@@ -25,7 +25,8 @@ struct PointBlock {
   static constexpr std::size_t size = 128;
   static constexpr std::size_t slack = 8;  // entries after the last, for who writes a few at a time
   static constexpr int components = gradient_components(K);
-  using Rows = std::array<std::array<double, size + slack>, components>;
+  using Row = std::array<double, size + slack>;
+  using Rows = std::array<Row, components>;
 
   std::size_t first = 0, count = 0;           // points first … first + count − 1
   std::size_t first_cell = 0, last_cell = 0;  // that they are in; one past the last

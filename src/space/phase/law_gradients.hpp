@@ -3,29 +3,41 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
+#include "space/kernels/cell_sums.hpp"
 #include "space/kernels/gather_scatter_bilinear.hpp"
 #include "space/kernels/mean_dilatation.hpp"
 #include "space/kernels/point_weights.hpp"
+#include "space/kernels/spline_means.hpp"
 #include "space/points/body.hpp"
 
 namespace stillpoint {
 
-/// Point by point. Where cells share their change of volume the points of a cell are averaged once for all that follow
-/// one another.
+/// What points share their change of volume over, if they do.
+template <AxisBasis B, Kinematics K>
+struct SharedDilatation {
+  bool over_cells = false;
+  const SplineMeans<B, K>* splines = nullptr;  // or null
+  std::vector<double> means{};                 // over these, of a displacement
+};
+
+/// Point by point. Where points share their change of volume those of a cell are averaged once for all that follow one
+/// another.
 template <AxisBasis B, Kinematics K>
 class LawGradients {
   using Block = PointBlock<K>;
 
  public:
-  /// u: over the grid's functions. All outlive this.
-  LawGradients(const Body<K>& body, const PointWeights<B, K>& weights, Dilatation dilatation, const double* u)
-      : body_(body), weights_(weights), averages_(dilatation == Dilatation::cells), u_(u) {}
+  /// u: over the grid's functions; shared: of u. All outlive this.
+  LawGradients(const Body<K>& body, const PointWeights<B, K>& weights, const SharedDilatation<B, K>& shared,
+               const double* u)
+      : body_(body), weights_(weights), shared_(shared), u_(u) {}
 
   /// Of point p in occupied cell k.
   TensorOf<K> at(std::size_t k, std::size_t p) {
     if constexpr (dimensions(K) == 2) {
-      if (averages_) {
+      if (shared_.over_cells || shared_.splines) {
         if (p < block_.first || p >= block_.first + block_.count) average(k, p);
         return block_.H_at(p - block_.first);
       }
@@ -45,15 +57,20 @@ class LawGradients {
     const std::size_t end = block_.first + block_.count;
     GatherScatter<B, K>::template gather<false>(weights_, k, block_.first, end, u_, nullptr, block_.first, block_.H,
                                                 block_.dH);
+    const bool finite = body_.materials[static_cast<std::size_t>(points.material_of_cell(k))]->info().finite_strain;
+    if (shared_.splines) {
+      using Pass = SplinePass<B, K>;
+      const Pass pass(*shared_.splines, points.volume.data(), {.means = &shared_.means});
+      return MeanDilatation<K, Pass>(pass, finite).average(block_);
+    }
     std::array<double, Block::size + CellSums<K>::slack> share{};
     CellSums<K>::take_shares(points, block_.first, end, share.data());
-    const auto& material = *body_.materials[static_cast<std::size_t>(points.material_of_cell(k))];
-    MeanDilatation<K>(points, share.data(), material.info().finite_strain).average(block_);
+    MeanDilatation<K, CellSums<K>>({points, share.data()}, finite).average(block_);
   }
 
   const Body<K>& body_;
   const PointWeights<B, K>& weights_;
-  const bool averages_;
+  const SharedDilatation<B, K>& shared_;
   const double* u_;
   Block block_;
 };

@@ -22,14 +22,15 @@
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/elastic_cells.hpp"
-#include "space/kernels/mean_dilatation.hpp"
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
+#include "space/kernels/spline_means.hpp"
 #include "space/kernels/velocity_transfer.hpp"
 #include "space/phase/deformation_from_positions.hpp"
 #include "space/phase/free_parts.hpp"
 #include "space/phase/grid_faces.hpp"
 #include "space/phase/lagrangian_phase.hpp"
+#include "space/phase/law_gradients.hpp"
 #include "space/points/body.hpp"
 
 namespace stillpoint {
@@ -106,7 +107,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   struct TrialArrays {
     std::vector<double> u;                     // over the grid's functions, (functions × Dim)
     std::vector<std::vector<double>> history;  // of each material
-    std::vector<double> averages;              // what MeanDilatation does to each point, if cells share theirs
+    std::vector<double> averages;              // what MeanDilatation does to each point, if they share theirs
   };
   struct Trial final : TrialState {
     const MaterialPointPhase* of = nullptr;
@@ -122,14 +123,34 @@ class MaterialPointPhase final : public LagrangianPhase,
   }
 
   // --- the law of a block of points, phase_dilatation.hpp ------------------------------------------
-  bool averages_dilatation() const { return Dim == 2 && scene_.phase.dilatation == Dilatation::cells; }
-  auto mean_dilatation(std::size_t m, const Block& block) const;
+  bool averages_dilatation() const { return Dim == 2 && scene_.phase.dilatation != Dilatation::points; }
+  bool means_over_splines() const {
+    return Dim == 2 && scene_.phase.dilatation == Dilatation::splines && B::degree > 1;
+  }
+  template <class Use>
+  auto with_means(std::size_t m, const Block& block, const typename SplinePass<B, K>::Known& known,
+                  const Use& use) const;
   void average_dilatation(std::size_t m, Block& block) const;
-  void commit_averages();
+  void begin_means();
+  void take_means(const double* u) const;
+  void take_rates_of_means(const double* u, const double* du) const;
+  void take_shares(const double* u, double dt) const;
+  void add_means_of(const Block& block, typename Block::Row& x) const;
+  bool add_shared_forces(const double* u, Vec R, Vec reactions) const;
+  SharedDilatation<B, K> shared_dilatation(const double* u) const;
   template <bool Increments>
   double stress(std::size_t m, Block& block, double dt, double* history, double* averages) const;
   void tangent(Tangent kind, std::size_t m, Block& block, double dt) const;
+
+  // --- and its matrix, phase_dilatation_matrix.hpp -------------------------------------------------
   SparseMatrix matrix_of_means(Tangent kind, double dt) const;
+  SparseMatrix matrix_of_spline_means(Tangent kind, double dt) const;
+  template <class Visit>
+  void for_parts_of_cell(std::size_t k, Block& block, const Visit& visit) const;
+  void take_unit(std::size_t k, int b, int i, Block& block) const;
+  template <class Mean, class Direct, class Take>
+  void answer_columns(Tangent kind, double dt, std::size_t k, Block& block, Mean& mean, int columns,
+                      const Direct& direct, const Take& take) const;
 
   // --- linear elastic cells, phase_forces.hpp ------------------------------------------------------
   void take_elastic_moments();
@@ -289,12 +310,16 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)
   std::vector<double> committed_u_;     // likewise
   double committed_t_ = 0;
-  // If cells share their change of volume, what MeanDilatation needs: V/W, and what it does to the committed state.
+  // If points share their change of volume: V/W of cells, or splines, and what averaging does to the committed state.
   std::vector<double> volume_share_, committed_averages_;
+  SplineMeans<B, K> splines_;
 
   // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
   mutable NodalForce<B, K> nodal_force_;
-  mutable std::vector<double> grid_u_, grid_du_;              // (functions × Dim)
+  mutable std::vector<double> grid_u_, grid_du_;  // (functions × Dim)
+  // Coefficients of means over splines: of the state, its shares, and their derivatives.
+  mutable std::vector<double> means_, shares_, rates_of_means_, rates_of_shares_;
+  mutable std::vector<double> shared_forces_;                 // (n + supports)
   mutable std::shared_ptr<TrialArrays> spare_;                // of the first trial, for that of the next phase
   mutable std::vector<std::vector<double>> scratch_history_;  // of each material, that nobody reads
   mutable double undeformed_bound_ = 0;

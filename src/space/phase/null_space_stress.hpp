@@ -18,7 +18,8 @@ double MaterialPointPhase<B, K>::null_space_stress(double t, ConstVec u) const {
   typename Fit::Values of_points;
   of_points.value.resize(points.size());
   of_points.gradient.resize(points.size());  // not known
-  LawGradients<B, K> gradients(body_, weights_, scene_.phase.dilatation, grid_u_.data());
+  const auto shared = shared_dilatation(grid_u_.data());
+  LawGradients<B, K> gradients(body_, weights_, shared, grid_u_.data());
   for_points([&](std::size_t k, std::size_t p, std::size_t) {
     of_points.value[p] = material_of(k).cauchy(gradients.at(k, p), p);
   });

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdlib>
 
-#include "space/kernels/mean_dilatation.hpp"
 #include "space/phase/grid_faces.hpp"
 #include "space/phase/material_point_phase.hpp"
 
@@ -90,17 +89,7 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   committed_u_.assign(unknowns, 0);
   spread_others(t, committed_u_);
   committed_t_ = t;
-  if constexpr (Dim == 2) {
-    if (averages_dilatation()) {
-      volume_share_ = CellSums<K>::volume_shares(body_.points);
-      commit_averages();
-    }
-  }
-  if (averages_dilatation() && history_dependent_) {
-    scratch_history_.resize(body_.materials.size());
-    for (std::size_t m = 0; m < body_.materials.size(); ++m)
-      scratch_history_[m].resize(body_.materials[m]->info().history_size);
-  }
+  begin_means();
   take_elastic_moments();
   make_mass();
   constant_force_.assign(size(), 0);
@@ -217,6 +206,7 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
   transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), grid_u_.data(), grid_v,
                       start_velocity_, impulse(grid_v));
   keep_spin(grid_v);
+  take_means(grid_u_.data());
   nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
     if (!body_.materials[m]->info().finite_strain) return;
     average_dilatation(m, block);

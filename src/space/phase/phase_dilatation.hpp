@@ -1,4 +1,8 @@
-// What the laws of a phase answer to: each point's own change of volume, or the mean of its cell's.
+// What the laws of a phase answer to: each point's own change of volume, or a mean that points share.
+//
+// Means over cells are found in a block of points, forces and all. Means over splines take three passes over the
+// points: the coefficients of J̄, take_means(); the laws, whose a/J̄ are summed; the forces of what these push with,
+// add_shared_forces().
 #pragma once
 
 #include <algorithm>
@@ -11,34 +15,141 @@
 
 namespace stillpoint {
 
+// use(MeanDilatation) for a block of material m.
 template <AxisBasis B, Kinematics K>
-auto MaterialPointPhase<B, K>::mean_dilatation([[maybe_unused]] std::size_t m,
-                                               [[maybe_unused]] const Block& block) const {
-  if constexpr (Dim == 2) {
-    return MeanDilatation<K>(body_.points, volume_share_.data() + block.first,
-                             body_.materials[m]->info().finite_strain);
+template <class Use>
+auto MaterialPointPhase<B, K>::with_means(std::size_t m, [[maybe_unused]] const Block& block,
+                                          [[maybe_unused]] const typename SplinePass<B, K>::Known& known,
+                                          const Use& use) const {
+  const bool finite = body_.materials[m]->info().finite_strain;
+  if (means_over_splines()) {
+    MeanDilatation<K, SplinePass<B, K>> mean({splines_, body_.points.volume.data(), known}, finite);
+    return use(mean);
   }
+  MeanDilatation<K, CellSums<K>> mean({body_.points, volume_share_.data() + block.first}, finite);
+  return use(mean);
 }
 
-// block.H as the law of material m sees it.
+// block.H as the law of material m sees it; where means are over splines after take_means().
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m, [[maybe_unused]] Block& block) const {
   if constexpr (Dim == 2) {
-    if (averages_dilatation()) mean_dilatation(m, block).average(block);
+    if (averages_dilatation()) with_means(m, block, {.means = &means_}, [&](auto& mean) { mean.average(block); });
   }
 }
 
-// What averaging does to the committed state.
+// Of the displacement u over the grid's functions.
 template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::commit_averages() {
+void MaterialPointPhase<B, K>::take_means([[maybe_unused]] const double* u) const {
   if constexpr (Dim == 2) {
+    if (!means_over_splines()) return;
+    nodal_force_.visit(u, [this](std::size_t m, Block& block) {
+      typename Block::Row J;
+      ChangeOfVolume<K>::of_block(block, body_.materials[m]->info().finite_strain, J);
+      add_means_of(block, J);
+    });
+    splines_.coefficients(means_);
+  }
+}
+
+// Their derivative along du.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::take_rates_of_means([[maybe_unused]] const double* u,
+                                                   [[maybe_unused]] const double* du) const {
+  if constexpr (Dim == 2) {
+    if (!means_over_splines()) return;
+    const auto add_rates = [this](std::size_t m, Block& block) {
+      typename Block::Row dJ;
+      ChangeOfVolume<K>::rate(block, body_.materials[m]->info().finite_strain, dJ);
+      add_means_of(block, dJ);
+    };
+    nodal_force_.template visit<false, true>(u, add_rates, nullptr, du);
+    splines_.coefficients(rates_of_means_);
+  }
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::add_means_of(const Block& block, typename Block::Row& x) const {
+  const double* V = body_.points.volume.data() + block.first;
+  for (std::size_t q = 0; q < block.count; ++q) x[q] *= V[q];
+  splines_.add(block, x);
+}
+
+// What derivatives at finite strain need of the state u: the laws' a/J̄.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::take_shares([[maybe_unused]] const double* u, [[maybe_unused]] double dt) const {
+  if constexpr (Dim == 2) {
+    const auto finite = [](const auto& material) { return material->info().finite_strain; };
+    if (!means_over_splines() || std::ranges::none_of(body_.materials, finite)) return;
+    const auto add_shares = [&](std::size_t m, Block& block) {
+      with_means(m, block, {.means = &means_}, [&](auto& mean) {
+        mean.average(block, committed_averages_.data() + block.first, nullptr);
+        body_.materials[m]->stress(block, body_.points.volume.data(), dt, scratch_history(m));
+        mean.keep_stress(block);
+      });
+    };
+    nodal_force_.template visit<true>(u, add_shares, committed_u_.data());
+    splines_.coefficients(shares_);
+  }
+}
+
+// The forces of what all blocks have added to the shares in their stress() or tangent() under u. False if they are not
+// finite.
+template <AxisBasis B, Kinematics K>
+bool MaterialPointPhase<B, K>::add_shared_forces([[maybe_unused]] const double* u, [[maybe_unused]] Vec R,
+                                                 [[maybe_unused]] Vec reactions) const {
+  if constexpr (Dim == 2) {
+    if (!means_over_splines()) return true;
+    splines_.coefficients(rates_of_shares_);
+    const SplinePass<B, K> pass(splines_, body_.points.volume.data(), {});
+    const auto push = [&](std::size_t m, Block& block) {
+      typename Block::Row share;
+      pass.write_shares(block, rates_of_shares_, share);
+      return ChangeOfVolume<K>::write_push(block, body_.materials[m]->info().finite_strain, share);
+    };
+    shared_forces_.resize(R.size() + dofs_->prescribed.size());
+    const Vec forces = Vec(shared_forces_).first(R.size()), at_supports = Vec(shared_forces_).subspan(R.size());
+    const bool finite = nodal_force_.template evaluate<false>(u, nullptr, push, *dofs_, forces, at_supports);
+    for_each_index(R.size(), [R, forces](std::size_t i) { R[i] += forces[i]; });
+    for (std::size_t s = 0; s < std::min(reactions.size(), at_supports.size()); ++s) reactions[s] += at_supports[s];
+    return finite;
+  }
+  return true;
+}
+
+// As a phase begins, and what averaging does to the committed state.
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::begin_means() {
+  if constexpr (Dim == 2) {
+    if (!averages_dilatation()) return;
+    if (means_over_splines()) {
+      splines_.rebuild(grid_, body_.points);
+      for (auto* coefficients : {&shares_, &rates_of_means_}) coefficients->assign(splines_.functions(), 0);
+      take_means(committed_u_.data());
+    } else {
+      volume_share_ = CellSums<K>::volume_shares(body_.points);
+    }
     committed_averages_.resize(body_.points.size());
     nodal_force_.visit(committed_u_.data(), [this](std::size_t m, Block& block) {
-      MeanDilatation<K> mean = mean_dilatation(m, block);
-      mean.average(block);
-      mean.write_effect(block, committed_averages_.data() + block.first);
+      with_means(m, block, {.means = &means_}, [&](auto& mean) {
+        mean.average(block);
+        mean.write_effect(block, committed_averages_.data() + block.first);
+      });
     });
+    if (!history_dependent_) return;
+    scratch_history_.resize(body_.materials.size());
+    for (std::size_t m = 0; m < body_.materials.size(); ++m)
+      scratch_history_[m].resize(body_.materials[m]->info().history_size);
   }
+}
+
+// The points' gradients under u over the grid's functions, which outlives what is returned.
+template <AxisBasis B, Kinematics K>
+SharedDilatation<B, K> MaterialPointPhase<B, K>::shared_dilatation(const double* u) const {
+  take_means(u);
+  return {.over_cells = averages_dilatation() && !means_over_splines(),
+          .splines = means_over_splines() ? &splines_ : nullptr,
+          .means = means_};
 }
 
 // block.VP = V P. As PointMaterial::stress().
@@ -50,102 +161,40 @@ double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, 
   const double* V = body_.points.volume.data();
   if constexpr (Dim == 2) {
     if (averages_dilatation()) {
-      MeanDilatation<K> mean = mean_dilatation(m, block);
-      if constexpr (Increments) {
-        mean.average(block, committed_averages_.data() + block.first, averages ? averages + block.first : nullptr);
-      } else {
-        mean.average(block);
-      }
-      const double bad = law.stress(block, V, dt, history);
-      mean.transform_stress(block);
-      return bad;
+      return with_means(m, block, {.means = &means_}, [&](auto& mean) {
+        if constexpr (Increments) {
+          mean.average(block, committed_averages_.data() + block.first, averages ? averages + block.first : nullptr);
+        } else {
+          mean.average(block);
+        }
+        const double bad = law.stress(block, V, dt, history);
+        mean.transform_stress(block);
+        return bad;
+      });
     }
   }
   return law.stress(block, V, dt, history);
 }
 
-// block.VP = V δP
+// block.VP = V δP; where means are over splines after take_means(), take_shares() and take_rates_of_means().
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block, double dt) const {
   const PointMaterial<K>& law = *body_.materials[m];
   const double* V = body_.points.volume.data();
   if constexpr (Dim == 2) {
     if (averages_dilatation()) {
-      MeanDilatation<K> mean = mean_dilatation(m, block);
-      mean.average(block, committed_averages_.data() + block.first, nullptr);
-      law.stress(block, V, dt, scratch_history(m));
-      mean.keep_stress(block);
-      mean.average_direction(block);
-      law.tangent(kind, block, V, dt);
-      return mean.transform_tangent(block);
+      return with_means(m, block, {.means = &means_, .shares = &shares_, .rates_of_means = &rates_of_means_},
+                        [&](auto& mean) {
+                          mean.average(block, committed_averages_.data() + block.first, nullptr);
+                          law.stress(block, V, dt, scratch_history(m));
+                          mean.keep_stress(block);
+                          mean.average_direction(block);
+                          law.tangent(kind, block, V, dt);
+                          mean.transform_tangent(block);
+                        });
     }
   }
   law.tangent(kind, block, V, dt);
-}
-
-// As matrix(), column by column: the points of a cell answer together.
-template <AxisBasis B, Kinematics K>
-SparseMatrix MaterialPointPhase<B, K>::matrix_of_means([[maybe_unused]] Tangent kind,
-                                                       [[maybe_unused]] double dt) const {
-  if constexpr (Dim == 2) {
-    using Cells = GatherScatter<B, K>;
-    const MaterialPoints<Dim>& points = body_.points;
-    Block block;
-    std::vector<typename PointMaterial<K>::ModuliMatrix> A(Block::size);
-    // block.direction of a unit of component i of the cell's local function b
-    const auto take_unit = [&](std::size_t k, int b, int i) {
-      for (auto& row : block.direction) std::fill_n(row.begin(), block.count, 0.0);
-      for (std::size_t q = 0; q < block.count; ++q) {
-        const auto dN = weights_.dN(k, block.first + q);
-        for (int j = 0; j < Dim; ++j) block.direction[Dim * i + j][q] = dN[per_cell * j + b];
-        if constexpr (K == Kinematics::axisymmetric)
-          if (i == 0) block.direction[Dim * Dim][q] = dN[per_cell * Dim + b];
-      }
-    };
-    // block.VP = V A : block.direction
-    const auto answer = [&] {
-      for (std::size_t q = 0; q < block.count; ++q) {
-        for (int c = 0; c < components; ++c) {
-          double dP = 0;
-          for (int e = 0; e < components; ++e) dP += A[q][components * c + e] * block.direction[e][q];
-          block.VP[c][q] = points.volume[block.first + q] * dP;
-        }
-      }
-    };
-    const auto add_part = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {
-      const auto m = static_cast<std::size_t>(points.material_of_cell(k));
-      const PointMaterial<K>& law = *body_.materials[m];
-      const std::size_t end = block.first + block.count;
-      Cells::template gather<true>(weights_, k, block.first, end, grid_u_.data(), committed_u_.data(), block.first,
-                                   block.H, block.dH);
-      MeanDilatation<K> mean = mean_dilatation(m, block);
-      mean.average(block, committed_averages_.data() + block.first, nullptr);
-      law.stress(block, points.volume.data(), dt, scratch_history(m));
-      mean.keep_stress(block);
-      for (std::size_t q = 0; q < block.count; ++q)
-        A[q] = law.moduli(kind, block.H_at(q), block.dH_at(q), dt, block.first + q);
-      for (int column = 0; column < Dim * per_cell; ++column) {
-        take_unit(k, column / Dim, column % Dim);
-        mean.average_direction(block);
-        answer();
-        mean.transform_tangent(block);
-        std::array<double, static_cast<std::size_t>(Dim * per_cell)> force;
-        Cells::scatter(weights_, k, block.first, end, block, force.data());
-        for (int row = 0; row < Dim * per_cell; ++row) matrix[row][column] += force[row];
-      }
-    };
-    const auto add_cell = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {
-      block.first_cell = k;
-      block.last_cell = k + 1;
-      for (block.first = points.begin(k); block.first < points.end(k); block.first += block.count) {
-        block.count = std::min(Block::size, points.end(k) - block.first);
-        add_part(k, matrix);
-      }
-    };
-    return assemble_whole_cells<B, K>(grid_, points, weights_, *dofs_, add_cell).free;
-  } else {
-    throw std::logic_error("there is no mean dilatation in one dimension");
-  }
 }
 
 // For a stress whose history nobody reads.

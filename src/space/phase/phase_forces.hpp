@@ -77,6 +77,7 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   trial.evaluated = false;
   trial.too_far = !is_within_phase(u, grid_u.data());
   if (trial.too_far) return false;
+  take_means(grid_u.data());
   if (history_dependent_) {
     const double dt = t - committed_t_;
     double* const averages = averages_dilatation() ? trial.arrays->averages.data() : nullptr;
@@ -91,6 +92,7 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   } else {
     trial.evaluated = nodal_force_.template evaluate_cells<false>(of_elastic_cells(grid_u), *dofs_, R, trial.reactions);
   }
+  if (trial.evaluated) trial.evaluated = add_shared_forces(grid_u.data(), R, trial.reactions);
   const std::size_t of_supports = trial.reactions.size() - load_control_.springs().size();
   weak_supports_.springs().add_force(t, grid_u.data(), R, Vec(trial.reactions).first(of_supports));
   load_control_.springs().add_force(t, grid_u.data(), R, trial.reactions);
@@ -127,12 +129,16 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
     return add_springs_product(dR);
   }
   const double dt = t - committed_t_;
+  take_means(grid_u_.data());
+  take_shares(grid_u_.data(), dt);
+  take_rates_of_means(grid_u_.data(), grid_du_.data());
   const auto answer = [this, kind, dt](std::size_t m, Block& block) {
     tangent(kind, m, block, dt);
     return 0.0;
   };
   nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR, {},
                                              grid_du_.data());
+  add_shared_forces(grid_u_.data(), dR, {});
   add_springs_product(dR);
 }
 
@@ -189,6 +195,7 @@ double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
   if (history_dependent_) return weak_supports_.growth();
   const auto largest_bound = [&] {
     double largest = 0;
+    take_means(grid_u_.data());
     nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
       average_dilatation(m, block);
       const double bound = body_.materials[m]->stiffness_bound(block);

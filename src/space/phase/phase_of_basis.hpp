@@ -10,6 +10,7 @@
 #include "space/phase/phase_cut_cells.hpp"
 #include "space/phase/phase_diagnosis.hpp"
 #include "space/phase/phase_dilatation.hpp"
+#include "space/phase/phase_dilatation_matrix.hpp"
 #include "space/phase/phase_domains.hpp"
 #include "space/phase/phase_factory.hpp"
 #include "space/phase/phase_forces.hpp"

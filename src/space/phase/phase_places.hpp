@@ -33,12 +33,13 @@ class PhasePlaces final : public PlaceReader {
  public:
   /// u since the phase began and v, (functions × dim). What is referred to outlives this.
   PhasePlaces(const Grid<dim>& grid, const Body<K>& body, const PointWeights<B, K>& weights,
-              const DegreesOfFreedom& dofs, Dilatation dilatation, std::vector<double> u, std::vector<double> v)
+              const DegreesOfFreedom& dofs, SharedDilatation<B, K> dilatation, std::vector<double> u,
+              std::vector<double> v)
       : grid_(grid),
         body_(body),
         weights_(weights),
         dofs_(dofs),
-        dilatation_(dilatation),
+        dilatation_(std::move(dilatation)),
         u_(std::move(u)),
         v_(std::move(v)),
         occupied_(static_cast<std::size_t>(grid.cells()), 0),
@@ -203,7 +204,7 @@ class PhasePlaces final : public PlaceReader {
   const Body<K>& body_;
   const PointWeights<B, K>& weights_;
   const DegreesOfFreedom& dofs_;
-  Dilatation dilatation_;
+  SharedDilatation<B, K> dilatation_;  // of u
   std::vector<double> u_, v_;
   std::vector<char> occupied_;  // cells of the grid whose functions a point takes
   PointsAround<dim> around_;

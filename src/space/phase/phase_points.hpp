@@ -71,7 +71,8 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
   if (quantity == PointQuantity::strain)
     return write_points(out, [&](std::size_t k, std::size_t p) { return weights_.gradient(u, k, p); });
   if (quantity == PointQuantity::stress) {
-    LawGradients<B, K> gradients(body_, weights_, scene_.phase.dilatation, u);
+    const auto shared = shared_dilatation(u);
+    LawGradients<B, K> gradients(body_, weights_, shared, u);
     return write_points(out,
                         [&](std::size_t k, std::size_t p) { return material_of(k).cauchy(gradients.at(k, p), p); });
   }
@@ -88,8 +89,8 @@ template <AxisBasis B, Kinematics K>
 std::unique_ptr<PlaceReader> MaterialPointPhase<B, K>::read_places(double t, ConstVec u, ConstVec v) const {
   std::vector<double> grid_u(grid_u_.size(), 0);
   spread(t, u, grid_u);
-  return std::make_unique<PhasePlaces<B, K>>(grid_, body_, weights_, *dofs_, scene_.phase.dilatation, std::move(grid_u),
-                                             nodal_velocity(t, v));
+  return std::make_unique<PhasePlaces<B, K>>(grid_, body_, weights_, *dofs_, shared_dilatation(grid_u.data()),
+                                             std::move(grid_u), nodal_velocity(t, v));
 }
 
 template <AxisBasis B, Kinematics K>
@@ -200,7 +201,11 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
       {"position", Dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
   std::ranges::copy(PointWeights<B, K>::arrays(), std::back_inserter(arrays));
   if (averages_dilatation()) {
-    arrays.push_back({"share of the cell's volume", real});
+    if (means_over_splines()) {
+      std::ranges::copy(SplineMeans<B, K>::arrays(), std::back_inserter(arrays));
+    } else {
+      arrays.push_back({"share of the cell's volume", real});
+    }
     arrays.push_back({"change of volume, averaged", (history_dependent_ ? 2 : 1) * real});
     double scratch = 0;
     for (const std::vector<double>& history : scratch_history_) scratch += static_cast<double>(history.size());

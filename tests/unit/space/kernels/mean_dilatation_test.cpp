@@ -1,4 +1,4 @@
-// phase.dilatation = "cells": the points of a cell share their change of volume.
+// phase.dilatation = "cells", "splines": points share their change of volume, those of a cell or of neighbouring ones.
 #include <stillpoint/stillpoint.hpp>
 
 #include <cmath>
@@ -63,14 +63,16 @@ TEST_CASE("the points of a cell have the same pressure rate: a linear body's mea
   CHECK(all.value() > 1e-3);  // what is not a change of volume is each point's own
 }
 
-TEST_CASE("the forces of averaged cells have no resultant and no moment about the deformed body") {
+TEST_CASE("the forces of averaged points have no resultant and no moment about the deformed body") {
+  const std::vector<std::pair<std::string, std::string>> shared = {
+      {"linear", "cells"}, {"quadratic", "cells"}, {"quadratic", "splines"}, {"cubic", "splines"}};
   for (const std::string law : {"hencky", "neo-hookean", "drucker-prager"}) {
-    for (const std::string basis : {"linear", "quadratic"}) {
+    for (const auto& [basis, dilatation] : shared) {
       for (const std::string points : {"9", "169"}) {  // 169 do not fit into a block of points
-        CAPTURE(law, basis, points);
+        CAPTURE(law, basis, dilatation, points);
         std::vector<std::string> overrides =
             free_block({"material.rubber.law=" + law, "grid.basis=" + basis, "body.points_per_cell=" + points,
-                        "mass.kind=lumped", "phase.dilatation=cells", "grid.cells=[2, 2]"});
+                        "mass.kind=lumped", "phase.dilatation=" + dilatation, "grid.cells=[2, 2]"});
         if (law == "drucker-prager")
           overrides.insert(overrides.end(),
                            {"material.rubber.phi=35", "material.rubber.c=0.1", "phase.max_motion=none"});
@@ -98,9 +100,13 @@ TEST_CASE("the forces of averaged cells have no resultant and no moment about th
   }
 }
 
-TEST_CASE("a law with a potential keeps it: work done on averaged cells around a closed path is nothing") {
-  const auto scene = scenes::load("block", free_block({"material.rubber.law=neo-hookean", "body.points_per_cell=4",
-                                                       "grid.cells=[3, 3]", "phase.dilatation=cells"}));
+TEST_CASE("a law with a potential keeps it: work done on averaged points around a closed path is nothing") {
+  const auto [basis, dilatation] = GENERATE(table<std::string, std::string>(
+      {{"linear", "cells"}, {"quadratic", "splines"}, {"cubic", "splines"}, {"hermite", "splines"}}));
+  CAPTURE(basis, dilatation);
+  const auto scene =
+      scenes::load("block", free_block({"material.rubber.law=neo-hookean", "body.points_per_cell=4", "mass.kind=lumped",
+                                        "grid.cells=[3, 3]", "grid.basis=" + basis, "phase.dilatation=" + dilatation}));
   const auto phase = make_phase(scene);
   const std::size_t n = phase->size();
   // u = 0.05 (a cos θ + b sin θ): ∮ R·du by the trapezoidal rule, which is exact on a closed path but for rounding
@@ -122,6 +128,76 @@ TEST_CASE("a law with a potential keeps it: work done on averaged cells around a
   CHECK(std::abs(work) < 1e-10 * scale);
 }
 
+TEST_CASE(
+    "means over splines keep a cubic basis' order and error where nearly incompressible material bears pressure") {
+  // A pressure of 2 B k² μ beside shear of the same size, on a square that is held all round; see the scene.
+  const auto error = [](const std::string& basis, const std::string& nu, const std::string& dilatation, int cells) {
+    const Scene scene =
+        scenes::load("ladder/pressed_square", {fmt::format("grid.cells=[{0}, {0}]", cells), "grid.basis=" + basis,
+                                               "constants.nu=" + nu, "phase.dilatation=" + dilatation});
+    const Summary summary = run(scene);
+    REQUIRE(summary.error);
+    return summary.error->u_rel_l2;
+  };
+  for (const std::string basis : {"cubic", "hermite"}) {
+    CAPTURE(basis);
+    const double coarse = error(basis, "0.4999", "splines", 8), fine = error(basis, "0.4999", "splines", 12);
+    CHECK(std::log(coarse / fine) / std::log(1.5) > 3.8);  // of 4
+    // No better can it be than where nothing locks and nothing is shared.
+    CHECK(fine < 1.25 * error(basis, "0.3", "points", 12));
+    // Means over cells have two orders less, and points lock.
+    CHECK(error(basis, "0.4999", "cells", 12) > 10 * fine);
+    CHECK(error(basis, "0.4999", "points", 12) > 5 * fine);
+  }
+  CHECK(error("quadratic", "0.4999", "splines", 12) < 1.05 * error("quadratic", "0.3", "points", 12));
+}
+
+TEST_CASE("means over splines keep constants and are a projection's equal: self-adjoint, with norm 1") {
+  // A uniform change of volume leaves each point with its own; the quadratic form of the forces is then no larger than
+  // that of points by themselves, nor smaller than 0, and symmetric.
+  const auto phase_of = [](const std::string& dilatation) {
+    return make_phase(scenes::load(
+        "block",
+        free_block({"material.rubber={law='linear-elastic', E=1, nu=0.45, rho=1}", "body.points_per_cell=9",
+                    "grid.cells=[5, 4]", "grid.basis=cubic", "mass.kind=lumped", "phase.dilatation=" + dilatation})));
+  };
+  const auto shared = phase_of("splines"), own = phase_of("points");
+  const std::size_t n = own->size();
+  Scene scene = scenes::load("block", free_block({"grid.cells=[5, 4]", "grid.basis=cubic", "mass.kind=lumped"}));
+  scene.initial_u = {Expression("0.01*x", {}, "xy"), Expression("0.01*y", {}, "xy")};
+  const std::vector<double> swelling = make_phase(scene)->initial_displacement(0);
+  const auto of_swelling = statics::internal_force(*shared, swelling),
+             as_before = statics::internal_force(*own, swelling);
+  const auto work = [](const std::vector<double>& R, const std::vector<double>& u) {
+    double sum = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) sum += R[i] * u[i];
+    return sum;
+  };
+  CHECK(work(of_swelling, swelling) == Approx(work(as_before, swelling)).epsilon(1e-12));
+  for (int k = 0; k < 5; ++k) {
+    std::vector<double> u(n), w(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] = std::sin(static_cast<double>(i * i + 7 * static_cast<std::size_t>(k) + 1));
+      w[i] = std::cos(static_cast<double>(3 * i * i + 5 * static_cast<std::size_t>(k)));
+    }
+    const auto Ru = statics::internal_force(*shared, u), Rw = statics::internal_force(*shared, w);
+    CHECK(work(Ru, w) == Approx(work(Rw, u)).epsilon(1e-10));
+    CHECK(work(Ru, u) > 0);
+    CHECK(work(Ru, u) < work(statics::internal_force(*own, u), u));
+  }
+}
+
+TEST_CASE("means over splines of a linear basis are those of its cells, to the bit") {
+  const auto force = [](const std::string& dilatation) {
+    const auto phase = make_phase(scenes::load("block", free_block({"phase.dilatation=" + dilatation})));
+    return statics::internal_force(*phase, wavy(phase->size(), 0.01));
+  };
+  const auto cells = force("cells");
+  REQUIRE(!cells.empty());
+  CHECK(force("splines") == cells);
+  CHECK(force("points") != cells);
+}
+
 TEST_CASE("what averaged cells cannot be is refused at its key") {
   using Catch::Matchers::Contains;
   CHECK_THAT(scenes::refusal("block", {"phase.dilatation=cells", "body.state=plane-stress"}),
@@ -129,5 +205,6 @@ TEST_CASE("what averaged cells cannot be is refused at its key") {
   CHECK_THAT(scenes::refusal("block", {"phase={dilatation='cells', max_motion=0.1, deformation='positions'}",
                                        "material.rubber.law=hencky", "mass.kind=lumped"}),
              Contains("phase.deformation") && Contains("accumulated"));
-  CHECK_THAT(scenes::refusal("block", {"phase.dilatation=mean"}), Contains("points") && Contains("cells"));
+  CHECK_THAT(scenes::refusal("block", {"phase.dilatation=mean"}),
+             Contains("points") && Contains("cells") && Contains("splines"));
 }

@@ -86,7 +86,7 @@ TEST_CASE("the tangent of every law is the derivative of the internal force, app
   for (const auto& material : materials) {
     for (const std::string state : {"plane-strain", "axisymmetric"}) {
       for (const std::string basis : {"linear", "quadratic"}) {
-        for (const std::string dilatation : {"points", "cells"}) {
+        for (const std::string dilatation : {"points", "cells", "splines"}) {
           CAPTURE(material, state, basis, dilatation);
           const auto phase = column(material, state, basis, dilatation);
           statics::commit(*phase, random_vector(phase->size(), 0.02, 1), 0.01);
@@ -99,7 +99,7 @@ TEST_CASE("the tangent of every law is the derivative of the internal force, app
 
 TEST_CASE("the tangent is the derivative of the internal force where functions in slivers follow others") {
   for (const std::string basis : {"linear", "quadratic", "cubic"}) {
-    for (const std::string dilatation : {"points", "cells"}) {
+    for (const std::string dilatation : {"points", "cells", "splines"}) {
       CAPTURE(basis, dilatation);
       const auto phase = make_phase(scenes::load(
           "ladder/rotated_square", {"material.steel={law='neo-hookean', E=1, nu=0.3, rho=1}", "grid.cells=[10, 10]",

@@ -1,0 +1,103 @@
+// The change of volume of a block's points: J = det(I + H) and ∂J/∂H = cof(I + H), or to first order tr H and I.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "base/unroll.hpp"
+#include "space/materials/point_material.hpp"
+
+namespace stillpoint {
+
+/// In plane strain, or axisymmetric with components rr, rz, zr, zz, θθ.
+template <Kinematics K>
+requires(dimensions(K) == 2) struct ChangeOfVolume {
+  static constexpr int components = gradient_components(K);
+  static constexpr bool has_hoop = K == Kinematics::axisymmetric;
+  static constexpr std::array<bool, components> on_diagonal = [] {
+    std::array<bool, components> diagonal{};
+    diagonal[0] = diagonal[3] = diagonal[components - 1] = true;
+    return diagonal;
+  }();
+  using Block = PointBlock<K>;
+  using Row = typename Block::Row;
+  using Tensor = TensorOf<K>;
+
+  /// J, or at small strain tr H, of the block's points.
+  static void of_block(const Block& block, bool finite_strain, Row& J) {
+    finite_strain ? of_block_as<true>(block, J) : of_block_as<false>(block, J);
+  }
+  template <bool Finite>
+  [[gnu::always_inline]] static void of_block_as(const Block& block, Row& J) {
+#pragma omp simd
+    for (std::size_t q = 0; q < block.count; ++q) {
+      if constexpr (Finite) {
+        const double in_plane = (1 + block.H[0][q]) * (1 + block.H[3][q]) - block.H[1][q] * block.H[2][q];
+        J[q] = has_hoop ? in_plane * (1 + block.H[components - 1][q]) : in_plane;
+      } else {
+        J[q] = block.H[0][q] + block.H[3][q] + (has_hoop ? block.H[components - 1][q] : 0);
+      }
+    }
+  }
+  /// Its derivative along block.direction.
+  static void rate(const Block& block, bool finite_strain, Row& dJ) {
+    for (std::size_t q = 0; q < block.count; ++q) dJ[q] = rate_at(block, deformation(block, finite_strain, q), q);
+  }
+  /// δJ = cof f : δH
+  static double rate_at(const Block& block, const Tensor& f, std::size_t q) {
+    const Tensor cof = cofactor(f);
+    double rate = 0;
+    for (int c = 0; c < components; ++c) rate += cof[c] * block.direction[c][q];
+    return rate;
+  }
+
+  /// f = I + H, of small strain I
+  static Tensor deformation(const Block& block, bool finite_strain, std::size_t q) {
+    Tensor f;
+    for (int c = 0; c < components; ++c) f[c] = (on_diagonal[c] ? 1 : 0) + (finite_strain ? block.H[c][q] : 0);
+    return f;
+  }
+  /// ∂J/∂f = J f⁻ᵀ
+  [[gnu::always_inline]] static Tensor cofactor(const Tensor& f) {
+    if constexpr (has_hoop) {
+      const double hoop = f[4];
+      return {hoop * f[3], -hoop * f[2], -hoop * f[1], hoop * f[0], f[0] * f[3] - f[1] * f[2]};
+    } else {
+      return {f[3], -f[2], -f[1], f[0]};
+    }
+  }
+  static Tensor cofactor_rate(const Tensor& f, const Tensor& df) {
+    Tensor rate{df[3], -df[2], -df[1], df[0]};
+    if constexpr (has_hoop) {
+      const Tensor in_plane{f[3], -f[2], -f[1], f[0], 0};
+      for (int c = 0; c < 4; ++c) rate[c] = rate[c] * f[4] + in_plane[c] * df[4];
+      rate[4] = df[0] * f[3] + f[0] * df[3] - df[1] * f[2] - f[1] * df[2];
+    }
+    return rate;
+  }
+  /// block.VP = push cof f. Returns 0, or NaN if some push is not finite.
+  static double write_push(Block& block, bool finite_strain, const Row& push) {
+    double bad = 0;
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const Tensor cof = cofactor(deformation(block, finite_strain, q));
+      for (int c = 0; c < components; ++c) block.VP[c][q] = push[q] * cof[c];
+      bad += 0 * push[q];
+    }
+    return bad;
+  }
+  /// V P = scale V P + push cof f
+  [[gnu::always_inline]] static void add_cofactor(Block& block, const Tensor& f, std::size_t q, double scale,
+                                                  double push) {
+    const Tensor cof = cofactor(f);
+    unroll<components>([&](auto c)
+                           __attribute__((always_inline)) { block.VP[c][q] = scale * block.VP[c][q] + push * cof[c]; });
+  }
+  /// V P = V P + push I
+  [[gnu::always_inline]] static void add_identity(Block& block, std::size_t q, double push) {
+    unroll<components>([&](auto c) __attribute__((always_inline)) {
+      if constexpr (on_diagonal[c]) block.VP[c][q] += push;
+    });
+  }
+};
+
+}  // namespace stillpoint

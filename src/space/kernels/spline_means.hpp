@@ -1,0 +1,276 @@
+// Means over splines of one degree less than the basis, on the same grid: what MeanDilatation asks where the points of
+// neighbouring cells share too.
+//
+//   x̄_p = Σ_A N_pA c_A,   c = G Σ_q N_q V_q x_q,   m_A = Σ_p V_p N_pA,   M_AB = Σ_p V_p N_pA N_pB.
+//
+// With G = m⁻¹ this is S, the averaging of values at functions and back, whose error is of second order in the cells'
+// size. T = I − (I − S)^p adds the means of what S misses, up to p times for a basis of degree p:
+//
+//   G = Σ_j (I − m⁻¹ M)^j m⁻¹,   j = 0 … p − 1,
+//
+// so that it is off by terms of order 2 p, above the p + 1 of the displacement. It keeps constants, and is self-adjoint
+// in Σ V x y with eigenvalues from 0 to 1, as a projection is; but it needs no system to be solved, and reaches p
+// cells. Its rank is the number of splines, about one a cell: as many constraints as means over cells are, which for
+// smooth bases is half as many as there are unknowns. (A projection onto polynomials of that degree in each cell by
+// itself, with three or six constraints a cell, locks as if there were none.)
+//
+// Points of different materials have means of their own.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "base/lanes.hpp"
+#include "base/memory_report.hpp"
+#include "base/parallel_loop.hpp"
+#include "base/unroll.hpp"
+#include "space/grid/basis.hpp"
+#include "space/grid/domain_basis.hpp"
+#include "space/kernels/corner_sum.hpp"
+#include "space/materials/point_material.hpp"
+#include "space/points/material_points.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class SplineMeans {
+  static constexpr int dim = dimensions(K);
+  static constexpr int degree = std::max(1, B::degree - 1);
+  using Spline = std::conditional_t<B::window == 1, BSpline<degree>, DomainBSpline<degree>>;
+  using Basis = TensorBasis<Spline, dim>;
+  // A cell's functions lie in rows along the first axis.
+  static constexpr int along = Spline::per_cell, rows = Basis::per_cell / along, lanes = along <= 2 ? 2 : 4;
+  static constexpr int weights_of_point = lanes + along * (dim - 1);
+  using Block = PointBlock<K>;
+  using Row = typename Block::Row;
+
+ public:
+  static constexpr int per_cell = Basis::per_cell;
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  using OfCell = std::array<double, static_cast<std::size_t>(per_cell)>;
+
+  /// For the points of a phase, which outlive this or the next rebuild().
+  void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
+    points_ = &points;
+    evaluate(grid);
+    number_functions(grid);
+    corner_.assign(per_cell * points.cells(), 0);
+    for (auto* of_functions : {&first_, &next_}) of_functions->assign(functions(), 0);
+    weigh();
+  }
+
+  /// Those that reach a point, of all materials.
+  std::size_t functions() const { return corner_sum_.functions(); }
+  /// Number of local function a in occupied cell k.
+  int function(std::size_t k, int a) const { return function_[per_cell * k + static_cast<std::size_t>(a)]; }
+  /// G, as a matrix.
+  Matrix matrix() const {
+    const auto n = static_cast<Eigen::Index>(functions());
+    Matrix first(n, n);
+    first.setIdentity();
+    first = Eigen::Map<const Eigen::VectorXd>(inverse_m_.data(), n).asDiagonal() * first;
+    Matrix G = first;
+    for (int j = 1; j < terms; ++j) G = first + Matrix(missed_ * G);
+    return G;
+  }
+
+  /// N_pA of the functions of the point's cell.
+  OfCell N(std::size_t p) const {
+    OfCell N;
+    for (int a = 0; a < per_cell; ++a)
+      N[static_cast<std::size_t>(a)] = weight_[weights_of_point * p + a % along] * row_weight(p, a / along);
+    return N;
+  }
+  /// x̄ of the block's points.
+  void values(const Block& block, const std::vector<double>& c, Row& x) const {
+    for_cells(
+        block, [&](std::size_t k, std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+          std::array<double, static_cast<std::size_t>(lanes * rows)> of_cell{};
+          unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+            of_cell[lanes * (a / along) + a % along] = c[static_cast<std::size_t>(function(k, a))];
+          });
+          for (std::size_t p = begin; p < end; ++p) {
+            auto sum = Lanes<lanes>::load(of_cell.data()).times(row_weight(p, 0));
+            unroll<rows - 1>([&](auto r) __attribute__((always_inline)) {
+              sum.add(row_weight(p, r + 1), Lanes<lanes>::load(of_cell.data() + lanes * (r + 1)));
+            });
+            sum = sum.times(along_row(p));
+            x[p - block.first] = sum[0] + sum[1] + (along > 2 ? sum[lanes - 2] + sum[lanes - 1] : 0);
+          }
+        });
+  }
+  /// Takes y_p of the block's points into Σ_p N_p y_p; blocks of different cells may do so at a time.
+  void add(const Block& block, const Row& y) const {
+    for_cells(
+        block, [&](std::size_t k, std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+          std::array<Lanes<lanes>, static_cast<std::size_t>(rows)> of_cell{};
+          for (std::size_t p = begin; p < end; ++p) {
+            const auto weighted = along_row(p).times(y[p - block.first]);
+            unroll<rows>([&](auto r) __attribute__((always_inline)) { of_cell[r].add(row_weight(p, r), weighted); });
+          }
+          double* corner = corner_.data() + per_cell * k;
+          const double before = begin == points_->begin(k) ? 0 : 1;
+          unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+            corner[a] = before * corner[a] + of_cell[a / along][a % along];
+          });
+        });
+  }
+  /// c = G Σ_p N_p y_p of what all blocks added, (functions): c = m⁻¹ b, and p − 1 times c = m⁻¹ b + (I − m⁻¹ M) c.
+  void coefficients(std::vector<double>& c) const {
+    for_each_block(functions(),
+                   [&](std::size_t A) { first_[A] = inverse_m_[A] * corner_sum_.sum<1>(A, corner_.data())[0]; });
+    c = first_;
+    for (int j = 1; j < terms; ++j) {
+      for_each_block(functions(), [&](std::size_t A) {
+        double of_row = first_[A];
+        for (typename Matrix::InnerIterator entry(missed_, static_cast<Eigen::Index>(A)); entry; ++entry)
+          of_row += entry.value() * c[static_cast<std::size_t>(entry.col())];
+        next_[A] = of_row;
+      });
+      c.swap(next_);
+    }
+  }
+
+  /// What is kept for each point.
+  static std::vector<PointArray> arrays() {
+    return {{"weights of means", weights_of_point * static_cast<double>(sizeof(double))}};
+  }
+
+ private:
+  static constexpr int terms = B::degree;  // of G
+
+  [[gnu::always_inline]] Lanes<lanes> along_row(std::size_t p) const {
+    return Lanes<lanes>::load(weight_.data() + weights_of_point * p);
+  }
+  [[gnu::always_inline]] double row_weight(std::size_t p, int row) const {
+    double weight = 1;
+    for (int d = 1; d < dim; ++d) {
+      weight *= weight_[weights_of_point * p + static_cast<std::size_t>(lanes + along * (d - 1) + row % along)];
+      row /= along;
+    }
+    return weight;
+  }
+
+  // The factors of N along each axis, those of the first with zeros behind them.
+  void evaluate(const Grid<dim>& grid) {
+    weight_.assign(weights_of_point * points_->size(), 0);
+    for_each_block(points_->cells(), [&](std::size_t k) {
+      const auto cell = grid.cell_at(points_->cell[k]);
+      std::array<double, along> slope;
+      for (std::size_t p = points_->begin(k); p < points_->end(k); ++p) {
+        double* of_point = weight_.data() + weights_of_point * p;
+        for (std::size_t d = 0; d < dim; ++d) {
+          Spline::evaluate(grid.axes[d], cell[d], points_->x[d][p], of_point, slope.data());
+          of_point += d == 0 ? lanes : along;
+        }
+      }
+    });
+  }
+  void number_functions(const Grid<dim>& grid) {
+    const auto offset = Basis::offsets(grid);
+    const auto of_grid = static_cast<std::size_t>(Basis::count(grid));
+    std::vector<int> number(of_grid * points_->materials(), -1);
+    int next = 0;
+    function_.resize(per_cell * points_->cells());
+    for (std::size_t k = 0; k < points_->cells(); ++k) {
+      const std::size_t first = of_grid * static_cast<std::size_t>(points_->material_of_cell(k)) +
+                                static_cast<std::size_t>(Basis::first(grid, grid.cell_at(points_->cell[k])));
+      for (std::size_t a = 0; a < per_cell; ++a) {
+        int& known = number[first + static_cast<std::size_t>(offset[a])];
+        if (known < 0) known = next++;
+        function_[per_cell * k + a] = known;
+      }
+    }
+    corner_sum_.rebuild(function_, static_cast<std::size_t>(next));
+  }
+  // m⁻¹ and I − m⁻¹ M. Functions that no point feels have no mean, and none asks for it.
+  void weigh() {
+    inverse_m_.assign(functions(), 0);
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(per_cell * per_cell * points_->cells());
+    for (std::size_t k = 0; k < points_->cells(); ++k) {
+      std::array<OfCell, static_cast<std::size_t>(per_cell)> M{};
+      for (std::size_t p = points_->begin(k); p < points_->end(k); ++p) {
+        const OfCell weight = N(p);
+        for (std::size_t a = 0; a < per_cell; ++a) {
+          inverse_m_[static_cast<std::size_t>(function_[per_cell * k + a])] += points_->volume[p] * weight[a];
+          for (std::size_t b = 0; b < per_cell; ++b) M[a][b] += points_->volume[p] * weight[a] * weight[b];
+        }
+      }
+      for (std::size_t a = 0; a < per_cell; ++a) {
+        for (std::size_t b = 0; b < per_cell; ++b)
+          entries.emplace_back(function_[per_cell * k + a], function_[per_cell * k + b], M[a][b]);
+      }
+    }
+    for (double& of_function : inverse_m_) of_function = of_function > 0 ? 1 / of_function : 0;
+    const auto n = static_cast<Eigen::Index>(functions());
+    Matrix M(n, n), one(n, n);
+    M.setFromTriplets(entries.begin(), entries.end());
+    one.setIdentity();
+    missed_ = one - Matrix(Eigen::Map<const Eigen::VectorXd>(inverse_m_.data(), n).asDiagonal() * M);
+  }
+
+  /// visit(occupied cell, first point, one past the last) of the block's.
+  template <class Visit>
+  [[gnu::always_inline]] void for_cells(const Block& block, const Visit& visit) const {
+    for (std::size_t k = block.first_cell; k < block.last_cell; ++k)
+      visit(k, std::max(points_->begin(k), block.first), std::min(points_->end(k), block.first + block.count));
+  }
+
+  const MaterialPoints<dim>* points_ = nullptr;
+  std::vector<double> weight_;  // (P × weights_of_point)
+  std::vector<int> function_;   // (cells × per_cell)
+  CornerSum corner_sum_;
+  std::vector<double> inverse_m_;             // (functions) [1/m³]
+  Matrix missed_;                             // I − m⁻¹ M, (functions × functions)
+  mutable std::vector<double> corner_;        // (cells × per_cell): sums over each cell's points, of one quantity
+  mutable std::vector<double> first_, next_;  // (functions)
+};
+
+/// What MeanDilatation asks in one of its passes over the points.
+template <AxisBasis B, Kinematics K>
+class SplinePass {
+  using Block = PointBlock<K>;
+  using Row = typename Block::Row;
+  using Coefficients = const std::vector<double>*;
+
+ public:
+  /// Coefficients of the state's means and shares, and of the means' derivative; without shares they are summed, and
+  /// those of a derivative always are: they are known when all blocks have been there, and then go to write_push().
+  struct Known {
+    Coefficients means = nullptr, shares = nullptr, rates_of_means = nullptr;
+  };
+
+  SplinePass(const SplineMeans<B, K>& splines, const double* V, const Known& known)
+      : splines_(&splines), V_(V), known_(known) {}
+
+  void means(const Block& block, const Row&, Row& mean) const { splines_->values(block, *known_.means, mean); }
+  void rates_of_means(const Block& block, const Row&, Row& mean) const {
+    splines_->values(block, *known_.rates_of_means, mean);
+  }
+  void shares(const Block& block, const Row& y, Row& share) const {
+    if (!known_.shares) return rates_of_shares(block, y, share);
+    write_shares(block, *known_.shares, share);
+  }
+  void rates_of_shares(const Block& block, const Row& y, Row& share) const {
+    splines_->add(block, y);
+    share.fill(0);
+  }
+  /// Σ_q T_qp y_q = V_p Σ_A N_pA c_A
+  void write_shares(const Block& block, const std::vector<double>& c, Row& share) const {
+    splines_->values(block, c, share);
+    for (std::size_t q = 0; q < block.count; ++q) share[q] *= V_[block.first + q];
+  }
+
+ private:
+  const SplineMeans<B, K>* splines_;
+  const double* V_;
+  Known known_;
+};
+
+}  // namespace stillpoint
