@@ -192,9 +192,14 @@ requires(dimensions(K) == 2) class MeanDilatation {
     const std::size_t count = block.count;
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
-      if constexpr (Finite) Volume::add_cofactor(block, deformation(block, q), q, s_[q], push_[q]);
+      if constexpr (Finite) push_finite(block, q);
       if constexpr (!Finite) Volume::add_identity(block, q, push_[q]);
     }
+  }
+
+  // Apart from the loop: all locals are the function's own, or GCC gives up.
+  [[gnu::always_inline]] void push_finite(Block& block, std::size_t q) const {
+    Volume::add_cofactor(block, finite_deformation(block, q), q, s_[q], push_[q]);
   }
 
   // δ(a/J)
@@ -203,11 +208,17 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
 
   // f of the averaged block, of small strain I
-  [[gnu::always_inline]] Tensor deformation(const Block& block, std::size_t q) const {
+  Tensor deformation(const Block& block, std::size_t q) const {
+    if (finite_) return finite_deformation(block, q);
     Tensor f;
+    for (int c = 0; c < components; ++c) f[c] = on_diagonal[c] ? 1 : 0;
+    return f;
+  }
+  [[gnu::always_inline]] Tensor finite_deformation(const Block& block, std::size_t q) const {
+    Tensor f = block.H_at(q);
     unroll<components>([&](auto c) __attribute__((always_inline)) {
       constexpr double one = on_diagonal[c] ? 1 : 0;
-      f[c] = finite_ ? (one + block.H[c][q]) * inverse_s_[q] : one;
+      f[c] = (one + f[c]) * inverse_s_[q];
     });
     return f;
   }
