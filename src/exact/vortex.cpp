@@ -3,7 +3,8 @@
 //
 //   x = Q(α(R)) X,   α = A (1 − s²)ⁿ,   s = (2R − R_1 − R_2)/(R_2 − R_1)
 //
-// Nothing changes its volume. For the neo-Hookean law, in the directions of the angle Θ + α and with γ = R α':
+// or all of a disc R < R_2 with s = R/R_2, of which α is as smooth at the centre as anywhere. Nothing changes its
+// volume. For the neo-Hookean law, in the directions of the angle Θ + α and with γ = R α':
 //
 //   σ_rθ = μ γ,   σ_θθ = μ γ²,   σ_rr = σ_zz = 0
 //
@@ -27,8 +28,8 @@ class Vortex final : public ExactSolution {
   explicit Vortex(const Scene& scene)
       : mu_(elastic_constants(scene).mu),
         centre_{parameter(scene, "x0"), parameter(scene, "y0")},
-        middle_((parameter(scene, "inner_radius") + parameter(scene, "outer_radius")) / 2),
-        half_((parameter(scene, "outer_radius") - parameter(scene, "inner_radius")) / 2),
+        middle_(is_disc(scene) ? 0 : (parameter(scene, "inner_radius") + parameter(scene, "outer_radius")) / 2),
+        half_(parameter(scene, "outer_radius") - middle_),
         A_(parameter(scene, "angle")),
         n_(parameter(scene, "power")) {}
 
@@ -57,6 +58,7 @@ class Vortex final : public ExactSolution {
   }
 
  private:
+  static bool is_disc(const Scene& scene) { return parameter(scene, "inner_radius") == 0; }
   // α and α'
   std::pair<double, double> angle_at(double R) const {
     const double s = (R - middle_) / half_, q = 1 - s * s;
@@ -66,7 +68,7 @@ class Vortex final : public ExactSolution {
 
   double mu_;                     // [Pa]
   std::array<double, 2> centre_;  // [m]
-  double middle_, half_;          // of the ring [m]
+  double middle_, half_;          // of the ring; 0 and R_2 of a disc [m]
   double A_, n_;
 };
 
@@ -86,20 +88,21 @@ KnownSolution vortex_solution() {
   power.lower_allowed = true;
   power.required = false;
   power.fallback = 3;
-  ParameterInfo angle = any_parameter("angle", "rad", "A, by which the middle of the ring turns");
+  ParameterInfo inner_radius = positive_parameter("inner_radius", "m", "R_1 of the ring; 0: a disc, s = R/R_2");
+  inner_radius.lower_allowed = true;
+  inner_radius.required = false;
+  ParameterInfo angle = any_parameter("angle", "rad", "A, by which the middle of the ring or disc turns");
   angle.required = true;
-  return {
-      .about = {.name = "vortex",
-                .description = "a ring that turns inside itself, under rho b = mu R alpha'^2 e_r - mu (3 alpha' + R "
-                               "alpha'') e_theta",
-                .source = "after Kamojjala, Brannon, Sadeghirad and Guilkey 2015",
-                .states = {plane_strain},
-                .parameters = {positive_parameter("inner_radius", "m", "of the ring"),
-                               positive_parameter("outer_radius", "m", "of the ring"), angle, power,
-                               any_parameter("x0", "m", "of its centre"), any_parameter("y0", "m", "likewise")},
-                .laws = {"neo-hookean"},
-                .fault = vortex_fault},
-      .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Vortex>(scene); }};
+  return {.about = {.name = "vortex",
+                    .description = "a ring or disc that turns inside itself, under rho b = mu R alpha'^2 e_r - mu (3 "
+                                   "alpha' + R alpha'') e_theta",
+                    .source = "after Kamojjala, Brannon, Sadeghirad and Guilkey 2015",
+                    .states = {plane_strain},
+                    .parameters = {inner_radius, positive_parameter("outer_radius", "m", "R_2"), angle, power,
+                                   any_parameter("x0", "m", "of its centre"), any_parameter("y0", "m", "likewise")},
+                    .laws = {"neo-hookean"},
+                    .fault = vortex_fault},
+          .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Vortex>(scene); }};
 }
 
 }  // namespace stillpoint

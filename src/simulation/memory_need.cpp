@@ -81,8 +81,7 @@ bool is_nonlinear(const Scene& scene) {
 double of_moments(const Scene& scene, const BodySize& size) {
   const bool takes_moments = scene.dim == 2 && scene.state != StressState::axisymmetric &&
                              scene.grid.basis == BasisKind::linear && scene.phase.quadrature == Quadrature::points &&
-                             !is_nonlinear(scene) && !moves_on(scene) && !averages_dilatation(scene) &&
-                             !scene.geostatic;
+                             !is_nonlinear(scene) && !moves_on(scene) && !scene.geostatic;
   return takes_moments ? 8 * real * size.cells / size.points : 0;
 }
 

@@ -9,6 +9,10 @@
 //   Σ V_p P_p (1, ξ, η) = A : Σ V_p H_p (1, ξ, η),
 //
 // take of the points no more than Σ V_p (1, ξ, η, ξ², ξη, η²). A cell costs the same however many points it has.
+//
+// In the plane an isotropic law has P_xx, P_yy = κ tr H ± μ (H_xx − H_yy). If the points of a cell share their change
+// of volume, see MeanDilatation, t̄ = Σ V_p tr H_p/Σ V_p stands for tr H, and that is all: a_p = κ V_p t̄, so that the
+// law's V P̄ is V P.
 #pragma once
 
 #include <array>
@@ -29,11 +33,14 @@ class ElasticCells {
     double normal, cross, shear;
   };
 
-  /// For a phase of these points and weights, which outlive it. moduli: of each material.
-  void rebuild(const MaterialPoints<2>& points, const Weights& weights, std::vector<Moduli> moduli) {
+  /// For a phase of these points and weights, which outlive it. moduli: of each material. shares_dilatation: whether
+  /// the points of a cell share their change of volume.
+  void rebuild(const MaterialPoints<2>& points, const Weights& weights, std::vector<Moduli> moduli,
+               bool shares_dilatation) {
     points_ = &points;
     weights_ = &weights;
     moduli_ = std::move(moduli);
+    shares_dilatation_ = shares_dilatation;
     for (auto& moment : moments_) moment.resize(points.cells() + slack);
     for (auto& per_side : inverse_side_) per_side.resize(points.cells() + slack);
     for_each_block(points.cells(), [&](std::size_t k) {
@@ -53,15 +60,8 @@ class ElasticCells {
   /// corner[8 k + 2 a + i]: the force of cell k at its corner a, for the cells begin … end − 1. u: over the grid's
   /// functions. Returns 0, or NaN if a force is not finite.
   double forces(const double* u, std::size_t begin, std::size_t end, double* corner) const {
-    double bad = 0;
-    for (std::size_t first = begin; first < end;) {
-      std::size_t last = first + 1;
-      const int material = points_->material_of_cell(first);
-      while (last < end && last - first < lanes && points_->material_of_cell(last) == material) ++last;
-      bad += forces_of(moduli_[static_cast<std::size_t>(material)], u, first, last - first, corner + 8 * first);
-      first = last;
-    }
-    return bad;
+    return shares_dilatation_ ? forces_of_cells<true>(u, begin, end, corner)
+                              : forces_of_cells<false>(u, begin, end, corner);
   }
 
  private:
@@ -69,7 +69,22 @@ class ElasticCells {
   static constexpr std::size_t slack = lanes - 1;
   using Four = Lanes<4>;
 
+  template <bool Shared>
+  double forces_of_cells(const double* u, std::size_t begin, std::size_t end, double* corner) const {
+    double bad = 0;
+    for (std::size_t first = begin; first < end;) {
+      std::size_t last = first + 1;
+      const int material = points_->material_of_cell(first);
+      while (last < end && last - first < lanes && points_->material_of_cell(last) == material) ++last;
+      const Moduli& moduli = moduli_[static_cast<std::size_t>(material)];
+      bad += forces_of<Shared>(moduli, u, first, last - first, corner + 8 * first);
+      first = last;
+    }
+    return bad;
+  }
+
   // Of `count` cells, at most as many as there are lanes.
+  template <bool Shared>
   [[gnu::always_inline]] double forces_of(const Moduli& A, const double* u, std::size_t first, std::size_t count,
                                           double* corner) const {
     // Displacements x and y of two neighbouring corners lie side by side.
@@ -98,19 +113,24 @@ class ElasticCells {
       H_y[i] = {r.times(M).plus_product(t_y, M_x), r.times(M_x).plus_product(t_y, M_xx),
                 r.times(M_y).plus_product(t_y, M_xy)};
     });
-    const auto normal_stress = [&](const Four& along, const Four& across) __attribute__((always_inline)) {
+    // κ t̄
+    const Four pressure = Shared ? H_x[0].of_1.plus(H_y[1].of_1).over(M).times((A.normal + A.cross) / 2) : Four{};
+    // Σ V P_xx, times 1, ξ or η as H_xx, H_yy and `volume`, Σ V, are; of H_yy and H_xx it is P_yy.
+    const auto normal_stress = [&](const Four& along, const Four& across, const Four& volume)
+        __attribute__((always_inline)) {
+      if constexpr (Shared) return along.minus(across).times(A.shear).plus_product(pressure, volume);
       return along.times(A.normal).plus(across.times(A.cross));
     };
     // The far side of a cell takes Σ V P_i1 η or Σ V P_i2 ξ, the near side what is left of Σ V P.
     const Four shear = H_y[0].of_1.plus(H_x[1].of_1).times(A.shear);
-    const std::array far_x = {normal_stress(H_x[0].of_eta, H_y[1].of_eta).times(per_x),
+    const std::array far_x = {normal_stress(H_x[0].of_eta, H_y[1].of_eta, M_y).times(per_x),
                               H_y[0].of_eta.plus(H_x[1].of_eta).times(A.shear).times(per_x)};
     const std::array far_y = {H_y[0].of_xi.plus(H_x[1].of_xi).times(A.shear).times(per_y),
-                              normal_stress(H_y[1].of_xi, H_x[0].of_xi).times(per_y)};
-    const std::array near_x = {normal_stress(H_x[0].of_1, H_y[1].of_1).times(per_x).minus(far_x[0]),
+                              normal_stress(H_y[1].of_xi, H_x[0].of_xi, M_x).times(per_y)};
+    const std::array near_x = {normal_stress(H_x[0].of_1, H_y[1].of_1, M).times(per_x).minus(far_x[0]),
                                shear.times(per_x).minus(far_x[1])};
     const std::array near_y = {shear.times(per_y).minus(far_y[0]),
-                               normal_stress(H_y[1].of_1, H_x[0].of_1).times(per_y).minus(far_y[1])};
+                               normal_stress(H_y[1].of_1, H_x[0].of_1, M).times(per_y).minus(far_y[1])};
     std::array<Four, 4> below, above;  // of both corners, x and y
     unroll<2>([&](auto i) __attribute__((always_inline)) {
       below[i] = near_x[i].plus(near_y[i]).times(-1);
@@ -133,6 +153,7 @@ class ElasticCells {
   const MaterialPoints<2>* points_ = nullptr;
   const Weights* weights_ = nullptr;
   std::vector<Moduli> moduli_;
+  bool shares_dilatation_ = false;
   std::array<std::vector<double>, 6> moments_;  // Σ V (1, ξ, η, ξ², ξη, η²) of each cell, with slack [m³]
   std::array<std::vector<double>, 2> inverse_side_;  // [1/m]
 };

@@ -26,10 +26,23 @@ TEST_CASE("the vortex turns circles as a whole, and nothing outside its ring") {
   }
 }
 
+TEST_CASE("the vortex of a disc turns its centre by the angle, and nothing beyond its radius") {
+  const Scene of = scene("{solution='vortex', outer_radius=1.5, angle=0.4, power=4}", "plane-strain", "neo-hookean");
+  const auto solution = exact_solution(of);
+  const auto [u_x, u_y] = u(*solution, {1e-9, 0});
+  CHECK(u_x == Approx(1e-9 * (std::cos(0.4) - 1)).epsilon(1e-14));
+  CHECK(u_y == Approx(1e-9 * std::sin(0.4)).epsilon(1e-14));
+  const double angle = 0.4 * std::pow(1 - 1 / 2.25, 4);  // at R = 1
+  CHECK(u(*solution, {0, 1})[0] == Approx(-std::sin(angle)).epsilon(1e-14));
+  CHECK(u(*solution, {1.1, 1.1}) == Vector2{0, 0});
+}
+
 TEST_CASE("the vortex's stress is the neo-Hookean one of its gradient") {
-  for (const std::string power : {"2", "3", "4.5"}) {
-    const Scene of = scene("{solution='vortex', inner_radius=0.75, outer_radius=1.25, angle=0.25, power=" + power + "}",
-                           "plane-strain", "neo-hookean");
+  for (const std::string of_ring :
+       {"inner_radius=0.75, power=2", "inner_radius=0.75, power=3", "inner_radius=0.75, power=4.5", "power=4"}) {
+    CAPTURE(of_ring);
+    const Scene of =
+        scene("{solution='vortex', outer_radius=1.25, angle=0.25, " + of_ring + "}", "plane-strain", "neo-hookean");
     const auto solution = exact_solution(of);
     const double mu = 2 / (2 * 1.3);
     for (const Vector2 X : {Vector2{0.8, 0.3}, Vector2{-0.6, 0.8}, Vector2{0.2, -1.1}, Vector2{0.3, 0.1}}) {
