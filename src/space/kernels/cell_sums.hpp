@@ -22,13 +22,6 @@ class CellSums {
   using Row = typename Block::Row;
   static constexpr std::size_t slack = 3;  // entries after the last share, for who reads four at a time
 
-  /// Whether no cell is summed in parts.
-  static bool take_whole_cells(const MaterialPoints<2>& points) {
-    for (std::size_t k = 0; k < points.cells(); ++k) {
-      if (points.end(k) - points.begin(k) > Block::size) return false;
-    }
-    return true;
-  }
   /// V_p/W of points from … to − 1, W the sum of theirs.
   static void take_shares(const MaterialPoints<2>& points, std::size_t from, std::size_t to, double* shares) {
     double volume = 0;

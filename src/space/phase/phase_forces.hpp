@@ -51,15 +51,13 @@ template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_elastic_moments() {
   if constexpr (K == Kinematics::plane && std::same_as<B, BSpline<1>>) {
     if (info_.nonlinear || updated_lagrangian() || scene_.geostatic) return;
-    const bool shares_dilatation = averages_dilatation();
-    if (shares_dilatation && !CellSums<K>::take_whole_cells(body_.points)) return;
     std::vector<ElasticCells::Moduli> moduli;
     for (std::size_t m = 0; m < body_.materials.size(); ++m) {
       const auto p = static_cast<std::size_t>(body_.points.material_begin[m]);
       const auto A = body_.materials[m]->moduli(Tangent::elastic, {}, {}, 0, p);  // of xx, xy, yx, yy
       moduli.push_back({.normal = A[0], .cross = A[3], .shear = A[5]});
     }
-    elastic_cells_.rebuild(body_.points, weights_, std::move(moduli), shares_dilatation);
+    elastic_cells_.rebuild(body_.points, weights_, std::move(moduli), averages_dilatation());
   }
 }
 
