@@ -137,6 +137,8 @@ class DruckerPrager {
     return nominal_stress(H, det_g, xx, yy, zz, xy);
   }
 
+  /// The strength of a step is that at its start, which softening takes from the stress at its end.
+  bool stress_stays() const { return softening_rate_ == 0; }
   Stress<S> cauchy(const History& now) const { return {now[0], now[1], now[2], now[3]}; }
   History initial_history(const Stress<S>& s) const { return {s[0], s[1], s[2], s[3], 0, 0}; }
 

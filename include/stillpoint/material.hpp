@@ -72,6 +72,8 @@ concept HistoryLaw = requires(const L law, const Gradient<L::state>& H, double d
   // P = det(f) σ f⁻ᵀ after the increment; next: the committed history, which is advanced
   { law.first_piola(H, H, dt, next) } -> std::same_as<Gradient<L::state>>;
   { law.cauchy(next) } -> std::same_as<Stress<L::state>>;
+  // Whether the committed stress is what an increment of nothing answers, to rounding
+  { law.stress_stays() } -> std::same_as<bool>;
   // ∂P/∂H of first_piola() if H and dH change alike, and of an elastic trial: symmetric, and no trial is stiffer
   { law.moduli(H, H, dt, next) } -> std::same_as<Moduli<L::state>>;
   { law.elastic_moduli(H, next) } -> std::same_as<Moduli<L::state>>;

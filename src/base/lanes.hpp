@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -34,16 +35,34 @@ struct Lanes {
     std::memcpy(&loaded.lanes, from, sizeof loaded.lanes);
     return loaded;
   }
+  /// The first `count` of them, which are all that can be read, and zeros in the other lanes.
+  [[gnu::always_inline]] static Lanes load_first(const double* from, std::size_t count) {
+    if (count >= N) return load(from);
+    Lanes loaded{};
+    for (std::size_t k = 0; k < count; ++k) loaded.lanes[k] = from[k];
+    return loaded;
+  }
   [[gnu::always_inline]] void store(double* to) const { std::memcpy(to, &lanes, sizeof lanes); }
+  [[gnu::always_inline]] void store_first(double* to, std::size_t count) const {
+    if (count >= N) return store(to);
+    for (std::size_t k = 0; k < count; ++k) to[k] = lanes[k];
+  }
   /// this + factor · x, lane by lane.
   [[gnu::always_inline]] void add(double factor, const Lanes& x) { lanes += factor * x.lanes; }
   [[gnu::always_inline]] Lanes plus(const Lanes& x) const { return {lanes + x.lanes}; }
+  [[gnu::always_inline]] Lanes plus(double x) const { return {lanes + x}; }
   [[gnu::always_inline]] Lanes minus(const Lanes& x) const { return {lanes - x.lanes}; }
   [[gnu::always_inline]] Lanes times(double factor) const { return {factor * lanes}; }
   [[gnu::always_inline]] Lanes times(const Lanes& x) const { return {lanes * x.lanes}; }
+  [[gnu::always_inline]] Lanes over(double divisor) const { return {lanes / divisor}; }
   [[gnu::always_inline]] Lanes over(const Lanes& x) const { return {lanes / x.lanes}; }
   [[gnu::always_inline]] Lanes plus_product(const Lanes& x, const Lanes& y) const {
     return {lanes + x.lanes * y.lanes};
+  }
+  [[gnu::always_inline]] Lanes root() const {
+    Lanes roots;
+    for (int k = 0; k < N; ++k) roots.lanes[k] = std::sqrt(lanes[k]);
+    return roots;
   }
   /// The first `count` lanes, and zeros in the others whatever they hold.
   [[gnu::always_inline]] Lanes first(std::size_t count) const {

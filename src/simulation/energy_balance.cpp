@@ -2,16 +2,15 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
+
+#include "base/parallel_loop.hpp"
 
 namespace stillpoint {
 namespace {
 
 // ½ (f₀ + f₁) · (u₁ − u₀)
 double work_between(ConstVec f0, ConstVec f1, ConstVec u0, ConstVec u1) {
-  double work = 0;
-  for (std::size_t i = 0; i < u1.size(); ++i) work += 0.5 * (f0[i] + f1[i]) * (u1[i] - u0[i]);
-  return work;
+  return sum_over(u1.size(), [=](std::size_t i) { return 0.5 * (f0[i] + f1[i]) * (u1[i] - u0[i]); });
 }
 
 }  // namespace
@@ -29,32 +28,31 @@ std::vector<double> EnergyBalance::values(double kinetic_energy) const {
 
 void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u) {
   if (!watches_) return;
-  Forces now = forces(t, system, u);
+  const ConstVec F = system.last_external_force(), reactions = system.last_reactions();
+  const std::vector<double> support = phase_.support_displacements(t);
   if (last_.u.empty()) {  // the start of the run: nothing has moved yet but supports, from where nothing is deformed
-    last_ = now;
-    last_.reactions.assign(now.reactions.size(), 0);
-    last_.support.assign(now.support.size(), 0);
+    remember(F, u, std::vector<double>(reactions.size(), 0.0), std::vector<double>(support.size(), 0.0));
   }
-  work_ += work_between(last_.F, now.F, last_.u, now.u);
-  work_ += work_between(last_.reactions, now.reactions, last_.support, now.support);
+  work_ += work_between(last_.F, F, last_.u, u);
+  work_ += work_between(last_.reactions, reactions, last_.support, support);
   const double power = wall_power(t);
   work_ += 0.5 * (power_ + power) * (t - t_);
-  last_ = std::move(now);
+  remember(F, u, reactions, support);
   power_ = power;
   t_ = t;
 }
 
 void EnergyBalance::begin_phase(double t, const RelaxationSystem& system) {
   if (!watches_) return;
-  last_ = forces(t, system, std::vector<double>(system.size(), 0.0));
+  remember(system.last_external_force(), std::vector<double>(system.size(), 0.0), system.last_reactions(),
+           phase_.support_displacements(t));
 }
 
-EnergyBalance::Forces EnergyBalance::forces(double t, const RelaxationSystem& system, ConstVec u) const {
-  const ConstVec F = system.last_external_force(), reactions = system.last_reactions();
-  return {{F.begin(), F.end()},
-          {u.begin(), u.end()},
-          {reactions.begin(), reactions.end()},
-          phase_.support_displacements(t)};
+void EnergyBalance::remember(ConstVec F, ConstVec u, ConstVec reactions, ConstVec support) {
+  last_.F.assign(F.begin(), F.end());
+  last_.u.assign(u.begin(), u.end());
+  last_.reactions.assign(reactions.begin(), reactions.end());
+  last_.support.assign(support.begin(), support.end());
 }
 
 void EnergyBalance::archive(const StateArchive& state) {

@@ -38,7 +38,7 @@ class EnergyBalance {
     std::vector<double> F, u;                // of the free unknowns
     std::vector<double> reactions, support;  // of the supports
   };
-  Forces forces(double t, const RelaxationSystem& system, ConstVec u) const;
+  void remember(ConstVec F, ConstVec u, ConstVec reactions, ConstVec support);
 
   const LagrangianPhase& phase_;
   bool watches_;

@@ -51,8 +51,11 @@ class Mass::Relative {
     }
     std::ranges::sort(dofs_);
     dofs_.erase(std::unique(dofs_.begin(), dofs_.end()), dofs_.end());  // clang 14 takes no ranges::unique
+    std::vector<int> place_of_dof(diagonal.size());
+    for (std::size_t k = 0; k < dofs_.size(); ++k)
+      place_of_dof[static_cast<std::size_t>(dofs_[k])] = static_cast<int>(k);
+    const auto place = [&](int dof) { return place_of_dof[static_cast<std::size_t>(dof)]; };
     std::vector<Eigen::Triplet<double>> entries;
-    const auto place = [&](int dof) { return static_cast<int>(std::ranges::lower_bound(dofs_, dof) - dofs_.begin()); };
     for (const int dof : dofs_) entries.emplace_back(place(dof), place(dof), diagonal[static_cast<std::size_t>(dof)]);
     for_each_off_diagonal([&](int i, int j, double value) { entries.emplace_back(place(i), place(j), value); });
     SparseMatrix block(index(dofs_.size()), index(dofs_.size()));

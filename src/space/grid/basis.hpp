@@ -13,6 +13,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/lanes.hpp"
+#include "base/unroll.hpp"
 #include "space/grid/grid.hpp"
 
 namespace stillpoint {
@@ -50,29 +52,48 @@ struct BSpline {
     return sum / Degree;
   }
 
-  static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {
-    const auto knot = [&](int k) { return axis.nodes[static_cast<std::size_t>(std::clamp(k, 0, axis.cells()))]; };
-    // N_i,q = (x − t_i)/(t_i+q − t_i) N_i,q−1 + (t_i+q+1 − x)/(t_i+q+1 − t_i+1) N_i+1,q−1
-    std::array<double, per_cell> lower{};  // the functions of degree p − 1
-    N[0] = 1;
-    for (int q = 1; q <= Degree; ++q) {
-      if (q == Degree) std::copy(N, N + Degree, lower.begin());
-      double saved = 0;
-      for (int r = 0; r < q; ++r) {
-        const double right = knot(cell + r + 1), left = knot(cell + 1 + r - q);
-        const double share = N[r] / (right - left);
-        N[r] = saved + (right - x) * share;
-        saved = (x - left) * share;
+  /// The functions of one cell, for many positions in it.
+  class OnCell {
+   public:
+    OnCell(const Axis& axis, int cell) {
+      for (int k = 0; k < 2 * Degree; ++k)
+        knot_[k] = axis.nodes[static_cast<std::size_t>(std::clamp(cell + 1 - Degree + k, 0, axis.cells()))];
+      for (int q = 1; q <= Degree; ++q) {
+        for (int r = 0; r < q; ++r) per_length_[q - 1][r] = 1 / (right(r) - left(q, r));
       }
-      N[q] = saved;
     }
-    // N'_i,p = p N_i,p−1/(t_i+p − t_i) − p N_i+1,p−1/(t_i+p+1 − t_i+1)
-    for (int r = 0; r <= Degree; ++r) {
-      const auto slope = [&](int k) {
-        return Degree * lower[static_cast<std::size_t>(k)] / (knot(cell + k + 1) - knot(cell + 1 + k - Degree));
-      };
-      dN[r] = (r > 0 ? slope(r - 1) : 0.0) - (r < Degree ? slope(r) : 0.0);
+
+    // N_i,q = (x − t_i)/(t_i+q − t_i) N_i,q−1 + (t_i+q+1 − x)/(t_i+q+1 − t_i+1) N_i+1,q−1
+    void evaluate(double x, double* N, double* dN) const {
+      std::array<double, per_cell> lower{};  // the functions of degree p − 1
+      N[0] = 1;
+      for (int q = 1; q <= Degree; ++q) {
+        if (q == Degree) std::copy(N, N + Degree, lower.begin());
+        double saved = 0;
+        for (int r = 0; r < q; ++r) {
+          const double share = N[r] * per_length_[q - 1][r];
+          N[r] = saved + (right(r) - x) * share;
+          saved = (x - left(q, r)) * share;
+        }
+        N[q] = saved;
+      }
+      // N'_i,p = p N_i,p−1/(t_i+p − t_i) − p N_i+1,p−1/(t_i+p+1 − t_i+1)
+      for (int r = 0; r <= Degree; ++r) {
+        const auto slope = [&](int k) { return Degree * lower[k] * per_length_[Degree - 1][k]; };
+        dN[r] = (r > 0 ? slope(r - 1) : 0.0) - (r < Degree ? slope(r) : 0.0);
+      }
     }
+
+   private:
+    double right(int r) const { return knot_[Degree + r]; }
+    double left(int q, int r) const { return knot_[Degree + r - q]; }
+
+    std::array<double, static_cast<std::size_t>(2 * Degree)> knot_;  // t from cell + 1 − p on [m]
+    std::array<std::array<double, static_cast<std::size_t>(Degree)>, static_cast<std::size_t>(Degree)>
+        per_length_;  // 1/(t_i+q − t_i) at [q − 1] [1/m]
+  };
+  static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {
+    OnCell(axis, cell).evaluate(x, N, dN);
   }
 };
 
@@ -87,19 +108,30 @@ struct CubicHermite {
   /// The node that a function belongs to.
   static double centre(const Axis& axis, int function) { return axis.nodes[static_cast<std::size_t>(function / 2)]; }
 
-  // With s = (x − x_c)/h:  1 − 3s² + 2s³,  h s(1 − s)²,  3s² − 2s³,  −h s²(1 − s)
+  class OnCell {
+   public:
+    OnCell(const Axis& axis, int cell)
+        : left_(axis.nodes[static_cast<std::size_t>(cell)]),
+          h_(axis.nodes[static_cast<std::size_t>(cell) + 1] - left_) {}
+
+    // With s = (x − x_c)/h:  1 − 3s² + 2s³,  h s(1 − s)²,  3s² − 2s³,  −h s²(1 − s)
+    void evaluate(double x, double* N, double* dN) const {
+      const double s = (x - left_) / h_;
+      N[0] = 1 + s * s * (2 * s - 3);
+      N[1] = h_ * s * (1 - s) * (1 - s);
+      N[2] = s * s * (3 - 2 * s);
+      N[3] = h_ * s * s * (s - 1);
+      dN[0] = 6 * s * (s - 1) / h_;
+      dN[1] = (1 - s) * (1 - 3 * s);
+      dN[2] = -dN[0];
+      dN[3] = s * (3 * s - 2);
+    }
+
+   private:
+    double left_, h_;
+  };
   static void evaluate(const Axis& axis, int cell, double x, double* N, double* dN) {
-    const double left = axis.nodes[static_cast<std::size_t>(cell)];
-    const double h = axis.nodes[static_cast<std::size_t>(cell) + 1] - left;
-    const double s = (x - left) / h;
-    N[0] = 1 + s * s * (2 * s - 3);
-    N[1] = h * s * (1 - s) * (1 - s);
-    N[2] = s * s * (3 - 2 * s);
-    N[3] = h * s * s * (s - 1);
-    dN[0] = 6 * s * (s - 1) / h;
-    dN[1] = (1 - s) * (1 - 3 * s);
-    dN[2] = -dN[0];
-    dN[3] = s * (3 * s - 2);
+    OnCell(axis, cell).evaluate(x, N, dN);
   }
 };
 
@@ -149,16 +181,28 @@ struct TensorBasis {
     std::array<std::array<double, B::per_cell>, Dim> N, dN;
     for (int d = 0; d < Dim; ++d) B::evaluate(grid.axes[d], cell[d], x[d], N[d].data(), dN[d].data());
     Values values;
-    for (int a = 0; a < per_cell; ++a) {
-      values.N[a] = 1;
-      for (int d = 0; d < Dim; ++d) values.N[a] *= N[d][axis_index(a, d)];
-      for (int e = 0; e < Dim; ++e) {
-        values.dN[e][a] = 1;
-        for (int d = 0; d < Dim; ++d) values.dN[e][a] *= (d == e ? dN : N)[d][axis_index(a, d)];
-      }
-    }
+    multiply(N, dN, values.N.data(), values.dN[0].data());
     return values;
   }
+  /// The functions of all cells, for many positions; of a basis whose functions of a cell are those of it alone.
+  class OnCells {
+   public:
+    explicit OnCells(const Grid<Dim>& grid) {
+      for (int d = 0; d < Dim; ++d) {
+        for (int c = 0; c < grid.axes[d].cells(); ++c) axes_[d].emplace_back(grid.axes[d], c);
+      }
+    }
+    /// N: (per_cell), dN: (Dim × per_cell).
+    void evaluate(const std::array<int, Dim>& cell, const Point<Dim>& x, double* N, double* dN) const {
+      std::array<std::array<double, B::per_cell>, Dim> of_axis, slope;
+      for (int d = 0; d < Dim; ++d)
+        axes_[d][static_cast<std::size_t>(cell[d])].evaluate(x[d], of_axis[d].data(), slope[d].data());
+      multiply(of_axis, slope, N, dN);
+    }
+
+   private:
+    std::array<std::vector<typename B::OnCell>, Dim> axes_;
+  };
   /// The functions that are not zero on a face of the grid, ascending; face_values() leaves out slopes along the face.
   static std::vector<int> face_functions(const Grid<Dim>& grid, int axis, bool upper) {
     // Across the face the one value there is: the last function, or the last but one if a slope follows it.
@@ -205,6 +249,38 @@ struct TensorBasis {
       }
     }
     return found;
+  }
+
+ private:
+  using OfAxes = std::array<std::array<double, B::per_cell>, Dim>;
+
+  // N_a = Π_d N_a(d), ∂N_a/∂x_e = dN_a(e) Π_{d≠e} N_a(d)
+  static void multiply(const OfAxes& N, const OfAxes& dN, double* product, double* gradients) {
+    if constexpr (Dim == 1) {
+      std::copy(N[0].begin(), N[0].end(), product);
+      std::copy(dN[0].begin(), dN[0].end(), gradients);
+    } else {
+      constexpr int n = B::per_cell;
+      if constexpr (n <= 4) {
+        // Rows of functions along x at once; what one writes past its end the next one writes again.
+        const auto padded = [](const auto& of_axis) {
+          return Lanes<4>{{of_axis[0], of_axis[n > 1 ? 1 : 0], of_axis[n > 2 ? 2 : 0], of_axis[n > 3 ? 3 : 0]}};
+        };
+        const Lanes<4> N_x = padded(N[0]), dN_x = padded(dN[0]);
+        unroll<n>([&](auto b) __attribute__((always_inline)) {
+          constexpr std::size_t room = b + 1 < n ? 4 : n;
+          N_x.times(N[1][b]).store_first(product + n * b, room);
+          dN_x.times(N[1][b]).store_first(gradients + n * b, room);
+          N_x.times(dN[1][b]).store_first(gradients + per_cell + n * b, room);
+        });
+      } else {
+        for (int a = 0; a < per_cell; ++a) {
+          product[a] = N[0][axis_index(a, 0)] * N[1][axis_index(a, 1)];
+          gradients[a] = dN[0][axis_index(a, 0)] * N[1][axis_index(a, 1)];
+          gradients[per_cell + a] = N[0][axis_index(a, 0)] * dN[1][axis_index(a, 1)];
+        }
+      }
+    }
   }
 };
 

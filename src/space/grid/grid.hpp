@@ -58,10 +58,11 @@ struct Grid {
   }
   std::array<int, Dim> cell_at(int number) const {
     std::array<int, Dim> cell;
-    for (int d = 0; d < Dim; ++d) {
+    for (int d = 0; d + 1 < Dim; ++d) {
       cell[d] = number % axes[d].cells();
       number /= axes[d].cells();
     }
+    cell[Dim - 1] = number;
     return cell;
   }
 };

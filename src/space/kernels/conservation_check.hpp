@@ -38,11 +38,12 @@ class ConservationCheck {
     const double sum = sum_over(at_nodes.size(), [&](std::size_t f) { return at_nodes[f]; });
     mass_ = std::max(mass_, std::abs(sum - body) / body);
   }
-  /// Momenta at the nodes, (functions × Dim), beside those of the points.
-  void compare_momentum(const Momentum& of_points, const std::vector<double>& at_nodes) {
+  /// Momenta of `functions` nodes, at(Dim function + component), beside those of the points.
+  template <class At>
+  void compare_momentum(const Momentum& of_points, std::size_t functions, const At& at) {
     if (!(of_points.scale > 0)) return;
-    for (int i = 0; i < Dim; ++i) {
-      const double sum = sum_over(at_nodes.size() / Dim, [&](std::size_t f) { return at_nodes[Dim * f + i]; });
+    for (std::size_t i = 0; i < Dim; ++i) {
+      const double sum = sum_over(functions, [&](std::size_t f) { return at(Dim * f + i); });
       momentum_ = std::max(momentum_, std::abs(sum - of_points.sum[i]) / of_points.scale);
     }
   }

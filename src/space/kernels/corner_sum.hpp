@@ -23,8 +23,14 @@ class CornerSum {
       corner_[static_cast<std::size_t>(next_[static_cast<std::size_t>(function_of_corner[c])]++)] = static_cast<int>(c);
     }
   }
-  std::size_t functions() const { return begin_.size() - 1; }
+  std::size_t functions() const { return begin_.size() - 1; }  // 0 before the first rebuild
   bool reaches(std::size_t function) const { return begin_[function] < begin_[function + 1]; }
+
+  /// visit(corner) of a function's corners, in the order of cells.
+  template <class Visit>
+  void for_corners(std::size_t function, const Visit& visit) const {
+    for (int c = begin_[function]; c < begin_[function + 1]; ++c) visit(corner_[static_cast<std::size_t>(c)]);
+  }
 
   /// Σ over the corners of a function of values, (corners × Components); [i] is component i.
   template <int Components>
@@ -46,9 +52,9 @@ class CornerSum {
   }
 
  private:
-  std::vector<int> begin_;   // (functions + 1)
-  std::vector<int> corner_;  // of function f at [begin_[f], begin_[f + 1])
-  std::vector<int> next_;    // work
+  std::vector<int> begin_{0};  // (functions + 1)
+  std::vector<int> corner_;    // of function f at [begin_[f], begin_[f + 1])
+  std::vector<int> next_;      // work
 };
 
 }  // namespace stillpoint

@@ -13,8 +13,8 @@
 
 namespace stillpoint {
 
-/// nodal_mass() of these: m_k + Σ_e W_ek m_e, and 0 for the extended ones. Where the basis is no partition of unity m_e
-/// is shared by W_ek² so that values keep it.
+/// Mass of these, NodalTotals' m_k + Σ_e W_ek m_e, and 0 for the extended ones. Where the basis is no partition of
+/// unity m_e is shared by W_ek² so that values keep it.
 template <AxisBasis B, int Dim>
 void give_mass_to_sources(const Grid<Dim>& grid, const ExtendedFunctions& extension, std::vector<double>& mass) {
   const auto is_value = [&](int function) { return TensorBasis<B, Dim>::is_value(grid, function); };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "base/parallel_loop.hpp"
@@ -35,11 +36,15 @@ class NodalForce {
   void rebuild(const MaterialPoints<dim>& points, const Weights& weights, std::size_t functions) {
     points_ = &points;
     weights_ = &weights;
+    bool as_before = corner_sum_.functions() == functions && function_of_corner_.size() == per_cell * points.cells();
     function_of_corner_.resize(per_cell * points.cells());
     for (std::size_t k = 0; k < points.cells(); ++k) {
-      for (int a = 0; a < per_cell; ++a) function_of_corner_[per_cell * k + a] = weights.function(k, a);
+      for (int a = 0; a < per_cell; ++a) {
+        const int function = weights.function(k, a);
+        as_before = std::exchange(function_of_corner_[per_cell * k + a], function) == function && as_before;
+      }
     }
-    corner_sum_.rebuild(function_of_corner_, functions);
+    if (!as_before) corner_sum_.rebuild(function_of_corner_, functions);
     corner_.resize(dim * per_cell * points.cells());
     divide_into_blocks();
   }

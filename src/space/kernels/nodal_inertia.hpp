@@ -50,17 +50,14 @@ class NodalInertia {
  public:
   NodalInertia(const MassSpec& spec, bool updated_lagrangian) : spec_(spec), updated_lagrangian_(updated_lagrangian) {}
 
-  /// wave_modulus: λ + 2μ of each material [Pa]. is_free: whether neither support nor wall takes hold of a function,
-  /// (functions).
-  void begin_phase(const Grid<dim>& grid, const MaterialPoints<dim>& points, const PointWeights<B, K>& weights,
-                   const CornerSum& corner_sum, const std::vector<double>& wave_modulus,
-                   const std::vector<char>& is_free, const ExtendedFunctions& extension) {
-    mass_ = nodal_mass(points, weights, corner_sum);
-    give_mass_to_sources<B>(grid, extension, mass_);
+  /// mass, G: m_i [kg] and the stiffness bound [N/m], (functions). is_free: whether neither support nor wall takes hold
+  /// of a function, (functions).
+  void begin_phase(const Grid<dim>& grid, const std::vector<double>& mass, const std::vector<double>& G,
+                   const std::vector<char>& is_free) {
+    mass_ = mass;
     inertia_ = mass_;
     added_.clear();
     const bool gershgorin = spec_.scaling == MassScaling::gershgorin;
-    const std::vector<double> G = stiffness_bound(points, weights, corner_sum, wave_modulus, extension);
     const double all_mass = sum_over(mass_.size(), [&](std::size_t f) { return mass_[f]; });
     if (!(omega_squared_ > 0)) {
       omega_squared_ = sum_over(G.size(), [&](std::size_t f) { return G[f]; }) / all_mass;

@@ -34,29 +34,6 @@ std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const
   return sums;
 }
 
-/// Mass of each grid function that keeps each cell's mass, (functions):
-///   row sums Σ_p m_p N_ip if the basis is a partition of unity; otherwise, cell by cell, the diagonal of the
-///   consistent mass scaled so that its values (not its slopes) sum to the cell's mass [Hinton, Rock, Zienkiewicz
-///   1976].
-template <AxisBasis B, Kinematics K>
-std::vector<double> nodal_mass(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
-                               const CornerSum& corner_sum) {
-  using Basis = typename PointWeights<B, K>::Basis;
-  return nodal_sum<1>(points, weights, corner_sum, [&](std::size_t k, Corners<1, Basis::per_cell>& corner) {
-    double cell_mass = 0;
-    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-      const auto N = weights.N(k, p);
-      cell_mass += points.mass[p];
-      for (int a = 0; a < Basis::per_cell; ++a)
-        corner[a] += points.mass[p] * (B::partition_of_unity ? N[a] : N[a] * N[a]);
-    }
-    if (B::partition_of_unity) return;
-    double values_mass = 0;
-    for (int a = 0; a < Basis::per_cell; ++a) values_mass += Basis::is_value(a) ? corner[a] : 0;
-    for (double& mass : corner) mass *= cell_mass / values_mass;
-  });
-}
-
 /// G_i = Σ_p V_p A_p |∇N_ip| Σ_j |∇N_jp| with the wave modulus A_p = λ + 2μ, (functions) [N/m]: a bound of Σ_j |K_ij|
 /// in the norm of 2 × 2 blocks, since |B_iᵀ C B_j| ≤ (λ + 2μ) |∇N_i| |∇N_j|. By Gershgorin no frequency of a lumped M
 /// exceeds max √(G_i/M_i). Over the occupied cells k for which counts(k).

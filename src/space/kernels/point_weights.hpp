@@ -8,6 +8,7 @@
 #include <concepts>
 #include <vector>
 
+#include "base/lanes.hpp"
 #include "base/memory_report.hpp"
 #include "base/parallel_loop.hpp"
 #include "space/grid/basis.hpp"
@@ -39,8 +40,14 @@ class PointWeights {
   };
 
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
+    rebuild(grid, points, [](std::size_t) {});
+  }
+  /// after(k): follows upon the weights of occupied cell k, while they are near; several cells at a time.
+  template <class After>
+  void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points, const After& after) {
     offset_ = Basis::offsets(grid);
     first_.resize(points.cells());
+    at_.resize(points.cells());
     if constexpr (from_positions) {
       cell_.resize(points.cells());
       for (auto& along : position_) along.resize(points.size() + slack);
@@ -48,26 +55,27 @@ class PointWeights {
       N_.resize(per_cell * points.size());
       dN_.resize(rows * per_cell * points.size() + slack);
     }
+    const auto functions = [&] {
+      if constexpr (from_positions || B::window > 1) {
+        return 0;
+      } else {
+        return typename Basis::OnCells(grid);
+      }
+    }();
     for_each_block(points.cells(), [&](std::size_t k) {
-      const auto cell = grid.cell_at(points.cell[k]);
+      const auto cell = at_[k] = grid.cell_at(points.cell[k]);
       first_[k] = Basis::first(grid, cell);
       if constexpr (from_positions) {
         locate_in_cell(grid, cell, points, k);
-        return;
+      } else {
+        evaluate_in_cell(grid, functions, cell, points, k);
       }
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        const auto values = evaluate(grid, cell, points, p);
-        double* N = N_.data() + per_cell * p;
-        double* dN = dN_.data() + rows * per_cell * p;
-        for (int a = 0; a < per_cell; ++a) {
-          N[a] = values.N[a];
-          for (int j = 0; j < dim; ++j) dN[per_cell * j + a] = values.dN[j][a];
-          if constexpr (rows > dim) dN[per_cell * dim + a] = values.N[a] / points.x[0][p];
-        }
-      }
+      after(k);
     });
   }
 
+  /// Where occupied cell k is in the grid.
+  const std::array<int, dim>& cell_at(std::size_t k) const { return at_[k]; }
   /// Grid number of local function a in occupied cell k.
   int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
   /// N_a, [a] (per_cell), of point p in occupied cell k.
@@ -140,23 +148,38 @@ class PointWeights {
   }
 
  private:
-  static typename Basis::Values evaluate(const Grid<dim>& grid, const std::array<int, dim>& cell,
-                                         const MaterialPoints<dim>& points, std::size_t p) {
-    if constexpr (B::window == 1) {
-      return Basis::evaluate(grid, cell, points.position(p));
-    } else {
-      const auto domain = Domain<dim>::in_grid(points, p, grid);
-      const auto S = domain.gradients();
-      typename Basis::Values mean{};
-      for (int c = 0; c < domain.corners; ++c) {
-        const auto at_corner = Basis::evaluate(grid, cell, domain.x[c]);
-        for (int a = 0; a < per_cell; ++a) {
-          mean.N[a] += at_corner.N[a] / domain.corners;
-          for (int j = 0; j < dim; ++j) mean.dN[j][a] += S[c][j] * at_corner.N[a];
-        }
+  // functions: of all cells of the grid, if those of a domain are not means over it.
+  template <class Functions>
+  void evaluate_in_cell(const Grid<dim>& grid, const Functions& functions, const std::array<int, dim>& cell,
+                        const MaterialPoints<dim>& points, std::size_t k) {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      double* N = N_.data() + per_cell * p;
+      double* dN = dN_.data() + rows * per_cell * p;
+      if constexpr (B::window == 1) {
+        functions.evaluate(cell, points.position(p), N, dN);
+      } else {
+        const auto mean = mean_over_domain(grid, cell, points, p);
+        std::copy(mean.N.begin(), mean.N.end(), N);
+        for (int j = 0; j < dim; ++j) std::copy(mean.dN[j].begin(), mean.dN[j].end(), dN + per_cell * j);
       }
-      return mean;
+      if constexpr (rows > dim) {
+        for (int a = 0; a < per_cell; ++a) dN[per_cell * dim + a] = N[a] / points.x[0][p];
+      }
     }
+  }
+  static typename Basis::Values mean_over_domain(const Grid<dim>& grid, const std::array<int, dim>& cell,
+                                                 const MaterialPoints<dim>& points, std::size_t p) {
+    const auto domain = Domain<dim>::in_grid(points, p, grid);
+    const auto S = domain.gradients();
+    typename Basis::Values mean{};
+    for (int c = 0; c < domain.corners; ++c) {
+      const auto at_corner = Basis::evaluate(grid, cell, domain.x[c]);
+      for (int a = 0; a < per_cell; ++a) {
+        mean.N[a] += at_corner.N[a] / domain.corners;
+        for (int j = 0; j < dim; ++j) mean.dN[j][a] += S[c][j] * at_corner.N[a];
+      }
+    }
+    return mean;
   }
   void locate_in_cell(const Grid<dim>& grid, const std::array<int, dim>& at, const MaterialPoints<dim>& points,
                       std::size_t k) {
@@ -167,14 +190,18 @@ class PointWeights {
       cell.left[d] = lines[line];
       cell.side[d] = lines[line + 1] - lines[line];
       cell.inverse_side[d] = 1 / cell.side[d];
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        position_[d][p] = (points.x[d][p] - cell.left[d]) / cell.side[d];
+      constexpr int lanes = 4;
+      const std::size_t end = points.end(k);
+      for (std::size_t p = points.begin(k); p < end; p += lanes) {
+        const auto x = Lanes<lanes>::load_first(points.x[d].data() + p, end - p);
+        x.plus(-cell.left[d]).over(cell.side[d]).store_first(position_[d].data() + p, end - p);
       }
     }
   }
 
   std::array<int, per_cell> offset_;
-  std::vector<int> first_;  // (occupied cells)
+  std::vector<std::array<int, dim>> at_;  // (occupied cells)
+  std::vector<int> first_;                // (occupied cells)
   // Either the functions,
   std::vector<double> N_;   // (P × per_cell)
   std::vector<double> dN_;  // (P × rows × per_cell) [1/m]

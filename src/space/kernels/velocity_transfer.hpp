@@ -26,6 +26,7 @@
 #include "space/kernels/affine_velocity.hpp"
 #include "space/kernels/conservation_check.hpp"
 #include "space/kernels/nodal_sum.hpp"
+#include "space/kernels/point_motion.hpp"
 
 namespace stillpoint {
 
@@ -44,11 +45,11 @@ class VelocityTransfer {
   VelocityTransfer(const PhaseSpec& spec, bool damped) : spec_(spec), damped_(damped) {}
 
   /// Makes B_p of apic's points ready for a phase: in the first, where they have velocities v_p alone, from those.
-  /// mass: m_i, (functions).
+  /// mass: m_i, (functions); momentum: Σ_p m_p N_ip v_p, (functions × dim).
   void begin_phase(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
-                   const std::vector<double>& mass, bool first) const {
+                   const std::vector<double>& mass, const std::vector<double>& momentum, bool first) const {
     if (spec_.transfer != Transfer::apic) return;
-    if (first && !damped_) begin(grid, points, weights, corner_sum, mass);
+    if (first && !damped_) begin(grid, points, weights, corner_sum, mass, momentum);
     if constexpr (Affine::carries_gradient) {
       for_each_block(points.cells(), [&](std::size_t k) {
         const Centres centre = Affine::centres(grid, points.cell[k]);
@@ -62,43 +63,75 @@ class VelocityTransfer {
     }
   }
 
-  /// v_i from the points, (functions × dim). mass: m_i, (functions).
+  /// v_i from the points, (functions × dim). mass: m_i, (functions); momentum: Σ_p m_p N_ip v_p, (functions × dim).
   std::vector<double> to_grid(const Grid<dim>& grid, const Points& points, const Weights& weights,
-                              const CornerSum& corner_sum, const std::vector<double>& mass) {
-    const std::vector<double> of_cells = momentum_of_cells(points, weights, corner_sum);
-    std::vector<double> v = spec_.transfer == Transfer::apic ? affine_momentum(grid, points, weights, corner_sum)
-                                                             : nodal_momentum(points, weights, corner_sum);
+                              const CornerSum& corner_sum, const std::vector<double>& mass,
+                              const std::vector<double>& momentum) {
+    std::vector<double> v =
+        spec_.transfer == Transfer::apic ? affine_momentum(grid, points, weights, corner_sum) : momentum;
     if (spec_.transfer == Transfer::flip && !damped_ && B::partition_of_unity) {
-      make_velocity(of_cells, mass, v);
+      make_velocity(points, corner_sum, mass, v);
       v = momentum_about(grid, points, weights, corner_sum,
                          [&, mean = std::move(v)](const Centres& centre, std::size_t k, std::size_t p) {
                            return MotionAbout{Affine::velocity_gradient(weights, mean.data(), k, p),
                                               Affine::distances_weighed(weights.N(k, p), centre, points.position(p))};
                          });
     }
-    conservation_.compare_momentum(ConservationCheck<dim>::of_points(points), v);
-    make_velocity(of_cells, mass, v);
+    at_start_ = ConservationCheck<dim>::of_points(points);
+    conservation_.compare_momentum(at_start_, mass.size(), [p = v.data()](std::size_t i) { return p[i]; });
+    make_velocity(points, corner_sum, mass, v);
     return v;
   }
+
+  /// A run goes on in a phase that began with these points.
+  void resume(const Points& points) { at_start_ = ConservationCheck<dim>::of_points(points); }
 
   const ConservationCheck<dim>& conservation() const { return conservation_; }
   ConservationCheck<dim>& conservation() { return conservation_; }
 
-  /// Moves velocities to the points at a phase's end. u, v, v_start, and the impulse of the forces over the phase: over
-  /// the grid's functions, (functions × dim); mass: (functions). Positions are still those of the phase's start.
-  void to_points(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
-                 const std::vector<double>& mass, const double* u, const std::vector<double>& v_end,
-                 const std::vector<double>& v_start, const std::vector<double>& impulse) {
-    const auto before = ConservationCheck<dim>::of_points(points);
-    move(grid, points, weights, corner_sum, mass, u, v_end.data(), v_start.data());
-    check_momentum(before, points, mass, v_start, impulse);
+  /// Where the points go at a phase's end, and how fast, which nothing knows of before take_velocity(). u, v, v_start:
+  /// over the grid's functions, (functions × dim); mass: (functions). after(k): follows upon occupied cell k, several
+  /// at a time.
+  template <class After>
+  void move(const Points& points, const Weights& weights, const CornerSum& corner_sum, const std::vector<double>& mass,
+            const std::vector<double>& u, const std::vector<double>& v_end, const std::vector<double>& v_start,
+            const After& after) {
+    // v_p⁺ = s v_p + Σ N_ip w_i,  w_i = s (v_i − v_i at the start) + (1 − s) v_i
+    const double s = kept_share();
+    increment_.resize(v_end.size());
+    for_each_index(v_end.size(), [=, w = increment_.data(), now = v_end.data(), before = v_start.data()](
+                                     std::size_t i) { w[i] = s * (now[i] - before[i]) + (1 - s) * now[i]; });
+    motion_.find(points, weights, u.data(), increment_.data(), s, after);
+    if (spec_.transfer == Transfer::xpic) {
+      const std::array<std::vector<double>, dim> noise = null_space_part(points, weights, corner_sum, mass);
+      for (int i = 0; i < dim; ++i) {
+        for_each_index(points.size(), [v = motion_.v[i].data(), r = noise[i].data()](std::size_t p) { v[p] -= r[p]; });
+      }
+    }
+  }
+  /// Of the last move().
+  PointMotion<B, K>& motion() { return motion_; }
+  /// The points take the velocities of move(), while their positions are still those of the phase's start. impulse: of
+  /// the forces over the phase, (functions × dim).
+  void take_velocity(const Grid<dim>& grid, Points& points, const Weights& weights, const std::vector<double>& mass,
+                     const std::vector<double>& u, const std::vector<double>& v_end, const std::vector<double>& v_start,
+                     const std::vector<double>& impulse) {
+    points.v.swap(motion_.v);
+    if (spec_.transfer == Transfer::apic) {
+      for_each_block(points.cells(), [&](std::size_t k) {
+        const auto centre = Affine::centres(grid, points.cell[k]);
+        for (std::size_t p = points.begin(k); p < points.end(k); ++p)
+          Affine::set(points, weights, centre, k, p, u.data(), v_end.data());
+      });
+    }
+    check_momentum(points, mass, v_start, impulse);
   }
 
  private:
   void begin(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
-             const std::vector<double>& mass) const {
-    std::vector<double> v = nodal_momentum(points, weights, corner_sum);
-    make_velocity(momentum_of_cells(points, weights, corner_sum), mass, v);
+             const std::vector<double>& mass, const std::vector<double>& momentum) const {
+    std::vector<double> v = momentum;
+    make_velocity(points, corner_sum, mass, v);
     const std::vector<double> at_rest(v.size());
     for_each_block(points.cells(), [&](std::size_t k) {
       const Centres centre = Affine::centres(grid, points.cell[k]);
@@ -107,20 +140,9 @@ class VelocityTransfer {
     });
   }
 
-  // Σ_p m_p N_ip v_p, (functions × dim) [kg m/s].
-  std::vector<double> nodal_momentum(const Points& points, const Weights& weights, const CornerSum& corner_sum) const {
-    return nodal_sum<dim>(points, weights, corner_sum, [&](std::size_t k, Corners<dim, per_cell>& corner) {
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        const auto N = weights.N(k, p);
-        const double m = points.mass[p];
-        for (int a = 0; a < per_cell; ++a) {
-          for (int i = 0; i < dim; ++i) {
-            const double share = N[a] * points.v[i][p];
-            corner[dim * a + i] += m * share;
-          }
-        }
-      }
-    });
+  // Share of the increment in what the points have at the end; the rest is the velocity itself.
+  double kept_share() const {
+    return spec_.transfer == Transfer::flip ? spec_.flip_share : spec_.transfer == Transfer::xpic ? 1 : 0;
   }
 
   // Σ_p m_p (N_ip v_p + Σ_j A_ij w_j), likewise. about(centres of the cell, cell, point): A and w.
@@ -150,63 +172,48 @@ class VelocityTransfer {
     });
   }
 
-  // Σ m_p v_p and Σ m_p of all points in the cells that a function acts in, (functions × (dim + 1)).
-  std::vector<double> momentum_of_cells(const Points& points, const Weights& weights,
-                                        const CornerSum& corner_sum) const {
-    return nodal_sum<dim + 1>(points, weights, corner_sum, [&](std::size_t k, Corners<dim + 1, per_cell>& corner) {
-      std::array<double, dim + 1> of_cell{};
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        of_cell[dim] += points.mass[p];
-        for (int i = 0; i < dim; ++i) of_cell[i] += points.mass[p] * points.v[i][p];
-      }
-      for (int a = 0; a < per_cell; ++a) std::copy(of_cell.begin(), of_cell.end(), corner.begin() + (dim + 1) * a);
-    });
-  }
-
   // v_i from momenta m_i v_i. A node whose mass is next to nothing takes the velocity of its cells' points.
-  static void make_velocity(const std::vector<double>& of_cells, const std::vector<double>& mass,
+  static void make_velocity(const Points& points, const CornerSum& corner_sum, const std::vector<double>& mass,
                             std::vector<double>& v) {
     constexpr double next_to_nothing = 1e-12;
+    const double body = sum_over(mass.size(), [&](std::size_t f) { return mass[f]; });
     for_each_block(mass.size(), [&](std::size_t f) {
-      const double* cells = of_cells.data() + (dim + 1) * f;
-      const bool of_its_own = mass[f] > next_to_nothing * cells[dim];
-      const double m = of_its_own ? mass[f] : cells[dim];
-      for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? (of_its_own ? v[dim * f + i] : cells[i]) / m : 0;
+      double m = mass[f];
+      if (!(m > next_to_nothing * body)) {  // it may be of its cells, which are never heavier
+        const auto of_cells = momentum_of_cells(points, corner_sum, f);
+        if (!(m > next_to_nothing * of_cells[dim])) {
+          m = of_cells[dim];
+          for (int i = 0; i < dim; ++i) v[dim * f + i] = of_cells[i];
+        }
+      }
+      for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? v[dim * f + i] / m : 0;
     });
   }
-
-  void move(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
-            const std::vector<double>& mass, const double* u, const double* v, const double* v_start) const {
-    const std::array<std::vector<double>, dim> noise =
-        spec_.transfer == Transfer::xpic ? null_space_part(points, weights, corner_sum, mass) : decltype(noise){};
-    // Share of the increment in flip; the rest is the velocity itself.
-    const double share = spec_.transfer == Transfer::flip ? spec_.flip_share : 0;
-    for_each_block(points.cells(), [&](std::size_t k) {
-      const auto centre = spec_.transfer == Transfer::apic ? Affine::centres(grid, points.cell[k]) : Centres{};
+  // Σ m_p v_p and Σ m_p of all points in the cells that a function acts in.
+  static std::array<double, dim + 1> momentum_of_cells(const Points& points, const CornerSum& corner_sum,
+                                                       std::size_t function) {
+    std::array<double, dim + 1> of_cells{};
+    corner_sum.for_corners(function, [&](int corner) {
+      const std::size_t k = static_cast<std::size_t>(corner) / per_cell;
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        const auto now = weights.value(v, k, p), before = weights.value(v_start, k, p);
-        for (int i = 0; i < dim; ++i) {
-          double& v_p = points.v[i][p];
-          v_p = spec_.transfer == Transfer::xpic ? v_p - noise[i][p] + now[i] - before[i]
-                                                 : share * (v_p + now[i] - before[i]) + (1 - share) * now[i];
-        }
-        if (spec_.transfer == Transfer::apic) Affine::set(points, weights, centre, k, p, u, v);
+        of_cells[dim] += points.mass[p];
+        for (int i = 0; i < dim; ++i) of_cells[i] += points.mass[p] * points.v[i][p];
       }
     });
+    return of_cells;
   }
 
   // Σ_p m_p v_p has changed by the impulse in flip and xpic; in pic and apic it is Σ_i m_i v_i of the start and that.
-  void check_momentum(const typename ConservationCheck<dim>::Momentum& before, const Points& points,
-                      const std::vector<double>& mass, const std::vector<double>& v_start,
+  void check_momentum(const Points& points, const std::vector<double>& mass, const std::vector<double>& v_start,
                       const std::vector<double>& impulse) {
-    const double share = spec_.transfer == Transfer::flip ? spec_.flip_share : spec_.transfer == Transfer::xpic ? 1 : 0;
-    std::vector<double> expected(v_start.size());
-    for_each_index(expected.size(),
-                   [&](std::size_t i) { expected[i] = impulse[i] + (1 - share) * mass[i / dim] * v_start[i]; });
+    const double share = kept_share();
     auto change = ConservationCheck<dim>::of_points(points);
-    for (int i = 0; i < dim; ++i) change.sum[i] -= share * before.sum[i];
-    change.scale = std::max(change.scale, before.scale);
-    conservation_.compare_momentum(change, expected);
+    for (int i = 0; i < dim; ++i) change.sum[i] -= share * at_start_.sum[i];
+    change.scale = std::max(change.scale, at_start_.scale);
+    conservation_.compare_momentum(change, mass.size(),
+                                   [share, gain = impulse.data(), m = mass.data(), v = v_start.data()](std::size_t i) {
+                                     return gain[i] + (1 - share) * m[i / dim] * v[i];
+                                   });
   }
 
   // (I − S S⁺)^m v_p
@@ -240,6 +247,9 @@ class VelocityTransfer {
   PhaseSpec spec_;
   bool damped_;
   ConservationCheck<dim> conservation_;
+  typename ConservationCheck<dim>::Momentum at_start_;  // of the points when the phase began
+  PointMotion<B, K> motion_;
+  std::vector<double> increment_;  // w_i, (functions × dim)
 };
 
 }  // namespace stillpoint

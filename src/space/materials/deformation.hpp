@@ -9,6 +9,17 @@ namespace stillpoint {
 template <Kinematics K>
 using TensorOf = std::array<double, gradient_components(K)>;
 
+/// A Cauchy stress, σ_xx or σ_xx, σ_yy, σ_zz, σ_xy (σ_zz the hoop's), in these components.
+template <Kinematics K>
+TensorOf<K> tensor_of(const std::array<double, stress_components(K)>& s) {
+  if constexpr (K == Kinematics::line)
+    return {s[0]};
+  else if constexpr (K == Kinematics::plane)
+    return {s[0], s[3], s[3], s[1]};
+  else
+    return {s[0], s[3], s[3], s[1], s[2]};
+}
+
 /// I + H
 template <Kinematics K>
 TensorOf<K> plus_identity(TensorOf<K> H) {

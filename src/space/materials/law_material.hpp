@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel_loop.hpp"
 #include "base/unroll.hpp"
 #include "space/materials/point_material.hpp"
 
@@ -127,6 +126,9 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
           return push(F_0, law.first_piola(total(F_0, H)));
         });
   }
+  double committed_stress(Block&, const double*) const override {
+    throw std::logic_error("an elastic law has no stress of its own");
+  }
   void commit(std::vector<double>&) override {}
 
   ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
@@ -153,8 +155,9 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     }
   }
   Vec memory() override { return F0_; }
-  void reorder(const std::vector<int>& order, std::vector<double>&) override {
-    Base::take_values(F0_, order, begin_, count_);
+  void reorder(const Reordering& order, std::vector<double>&) override {
+    std::vector<double> work;
+    order.apply(F0_, work, begin_, count_);
   }
   void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
     Base::take_values(F0_, from, begin, count);
@@ -217,6 +220,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
       : Base(law, begin, count,
              {.history_dependent = true,
               .finite_strain = true,
+              .stress_stays = law.stress_stays(),
               .history_size = Law::history * count,
               .wave_modulus = law.elastic_moduli({}, law.initial_history({}))[0]}) {
     set_stress(std::vector<Stresses>(count, Stresses{}));
@@ -237,6 +241,18 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     };
     return Base::sum_in_groups(count, point);
   }
+  [[gnu::flatten]] double committed_stress(Block& block, const double* V) const override {
+    const double* from = committed_.data() + block.first - begin_;
+    const double* volume = V + block.first;
+    const Law law = law_;
+    const std::size_t n = count_;
+    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+      History now;
+      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { now[h] = from[n * h + q]; });
+      return block.store_stress(q, volume[q], tensor_of<K>(law.cauchy(now)));
+    };
+    return Base::sum_in_groups(block.count, point);
+  }
   void commit(std::vector<double>& trial) override { committed_.swap(trial); }
 
   ModuliMatrix moduli(Tangent kind, const Tensor& H, const Tensor& dH, double dt, std::size_t p) const override {
@@ -246,15 +262,8 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
 
   void end_phase(const Block&) override {}
   Vec memory() override { return committed_; }
-  void reorder(const std::vector<int>& order, std::vector<double>& work) override {
-    for (std::size_t h = 0; h < Law::history; ++h) {
-      const double* from = committed_.data() + count_ * h;
-      double* to = work.data() + count_ * h;
-      for_each_index(count_, [=, begin = begin_, at = order.data() + begin_](std::size_t k) {
-        to[k] = from[static_cast<std::size_t>(at[k]) - begin];
-      });
-    }
-    committed_.swap(work);
+  void reorder(const Reordering& order, std::vector<double>& work) override {
+    order.apply(committed_, work, begin_, count_);
   }
   void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
     Base::take_values(committed_, from, begin, count);

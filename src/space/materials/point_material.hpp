@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/memory_report.hpp"
+#include "base/reordering.hpp"
 #include "base/unroll.hpp"
 #include "space/materials/deformation.hpp"
 
@@ -60,6 +61,7 @@ struct PointBlock {
 struct PointMaterialInfo {
   bool history_dependent = false;
   bool finite_strain = false;
+  bool stress_stays = false;     // of a law with history: under no increment it is the committed one, to rounding
   std::size_t history_size = 0;  // entries of what is kept of the committed state, and of a trial of its own
   double wave_modulus = 0;       // λ + 2μ or its like in the undeformed state [Pa]
 };
@@ -80,6 +82,9 @@ class PointMaterial {
   /// remember is written to trial, (history_size). V: volumes when the phase began, of all points.
   /// Returns 0, or NaN if some P is not finite.
   virtual double stress(PointBlock<K>& block, const double* V, double dt, double* trial) const = 0;
+  /// The same under no deformation and no increment, of a law whose stress_stays: V_p σ_p as committed, and nothing is
+  /// to remember.
+  virtual double committed_stress(PointBlock<K>& block, const double* V) const = 0;
   /// The trial history becomes the committed one and the other way round; every block has had its stress() in it.
   virtual void commit(std::vector<double>& trial) = 0;
   /// block.VP = V_p (∂P/∂H at block.H, block.dH and dt) : block.direction.
@@ -100,8 +105,8 @@ class PointMaterial {
   /// deformation alone the gradient with which the phase began, if the body moves on; of one with history what was last
   /// committed.
   virtual Vec memory() = 0;
-  /// Points are sorted anew: the one that was number order[k] becomes number begin + k. work: (history_size).
-  virtual void reorder(const std::vector<int>& order, std::vector<double>& work) = 0;
+  /// Points are sorted anew. work: (history_size).
+  virtual void reorder(const Reordering& order, std::vector<double>& work) = 0;
   /// The material has these points from now on; the one with number p is what the one with number from[p] was.
   virtual void take(const std::vector<int>& from, std::size_t begin, std::size_t count) = 0;
   /// Points start under these Cauchy stresses, (points × stress components).

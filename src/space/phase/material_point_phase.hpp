@@ -24,6 +24,7 @@
 #include "space/kernels/elastic_cells.hpp"
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/nodal_inertia.hpp"
+#include "space/kernels/nodal_totals.hpp"
 #include "space/kernels/spline_means.hpp"
 #include "space/kernels/velocity_transfer.hpp"
 #include "space/phase/deformation_from_positions.hpp"
@@ -32,6 +33,7 @@
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/phase/law_gradients.hpp"
 #include "space/points/body.hpp"
+#include "space/points/next_cells.hpp"
 
 namespace stillpoint {
 
@@ -113,6 +115,7 @@ class MaterialPointPhase final : public LagrangianPhase,
     const MaterialPointPhase* of = nullptr;
     long phase = 0;
     bool evaluated = false;
+    bool keeps_history = true;  // false if there is nothing in it that was not committed before
     std::shared_ptr<TrialArrays> arrays;
   };
   Trial& own(TrialState& trial) const {
@@ -156,6 +159,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void take_elastic_moments();
   auto of_elastic_cells(const std::vector<double>& grid_u) const;
   double* scratch_history(std::size_t m) const;
+  bool stands_as_committed(double t, const std::vector<double>& grid_u) const;
 
   // --- Tangents, see phase_forces.hpp --------------------------------------------------------------
   void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const override;
@@ -194,6 +198,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void archive_conditions(const StateArchive& state);
   void take_saved_grid();
   void resume_phase(double t);
+  void make_weights();
   std::vector<char> active_functions() const;
   bool follows_positions();
   void weigh_motion();
@@ -217,12 +222,12 @@ class MaterialPointPhase final : public LagrangianPhase,
   bool is_free() const;
   std::vector<double> impulse(const std::vector<double>& grid_v) const;
   void keep_spin(const std::vector<double>& grid_v);
-  void end_phase(double t, ConstVec u, ConstVec v);
+  bool move_points(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, const std::vector<double>& grid_v);
+  void end_phase(const std::vector<double>& grid_v);
   void move_corners(std::size_t k, std::size_t p);
   void halve_domains();
   void refuse_folded_domains() const;
   void take_materials(const std::vector<int>& from);
-  bool check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces, ConstVec grid_u) const;
 
   bool is_within_phase(ConstVec u, const double* grid_u) const;
   double largest_motion(ConstVec u) const;
@@ -300,8 +305,10 @@ class MaterialPointPhase final : public LagrangianPhase,
   // Of the present phase:
   long phase_ = 0;
   PointWeights<B, K> weights_;
+  NodalTotals<B, K> totals_;    // of the points as the phase begins
   ElasticCells elastic_cells_;  // of a linear body in bilinear cells
   HeldUnknowns held_;
+  std::vector<char> reached_, untouched_;  // by a point, and by neither support nor wall, (functions)
   std::optional<DegreesOfFreedom> dofs_;
   std::vector<double> motion_weight_;      // cells that a unit of each unknown moves points by, at most, (n) [1/m]
   std::vector<double> constant_force_;     // part of F, (n)

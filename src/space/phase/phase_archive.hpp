@@ -106,6 +106,7 @@ void MaterialPointPhase<B, K>::resume_phase(double t) {
   place_functions(t);
   weigh_motion();
   make_forces(t);
+  transfer_.resume(body_.points);
   std::vector<double> v(size());
   begin_motion(t, v);
 }

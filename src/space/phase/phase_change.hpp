@@ -43,17 +43,21 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   const double grid_moves_to = followed == walls.end() ? 0 : followed->displacement;
   Grid<Dim> next_grid = grid_at<Dim>(scene_, grid_moves_to);
   spread(t, u, grid_u_);
-  // Before anything changes: a run that ends here shows the state it had.
+  const std::vector<double> grid_v = nodal_velocity(t, v);
   const GridFaces<Dim> faces(scene_, next_grid);
-  const bool some_past_a_face = check_inside(next_grid, faces, grid_u_);
+  const bool some_past_a_face = move_points(next_grid, faces, grid_v);
   motion_since_deformation_ += largest_motion(u);
-  end_phase(t, u, v);
+  end_phase(grid_v);
   if (some_past_a_face) faces.put_back(body_.points);
   ++phase_;
   grid_moved_ = grid_moves_to;
   grid_ = std::move(next_grid);
-  if constexpr (B::window > 1) halve_domains();
-  order_.sort(body_.points, grid_);
+  if constexpr (B::window > 1) {
+    halve_domains();
+    order_.sort(body_.points, grid_);
+  } else {
+    order_.sort_by_cells(body_.points, grid_);
+  }
   if (!spare_) make_trial();  // the trials of the phase are dead, and their arrays are free
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
     body_.materials[m]->reorder(order_.order(), spare_->history[m]);
@@ -72,13 +76,21 @@ void MaterialPointPhase<B, K>::begin_phase(double t) {
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::place_functions(double t) {
-  weights_.rebuild(grid_, body_.points);
-  const std::size_t functions = static_cast<std::size_t>(Basis::count(grid_));
-  nodal_force_.rebuild(body_.points, weights_, functions);
-  const std::vector<char> reached = active_functions();
-  held_ = HeldUnknowns(Dim * functions, t);
+  make_weights();
+  std::vector<char> reached = active_functions();
+  held_ = HeldUnknowns(Dim * reached.size(), t);
   for (const auto& condition : boundary_) condition->hold(grid_, reached, held_);
+  untouched_ = untouched_functions();
+  if (dofs_ && reached == reached_ && held_.prescribed() == dofs_->prescribed) return;
   dofs_.emplace(reached, Dim, held_.prescribed(), extension_);
+  reached_ = std::move(reached);
+}
+
+template <AxisBasis B, Kinematics K>
+void MaterialPointPhase<B, K>::make_weights() {
+  totals_.begin(grid_, body_.points, weights_, wave_moduli());
+  nodal_force_.rebuild(body_.points, weights_, static_cast<std::size_t>(Basis::count(grid_)));
+  totals_.sum(nodal_force_.corner_sum());
 }
 
 template <AxisBasis B, Kinematics K>
@@ -110,16 +122,16 @@ bool MaterialPointPhase<B, K>::follows_positions() {
 // A function that hardly reaches a point moves none by what it does.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::weigh_motion() {
-  const auto functions = static_cast<std::size_t>(Basis::count(grid_));
-  const std::vector<double> share = follows_positions()
-                                        ? DeformationFromPositions<B, K>::share_of_motion(body_, weights_, functions)
-                                        : std::vector<double>(functions, 1.0);
+  std::array<double, Dim> per_length;
+  for (std::size_t d = 0; d < Dim; ++d) per_length[d] = 1 / scene_.grid.cell_length(d);
   motion_weight_.resize(size());
-  for (std::size_t k = 0; k < size(); ++k) {
-    const auto [function, axis] = std::div(dofs_->free[k], Dim);
-    motion_weight_[k] =
-        share[static_cast<std::size_t>(function)] / scene_.grid.cell_length(static_cast<std::size_t>(axis));
-  }
+  for_each_index(size(), [per_length, weight = motion_weight_.data(), unknown = dofs_->free.data()](std::size_t k) {
+    weight[k] = per_length[static_cast<std::size_t>(unknown[k] % Dim)];
+  });
+  if (!follows_positions()) return;
+  const std::vector<double> share =
+      DeformationFromPositions<B, K>::share_of_motion(body_, weights_, static_cast<std::size_t>(Basis::count(grid_)));
+  for (std::size_t k = 0; k < size(); ++k) motion_weight_[k] *= share[static_cast<std::size_t>(dofs_->free[k] / Dim)];
 }
 
 // Not after every phase if they are short: what the grid does not feel grows with the way of the points.
@@ -133,26 +145,10 @@ void MaterialPointPhase<B, K>::take_deformation_from_positions() {
   deformation_.apply(grid_, body_, weights_, nodal_force_.corner_sum(), held_, origin_);
 }
 
-// Every function that a point gives mass or stiffness to: on a grid line the gradients of those across the next cell.
 template <AxisBasis B, Kinematics K>
 std::vector<char> MaterialPointPhase<B, K>::active_functions() const {
-  std::vector<char> reached(static_cast<std::size_t>(Basis::count(grid_)), 0);
-  for (std::size_t k = 0; k < body_.points.cells(); ++k) {
-    std::array<char, per_cell> acts{};
-    int acting = 0;
-    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k) && acting < per_cell; ++p) {
-      const auto N = weights_.N(k, p);
-      const auto dN = weights_.dN(k, p);
-      acting = 0;
-      for (int a = 0; a < per_cell; ++a) {
-        for (int j = 0; j < Dim; ++j) acts[a] |= static_cast<char>(N[a] != 0 || dN[per_cell * j + a] != 0);
-        acting += acts[a];
-      }
-    }
-    for (int a = 0; a < per_cell; ++a) {
-      if (acts[a]) reached[static_cast<std::size_t>(weights_.function(k, a))] = 1;
-    }
-  }
+  std::vector<char> reached(static_cast<std::size_t>(Basis::count(grid_)));
+  for (std::size_t f = 0; f < reached.size(); ++f) reached[f] = static_cast<char>(totals_.reaches(f));
   return reached;
 }
 
@@ -198,13 +194,42 @@ void MaterialPointPhase<B, K>::set_initial_point_velocity() {
   }
 }
 
+// Where grid_u_ and grid_v take the points, before anything changes: a run that ends here shows the state it had.
+// Throws PointLost if that is out of the next grid. Whether one has to be put back onto a face.
+template <AxisBasis B, Kinematics K>
+bool MaterialPointPhase<B, K>::move_points(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces,
+                                           const std::vector<double>& grid_v) {
+  const std::size_t none = body_.points.cells();
+  std::size_t first_outside = none;  // the first cell with such a point
+  const NextCells<Dim> next_cells(next_grid);
+  order_.cells().resize(body_.points.size());
+  const PointMotion<B, K>& motion = transfer_.motion();
+  transfer_.move(body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), grid_u_, grid_v, start_velocity_,
+                 [&](std::size_t k) {
+                   if (next_cells.find(body_.points, k, weights_.cell_at(k), motion.x, order_.cells())) return;
+#pragma omp critical(stillpoint_lost_point)
+                   first_outside = std::min(first_outside, k);
+                 });
+  for (std::size_t k = first_outside; k < none; ++k) {
+    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
+      for (int d = 0; d < Dim; ++d) {
+        const Axis& axis = next_grid.axes[d];
+        const double x = motion.x[d][p];
+        if (faces.keeps(d, x)) continue;
+        throw PointLost(fmt::format(
+            "{} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected a larger grid, a support or a wall",
+            to_string(place(k, p)), "xyz"[d], x, axis.min(), axis.max()));
+      }
+    }
+  }
+  return first_outside < none;
+}
+
 // x_p += Σ N_ip u_i,  V_p *= det f_p, and velocities by the scene's transfer
 template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
-  spread(t, u, grid_u_);
-  const std::vector<double> grid_v = nodal_velocity(t, v);
-  transfer_.to_points(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), grid_u_.data(), grid_v,
-                      start_velocity_, impulse(grid_v));
+void MaterialPointPhase<B, K>::end_phase(const std::vector<double>& grid_v) {
+  transfer_.take_velocity(grid_, body_.points, weights_, inertia_.mass(), grid_u_, grid_v, start_velocity_,
+                          impulse(grid_v));
   keep_spin(grid_v);
   take_means(grid_u_.data());
   nodal_force_.visit(grid_u_.data(), [&](std::size_t m, Block& block) {
@@ -214,54 +239,15 @@ void MaterialPointPhase<B, K>::end_phase(double t, ConstVec u, ConstVec v) {
     double* V = body_.points.volume.data() + block.first;
     for (std::size_t q = 0; q < block.count; ++q) V[q] *= determinant<K>(plus_identity<K>(block.H_at(q)));
   });
-  for_each_block(body_.points.cells(), [&](std::size_t k) {
-    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
-      const auto u_p = weights_.value(grid_u_.data(), k, p);
-      if constexpr (B::window > 1) move_corners(k, p);
-      for (int d = 0; d < Dim; ++d) body_.points.x[d][p] += u_p[d];
-    }
-  });
+  if constexpr (B::window > 1) {
+    for_each_block(body_.points.cells(), [&](std::size_t k) {
+      for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) move_corners(k, p);
+    });
+  }
+  body_.points.x.swap(transfer_.motion().x);
   for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
   weak_supports_.end_phase(grid_u_.data());
   load_control_.end_phase(grid_u_.data());
-}
-
-// Throws PointLost if u takes a point out of the next grid. Whether one has to be put back onto a face.
-template <AxisBasis B, Kinematics K>
-bool MaterialPointPhase<B, K>::check_inside(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces,
-                                            ConstVec grid_u) const {
-  const auto where_to = [&](std::size_t k, std::size_t p) {
-    Point<Dim> x = body_.points.position(p);
-    const auto u_p = weights_.value(grid_u.data(), k, p);
-    for (int d = 0; d < Dim; ++d) x[d] += u_p[d];
-    return x;
-  };
-  const std::size_t none = body_.points.cells();
-  std::size_t first_outside = none;  // the first cell with such a point
-  for_each_block(body_.points.cells(), [&](std::size_t k) {
-    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
-      const Point<Dim> x = where_to(k, p);
-      bool inside = true;
-      for (int d = 0; d < Dim; ++d)
-        inside = inside && x[d] >= next_grid.axes[d].min() && x[d] <= next_grid.axes[d].max();
-      if (inside) continue;
-#pragma omp critical(stillpoint_lost_point)
-      first_outside = std::min(first_outside, k);
-    }
-  });
-  for (std::size_t k = first_outside; k < none; ++k) {
-    for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
-      const Point<Dim> x = where_to(k, p);
-      for (int d = 0; d < Dim; ++d) {
-        const Axis& axis = next_grid.axes[d];
-        if (faces.keeps(d, x[d])) continue;
-        throw PointLost(fmt::format(
-            "{} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected a larger grid, a support or a wall",
-            to_string(place(k, p)), "xyz"[d], x[d], axis.min(), axis.max()));
-      }
-    }
-  }
-  return first_outside < none;
 }
 
 // Largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.

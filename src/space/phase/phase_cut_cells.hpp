@@ -16,7 +16,7 @@ void MaterialPointPhase<B, K>::extend_into_slivers() {
   const std::vector<CellShares> covered = std::move(body_.covered);
   const CutCells<Dim> cut(grid_, covered, B::degree);
   if (cut.slivers().empty()) return;
-  weights_.rebuild(grid_, body_.points);
+  make_weights();
   HeldUnknowns held(Dim * static_cast<std::size_t>(Basis::count(grid_)), 0);
   const std::vector<char> reached = active_functions();
   for (const auto& condition : boundary_) condition->hold(grid_, reached, held);

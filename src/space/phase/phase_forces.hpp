@@ -68,6 +68,17 @@ auto MaterialPointPhase<B, K>::of_elastic_cells(const std::vector<double>& grid_
   };
 }
 
+// Whether a phase begins here, with stresses that laws have answered before: the points have them still.
+template <AxisBasis B, Kinematics K>
+bool MaterialPointPhase<B, K>::stands_as_committed(double t, const std::vector<double>& grid_u) const {
+  const bool begins = history_dependent_ && phase_ > 0 && t == held_.start() && t == committed_t_;
+  return begins && !averages_dilatation() &&
+         std::ranges::all_of(
+             body_.materials,
+             [](const auto& law) { return !law->info().history_dependent || law->info().stress_stays; }) &&
+         std::ranges::all_of(grid_u, [](double u) { return u == 0; });
+}
+
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, TrialState& any) const {
   Trial& trial = own(any);
@@ -78,7 +89,16 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   trial.too_far = !is_within_phase(u, grid_u.data());
   if (trial.too_far) return false;
   take_means(grid_u.data());
-  if (history_dependent_) {
+  trial.keeps_history = true;
+  if (stands_as_committed(t, grid_u)) {
+    trial.keeps_history = false;
+    const auto answer = [this](std::size_t m, Block& block) {
+      const PointMaterial<K>& law = *body_.materials[m];
+      const double* V = body_.points.volume.data();
+      return law.info().history_dependent ? law.committed_stress(block, V) : law.stress(block, V, 0, nullptr);
+    };
+    trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
+  } else if (history_dependent_) {
     const double dt = t - committed_t_;
     double* const averages = averages_dilatation() ? trial.arrays->averages.data() : nullptr;
     const auto answer = [this, dt, history = trial.arrays->history.data(), averages](std::size_t m, Block& block) {
@@ -105,6 +125,7 @@ void MaterialPointPhase<B, K>::commit(TrialState& any) {
   if (!history_dependent_) return;
   if (!trial.evaluated) throw std::logic_error("a trial state that was not evaluated since the last commit");
   trial.evaluated = false;
+  if (!trial.keeps_history) return;
   for (std::size_t m = 0; m < body_.materials.size(); ++m) body_.materials[m]->commit(trial.arrays->history[m]);
   committed_u_.swap(trial.arrays->u);
   if (averages_dilatation()) committed_averages_.swap(trial.arrays->averages);

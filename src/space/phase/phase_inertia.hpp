@@ -15,8 +15,15 @@ std::vector<double> MaterialPointPhase<B, K>::wave_moduli() const {
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::make_mass() {
-  inertia_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), untouched_functions(),
-                       extension_);
+  if (extension_.empty()) {
+    inertia_.begin_phase(grid_, totals_.mass(), totals_.bound(), untouched_);
+  } else {
+    std::vector<double> m = totals_.mass();
+    give_mass_to_sources<B>(grid_, extension_, m);
+    inertia_.begin_phase(
+        grid_, m, stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), extension_),
+        untouched_);
+  }
   const bool is_consistent = scene_.mass.kind == MassKind::consistent;
   if (is_consistent || (projects() && !updated_lagrangian())) {
     consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);
@@ -78,12 +85,15 @@ std::vector<RelativeInertia> MaterialPointPhase<B, K>::relative_inertia() const 
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
   transfer_.conservation().compare_mass(info_.total_mass, inertia_.mass());
-  transfer_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), phase_ == 0);
+  transfer_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), totals_.momentum(),
+                        phase_ == 0);
   if (is_free()) transfer_.conservation().compare_with_start(body_.points);
   const std::vector<double> grid_v =
-      transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass());
+      transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), totals_.momentum());
   std::vector<double> v(size());
-  for (std::size_t k = 0; k < v.size(); ++k) v[k] = grid_v[static_cast<std::size_t>(dofs_->free[k])];
+  for_each_index(v.size(), [to = v.data(), from = grid_v.data(), number = dofs_->free.data()](std::size_t k) {
+    to[k] = from[number[k]];
+  });
   begin_motion(t, v);
   start_velocity_ = nodal_velocity(t, v);
   return v;
@@ -93,7 +103,9 @@ std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec v) const {
   std::vector<double> grid_v(grid_u_.size(), 0.0);
-  for (std::size_t k = 0; k < v.size(); ++k) grid_v[static_cast<std::size_t>(dofs_->free[k])] = v[k];
+  for_each_index(v.size(), [from = v.data(), to = grid_v.data(), number = dofs_->free.data()](std::size_t k) {
+    to[number[k]] = from[k];
+  });
   for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
     grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.motion(s).velocity(t);
   }
@@ -115,15 +127,15 @@ template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>& grid_v) const {
   std::vector<double> gain(grid_v.size());
   for_each_index(gain.size(),
-                 [&](std::size_t i) { gain[i] = inertia_.mass()[i / Dim] * (grid_v[i] - start_velocity_[i]); });
-  if (!mass_->is_lumped() || scene_.mass.scaling == MassScaling::gershgorin) return gain;
+                 [gain = gain.data(), m = inertia_.mass().data(), now = grid_v.data(),
+                  before = start_velocity_.data()](std::size_t i) { gain[i] = m[i / Dim] * (now[i] - before[i]); });
+  if (!mass_->is_lumped() || scene_.mass.scaling == MassScaling::gershgorin || inertia_.added().empty()) return gain;
   std::vector<double> dv(size()), M_dv(size());
   const auto grid_number = [&](std::size_t k) { return static_cast<std::size_t>(dofs_->free[k]); };
   for (std::size_t k = 0; k < dv.size(); ++k) dv[k] = grid_v[grid_number(k)] - start_velocity_[grid_number(k)];
   mass_->apply(dv, M_dv);
-  const std::vector<char> untouched = untouched_functions();
   for (std::size_t k = 0; k < dv.size(); ++k) {
-    if (untouched[grid_number(k) / Dim]) gain[grid_number(k)] = M_dv[k] / scene_.mass.factor;
+    if (untouched_[grid_number(k) / Dim]) gain[grid_number(k)] = M_dv[k] / scene_.mass.factor;
   }
   return gain;
 }

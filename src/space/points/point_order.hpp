@@ -1,46 +1,44 @@
 // Keeps the material points sorted by material and cell as they move through the grid.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/parallel_loop.hpp"
+#include "base/reordering.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_domains.hpp"
 
 namespace stillpoint {
 
-template <class T>
-void reorder(std::vector<T>& values, const std::vector<int>& order, std::vector<T>& work) {
-  if (values.empty()) return;
-  work.resize(order.size());
-  for_each_index(order.size(), [&, from = values.data(), to = work.data(), at = order.data()](std::size_t k) {
-    to[k] = from[at[k]];
-  });
-  values.swap(work);
+/// apply(values) to every array that is kept of points.
+template <int Dim, class Apply>
+void for_point_arrays(MaterialPoints<Dim>& points, const Apply& apply) {
+  for (auto& x : points.x) apply(x);
+  for (auto& v : points.v) apply(v);
+  for (auto& B : points.B_apic) apply(B);
+  for (auto& x : points.corner) apply(x);
+  for (auto& r : points.half) apply(r);
+  for (auto& X : points.rest) apply(X);
+  apply(points.volume);
+  apply(points.mass);
+  apply(points.number);
 }
 
-/// Point k is from now on what point from[k] was: all that is kept of one goes with it.
-template <int Dim>
-void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from, std::vector<double>& work,
-                 std::vector<int>& integer_work) {
-  for (auto& x : points.x) reorder(x, from, work);
-  for (auto& v : points.v) reorder(v, from, work);
-  for (auto& B : points.B_apic) reorder(B, from, work);
-  for (auto& x : points.corner) reorder(x, from, work);
-  for (auto& r : points.half) reorder(r, from, work);
-  for (auto& X : points.rest) reorder(X, from, work);
-  reorder(points.volume, from, work);
-  reorder(points.mass, from, work);
-  reorder(points.number, from, integer_work);
-}
-
+/// Point k is from now on what point from[k] was, of which there may be more than there were: all that is kept of one
+/// goes with it.
 template <int Dim>
 void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from) {
-  std::vector<double> work;
-  std::vector<int> integer_work;
-  take_points(points, from, work, integer_work);
+  for_point_arrays(points, [&](auto& values) {
+    if (values.empty()) return;
+    std::remove_reference_t<decltype(values)> taken(from.size());
+    for_each_index(from.size(),
+                   [&, of = values.data(), to = taken.data(), at = from.data()](std::size_t k) { to[k] = of[at[k]]; });
+    values.swap(taken);
+  });
 }
 
 template <int Dim>
@@ -49,59 +47,87 @@ class PointOrder {
   /// Longest list of points that counts as one cell; a fuller one is listed in parts.
   static constexpr int most_points = 128;
 
-  /// Sorts the points and lists the cells that hold some, or whose functions hold at some. order(): which point each
-  /// one was.
+  /// Sorts the points and lists the cells that hold some, or whose functions hold at some.
   void sort(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
-    const std::size_t n = points.size();
-    cell_.resize(n);
-    std::array<double, Dim> cells_per_length;
-    for (int d = 0; d < Dim; ++d) {
-      // of the first cell: the last may be wider or narrower, next to a wall that the grid follows
-      cells_per_length[d] = 1 / (grid.axes[d].nodes[1] - grid.axes[d].nodes[0]);
-    }
-    if (points.has_domains()) points.widest = widest_domain(grid);
-    for_each_index(n, [&](std::size_t p) {
-      std::array<int, Dim> cell;
-      if (points.has_domains()) {
-        cell = window_of(Domain<Dim>::in_grid(points, p, grid), grid);
-      } else {
-        for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], cells_per_length[d]);
-      }
-      cell_[p] = grid.cell_number(cell);
-    });
-    order_.resize(n);
+    find_cells(points, grid);
+    sort_by_cells(points, grid);
+  }
+  /// The same, where whoever moved the points has found cells() already.
+  void sort_by_cells(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
+    order_.from().resize(points.size());
     points.cell.clear();
     points.cell_begin.clear();
     for (std::size_t m = 0; m < points.materials(); ++m) {
       sort_material(points, grid.cells(), points.material_begin[m], points.material_begin[m + 1]);
     }
-    points.cell_begin.push_back(static_cast<int>(n));
-    take_points(points, order_, work_, integer_work_);
+    points.cell_begin.push_back(static_cast<int>(points.size()));
+    order_.complete();
+    for_point_arrays(points, [this](auto& values) { order_.apply(values, work_of(values)); });
   }
-  const std::vector<int>& order() const { return order_; }
+  /// The grid's number of the cell that each point lies in, (points).
+  std::vector<int>& cells() { return cell_; }
+  /// What the last sort made of the points.
+  const Reordering& order() const { return order_; }
+
+  /// Cells for each length along the axes of a grid, of the first one: the last may be wider or narrower, next to a
+  /// wall that the grid follows [1/m].
+  static Point<Dim> cells_per_length(const Grid<Dim>& grid) {
+    Point<Dim> per_length;
+    for (int d = 0; d < Dim; ++d) per_length[d] = 1 / (grid.axes[d].nodes[1] - grid.axes[d].nodes[0]);
+    return per_length;
+  }
 
  private:
-  // Counting sort, stable, and the list of cells with their first points.
+  void find_cells(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
+    cell_.resize(points.size());
+    const Point<Dim> per_length = cells_per_length(grid);
+    if (points.has_domains()) points.widest = widest_domain(grid);
+    for_each_index(points.size(), [&](std::size_t p) {
+      std::array<int, Dim> cell;
+      if (points.has_domains()) {
+        cell = window_of(Domain<Dim>::in_grid(points, p, grid), grid);
+      } else {
+        for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], per_length[d]);
+      }
+      cell_[p] = grid.cell_number(cell);
+    });
+  }
+  // Counting sort, stable, and the list of cells with their first points. Points that follow upon each other in a cell,
+  // as most do, are taken together.
   void sort_material(MaterialPoints<Dim>& points, int cells, int begin, int end) {
     next_.assign(static_cast<std::size_t>(cells) + 1, 0);
-    for (int p = begin; p < end; ++p) ++next_[static_cast<std::size_t>(cell_[static_cast<std::size_t>(p)]) + 1];
+    for_runs(begin, end, [this](std::size_t c, int, int count) { next_[c + 1] += count; });
     int first = begin;
     for (int c = 0; c < cells; ++c) {
-      int& count = next_[static_cast<std::size_t>(c) + 1];
+      const int count = std::exchange(next_[static_cast<std::size_t>(c) + 1], first);
       for (int part = 0; part < count; part += most_points) {
         points.cell.push_back(c);
         points.cell_begin.push_back(first + part);
       }
-      next_[static_cast<std::size_t>(c)] = first;
       first += count;
     }
-    for (int p = begin; p < end; ++p) {
-      const auto c = static_cast<std::size_t>(cell_[static_cast<std::size_t>(p)]);
-      order_[static_cast<std::size_t>(next_[c]++)] = p;
+    for_runs(begin, end, [this, from = order_.from().data()](std::size_t c, int run, int count) {
+      int& next = next_[c + 1];
+      std::iota(from + next, from + next + count, run);
+      next += count;
+    });
+  }
+  /// visit(cell, first point, points)
+  template <class Visit>
+  void for_runs(int begin, int end, const Visit& visit) const {
+    for (int p = begin; p < end;) {
+      const int run = p, cell = cell_[static_cast<std::size_t>(p)];
+      while (++p < end && cell_[static_cast<std::size_t>(p)] == cell) {
+      }
+      visit(static_cast<std::size_t>(cell), run, p - run);
     }
   }
 
-  std::vector<int> cell_, next_, order_, integer_work_;
+  std::vector<double>& work_of(const std::vector<double>&) { return work_; }
+  std::vector<int>& work_of(const std::vector<int>&) { return integer_work_; }
+
+  Reordering order_;
+  std::vector<int> cell_, next_, integer_work_;
   std::vector<double> work_;
 };
 

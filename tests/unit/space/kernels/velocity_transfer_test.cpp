@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "largest.hpp"
-#include "space/kernels/nodal_sum.hpp"
+#include "space/kernels/nodal_totals.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_order.hpp"
 
@@ -67,14 +67,17 @@ class FreeBlock {
   }
 
   std::vector<double> to_grid(VelocityTransfer<B, Kinematics::plane>& by, bool first = false) {
-    by.begin_phase(grid_, points, weights_, corner_sum_, mass, first);
-    return by.to_grid(grid_, points, weights_, corner_sum_, mass);
+    totals_.begin(grid_, points, weights_, {1});  // with the velocities that the points have now
+    totals_.sum(corner_sum_);
+    by.begin_phase(grid_, points, weights_, corner_sum_, mass, totals_.momentum(), first);
+    return by.to_grid(grid_, points, weights_, corner_sum_, mass, totals_.momentum());
   }
   void to_points(VelocityTransfer<B, Kinematics::plane>& by, const std::vector<double>& u, const std::vector<double>& v,
                  const std::vector<double>& v_start) {
     std::vector<double> impulse(v.size());
     for (std::size_t i = 0; i < v.size(); ++i) impulse[i] = mass[i / 2] * (v[i] - v_start[i]);
-    by.to_points(grid_, points, weights_, corner_sum_, mass, u.data(), v, v_start, impulse);
+    by.move(points, weights_, corner_sum_, mass, u, v, v_start, [](std::size_t) {});
+    by.take_velocity(grid_, points, weights_, mass, u, v, v_start, impulse);
   }
   /// The points move on by u, and the next phase begins.
   void move(const std::vector<double>& u) {
@@ -125,17 +128,19 @@ class FreeBlock {
  private:
   void begin_phase() {
     PointOrder<2>().sort(points, grid_);
-    weights_.rebuild(grid_, points);
+    totals_.begin(grid_, points, weights_, {1});
     std::vector<int> function_of_corner;
     for (std::size_t k = 0; k < points.cells(); ++k) {
       for (int a = 0; a < weights_.per_cell; ++a) function_of_corner.push_back(weights_.function(k, a));
     }
     corner_sum_.rebuild(function_of_corner, static_cast<std::size_t>(TensorBasis<B, 2>::count(grid_)));
-    mass = nodal_mass(points, weights_, corner_sum_);
+    totals_.sum(corner_sum_);
+    mass = totals_.mass();
   }
 
   Grid<2> grid_;
   PointWeights<B, Kinematics::plane> weights_;
+  NodalTotals<B, Kinematics::plane> totals_;
   CornerSum corner_sum_;
 };
 

@@ -289,7 +289,7 @@ TEST_CASE("sorting keeps points by material and cell, and their numbers with the
     const MaterialPoints<2> before = points;
     order.sort(points, grid);
     for (std::size_t p = 0; p < n; ++p) {
-      const auto from = static_cast<std::size_t>(order.order()[p]);
+      const auto from = static_cast<std::size_t>(order.order().from()[p]);
       CHECK(points.number[p] == before.number[from]);
       CHECK(points.position(p) == before.position(from));
       CHECK(points.volume[p] == points.number[p]);

@@ -10,6 +10,7 @@
 
 #include "allocation_count.hpp"
 #include "files.hpp"
+#include "largest.hpp"
 #include "scenes.hpp"
 #include "simulation/model.hpp"
 #include "statics.hpp"
@@ -127,6 +128,26 @@ TEST_CASE("no phase ends before its initial velocity is known, nor in a scene of
   const auto single = make_phase(scene);
   const std::vector<double> v = single->initial_velocity(0);
   CHECK_THROWS_AS(single->control().begin_next(0.1, v, v), std::logic_error);
+}
+
+TEST_CASE("a phase begins with the forces that its laws answer to no increment, softening or not") {
+  const bool softens = GENERATE(false, true);
+  CAPTURE(softens);
+  std::vector<std::string> overrides = {"material.soil.c=2000"};
+  if (softens) overrides.insert(overrides.end(), {"material.soil.c_residual=0", "material.soil.softening_strain=1e-3"});
+  const auto phase = make_phase(slope("20,11", overrides));
+  const double t = 0.01;
+  phase->initial_velocity(0);
+  const auto u = random_displacement(phase->size(), 2e-3, 1);
+  statics::commit(*phase, u, t);
+  phase->control().begin_next(t, u, std::vector<double>(phase->size(), 0.0));
+
+  const std::vector<double> rest(phase->size(), 0.0);
+  const auto at_start = state(*phase);
+  const auto begun = force(*phase, t, rest), through_the_laws = force(*phase, t + 1e-9, rest);
+  CHECK(largest_difference(begun, through_the_laws) < 1e-12 * largest_magnitude(begun));
+  statics::commit(*phase, rest, t);
+  CHECK((state(*phase) == at_start) == !softens);
 }
 
 TEST_CASE("the right-hand side of a plastic scene with walls and local damping allocates nothing") {

@@ -1,0 +1,101 @@
+// Where the material points go when a phase ends, and how fast, in one pass over the cells:
+//
+//   x_p⁺ = x_p + Σ_i N_ip u_i,   v_p⁺ = s v_p + Σ_i N_ip w_i
+//
+// They lie apart from the points, to which nothing has happened if one of them would leave the grid.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/lanes.hpp"
+#include "base/parallel_loop.hpp"
+#include "base/unroll.hpp"
+#include "space/kernels/point_weights.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class PointMotion {
+  using Weights = PointWeights<B, K>;
+  static constexpr int dim = Weights::dim;
+  static constexpr int per_cell = Weights::per_cell;
+  static constexpr int width = 2 * dim;  // u, and w behind it
+  using Points = MaterialPoints<dim>;
+  using Corners = std::array<Lanes<width>, per_cell>;
+
+ public:
+  /// u, w: over the grid's functions, component i at [dim function + i]. after(k): follows upon occupied cell k,
+  /// several at a time.
+  template <class After>
+  void find(const Points& points, const Weights& weights, const double* u, const double* w, double s,
+            const After& after) {
+    for (int d = 0; d < dim; ++d) {
+      x[d].resize(points.size());
+      v[d].resize(points.size());
+    }
+    for_each_block(points.cells(), [&](std::size_t k) {
+      Corners corners;
+      unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+        const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
+        corners[a] = joined(Lanes<dim>::load(u + at), Lanes<dim>::load(w + at));
+      });
+      find_in_cell(points, points.begin(k), points.end(k), field(weights, k, corners), s);
+      after(k);
+    });
+  }
+
+  std::array<std::vector<double>, dim> x, v;  // x⁺ [m] and v⁺ [m/s], each (points)
+
+ private:
+  // The point's (Σ N u_i, Σ N w_i) as a function of its number, in occupied cell k.
+  [[gnu::always_inline]] static auto field(const Weights& weights, std::size_t k, const Corners& corners) {
+    if constexpr (Weights::from_positions) {
+      // Σ_a N_a c_a = c_00 + (c_10 − c_00) ξ + [c_01 − c_00 + (c_11 − c_01 − c_10 + c_00) ξ] η
+      const Lanes<width> lower = corners[1].minus(corners[0]), left = corners[2].minus(corners[0]);
+      const Lanes<width> twist = corners[3].minus(corners[2]).minus(lower);
+      return [
+        c_00 = corners[0], lower, left, twist, xi = weights.position_in_cell(0), eta = weights.position_in_cell(1)
+      ](std::size_t p) __attribute__((always_inline)) {
+        Lanes<width> along = c_00, rise = left;
+        along.add(xi[p], lower);
+        rise.add(xi[p], twist);
+        along.add(eta[p], rise);
+        return along;
+      };
+    } else {
+      return [&weights, &corners, k ](std::size_t p) __attribute__((always_inline)) {
+        const auto N = weights.N(k, p);
+        Lanes<width> sum{};
+        unroll<per_cell>([&](auto a) __attribute__((always_inline)) { sum.add(N[a], corners[a]); });
+        return sum;
+      };
+    }
+  }
+  template <class Field>
+  [[gnu::always_inline]] void find_in_cell(const Points& points, std::size_t begin, std::size_t end, const Field& field,
+                                           double s) {
+    std::size_t p = begin;
+    if constexpr (width == 4) {
+      for (; p + 4 <= end; p += 4) {
+        const auto rows = transposed({field(p), field(p + 1), field(p + 2), field(p + 3)});
+        unroll<dim>([&](auto d) __attribute__((always_inline)) {
+          Lanes<4>::load(points.x[d].data() + p).plus(rows[d]).store(x[d].data() + p);
+          rows[dim + d]
+              .plus_product(Lanes<4>{{s, s, s, s}}, Lanes<4>::load(points.v[d].data() + p))
+              .store(v[d].data() + p);
+        });
+      }
+    }
+    for (; p < end; ++p) {
+      const Lanes<width> sum = field(p);
+      unroll<dim>([&](auto d) __attribute__((always_inline)) {
+        x[d][p] = points.x[d][p] + sum[d];
+        v[d][p] = s * points.v[d][p] + sum[dim + d];
+      });
+    }
+  }
+};
+
+}  // namespace stillpoint
