@@ -58,7 +58,9 @@ requires(dimensions(K) == 2) class MeanDilatation {
   /// is null.
   void average(Block& block, const double* before, double* after) { average_as<true>(block, before, after); }
   /// What averaging did to the block's points.
-  void write_effect(const Block& block, double* effect) const { std::copy_n(effect_.begin(), block.count, effect); }
+  void write_effect(const Block& block, double* effect) const {
+    std::copy_n((finite_ ? s_ : added_).begin(), block.count, effect);
+  }
 
   /// block.VP, the law's V P̄, becomes V P.
   void transform_stress(Block& block) {
@@ -138,7 +140,6 @@ requires(dimensions(K) == 2) class MeanDilatation {
       inverse_mean_[q] = J_[q] * product;
       s_[q] = d == 3 ? std::cbrt(mean_[q] * inverse_J_[q]) : mean_[q] * std::sqrt(product);
       inverse_s_[q] = d == 3 ? 1 / s_[q] : s_[q] * J_[q] * inverse_mean_[q];
-      effect_[q] = s_[q];
       const double s_before = Increments ? before[q] : 1;
       unroll<components>([&](auto c) __attribute__((always_inline)) {
         constexpr double one = on_diagonal[c] ? 1 : 0;
@@ -155,12 +156,12 @@ requires(dimensions(K) == 2) class MeanDilatation {
     means_.means(block, J_, mean_);
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
-      effect_[q] = (mean_[q] - J_[q]) / d;
+      added_[q] = (mean_[q] - J_[q]) / d;
       inverse_J_[q] = inverse_mean_[q] = s_[q] = inverse_s_[q] = 1;
-      const double more = Increments ? effect_[q] - before[q] : 0;
+      const double more = Increments ? added_[q] - before[q] : 0;
       unroll<components>([&](auto c) __attribute__((always_inline)) {
         if constexpr (on_diagonal[c] && Increments) block.dH[c][q] += more;
-        if constexpr (on_diagonal[c]) block.H[c][q] += effect_[q];
+        if constexpr (on_diagonal[c]) block.H[c][q] += added_[q];
       });
     }
   }
@@ -197,9 +198,12 @@ requires(dimensions(K) == 2) class MeanDilatation {
     }
   }
 
-  // Apart from the loop: all locals are the function's own, or GCC gives up.
+  // Along cof f = s^(1−d) cof f̄. Apart from the loop: all locals are the function's own, or GCC gives up.
   [[gnu::always_inline]] void push_finite(Block& block, std::size_t q) const {
-    Volume::add_cofactor(block, finite_deformation(block, q), q, s_[q], push_[q]);
+    Tensor averaged = block.H_at(q);
+    unroll<components>([&](auto c) __attribute__((always_inline)) { averaged[c] += on_diagonal[c] ? 1 : 0; });
+    const double push = push_[q] * inverse_s_[q] * (d == 3 ? inverse_s_[q] : 1);
+    Volume::add_cofactor(block, averaged, q, s_[q], push);
   }
 
   // δ(a/J)
@@ -208,17 +212,11 @@ requires(dimensions(K) == 2) class MeanDilatation {
   }
 
   // f of the averaged block, of small strain I
-  Tensor deformation(const Block& block, std::size_t q) const {
-    if (finite_) return finite_deformation(block, q);
+  [[gnu::always_inline]] Tensor deformation(const Block& block, std::size_t q) const {
     Tensor f;
-    for (int c = 0; c < components; ++c) f[c] = on_diagonal[c] ? 1 : 0;
-    return f;
-  }
-  [[gnu::always_inline]] Tensor finite_deformation(const Block& block, std::size_t q) const {
-    Tensor f = block.H_at(q);
     unroll<components>([&](auto c) __attribute__((always_inline)) {
       constexpr double one = on_diagonal[c] ? 1 : 0;
-      f[c] = (one + f[c]) * inverse_s_[q];
+      f[c] = finite_ ? (one + block.H[c][q]) * inverse_s_[q] : one;
     });
     return f;
   }
@@ -232,10 +230,11 @@ requires(dimensions(K) == 2) class MeanDilatation {
 
   Means means_;
   const bool finite_;
-  alignas(64) Row J_, mean_, s_, inverse_J_, inverse_mean_, inverse_s_, effect_;  // of u; at small strain J = J̄ = s = 1
-  alignas(64) Row a_, push_;                                                      // of V P̄
-  alignas(64) Row dJ_, dmean_, ds_;                                               // of δu
-  alignas(64) Rows kept_, direction_;                                             // V P̄, δH
+  alignas(64) Row J_, mean_, s_, inverse_J_, inverse_mean_, inverse_s_;  // of u; at small strain J = J̄ = s = 1
+  alignas(64) Row added_;                                                // (t̄ − tr H)/d of small strain
+  alignas(64) Row a_, push_;                                             // of V P̄
+  alignas(64) Row dJ_, dmean_, ds_;                                      // of δu
+  alignas(64) Rows kept_, direction_;                                    // V P̄, δH
 };
 
 }  // namespace stillpoint
