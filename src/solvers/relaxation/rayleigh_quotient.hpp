@@ -16,7 +16,7 @@
 
 namespace stillpoint {
 
-/// v, Q_before, Q: (n), ΔR = Q_before − Q; vMv = vᵀMv; work: (n), becomes ΔR.
+/// v, Q_before, Q: (n), ΔR = Q_before − Q, both under the same loads; vMv = vᵀMv; work: (n), becomes ΔR.
 inline double global_quotient(const Vector& v, const Vector& Q_before, const Vector& Q, double h, double vMv,
                               Vector& work) {
   if (!(vMv > 0)) return 0;

@@ -25,6 +25,7 @@ void StaggeredIteration::begin(double t, const Vector& /*y*/) {
   system().set_damping_rate(relaxation().from.rate.value_or(0));
   admissible_ = system().out_of_balance(t, u_->span(), Q_.span());
   if (admissible_) system().system().mass().solve(Q_.span(), a_.span());
+  remember_loads();
   force_is_current_ = true;
   if (admissible_) on_restart();
 }
@@ -32,7 +33,14 @@ void StaggeredIteration::begin(double t, const Vector& /*y*/) {
 void StaggeredIteration::restart(double t, const Vector& /*y*/) {
   system().last_out_of_balance(t, Q_.span());
   system().system().mass().solve(Q_.span(), a_.span());
+  remember_loads();
   on_restart();
+}
+
+void StaggeredIteration::remember_loads() {
+  if (relaxation_.steady) return;
+  const ConstVec F = system().last_external_force();
+  F_.assign(F.begin(), F.end());
 }
 
 SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/, double h, double /*t_stop*/,
@@ -55,6 +63,14 @@ void StaggeredIteration::accepted() {
   force_is_current_ = true;
   last_step_ = trial_step_;
   t_ = trial_t_;
+  if (!relaxation_.steady) {
+    // What the body's stiffness answers to a step is ΔR = Q_before + ΔF − Q: a load that jumps is none of it.
+    const ConstVec F = system().last_external_force();
+    for_each_index(F.size(), [Q = next_Q_.span().data(), now = F.data(), before = F_.data()](std::size_t i) {
+      Q[i] += now[i] - before[i];
+    });
+    remember_loads();
+  }
   moved(trial_step_);
 }
 
@@ -62,6 +78,7 @@ void StaggeredIteration::archive_memory(const StateArchive& state) {
   state("Q", Q_.span());
   state("a", a_.span());
   state("last_step", last_step_);
+  if (!relaxation_.steady) state("F", F_);
   archive_strategy(state);
 }
 

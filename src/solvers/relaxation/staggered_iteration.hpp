@@ -13,6 +13,8 @@
 
 #include <stillpoint/relaxation.hpp>
 
+#include <vector>
+
 #include "solvers/integrators/stepping_integrator.hpp"
 
 namespace stillpoint {
@@ -60,7 +62,7 @@ class StaggeredIteration : public SteppingIntegrator {
   Vector& v() { return *v_; }
   const Vector& Q() const { return Q_; }            // out-of-balance force [N]
   const Vector& a() const { return a_; }            // M⁻¹Q [m/s²]
-  const Vector& last_Q() const { return next_Q_; }  // before the step; in moved() only
+  const Vector& last_Q() const { return next_Q_; }  // before the step, under the loads of now; in moved() only
   double last_step() const { return last_step_; }   // h⁻
   /// xᵀMy, by a work array.
   double mass_dot(const Vector& x, const Vector& y);
@@ -77,10 +79,12 @@ class StaggeredIteration : public SteppingIntegrator {
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
   void archive_memory(const StateArchive& state) final;
+  void remember_loads();
 
   RelaxationOptions relaxation_;
   std::optional<Vector> u_, v_;  // the halves of y, in place
   Vector Q_, a_, next_Q_, next_a_, Mx_, work_;
+  std::vector<double> F_;  // of Q_, if the loads depend on t [N]
   double t_ = 0, trial_t_ = 0;
   double last_step_ = 0, trial_step_ = 0;
   bool admissible_ = true, force_is_current_ = false;
