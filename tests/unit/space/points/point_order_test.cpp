@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -23,9 +24,9 @@ struct Heap {
     points.material_begin = {0, 200, 480};
     const std::size_t n = 480;
     for (std::size_t p = 0; p < n; ++p) {
-      const std::size_t cell = p / 4;
+      const std::size_t cell = p / 4, row = cell / 12;
       points.x[0].push_back(static_cast<double>(cell % 12) + 0.25 + 0.5 * static_cast<double>(p % 2));
-      points.x[1].push_back(static_cast<double>(cell / 12) + 0.25 + 0.5 * static_cast<double>(p / 2 % 2));
+      points.x[1].push_back(static_cast<double>(row) + 0.25 + (p % 4 < 2 ? 0 : 0.5));
     }
     points.number.resize(n);
     std::iota(points.number.begin(), points.number.end(), 0);
@@ -127,7 +128,8 @@ TEST_CASE("the cells that points move on to are those that the next grid has the
   for (std::size_t p = 0; p < cell.size(); ++p) {
     for (auto& along : x) along[p] += std::uniform_real_distribution<double>(-0.8, 0.8)(heap.random);
   }
-  x[0][5] = 3;  // on a line
+  x[0][5] = std::ceil(heap.points.x[0][5]);  // on the line at its cell's end, which is the next cell's
+  x[1][5] = heap.points.x[1][5];
   x[1][7] = 10;
   for (std::size_t k = 0; k < heap.points.cells(); ++k) {
     bool all_inside = true;
