@@ -1,5 +1,6 @@
 // Cases that ordinary explicit runs lose.
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "scenes.hpp"
 #include "simulation/model.hpp"
@@ -186,5 +187,17 @@ TEST_CASE("without tolerances from the user an adaptive run is as accurate as rt
       CAPTURE(cells, rtol);
       CHECK(std::abs(u_end({std::string("integrator.rtol=") + rtol}) / reference - 1) < std::stod(rtol));
     }
+  }
+}
+
+TEST_CASE("auto follows a load that turns round once the body has come to rest, whenever that is") {
+  // What is left of the motion is rounding then: the load's jump beside it is no stiffness.
+  for (int time = 260; time <= 330; time += 10) {
+    const Summary s = run(scenes::load(
+        "hard/load_that_changes", {fmt::format("force[0].value=P0*(1 - 2*(t < {}))", time), "damping.strategy=auto"}));
+    CAPTURE(time, s.reason);
+    CHECK(s.status == RunStatus::equilibrium);
+    REQUIRE(s.error);
+    CHECK(s.error->u_rel_l2 < 1e-6);
   }
 }

@@ -53,9 +53,7 @@ requires(dimensions(K) == 2) struct ChangeOfVolume {
 
   /// f = I + H, of small strain I
   static Tensor deformation(const Block& block, bool finite_strain, std::size_t q) {
-    Tensor f;
-    for (int c = 0; c < components; ++c) f[c] = (on_diagonal[c] ? 1 : 0) + (finite_strain ? block.H[c][q] : 0);
-    return f;
+    return plus_identity<K>(finite_strain ? block.H_at(q) : Tensor{});
   }
   /// ∂J/∂f = J f⁻ᵀ
   [[gnu::always_inline]] static Tensor cofactor(const Tensor& f) {

@@ -200,10 +200,8 @@ requires(dimensions(K) == 2) class MeanDilatation {
 
   // Along cof f = s^(1−d) cof f̄. Apart from the loop: all locals are the function's own, or GCC gives up.
   [[gnu::always_inline]] void push_finite(Block& block, std::size_t q) const {
-    Tensor averaged = block.H_at(q);
-    unroll<components>([&](auto c) __attribute__((always_inline)) { averaged[c] += on_diagonal[c] ? 1 : 0; });
     const double push = push_[q] * inverse_s_[q] * (d == 3 ? inverse_s_[q] : 1);
-    Volume::add_cofactor(block, averaged, q, s_[q], push);
+    Volume::add_cofactor(block, plus_identity<K>(block.H_at(q)), q, s_[q], push);
   }
 
   // δ(a/J)

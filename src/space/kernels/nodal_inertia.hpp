@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "space/grid/extrapolation.hpp"
@@ -52,9 +53,9 @@ class NodalInertia {
 
   /// mass, G: m_i [kg] and the stiffness bound [N/m], (functions). is_free: whether neither support nor wall takes hold
   /// of a function, (functions).
-  void begin_phase(const Grid<dim>& grid, const std::vector<double>& mass, const std::vector<double>& G,
+  void begin_phase(const Grid<dim>& grid, std::vector<double> mass, const std::vector<double>& G,
                    const std::vector<char>& is_free) {
-    mass_ = mass;
+    mass_ = std::move(mass);
     inertia_ = mass_;
     added_.clear();
     const bool gershgorin = spec_.scaling == MassScaling::gershgorin;

@@ -8,7 +8,8 @@
 
 #include <stdexcept>
 
-#include "space/materials/law_material.hpp"
+#include "space/materials/elastic_material.hpp"
+#include "space/materials/history_material.hpp"
 
 namespace stillpoint {
 namespace {

@@ -61,7 +61,7 @@ struct PointBlock {
 struct PointMaterialInfo {
   bool history_dependent = false;
   bool finite_strain = false;
-  bool stress_stays = false;     // of a law with history: under no increment it is the committed one, to rounding
+  bool stress_stays = false;     // under no increment it is the committed one, to rounding
   std::size_t history_size = 0;  // entries of what is kept of the committed state, and of a trial of its own
   double wave_modulus = 0;       // λ + 2μ or its like in the undeformed state [Pa]
 };
@@ -82,8 +82,7 @@ class PointMaterial {
   /// remember is written to trial, (history_size). V: volumes when the phase began, of all points.
   /// Returns 0, or NaN if some P is not finite.
   virtual double stress(PointBlock<K>& block, const double* V, double dt, double* trial) const = 0;
-  /// The same under no deformation and no increment, of a law whose stress_stays: V_p σ_p as committed, and nothing is
-  /// to remember.
+  /// The same where block.H is 0 and nothing came since commit, of a law whose stress_stays: nothing is to remember.
   virtual double committed_stress(PointBlock<K>& block, const double* V) const = 0;
   /// The trial history becomes the committed one and the other way round; every block has had its stress() in it.
   virtual void commit(std::vector<double>& trial) = 0;

@@ -205,6 +205,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void take_deformation_from_positions();
   double time_scale() const;
 
+  std::vector<double> bound_of_functions() const;
   void make_mass();
   std::vector<char> untouched_functions() const;
   std::vector<RelativeInertia> relative_inertia() const;

@@ -106,9 +106,7 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   make_mass();
   constant_force_.assign(size(), 0);
   for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
-  const auto bound = [this] {
-    return stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), extension_);
-  };
+  const auto bound = [this] { return bound_of_functions(); };
   weak_supports_.begin_phase(parts(), bound);
   load_control_.begin_phase(parts(), bound);
 }

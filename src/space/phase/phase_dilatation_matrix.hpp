@@ -124,13 +124,11 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_means(Tangent kind, double dt) 
   }
 }
 
-// With c = G D u the coefficients of the means, D_A = Σ_p V_p N_pA ∂J_p/∂u, and the forces R = R(u, c) + Dᵀ G Σ_p N_p
-// y_p:
+// With c = G D u the coefficients of the means, D_A = Σ_p V_p N_pA ∂J_p/∂u, and R = R(u, c) + Dᵀ G Σ_p N_p y_p:
 //
 //   K = K_uu + K_uc G D + (G D)ᵀ (K_cu + K_cc G D)
 //
-// where K_uc = ∂R/∂c, K_cu and K_cc are the derivatives of Σ_p N_p y_p, and K_uu that of R(u, c) and of D at its
-// shares.
+// where K_uc = ∂R/∂c, K_cu and K_cc are derivatives of Σ_p N_p y_p, and K_uu that of R(u, c) and of D at its shares.
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix_of_spline_means(Tangent kind, double dt) const {
   constexpr int unknowns = Dim * per_cell, splines = SplineMeans<B, K>::per_cell;
@@ -146,9 +144,8 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_spline_means(Tangent kind, doub
     for_parts_of_cell(k, block, [&] {
       const bool finite = body_.materials[static_cast<std::size_t>(points.material_of_cell(k))]->info().finite_strain;
       typename Block::Row of_mean{}, of_share{};
-      std::vector<TensorOf<K>> cofactor(block.count);
-      for (std::size_t q = 0; q < block.count; ++q)
-        cofactor[q] = ChangeOfVolume<K>::cofactor(ChangeOfVolume<K>::deformation(block, finite, q));
+      std::vector<TensorOf<K>> f(block.count);  // of the points themselves
+      for (std::size_t q = 0; q < block.count; ++q) f[q] = ChangeOfVolume<K>::deformation(block, finite, q);
       std::vector<typename SplineMeans<B, K>::OfCell> N(block.count);
       for (std::size_t q = 0; q < block.count; ++q) N[q] = splines_.N(block.first + q);
       const auto direct = [&](int column) {
@@ -156,8 +153,7 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_spline_means(Tangent kind, doub
           take_unit(k, column / Dim, column % Dim, block);
           std::fill_n(of_mean.begin(), block.count, 0.0);
           for (std::size_t q = 0; q < block.count; ++q) {
-            double dJ = 0;
-            for (int c = 0; c < components; ++c) dJ += cofactor[q][c] * block.direction[c][q];
+            const double dJ = ChangeOfVolume<K>::rate_at(block, f[q], q);
             for (int a = 0; a < splines; ++a)
               mixed.mean_of_u[a][column] += points.volume[block.first + q] * N[q][a] * dJ;
           }

@@ -73,9 +73,7 @@ template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::stands_as_committed(double t, const std::vector<double>& grid_u) const {
   const bool begins = history_dependent_ && phase_ > 0 && t == held_.start() && t == committed_t_;
   return begins && !averages_dilatation() &&
-         std::ranges::all_of(
-             body_.materials,
-             [](const auto& law) { return !law->info().history_dependent || law->info().stress_stays; }) &&
+         std::ranges::all_of(body_.materials, [](const auto& law) { return law->info().stress_stays; }) &&
          std::ranges::all_of(grid_u, [](double u) { return u == 0; });
 }
 
@@ -93,9 +91,7 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
   if (stands_as_committed(t, grid_u)) {
     trial.keeps_history = false;
     const auto answer = [this](std::size_t m, Block& block) {
-      const PointMaterial<K>& law = *body_.materials[m];
-      const double* V = body_.points.volume.data();
-      return law.info().history_dependent ? law.committed_stress(block, V) : law.stress(block, V, 0, nullptr);
+      return body_.materials[m]->committed_stress(block, body_.points.volume.data());
     };
     trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
   } else if (history_dependent_) {

@@ -13,17 +13,18 @@ std::vector<double> MaterialPointPhase<B, K>::wave_moduli() const {
   return moduli;
 }
 
+// stiffness_bound(), with those of extended functions at what they follow.
+template <AxisBasis B, Kinematics K>
+std::vector<double> MaterialPointPhase<B, K>::bound_of_functions() const {
+  if (extension_.empty()) return totals_.bound();
+  return stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), extension_);
+}
+
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::make_mass() {
-  if (extension_.empty()) {
-    inertia_.begin_phase(grid_, totals_.mass(), totals_.bound(), untouched_);
-  } else {
-    std::vector<double> m = totals_.mass();
-    give_mass_to_sources<B>(grid_, extension_, m);
-    inertia_.begin_phase(
-        grid_, m, stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), extension_),
-        untouched_);
-  }
+  std::vector<double> m = totals_.mass();
+  give_mass_to_sources<B>(grid_, extension_, m);
+  inertia_.begin_phase(grid_, std::move(m), bound_of_functions(), untouched_);
   const bool is_consistent = scene_.mass.kind == MassKind::consistent;
   if (is_consistent || (projects() && !updated_lagrangian())) {
     consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);

@@ -1,0 +1,128 @@
+// A material law without history applied to blocks of points.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/unroll.hpp"
+#include "space/materials/law_material.hpp"
+
+namespace stillpoint {
+
+/// A law without history. Once the body has moved on it keeps the deformation gradient F_0 with which the phase began:
+///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began.
+template <ElasticLaw Law>
+class ElasticMaterial final : public LawMaterialBase<Law> {
+  using Base = LawMaterialBase<Law>;
+  using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
+  using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
+
+ public:
+  ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool updated_lagrangian)
+      : Base(law, begin, count,
+             {.finite_strain = Law::finite_strain, .stress_stays = true, .wave_modulus = law.moduli({})[0]}) {
+    if (!updated_lagrangian || !Law::finite_strain) return;
+    const Tensor I = plus_identity<K>({});
+    F0_.resize(components * count);
+    for (std::size_t c = 0; c < components; ++c)
+      std::fill_n(F0_.begin() + static_cast<std::ptrdiff_t>(count * c), count, I[c]);
+  }
+
+  [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
+    const Law law = law_;
+    if (!moved()) {
+      return loop(
+          block, V, [law](const Tensor& H, std::size_t) __attribute__((always_inline)) { return law.first_piola(H); });
+    }
+    const double* of_block = F0_.data() + block.first - begin_;
+    const std::size_t n = count_;
+    return loop(
+        block, V, [ law, of_block, n ](const Tensor& H, std::size_t q) __attribute__((always_inline)) {
+          Tensor F_0;
+          unroll<components>([&](auto c) __attribute__((always_inline)) { F_0[c] = of_block[n * c + q]; });
+          return push(F_0, law.first_piola(total(F_0, H)));
+        });
+  }
+  double committed_stress(Block& block, const double* V) const override { return stress(block, V, 0, nullptr); }
+  void commit(std::vector<double>&) override {}
+
+  ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
+    if (!moved()) return law_.moduli(H);
+    // Column b: the answer to a unit dH_b, dF = dH F_0
+    const Tensor F_0 = F0(p);
+    const ModuliMatrix A = law_.moduli(total(F_0, H));
+    ModuliMatrix pushed{};
+    for (int b = 0; b < components; ++b) {
+      Tensor dH{};
+      dH[b] = 1;
+      const Tensor dP = push(F_0, Base::contract(A, product<K>(dH, F_0)));
+      for (int a = 0; a < components; ++a) pushed[components * a + b] = dP[a];
+    }
+    return pushed;
+  }
+  Stresses cauchy(const Tensor& H, std::size_t p) const override { return law_.cauchy(moved() ? total(F0(p), H) : H); }
+
+  void end_phase(const Block& block) override {
+    for (std::size_t q = 0; q < block.count; ++q) {
+      const std::size_t p = block.first + q;
+      const Tensor F = product<K>(plus_identity<K>(block.H_at(q)), F0(p));
+      for (std::size_t c = 0; c < components; ++c) F0_[count_ * c + p - begin_] = F[c];
+    }
+  }
+  Vec memory() override { return F0_; }
+  void reorder(const Reordering& order, std::vector<double>&) override {
+    std::vector<double> work;
+    order.apply(F0_, work, begin_, count_);
+  }
+  void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
+    Base::take_values(F0_, from, begin, count);
+    begin_ = begin;
+    count_ = count;
+  }
+  void set_stress(const std::vector<Stresses>&) override {
+    throw std::logic_error("an elastic law has no stress of its own");
+  }
+
+  std::vector<PointArray> arrays() const override {
+    if (!moved()) return {};
+    return {{"deformation gradient", components * Base::real}};
+  }
+  std::vector<std::pair<std::string, ConstVec>> shown_history() const override { return {}; }
+
+ private:
+  bool moved() const { return !F0_.empty(); }
+  Tensor F0(std::size_t p) const {
+    Tensor F;
+    for (std::size_t c = 0; c < components; ++c) F[c] = F0_[count_ * c + p - begin_];
+    return F;
+  }
+  // H of f F_0
+  static Tensor total(const Tensor& F_0, const Tensor& H) {
+    Tensor F = product<K>(plus_identity<K>(H), F_0);
+    const Tensor I = plus_identity<K>({});
+    for (int c = 0; c < components; ++c) F[c] -= I[c];
+    return F;
+  }
+  static Tensor push(const Tensor& F_0, const Tensor& P) {
+    Tensor pushed = product<K>(P, transposed<K>(F_0));
+    const double J = determinant<K>(F_0);
+    for (double& component : pushed) component /= J;
+    return pushed;
+  }
+  template <class StressAt>
+  double loop(Block& block, const double* V, const StressAt& stress_at) const {
+    const double* volume = V + block.first;
+    const std::size_t count = block.count;
+    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+      return block.store_stress(q, volume[q], stress_at(block.H_at(q), q));
+    };
+    return Base::sum_in_groups(count, point);
+  }
+
+  std::vector<double> F0_;  // (components × points); empty in a body that never moves on
+};
+
+}  // namespace stillpoint
