@@ -69,6 +69,8 @@ class Integrator {
   virtual void velocity_changed() = 0;
   /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
   virtual bool force_is_current() const { return false; }
+  /// ‖F − R‖ at the present (t, y) [N], if it was found on the way.
+  virtual std::optional<double> unbalanced_force() const { return std::nullopt; }
   /// The damping c at present [1/s], if a relaxation finds it on the way.
   virtual std::optional<double> damping_rate() const { return std::nullopt; }
   /// What an integrator of the same kind has to be given to carry on in the next phase.

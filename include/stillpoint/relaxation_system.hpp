@@ -55,6 +55,8 @@ class RelaxationSystem {
   double residual(double t, ConstVec u);
   /// The same from the last evaluation, at no cost, for integrators that end a step with one (force_is_current()).
   double last_residual();
+  /// The same of the last evaluation, whose ‖F − R‖ is known already [N].
+  double relative_to_loads(double unbalanced);
   /// ‖M⁻¹Q‖_M/ω₁ with Q of the last residual() [√J]: in a linear system no less than ‖u − u*‖_K, since u − u* = −K⁻¹Q
   /// and no eigenvalue of M⁻¹K is below ω₁². M: that of the system, or any other with its own ω₁.
   double energy_error(const Mass& M, double omega_1);
@@ -92,6 +94,8 @@ class RelaxationSystem {
   bool force_remembered_ = false;
   std::optional<Vector> Q_inverse_;  // M⁻¹Q, work of distance()
   double last_t_ = 0;
+  bool loads_are_constant_, loads_are_known_ = false;
+  std::optional<double> load_norm_;          // ‖F‖, if known [N]
   std::unique_ptr<ForceScale> force_scale_;  // of residual() and last_residual()
   long evaluations_ = 0;
 };

@@ -78,6 +78,8 @@ class SemiDiscrete {
 
   /// F_i = Σ_p N_ip m_p b(x_p, t) + tractions and point forces, those that follow the deformation too; u, F: (n).
   virtual void external_force(double t, ConstVec u, Vec F) const = 0;
+  /// Whether that is the same at every t and u.
+  virtual bool loads_are_constant() const { return false; }
   virtual std::unique_ptr<TrialState> make_trial() const { return std::make_unique<TrialState>(); }
   /// R_i = Σ_p V_p P_p ∇N_ip from trial stresses; u, R: (n). Repeatable: the committed state is not touched.
   /// t places the moving supports. trial: made by this system for this phase; its last contents do not matter.

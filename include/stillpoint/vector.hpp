@@ -3,8 +3,10 @@
 
 #include <stillpoint/types.hpp>
 
+#include <array>
 #include <cstddef>
 #include <memory>
+#include <span>
 
 // SUNDIALS' own tag: N_Vector is a pointer to it, in 6.x and 7.x.
 struct _generic_N_Vector;  // NOLINT(bugprone-reserved-identifier)
@@ -60,6 +62,15 @@ class VectorSpace {
 
 /// Σ x_i y_i through the N_Vector, the same bits for any number of threads.
 double dot(const Vector& x, const Vector& y);
+/// x·y of every y, each with the bits of dot(), in one pass over memory. products: as many as y.
+void dot_each(const Vector& x, std::span<NVectorHandle> y, std::span<double> products);
+template <class... Vectors>
+std::array<double, sizeof...(Vectors)> dots(const Vector& x, const Vectors&... y) {
+  std::array<NVectorHandle, sizeof...(Vectors)> handles{y.handle()...};
+  std::array<double, sizeof...(Vectors)> products;
+  dot_each(x, handles, products);
+  return products;
+}
 /// √(Σ x_i²), likewise.
 double norm(const Vector& x);
 /// max |x_i|, NaN if any x_i is NaN.

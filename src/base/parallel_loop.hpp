@@ -34,29 +34,41 @@ inline void for_each_block(std::size_t n, const Body& body) {
   for (std::size_t k = 0; k < n; ++k) body(k);
 }
 
-/// join over term(0) … term(n−1), join associative up to rounding. The order is fixed by n alone: at most 64 blocks,
-/// each in 16 lanes, lanes and then blocks joined in order; neither threads nor the compiler's vectors change it.
-template <class Value, class Term, class Join>
-inline Value reduce(std::size_t n, Value neutral, const Term& term, const Join& join) {
-  constexpr std::size_t lanes = 16, most_blocks = 64, shortest_block = 1024;
+/// For each k < count ≤ most: join over term(k, 0) … term(k, n−1), join associative up to rounding. Of all k in one pass
+/// over memory, a piece that the first-level cache holds at a time. The order is fixed by n alone: at most 64 blocks,
+/// each in 16 lanes, lanes and then blocks joined in order; neither threads, the compiler's vectors nor other k change
+/// it.
+template <std::size_t most, class Value, class Term, class Join>
+inline std::array<Value, most> reduce_each(std::size_t count, std::size_t n, Value neutral, const Term& term,
+                                           const Join& join) {
+  constexpr std::size_t lanes = 16, most_blocks = 64, shortest_block = 1024, piece = 512;
   const std::size_t share = (n + most_blocks - 1) / most_blocks;
   const std::size_t block = std::max(shortest_block, (share + lanes - 1) / lanes * lanes);
   const std::size_t blocks = (n + block - 1) / block;
-  std::array<Value, most_blocks> of_block;
+  std::array<std::array<Value, most>, most_blocks> of_block;
 
   const auto reduce_block = [&](std::size_t b) {
-    std::array<Value, lanes> of_lane;
-    of_lane.fill(neutral);
-    const std::size_t begin = b * block, end = std::min(n, begin + block);
-    const std::size_t whole = begin + (end - begin) / lanes * lanes;
-    for (std::size_t i = begin; i < whole; i += lanes) {
+    std::array<std::array<Value, lanes>, most> all_lanes;
+    for (auto& lanes_of_k : all_lanes) lanes_of_k.fill(neutral);
+    const std::size_t end = std::min(n, (b + 1) * block);
+    for (std::size_t begin = b * block; begin < end; begin += piece) {
+      const std::size_t piece_end = std::min(end, begin + piece);
+      const std::size_t whole = begin + (piece_end - begin) / lanes * lanes;
+      for (std::size_t k = 0; k < count; ++k) {
+        std::array<Value, lanes> of_lane = all_lanes[k];
+        for (std::size_t i = begin; i < whole; i += lanes) {
 #pragma omp simd
-      for (std::size_t k = 0; k < lanes; ++k) of_lane[k] = join(of_lane[k], term(i + k));
+          for (std::size_t lane = 0; lane < lanes; ++lane) of_lane[lane] = join(of_lane[lane], term(k, i + lane));
+        }
+        for (std::size_t i = whole; i < piece_end; ++i) of_lane[i - whole] = join(of_lane[i - whole], term(k, i));
+        all_lanes[k] = of_lane;
+      }
     }
-    for (std::size_t i = whole; i < end; ++i) of_lane[i - whole] = join(of_lane[i - whole], term(i));
-    Value all = neutral;
-    for (const Value& one : of_lane) all = join(all, one);
-    of_block[b] = all;
+    for (std::size_t k = 0; k < count; ++k) {
+      Value all = neutral;
+      for (const Value& one : all_lanes[k]) all = join(all, one);
+      of_block[b][k] = all;
+    }
   };
   if (n < threaded_from) {
     for (std::size_t b = 0; b < blocks; ++b) reduce_block(b);
@@ -65,12 +77,22 @@ inline Value reduce(std::size_t n, Value neutral, const Term& term, const Join& 
     for (std::size_t b = 0; b < blocks; ++b) reduce_block(b);
   }
 
-  Value all = neutral;
-  for (std::size_t b = 0; b < blocks; ++b) all = join(all, of_block[b]);
-  return all;
+  std::array<Value, most> result;
+  result.fill(neutral);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    for (std::size_t k = 0; k < count; ++k) result[k] = join(result[k], of_block[b][k]);
+  }
+  return result;
 }
 
-/// Σ term(i), in the order of reduce().
+/// join over term(0) … term(n−1), in the order of reduce_each().
+template <class Value, class Term, class Join>
+inline Value reduce(std::size_t n, Value neutral, const Term& term, const Join& join) {
+  const auto alone = [&term](std::size_t /*k*/, std::size_t i) { return term(i); };
+  return reduce_each<1>(1, n, neutral, alone, join)[0];
+}
+
+/// Σ term(i), in the order of reduce_each().
 template <class Term>
 inline double sum_over(std::size_t n, const Term& term) {
   return reduce(n, 0.0, term, [](double a, double b) { return a + b; });

@@ -83,6 +83,10 @@ void* VectorSpace::sundials_context() const { return context_->context; }
 
 double dot(const Vector& x, const Vector& y) { return N_VDotProd(x.handle(), y.handle()); }
 
+void dot_each(const Vector& x, std::span<NVectorHandle> y, std::span<double> products) {
+  N_VDotProdMulti(static_cast<int>(y.size()), x.handle(), y.data(), products.data());
+}
+
 double norm(const Vector& x) { return std::sqrt(dot(x, x)); }
 
 double max_norm(const Vector& x) {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <utility>
 
 #include "base/parallel_loop.hpp"
@@ -173,8 +174,19 @@ int scale_add_multi(int count, sunrealtype* a, N_Vector x, N_Vector* Y, N_Vector
   return 0;
 }
 
-int dot_product_multi(int count, N_Vector x, N_Vector* Y, sunrealtype* products) {
-  for (int k = 0; k < count; ++k) products[k] = dot_product(x, Y[k]);
+// x·Y_k, the bits of dot_product()
+int dot_product_multi(int count, N_Vector x_vector, N_Vector* Y, sunrealtype* products) {
+  constexpr int most = 8;  // of one pass
+  const double* x = entries(x_vector);
+  for (int done = 0; done < count; done += most) {
+    const int now = std::min(most, count - done);
+    std::array<const double*, most> y{};
+    for (int k = 0; k < now; ++k) y[static_cast<std::size_t>(k)] = entries(Y[done + k]);
+    const auto sums = reduce_each<most>(
+        static_cast<std::size_t>(now), length(x_vector), 0.0,
+        [x, y](std::size_t k, std::size_t i) { return x[i] * y[k][i]; }, std::plus<>());
+    std::copy_n(sums.begin(), now, products + done);
+  }
   return 0;
 }
 

@@ -80,7 +80,7 @@ void Simulation::Impl::end_as_asked(const std::string& where) {
 // An iterate is no motion, whose residual is small for a moment: it is looked at as soon as it may be the answer.
 bool Simulation::Impl::iterate_is_balanced() {
   if (!motion_->integrator->static_iteration()) return false;
-  return scene_.stop.residual <= 0 || motion_->residual(t_) <= scene_.stop.residual;
+  return scene_.stop.residual <= 0 || motion_->known_residual(t_) <= scene_.stop.residual;
 }
 
 // Limits that came before equilibrium say no more than that.

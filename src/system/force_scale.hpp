@@ -15,10 +15,9 @@ namespace stillpoint {
 /// free body that vibrates, the largest ‖R‖.
 class ForceScale {
  public:
-  /// Of an evaluation of F and R, (n); trial, contact: the reactions that belong to it.
-  double of(const Vector& F, const Vector& R, const TrialState& trial, const Contact* contact) {
+  /// Of an evaluation: loads = ‖F‖, R: (n); trial, contact: the reactions that belong to it.
+  double of(double loads, const Vector& R, const TrialState& trial, const Contact* contact) {
     constexpr double rounding = 1e-12;  // of the largest load
-    const double loads = norm(F);
     const bool is_loaded = loads > rounding * force_;
     force_ = std::max(force_, is_loaded ? loads : reactions(trial, contact));
     if (force_ > 0) return is_loaded ? loads : force_;

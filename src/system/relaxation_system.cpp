@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "base/parallel_loop.hpp"
 #include "system/force_scale.hpp"
@@ -19,6 +20,7 @@ RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping,
       F_(vectors_.make(system.size())),
       R_(vectors_.make(system.size())),
       Q_(vectors_.make(system.size())),
+      loads_are_constant_(system.loads_are_constant()),
       force_scale_(std::make_unique<ForceScale>()) {
   if (damping.uses_last_force()) Q_last_ = vectors_.make(system.size());
 }
@@ -51,7 +53,10 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
 
 // Q = F − R − M_fs (a_s + c_m v_s) + contact forces
 bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
-  system_.external_force(t, u, F_.span());
+  if (!std::exchange(loads_are_known_, loads_are_constant_)) {
+    system_.external_force(t, u, F_.span());
+    load_norm_.reset();
+  }
   last_t_ = t;
   if (!system_.internal_force(t, u, R_.span(), *trial_)) return false;
   last_out_of_balance(t, Q);
@@ -101,9 +106,13 @@ double RelaxationSystem::last_residual() {
   const ConstVec F = F_.span(), R = R_.span();
   const Vec Q = Q_.span();
   for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
-  const Contact* contact = system_.contact();
-  if (contact) contact->add_force(last_t_, linear_, Q);
-  return relative(norm(Q_), force_scale_->of(F_, R_, *trial_, contact));
+  if (const Contact* contact = system_.contact()) contact->add_force(last_t_, linear_, Q);
+  return relative_to_loads(norm(Q_));
+}
+
+double RelaxationSystem::relative_to_loads(double unbalanced) {
+  if (!load_norm_) load_norm_ = norm(F_);
+  return relative(unbalanced, force_scale_->of(*load_norm_, R_, *trial_, system_.contact()));
 }
 
 // ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q

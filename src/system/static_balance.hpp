@@ -40,7 +40,7 @@ class StaticBalance {
     system_.external_force(t_, u, F_.span());
     for_each_index(Q.size(), [=, Q = Q.span().data(), F = F_.span().data(), R = R_.span().data(),
                               R0 = R0_.span().data()](std::size_t i) { Q[i] = s * F[i] - R[i] + (1 - s) * R0[i]; });
-    scale_ = force_scale_.of(F_, R_, *trial_, nullptr);
+    scale_ = force_scale_.of(norm(F_), R_, *trial_, nullptr);
     return true;
   }
   /// ‖Q‖/‖F‖, or whatever else is the scale.

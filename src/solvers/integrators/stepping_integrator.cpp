@@ -22,6 +22,8 @@ void SteppingIntegrator::start(double t, Vector& y) {
   if (!same_kind(*trial_, y)) throw std::invalid_argument("y is another kind of N_Vector than at the first start");
   t_ = t;
   y_ = &y;
+  u_.emplace(system_.vectors().view(first_half(y.span())));
+  trial_u_.emplace(system_.vectors().view(first_half(trial_->span())));
   system_.forget_force();
   begin(t, y);
   system_.remember_force();
@@ -37,8 +39,7 @@ StepReport SteppingIntegrator::step(double t_stop) {
   for (int halvings = 0;; ++halvings) {
     Attempt tried = attempt(t_, *y_, h, t_stop, *trial_);
     if (tried.status == StepReport::Status::ok) {
-      // A sum of squares is not finite if any entry is not.
-      const bool finite = std::isfinite(dot(*trial_, *trial_));
+      const bool finite = is_finite(tried);
       if (finite && keeps_clear) return accept(tried);
       refused();
       if (finite) {
@@ -88,8 +89,17 @@ std::string SteppingIntegrator::message_of(const Attempt& tried, int halvings) c
   }
 }
 
+// A sum of squares is not finite if any entry is not.
+bool SteppingIntegrator::is_finite(const Attempt& attempt) {
+  return std::isfinite(attempt.keeps_v ? dot(*trial_u_, *trial_u_) : dot(*trial_, *trial_));
+}
+
 StepReport SteppingIntegrator::accept(const Attempt& attempt) {
-  copy(*trial_, *y_);
+  if (attempt.keeps_v) {
+    copy(*trial_u_, *u_);
+  } else {
+    copy(*trial_, *y_);
+  }
   accepted();
   system_.remember_force();
   t_ = adaptive() ? attempt.t : division_.arrive(t_, attempt.h);

@@ -31,6 +31,7 @@ class SteppingIntegrator : public Integrator {
     StepReport::Status status = StepReport::Status::ok;
     double h = 0;           // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
     double t = 0;           // adaptive: where the trial is [s]
+    bool keeps_v = false;   // v stays what it is in y; what the trial has there does not matter
     std::string message{};  // of what failed; where a state is inadmissible or not finite is found by the caller
   };
 
@@ -60,6 +61,7 @@ class SteppingIntegrator : public Integrator {
   Vector& state() { return *y_; }
 
  private:
+  bool is_finite(const Attempt& attempt);
   StepReport accept(const Attempt& attempt);
   std::string message_of(const Attempt& tried, int halvings) const;
 
@@ -68,6 +70,7 @@ class SteppingIntegrator : public Integrator {
   StepDivision division_;
   std::optional<Vector> trial_;  // (2n), of y's kind
   Vector* y_ = nullptr;
+  std::optional<Vector> trial_u_, u_;  // their first halves, in place
   double t_ = 0;
   long steps_ = 0, rejected_ = 0;
 };

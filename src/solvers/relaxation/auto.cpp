@@ -41,6 +41,7 @@ class Auto final : public StaggeredIteration {
         may_descend_(options.steady && options.single_phase && !system.system().history_dependent() &&
                      !system.system().contact()),
         descends_(may_descend_),
+        mass_is_lumped_(system.system().mass().is_lumped()),
         steady_(options.steady),
         c_(options.from.rate.value_or(0)),
         share_(options.from.step_share > 0 ? options.from.step_share : 1) {
@@ -49,18 +50,26 @@ class Auto final : public StaggeredIteration {
 
   std::optional<double> damping_rate() const override { return descends_ ? std::nullopt : std::optional(c_); }
   bool static_iteration() const override { return descends_; }
+  // Where no support inertia is in Q.
+  std::optional<double> unbalanced_force() const override {
+    if (!descends_ || !force_is_current() || !mass_is_lumped_) return std::nullopt;
+    return descent_->unbalanced_force();
+  }
 
  private:
   double step_share() const override { return share_; }
+  bool keeps_v() const override { return descends_; }  // at rest
 
   void on_restart() override {
-    if (descends_) begin_descent();
+    if (!descends_) return;
+    stop();
+    begin_descent();
   }
 
   // share_ only changes at a halt, so that h⁻ was of the same share.
   void propose(double step, Vec u_new, Vec v_new) override {
     if (descends_) {
-      descend(step, u_new, v_new);
+      descend(step, u_new);
       return;
     }
     const double k = share_ * kick(step);
@@ -68,13 +77,12 @@ class Auto final : public StaggeredIteration {
   }
 
   // Time is that of the step given, and less of the way where all of it leads to what cannot be evaluated.
-  void descend(double step, Vec u_new, Vec v_new) {
+  void descend(double step, Vec u_new) {
     if (!std::exchange(is_tried_, true)) full_step_ = step;
     const double share = step / full_step_;
     is_cut_ = share < 1;
     for_each_index(u_new.size(), [=, u = u().span().data(), way = descent_->way().data()](std::size_t i) {
       u_new[i] = u[i] + share * way[i];
-      v_new[i] = 0;
     });
   }
 
@@ -83,7 +91,6 @@ class Auto final : public StaggeredIteration {
 
   void descended(double step) {
     is_tried_ = false;
-    const double unbalanced = this->unbalanced();
     if (is_cut_) {
       constexpr long few = 20;
       const bool again = cut_at_ > 0 && steps_ - cut_at_ < few;
@@ -97,7 +104,7 @@ class Auto final : public StaggeredIteration {
       leave_descent();
       return;
     }
-    if (!(unbalanced > goal_)) begin_watch(unbalanced);
+    if (!(descent_->unbalanced() > goal_)) begin_watch(descent_->unbalanced());
     if (descent_->quotient() > 0) slowest_ = std::min(slowest_, descent_->quotient());
     if (is_stalled(share_ * step)) leave_descent();
   }
@@ -196,7 +203,7 @@ class Auto final : public StaggeredIteration {
     halted_at_ = steps_;
   }
 
-  bool may_descend_, descends_;
+  bool may_descend_, descends_, mass_is_lumped_;
   std::optional<ConjugateDescent> descent_;  // if it may
   bool is_tried_ = false, is_cut_ = false;   // whether there was a trial of this step; whether the last one was shorter
   double full_step_ = 0;                     // of the first trial [s]

@@ -2,28 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel_loop.hpp"
+#include "linalg/vector_operations.hpp"
 
 namespace stillpoint {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 ConjugateDescent::ConjugateDescent(const VectorSpace& vectors, const Mass& mass, bool linear)
-    : mass_(mass),
-      p_(vectors.make(mass.size())),
-      Q_(vectors.make(mass.size())),
-      z_(vectors.make(mass.size())),
-      way_(vectors.make(mass.size())) {
-  if (!linear) memory_.emplace(vectors, mass, memory);
+    : mass_(mass), p_(vectors.make(mass.size())), way_(vectors.make(mass.size())), z_(vectors.make(mass.size())) {
+  if (linear) return;
+  Q_ = vectors.make(mass.size());
+  memory_.emplace(vectors, mass, memory);
 }
 
 void ConjugateDescent::begin(const Vector& Q, const Vector& z, double h) {
-  for_each_index(p_.size(), [=, p = p_.span().data(), Q_x = Q_.span().data(), z_x = z_.span().data(),
-                             way = way_.span().data(), Q = Q.span().data(), z = z.span().data()](std::size_t i) {
-    Q_x[i] = Q[i];
+  for_each_index(p_.size(), [=, p = p_.span().data(), z_x = z_.span().data(), way = way_.span().data(),
+                             z = z.span().data()](std::size_t i) {
     p[i] = z_x[i] = z[i];
     way[i] = h * z[i];
   });
-  slope_ = Q_dot_z_ = pMp_ = dot(Q_, z_);
+  if (Q_) copy(Q, *Q_);
+  const auto [Q_dot_z, Q_dot_Q] = dots(Q, z, Q);
+  slope_ = Q_dot_z_ = pMp_ = Q_dot_z;
+  Q_dot_z_error_ = epsilon * Q_dot_z;
+  unbalanced_ = std::sqrt(std::max(0.0, Q_dot_z));
+  unbalanced_force_ = std::sqrt(Q_dot_Q);
   h_ = first_h_ = h;
   trials_ = 0;
   if (memory_) memory_->forget();
@@ -36,21 +45,21 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
     begin(Q, z, first_h_);
     return true;
   }
-  const double slope = dot(Q, p_), fall = slope_ - slope;  // Q(w)·p, h pᵀKp
+  const Products Q_dot = products_with(Q, z);
+  unbalanced_ = std::sqrt(std::max(0.0, Q_dot.z));
+  unbalanced_force_ = std::sqrt(Q_dot.Q);
+  const double slope = Q_dot.p, fall = slope_ - slope;  // Q(w)·p, h pᵀKp
   quotient_ = fall / (h_ * pMp_);
   if (!(quotient_ * first_h_ > rounding)) return false;
   const double theta = slope_ / fall;
   // How far a secant reaches. Where Q is linear that is a matter of rounding alone, which may be all there is left.
   const double reach = memory_ ? 10 : 1e3;
   if (memory_ ? std::abs(slope) <= sigma * slope_ : theta <= reach) {
-    const double alpha = theta * h_;
-    const double next = memory_ ? turn_by_memory(theta, Q) : turn_by_beta(theta, Q, z);
-    for_each_index(p_.size(), [=, back = alpha - h_, way = way_.span().data(), p = p_.span().data()](std::size_t i) {
-      const double p_next = way[i];
-      way[i] = back * p[i] + next * p_next;
-      p[i] = p_next;
-    });
-    h_ = next;
+    if (memory_) {
+      turn_by_memory(theta, Q);
+    } else {
+      turn_by_beta(theta, Q_dot, z);
+    }
     trials_ = 0;
     return slope_ >= 0;  // also if it is not a number
   }
@@ -63,47 +72,87 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
   return true;
 }
 
-// way becomes p⁺; Q(x⁺)·p = 0, so that Q(x⁺)·p⁺ = Q(x⁺)·M⁻¹Q(x⁺) and p⁺ᵀMp⁺ = that + β² pᵀMp. Returns h⁺.
-double ConjugateDescent::turn_by_beta(double theta, const Vector& Q, const Vector& z) {
-  const double with_last = (1 - theta) * Q_dot_z_ + theta * dot(Q, z_);  // Q(x⁺)·M⁻¹Q(x)
-  for_each_index(p_.size(), [=, Q_x = Q_.span().data(), z_x = z_.span().data(), Q = Q.span().data(),
-                             z = z.span().data()](std::size_t i) {
-    Q_x[i] += theta * (Q[i] - Q_x[i]);
-    z_x[i] += theta * (z[i] - z_x[i]);
-  });
-  const double now = dot(Q_, z_), beta = std::max(0.0, (now - with_last) / Q_dot_z_);
-  for_each_index(p_.size(), [=, way = way_.span().data(), z_x = z_.span().data(), p = p_.span().data()](std::size_t i) {
-    way[i] = z_x[i] + beta * p[i];
-  });
-  slope_ = Q_dot_z_ = now;
-  pMp_ = now + beta * beta * pMp_;
-  return theta * h_;
+ConjugateDescent::Products ConjugateDescent::products_with(const Vector& Q, const Vector& z) const {
+  if (memory_) {
+    const auto [p, z_w, Q_w] = dots(Q, p_, z, Q);
+    return {.p = p, .z_x = 0, .z = z_w, .Q = Q_w};
+  }
+  const auto [p, z_x, z_w, Q_w] = dots(Q, p_, z_, z, Q);
+  return {.p = p, .z_x = z_x, .z = z_w, .Q = Q_w};
 }
 
-// The same by p⁺ = H Q(x⁺).
-double ConjugateDescent::turn_by_memory(double theta, const Vector& Q) {
-  memory_->remember(h_, p_, Q_, Q);
-  for_each_index(p_.size(), [=, Q_x = Q_.span().data(), way = way_.span().data(), Q = Q.span().data()](std::size_t i) {
+// Q(x⁺)·p = 0, so that Q(x⁺)·p⁺ = Q(x⁺)·M⁻¹Q(x⁺) and p⁺ᵀMp⁺ = that + β² pᵀMp. As M is symmetric, all is known from
+// products with Q(w):
+//
+//   Q(x⁺)·M⁻¹Q(x) = (1 − θ) Q(x)·M⁻¹Q(x) + θ Q(w)·M⁻¹Q(x)
+//   Q(x⁺)·M⁻¹Q(x⁺) = (1 − θ)² Q(x)·M⁻¹Q(x) + 2 θ (1 − θ) Q(w)·M⁻¹Q(x) + θ² Q(w)·M⁻¹Q(w)
+//
+// until so many digits of the second are lost that it has to be summed anew.
+void ConjugateDescent::turn_by_beta(double theta, const Products& Q_dot, const Vector& z) {
+  constexpr double most_lost = 1e-10;
+  const double rest = 1 - theta;
+  const double of_x = rest * rest * Q_dot_z_, mixed = 2 * theta * rest * Q_dot.z_x, of_w = theta * theta * Q_dot.z;
+  double now = of_x + mixed + of_w;
+  Q_dot_z_error_ = rest * rest * Q_dot_z_error_ + epsilon * (of_x + std::abs(mixed) + of_w);
+  const bool is_lost = !(Q_dot_z_error_ <= most_lost * now);
+  const auto move_z = [=, z_x = z_.span().data(), z = z.span().data()](std::size_t i) {
+    return z_x[i] += theta * (z[i] - z_x[i]);
+  };
+  if (is_lost) {
+    for_each_index(p_.size(), move_z);
+    mass_.apply(z_.span(), way_.span());
+    now = dot(z_, way_);
+    Q_dot_z_error_ = epsilon * now;
+  }
+  const double with_last = rest * Q_dot_z_ + theta * Q_dot.z_x;
+  const double beta = std::max(0.0, (now - with_last) / Q_dot_z_), alpha = theta * h_;
+  const auto turn = [=, back = alpha - h_, way = way_.span().data(), p = p_.span().data()](std::size_t i, double z_i) {
+    const double p_next = z_i + beta * p[i];
+    way[i] = back * p[i] + alpha * p_next;
+    p[i] = p_next;
+  };
+  if (is_lost) {
+    for_each_index(p_.size(), [=, z_x = z_.span().data()](std::size_t i) { turn(i, z_x[i]); });
+  } else {
+    for_each_index(p_.size(), [=](std::size_t i) { turn(i, move_z(i)); });
+  }
+  slope_ = Q_dot_z_ = now;
+  pMp_ = now + beta * beta * pMp_;
+  h_ = alpha;
+}
+
+// The same by p⁺ = H Q(x⁺), with the step 1.
+void ConjugateDescent::turn_by_memory(double theta, const Vector& Q) {
+  memory_->remember(h_, p_, *Q_, Q);
+  for_each_index(p_.size(), [=, Q_x = Q_->span().data(), way = way_.span().data(), Q = Q.span().data()](std::size_t i) {
     way[i] = Q_x[i] += theta * (Q[i] - Q_x[i]);
   });
   memory_->apply(way_);
-  slope_ = dot(Q_, way_);
+  slope_ = dot(*Q_, way_);
   mass_.apply(way_.span(), z_.span());
   pMp_ = dot(way_, z_);
-  return 1;
+  for_each_index(p_.size(), [back = (theta - 1) * h_, way = way_.span().data(), p = p_.span().data()](std::size_t i) {
+    const double p_next = way[i];
+    way[i] = back * p[i] + p_next;
+    p[i] = p_next;
+  });
+  h_ = 1;
 }
 
 void ConjugateDescent::archive(const StateArchive& state) {
   state("p", p_.span());
-  state("Q", Q_.span());
+  if (Q_) state("Q", Q_->span());
   state("z", z_.span());
   state("way", way_.span());
   state("h", h_);
   state("first_h", first_h_);
   state("slope", slope_);
   state("Q_dot_z", Q_dot_z_);
+  state("Q_dot_z_error", Q_dot_z_error_);
   state("pMp", pMp_);
   state("quotient", quotient_);
+  state("unbalanced_force", unbalanced_force_);
+  state("unbalanced", unbalanced_);
   state("trials", trials_);
   if (memory_) memory_->archive(state.part("memory"));
 }

@@ -36,28 +36,40 @@ class ConjugateDescent {
 
   /// Begins at w: straight down, by h M⁻¹Q at first, h about 1/ω_max². Q, z = M⁻¹Q at w, (n).
   void begin(const Vector& Q, const Vector& z, double h);
-  /// After an evaluation at w; Q, z: there. False if there is no way on: no positive stiffness along p, no direction
+  /// After an evaluation at w; Q, z = M⁻¹Q there. False if there is no way on: no positive stiffness along p, no direction
   /// downhill, or no end of the search on its line.
   bool evaluated(const Vector& Q, const Vector& z);
   /// From w to the next one, (n).
   ConstVec way() const { return way_.span(); }
   /// pᵀKp/pᵀMp of the last line [1/s²].
   double quotient() const { return quotient_; }
+  /// ‖Q‖ where it was last evaluated or begun [N].
+  double unbalanced_force() const { return unbalanced_force_; }
+  /// √(QᵀM⁻¹Q) there [N/√kg].
+  double unbalanced() const { return unbalanced_; }
 
   void archive(const StateArchive& state);
 
  private:
-  double turn_by_beta(double theta, const Vector& Q, const Vector& z);
-  double turn_by_memory(double theta, const Vector& Q);
+  struct Products {  // of Q(w) with each of these; z_x = M⁻¹Q(x) only where Q is linear
+    double p, z_x, z, Q;
+  };
+  Products products_with(const Vector& Q, const Vector& z) const;
+  void turn_by_beta(double theta, const Products& Q_dot, const Vector& z);
+  void turn_by_memory(double theta, const Vector& Q);
 
   const Mass& mass_;
-  std::optional<LimitedMemory> memory_;
-  Vector p_, Q_, z_, way_;  // p, Q(x), M⁻¹Q(x) or work, w⁺ − w, (n)
+  std::optional<LimitedMemory> memory_;  // if Q is not linear
+  Vector p_, way_;                       // p, w⁺ − w, (n)
+  Vector z_;                             // M⁻¹Q(x), or work with a memory, (n)
+  std::optional<Vector> Q_;              // Q(x), with a memory, (n)
   double h_ = 0, first_h_ = 0;
-  double slope_ = 0;    // Q(x)·p
-  double Q_dot_z_ = 0;  // Q(x)·M⁻¹Q(x)
-  double pMp_ = 0;      // pᵀMp
+  double slope_ = 0;          // Q(x)·p
+  double Q_dot_z_ = 0;        // Q(x)·M⁻¹Q(x), where Q is linear,
+  double Q_dot_z_error_ = 0;  // and what rounding may have made of it
+  double pMp_ = 0;            // pᵀMp
   double quotient_ = 0;
+  double unbalanced_force_ = 0, unbalanced_ = 0;
   int trials_ = 0;  // on this line
 };
 

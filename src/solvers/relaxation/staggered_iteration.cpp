@@ -54,7 +54,7 @@ SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/,
   system().system().mass().solve(next_Q_.span(), next_a_.span());
   trial_step_ = h;
   trial_t_ = t + h;
-  return {.h = h};
+  return {.h = h, .keeps_v = keeps_v()};
 }
 
 void StaggeredIteration::accepted() {

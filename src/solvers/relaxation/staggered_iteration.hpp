@@ -38,6 +38,8 @@ class StaggeredIteration : public SteppingIntegrator {
   /// The trial of a step h from the present state: u_new, v_new, (n). Repeatable: a trial that cannot be evaluated is
   /// made again with a shorter step.
   virtual void propose(double h, Vec u_new, Vec v_new) = 0;
+  /// Whether v stays what it is, and propose() leaves v_new alone.
+  virtual bool keeps_v() const { return false; }
   /// The trial has become the state; the force there is Q(), the one before last_Q().
   virtual void moved(double h) = 0;
   /// Begins afresh from the state, or from one of which a contact has changed v.

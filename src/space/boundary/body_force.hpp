@@ -35,6 +35,9 @@ class BodyForce final : public BoundaryCondition<B, K> {
     add_from_points(phase, 0, sum);
     for (std::size_t k = 0; k < F.size(); ++k) F[k] += sum[k];
   }
+  bool varies() const override {
+    return std::ranges::any_of(b_, [](const Expression& b) { return b.uses('t'); });
+  }
   void add_load(const Parts& phase, double t, Vec F) const override {
     if (varies()) add_from_points(phase, t, F);
   }
@@ -57,9 +60,6 @@ class BodyForce final : public BoundaryCondition<B, K> {
   }
 
  private:
-  bool varies() const {
-    return std::ranges::any_of(b_, [](const Expression& b) { return b.uses('t'); });
-  }
   void add_from_points(const Parts& phase, double t, Vec F) const {
     const auto& points = phase.points;
     for (std::size_t k = 0; k < points.cells(); ++k) {

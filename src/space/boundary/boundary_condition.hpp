@@ -89,6 +89,8 @@ class BoundaryCondition {
   /// v: the velocities with which it begins, changed if they would go through a wall; (n).
   virtual void begin_motion(const Parts&, double /*t*/, Vec /*v*/) {}
 
+  /// Whether add_load() adds what is another force at another t.
+  virtual bool varies() const = 0;
   /// F += the forces that depend on t, not on u.
   virtual void add_load(const Parts&, double /*t*/, Vec /*F*/) const {}
   /// Whether some depend on u.

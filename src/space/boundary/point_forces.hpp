@@ -42,6 +42,7 @@ class PointForces final : public BoundaryCondition<B, K> {
       }
     }
   }
+  bool varies() const override { return !varying_.empty(); }
   void add_load(const Parts&, double t, Vec F) const override {
     for (const Varying& load : varying_) add(load, t, F);
   }

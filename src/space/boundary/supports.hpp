@@ -39,6 +39,7 @@ class Supports final : public BoundaryCondition<B, K> {
       }
     }
   }
+  bool varies() const override { return false; }
 
  private:
   void hold_position(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {

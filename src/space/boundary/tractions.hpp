@@ -53,6 +53,11 @@ class Tractions final : public BoundaryCondition<B, K> {
       }
     }
   }
+  bool varies() const override {
+    return std::ranges::any_of(scene_.tractions, [](const TractionSpec& traction) {
+      return std::ranges::any_of(traction.formulas(), [](const Expression& formula) { return formula.uses('t'); });
+    });
+  }
   void add_load(const Parts& phase, double t, Vec F) const override {
     evaluate(t);
     for (const Piece& piece : pieces_)

@@ -50,6 +50,7 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
       wall.contact.begin_phase(t, phase.mass.diagonal(), std::move(nodes), v);
     }
   }
+  bool varies() const override { return false; }
 
   void archive(const StateArchive& state) override {
     for (std::size_t w = 0; w < walls_.size(); ++w) {

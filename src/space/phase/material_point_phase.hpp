@@ -75,6 +75,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::size_t size() const override { return dofs_->size(); }
   const Mass& mass() const override { return *mass_; }
   void external_force(double t, ConstVec u, Vec F) const override;
+  bool loads_are_constant() const override;
   std::unique_ptr<TrialState> make_trial() const override;
   bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const override;
   void commit(TrialState& trial) override;

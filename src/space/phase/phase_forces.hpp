@@ -17,6 +17,12 @@ void MaterialPointPhase<B, K>::external_force(double t, ConstVec u, Vec F) const
 }
 
 template <AxisBasis B, Kinematics K>
+bool MaterialPointPhase<B, K>::loads_are_constant() const {
+  return std::ranges::none_of(boundary_,
+                              [](const auto& condition) { return condition->varies() || condition->follows(); });
+}
+
+template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::of_loads(double t, ConstVec u) const {
   MatrixEntries entries;
   spread(t, u, grid_u_);
