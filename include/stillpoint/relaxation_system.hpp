@@ -32,6 +32,8 @@ class RelaxationSystem {
   bool operator()(double t, ConstVec y, Vec ydot);
   /// Q = F(t) − R(u) + contact forces (− inertia of moving supports), damping left out; u, Q: (n). False as above.
   bool out_of_balance(double t, ConstVec u, Vec Q);
+  /// And a = M⁻¹Q, (n), in the same pass over memory where it can be.
+  bool out_of_balance(double t, ConstVec u, Vec Q, Vec a);
   /// The same from the last evaluation, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
   /// Why the last evaluation was refused, and where.
@@ -82,6 +84,7 @@ class RelaxationSystem {
   void count_evaluations(long count) { evaluations_ += count; }
 
  private:
+  bool evaluate(double t, ConstVec u);
   bool balance(double t, ConstVec u, Vec Q);
 
   SemiDiscrete& system_;

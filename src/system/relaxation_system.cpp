@@ -51,14 +51,35 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
   return balance(t, u, Q);
 }
 
-// Q = F − R − M_fs (a_s + c_m v_s) + contact forces
-bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
+bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q, Vec a) {
+  ++evaluations_;
+  const Mass& mass = system_.mass();
+  if (!mass.is_diagonal() || system_.contact()) {
+    if (!balance(t, u, Q)) return false;
+    mass.solve(Q, a);
+    return true;
+  }
+  if (!evaluate(t, u)) return false;
+  for_each_index(Q.size(), [=, F = F_.span().data(), R = R_.span().data(), m = mass.diagonal().data()](std::size_t i) {
+    Q[i] = F[i] - R[i];
+    a[i] = Q[i] / m[i];
+  });
+  return true;
+}
+
+// F and R
+bool RelaxationSystem::evaluate(double t, ConstVec u) {
   if (!std::exchange(loads_are_known_, loads_are_constant_)) {
     system_.external_force(t, u, F_.span());
     load_norm_.reset();
   }
   last_t_ = t;
-  if (!system_.internal_force(t, u, R_.span(), *trial_)) return false;
+  return system_.internal_force(t, u, R_.span(), *trial_);
+}
+
+// Q = F − R − M_fs (a_s + c_m v_s) + contact forces
+bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
+  if (!evaluate(t, u)) return false;
   last_out_of_balance(t, Q);
   return true;
 }

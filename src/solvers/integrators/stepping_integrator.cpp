@@ -90,7 +90,8 @@ std::string SteppingIntegrator::message_of(const Attempt& tried, int halvings) c
 }
 
 // A sum of squares is not finite if any entry is not.
-bool SteppingIntegrator::is_finite(const Attempt& attempt) {
+bool SteppingIntegrator::is_finite(const Attempt& attempt) const {
+  if (attempt.is_finite) return *attempt.is_finite;
   return std::isfinite(attempt.keeps_v ? dot(*trial_u_, *trial_u_) : dot(*trial_, *trial_));
 }
 

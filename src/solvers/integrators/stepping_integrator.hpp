@@ -29,9 +29,10 @@ class SteppingIntegrator : public Integrator {
  protected:
   struct Attempt {
     StepReport::Status status = StepReport::Status::ok;
-    double h = 0;           // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
-    double t = 0;           // adaptive: where the trial is [s]
-    bool keeps_v = false;   // v stays what it is in y; what the trial has there does not matter
+    double h = 0;          // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
+    double t = 0;          // adaptive: where the trial is [s]
+    bool keeps_v = false;  // v stays what it is in y; what the trial has there does not matter
+    std::optional<bool> is_finite{};  // if known: whether the trial is
     std::string message{};  // of what failed; where a state is inadmissible or not finite is found by the caller
   };
 
@@ -61,7 +62,7 @@ class SteppingIntegrator : public Integrator {
   Vector& state() { return *y_; }
 
  private:
-  bool is_finite(const Attempt& attempt);
+  bool is_finite(const Attempt& attempt) const;
   StepReport accept(const Attempt& attempt);
   std::string message_of(const Attempt& tried, int halvings) const;
 

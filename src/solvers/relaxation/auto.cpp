@@ -59,6 +59,12 @@ class Auto final : public StaggeredIteration {
  private:
   double step_share() const override { return share_; }
   bool keeps_v() const override { return descends_; }  // at rest
+  // If the forces are finite everywhere, so is what they answer.
+  std::optional<bool> tried(const Vector& Q, const Vector& a) override {
+    if (!descends_) return std::nullopt;
+    descent_->look_at(Q, a);
+    return std::isfinite(descent_->unbalanced_force());
+  }
 
   void on_restart() override {
     if (!descends_) return;

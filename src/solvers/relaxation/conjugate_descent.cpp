@@ -29,13 +29,22 @@ void ConjugateDescent::begin(const Vector& Q, const Vector& z, double h) {
   });
   if (Q_) copy(Q, *Q_);
   const auto [Q_dot_z, Q_dot_Q] = dots(Q, z, Q);
-  slope_ = Q_dot_z_ = pMp_ = Q_dot_z;
-  Q_dot_z_error_ = epsilon * Q_dot_z;
-  unbalanced_ = std::sqrt(std::max(0.0, Q_dot_z));
-  unbalanced_force_ = std::sqrt(Q_dot_Q);
+  Q_dot_ = {.p = Q_dot_z, .z_x = Q_dot_z, .z = Q_dot_z, .Q = Q_dot_Q};
+  slope_ = Q_dot_z_ = pMp_ = Q_dot_.z;
+  Q_dot_z_error_ = epsilon * Q_dot_.z;
   h_ = first_h_ = h;
   trials_ = 0;
   if (memory_) memory_->forget();
+}
+
+void ConjugateDescent::look_at(const Vector& Q, const Vector& z) {
+  if (memory_) {
+    const auto [p, z_w, Q_w] = dots(Q, p_, z, Q);
+    Q_dot_ = {.p = p, .z_x = 0, .z = z_w, .Q = Q_w};
+  } else {
+    const auto [p, z_x, z_w, Q_w] = dots(Q, p_, z_, z, Q);
+    Q_dot_ = {.p = p, .z_x = z_x, .z = z_w, .Q = Q_w};
+  }
 }
 
 bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
@@ -45,10 +54,7 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
     begin(Q, z, first_h_);
     return true;
   }
-  const Products Q_dot = products_with(Q, z);
-  unbalanced_ = std::sqrt(std::max(0.0, Q_dot.z));
-  unbalanced_force_ = std::sqrt(Q_dot.Q);
-  const double slope = Q_dot.p, fall = slope_ - slope;  // Q(w)·p, h pᵀKp
+  const double slope = Q_dot_.p, fall = slope_ - slope;  // Q(w)·p, h pᵀKp
   quotient_ = fall / (h_ * pMp_);
   if (!(quotient_ * first_h_ > rounding)) return false;
   const double theta = slope_ / fall;
@@ -58,7 +64,7 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
     if (memory_) {
       turn_by_memory(theta, Q);
     } else {
-      turn_by_beta(theta, Q_dot, z);
+      turn_by_beta(theta, z);
     }
     trials_ = 0;
     return slope_ >= 0;  // also if it is not a number
@@ -72,15 +78,6 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
   return true;
 }
 
-ConjugateDescent::Products ConjugateDescent::products_with(const Vector& Q, const Vector& z) const {
-  if (memory_) {
-    const auto [p, z_w, Q_w] = dots(Q, p_, z, Q);
-    return {.p = p, .z_x = 0, .z = z_w, .Q = Q_w};
-  }
-  const auto [p, z_x, z_w, Q_w] = dots(Q, p_, z_, z, Q);
-  return {.p = p, .z_x = z_x, .z = z_w, .Q = Q_w};
-}
-
 // Q(x⁺)·p = 0, so that Q(x⁺)·p⁺ = Q(x⁺)·M⁻¹Q(x⁺) and p⁺ᵀMp⁺ = that + β² pᵀMp. As M is symmetric, all is known from
 // products with Q(w):
 //
@@ -88,10 +85,10 @@ ConjugateDescent::Products ConjugateDescent::products_with(const Vector& Q, cons
 //   Q(x⁺)·M⁻¹Q(x⁺) = (1 − θ)² Q(x)·M⁻¹Q(x) + 2 θ (1 − θ) Q(w)·M⁻¹Q(x) + θ² Q(w)·M⁻¹Q(w)
 //
 // until so many digits of the second are lost that it has to be summed anew.
-void ConjugateDescent::turn_by_beta(double theta, const Products& Q_dot, const Vector& z) {
+void ConjugateDescent::turn_by_beta(double theta, const Vector& z) {
   constexpr double most_lost = 1e-10;
   const double rest = 1 - theta;
-  const double of_x = rest * rest * Q_dot_z_, mixed = 2 * theta * rest * Q_dot.z_x, of_w = theta * theta * Q_dot.z;
+  const double of_x = rest * rest * Q_dot_z_, mixed = 2 * theta * rest * Q_dot_.z_x, of_w = theta * theta * Q_dot_.z;
   double now = of_x + mixed + of_w;
   Q_dot_z_error_ = rest * rest * Q_dot_z_error_ + epsilon * (of_x + std::abs(mixed) + of_w);
   const bool is_lost = !(Q_dot_z_error_ <= most_lost * now);
@@ -104,7 +101,7 @@ void ConjugateDescent::turn_by_beta(double theta, const Products& Q_dot, const V
     now = dot(z_, way_);
     Q_dot_z_error_ = epsilon * now;
   }
-  const double with_last = rest * Q_dot_z_ + theta * Q_dot.z_x;
+  const double with_last = rest * Q_dot_z_ + theta * Q_dot_.z_x;
   const double beta = std::max(0.0, (now - with_last) / Q_dot_z_), alpha = theta * h_;
   const auto turn = [=, back = alpha - h_, way = way_.span().data(), p = p_.span().data()](std::size_t i, double z_i) {
     const double p_next = z_i + beta * p[i];
@@ -151,8 +148,8 @@ void ConjugateDescent::archive(const StateArchive& state) {
   state("Q_dot_z_error", Q_dot_z_error_);
   state("pMp", pMp_);
   state("quotient", quotient_);
-  state("unbalanced_force", unbalanced_force_);
-  state("unbalanced", unbalanced_);
+  state("Q_dot_z_w", Q_dot_.z);
+  state("Q_dot_Q", Q_dot_.Q);
   state("trials", trials_);
   if (memory_) memory_->archive(state.part("memory"));
 }

@@ -20,6 +20,8 @@
 #include <stillpoint/state_archive.hpp>
 #include <stillpoint/vector.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "solvers/relaxation/limited_memory.hpp"
@@ -36,7 +38,9 @@ class ConjugateDescent {
 
   /// Begins at w: straight down, by h M⁻¹Q at first, h about 1/ω_max². Q, z = M⁻¹Q at w, (n).
   void begin(const Vector& Q, const Vector& z, double h);
-  /// After an evaluation at w; Q, z = M⁻¹Q there. False if there is no way on: no positive stiffness along p, no direction
+  /// An evaluation at w, or where a share of the way leads; Q, z = M⁻¹Q there.
+  void look_at(const Vector& Q, const Vector& z);
+  /// After one at w; the same Q, z. False if there is no way on: no positive stiffness along p, no direction
   /// downhill, or no end of the search on its line.
   bool evaluated(const Vector& Q, const Vector& z);
   /// From w to the next one, (n).
@@ -44,18 +48,17 @@ class ConjugateDescent {
   /// pᵀKp/pᵀMp of the last line [1/s²].
   double quotient() const { return quotient_; }
   /// ‖Q‖ where it was last evaluated or begun [N].
-  double unbalanced_force() const { return unbalanced_force_; }
+  double unbalanced_force() const { return std::sqrt(Q_dot_.Q); }
   /// √(QᵀM⁻¹Q) there [N/√kg].
-  double unbalanced() const { return unbalanced_; }
+  double unbalanced() const { return std::sqrt(std::max(0.0, Q_dot_.z)); }
 
   void archive(const StateArchive& state);
 
  private:
-  struct Products {  // of Q(w) with each of these; z_x = M⁻¹Q(x) only where Q is linear
+  struct Products {  // of Q(w) with each of these; with z_x = M⁻¹Q(x) only where Q is linear
     double p, z_x, z, Q;
   };
-  Products products_with(const Vector& Q, const Vector& z) const;
-  void turn_by_beta(double theta, const Products& Q_dot, const Vector& z);
+  void turn_by_beta(double theta, const Vector& z);
   void turn_by_memory(double theta, const Vector& Q);
 
   const Mass& mass_;
@@ -69,7 +72,7 @@ class ConjugateDescent {
   double Q_dot_z_error_ = 0;  // and what rounding may have made of it
   double pMp_ = 0;            // pᵀMp
   double quotient_ = 0;
-  double unbalanced_force_ = 0, unbalanced_ = 0;
+  Products Q_dot_{};
   int trials_ = 0;  // on this line
 };
 

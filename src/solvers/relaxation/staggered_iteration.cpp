@@ -23,8 +23,7 @@ void StaggeredIteration::begin(double t, const Vector& /*y*/) {
   t_ = t;
   last_step_ = relaxation().from.last_step;
   system().set_damping_rate(relaxation().from.rate.value_or(0));
-  admissible_ = system().out_of_balance(t, u_->span(), Q_.span());
-  if (admissible_) system().system().mass().solve(Q_.span(), a_.span());
+  admissible_ = system().out_of_balance(t, u_->span(), Q_.span(), a_.span());
   remember_loads();
   force_is_current_ = true;
   if (admissible_) on_restart();
@@ -49,12 +48,11 @@ SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/,
   const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span());
   propose(h, u_new, v_new);
   force_is_current_ = false;
-  if (!system().out_of_balance(t + h, u_new, next_Q_.span()))
+  if (!system().out_of_balance(t + h, u_new, next_Q_.span(), next_a_.span()))
     return {.status = StepReport::Status::inadmissible, .h = h};
-  system().system().mass().solve(next_Q_.span(), next_a_.span());
   trial_step_ = h;
   trial_t_ = t + h;
-  return {.h = h, .keeps_v = keeps_v()};
+  return {.h = h, .keeps_v = keeps_v(), .is_finite = tried(next_Q_, next_a_)};
 }
 
 void StaggeredIteration::accepted() {

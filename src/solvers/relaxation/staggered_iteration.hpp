@@ -40,6 +40,8 @@ class StaggeredIteration : public SteppingIntegrator {
   virtual void propose(double h, Vec u_new, Vec v_new) = 0;
   /// Whether v stays what it is, and propose() leaves v_new alone.
   virtual bool keeps_v() const { return false; }
+  /// The trial could be evaluated; Q, a: there. Says whether it is finite if that costs nothing.
+  virtual std::optional<bool> tried(const Vector& /*Q*/, const Vector& /*a*/) { return std::nullopt; }
   /// The trial has become the state; the force there is Q(), the one before last_Q().
   virtual void moved(double h) = 0;
   /// Begins afresh from the state, or from one of which a contact has changed v.
