@@ -23,7 +23,7 @@ struct FrequencyEstimate {
   double wall_s = 0;
   bool converged = false;
   std::string status;  // the inequality that ended it, or why there is no answer
-  /// x of the lowest one by inverse iteration, (n), of any length; otherwise empty.
+  /// x of the lowest one by Lanczos' method, (n), of any length; otherwise empty.
   std::vector<double> mode{};
 };
 
@@ -37,10 +37,9 @@ FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, doub
 /// they did not do.
 FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, int applications = 12,
                                        std::optional<double> tolerance = std::nullopt);
-/// ω₁: x ← K⁻¹ M x on a CHOLMOD factor of K, and ARPACK with that factor if rounding keeps it from converging. Not
-/// converged, ω = 0, if K is singular: the body is not held.
-FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
-                                               const SpectrumOptions& = {});
+/// ω₁: Lanczos' method on K⁻¹M with a CHOLMOD factor of K, and ARPACK with that factor if rounding keeps it from
+/// converging. Not converged, ω = 0, if K is singular: the body is not held.
+FrequencyEstimate omega_1_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
 /// The same for any symmetric K and M, (n × n).
 FrequencyEstimate lowest_frequency(const SparseMatrix& K, const Mass& M, const SpectrumOptions& = {});
 /// ω₁ by ARPACK in shift-invert about 0, and ω_max by ARPACK in shift-invert about the Gershgorin bound.

@@ -29,8 +29,8 @@ int spectrum(const SceneArguments& arguments) {
 
   fmt::print("{}\n  {:<10}{:<36}{:>14}{:>12}{:>12}\n", scene.title.empty() ? scene.name : scene.title, "", "method",
              "rad/s", "iterations", "ms");
-  const FrequencyEstimate omega_1 = omega_1_by_inverse_iteration(*phase, 0, u);
-  print_estimate("omega_1", "inverse iteration (CHOLMOD)", omega_1);
+  const FrequencyEstimate omega_1 = omega_1_by_lanczos(*phase, 0, u);
+  print_estimate("omega_1", "Lanczos on K⁻¹M (CHOLMOD)", omega_1);
   print_estimate("omega_1", "ARPACK, shift-invert at 0", omega_1_by_arpack(*phase, 0, u));
   const FrequencyEstimate omega_max = omega_max_by_power_iteration(*phase, 0, u);
   print_estimate("omega_max", "power iteration, matrix-free", omega_max);

@@ -1,5 +1,6 @@
 // BLAS on one thread: a product that is divided among threads is summed in another order for another number of them,
-// and results are to be the same bits for any.
+// and results are to be the same bits for any. CHOLMOD's own loops ask for four threads each, whatever OpenMP was told,
+// to wake and to wait for at each supernode: they get one as well.
 #pragma once
 
 #include <omp.h>
@@ -13,11 +14,12 @@ extern "C" {
 
 namespace stillpoint {
 
-/// While it lives, BLAS takes one thread; afterwards as many as before.
+/// While it lives, BLAS and what calls it take one thread; afterwards as many as before.
 class OneBlasThread {
  public:
-  OneBlasThread() : of_openmp_(omp_get_max_threads()) {
+  OneBlasThread() : of_openmp_(omp_get_max_threads()), active_levels_(omp_get_max_active_levels()) {
     omp_set_num_threads(1);
+    omp_set_max_active_levels(0);  // holds for loops that name a number of threads too
     constexpr int threads_of_its_own = 1;
     if (openblas_get_parallel && openblas_get_parallel() == threads_of_its_own && openblas_get_num_threads() > 1) {
       of_openblas_ = openblas_get_num_threads();
@@ -26,6 +28,7 @@ class OneBlasThread {
   }
   ~OneBlasThread() {
     omp_set_num_threads(of_openmp_);
+    omp_set_max_active_levels(active_levels_);
     if (of_openblas_ > 0) openblas_set_num_threads(of_openblas_);
   }
   OneBlasThread(const OneBlasThread&) = delete;
@@ -33,6 +36,7 @@ class OneBlasThread {
 
  private:
   int of_openmp_, of_openblas_ = 0;  // threads before; 0: not ours to set
+  int active_levels_;
 };
 
 }  // namespace stillpoint

@@ -1,5 +1,5 @@
-// The largest eigenvalue of A x = λ B x by power iteration, the one loop under every extreme eigenvalue but ARPACK's:
-//   ω_max²: A = K, B = M      1/ω₁²: A = M, B = K      1/λ_min(D⁻¹M): A = D, B = M      λ_max(M): A = M, B = I
+// The largest eigenvalue of A x = λ B x by power iteration, where a bound from below or a rough one will do:
+//   ω_max²: A = K, B = M      1/λ_min(D⁻¹M): A = D, B = M      λ_max(M): A = M, B = I
 #pragma once
 
 #include <vector>

@@ -135,10 +135,10 @@ void choose_step(const Scene& scene, Model& model) {
   }
 }
 
-// ω₁ by inverse iteration. Throws if something cannot do without; a note if equilibrium can.
+// ω₁ by Lanczos' method on K⁻¹M. Throws if something cannot do without; a note if equilibrium can.
 void find_omega_1(const Scene& scene, const Omega1Needs& needs, SetUp& set_up, Model& model) {
   const FrequencyEstimate lowest =
-      set_up.shared(part_omega_1, model.mass, [&] { return omega_1_by_inverse_iteration(*model.phase, 0, model.u); });
+      set_up.shared(part_omega_1, model.mass, [&] { return omega_1_by_lanczos(*model.phase, 0, model.u); });
   if (lowest.converged) {
     model.omega_1 = lowest.omega;
     const bool physical_mass = !(model.relaxation && model.relaxation->chooses_mass);

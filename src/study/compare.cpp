@@ -110,7 +110,7 @@ class Comparing {
   void measure_spectrum() {
     std::unique_ptr<LagrangianPhase> phase = store_.phase(scene_).phase;
     const std::vector<double>& u = exact_->u();
-    const auto omega_1_at_rest = [&] { return omega_1_by_inverse_iteration(*phase, end_time(), u); };
+    const auto omega_1_at_rest = [&] { return omega_1_by_lanczos(*phase, end_time(), u); };
     const FrequencyEstimate lowest =
         phase->info().nonlinear ? omega_1_at_rest() : SetUp(&store_).shared(part_omega_1, scene_.mass, omega_1_at_rest);
     const FrequencyEstimate highest = phase->size() > direct_solver_limit

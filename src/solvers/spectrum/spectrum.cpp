@@ -1,13 +1,17 @@
-// Extreme frequencies by power iteration and inverse iteration. iterations counts applications of the operator.
+// The highest frequency by power iteration, the lowest by Lanczos' method on K⁻¹M. iterations counts applications of
+// the operator.
 #include <stillpoint/spectrum.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "linalg/lanczos.hpp"
 #include "linalg/power_iteration.hpp"
 #include "solvers/spectrum/nearest_eigenvalue.hpp"
 #include "solvers/spectrum/stiffness.hpp"
@@ -19,10 +23,9 @@ void require_valid(const SpectrumOptions& options) {
   if (const std::string wrong = options.validate(); !wrong.empty()) throw std::invalid_argument(wrong);
 }
 
-std::string status_of(const PowerIterationResult& result, const SpectrumOptions& options) {
-  if (!std::isfinite(result.eigenvalue)) return "the Rayleigh quotient is not finite";
-  return fmt::format("estimated error of ω² {:.1e} {} tolerance {:.1e} after {} iterations", result.relative_error,
-                     result.converged ? "≤" : ">", options.tolerance, result.iterations);
+std::string status_of(double error, bool converged, int iterations, double tolerance) {
+  return fmt::format("estimated error of ω² {:.1e} {} tolerance {:.1e} after {} iterations", error,
+                     converged ? "≤" : ">", tolerance, iterations);
 }
 
 }  // namespace
@@ -41,7 +44,9 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
   const LinearMap solve_M = [&](ConstVec b, Vec x) { system.mass().solve(b, x); };
   const PowerIterationResult result =
       power_iteration(system.size(), apply_K, solve_M, options.tolerance, options.max_iterations);
-  FrequencyEstimate estimate{0, result.iterations, watch.seconds(), result.converged, status_of(result, options)};
+  FrequencyEstimate estimate{0, result.iterations, watch.seconds(), result.converged,
+                             status_of(result.relative_error, result.converged, result.iterations, options.tolerance)};
+  if (!std::isfinite(result.eigenvalue)) estimate.status = "the Rayleigh quotient is not finite";
   if (result.eigenvalue > 0) {
     estimate.omega = std::sqrt(result.eigenvalue);
   } else if (result.eigenvalue < 0) {
@@ -51,30 +56,73 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
   return estimate;
 }
 
-// x ← K⁻¹ M x, and with the same factor ARPACK, if that does not converge: rounding in solutions with an
-// ill-conditioned K moves ρ by more than the tolerance, or a second mode has nearly the same frequency. Each has half
-// of the iterations.
+namespace {
+
+struct Lowest {
+  double omega_squared = 0;  // from above
+  int applications = 0;      // of K⁻¹M
+  bool converged = false;
+  std::string status;
+  std::vector<double> mode;
+};
+
+// Of K⁻¹M the largest eigenvalue by Lanczos' method, its error within the tolerance twice running.
+Lowest lowest_by_lanczos(const FactorisedStiffness& K, const Mass& mass, double tolerance, int most) {
+  const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
+  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { K.apply(x, Kx); };
+  const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
+  const VectorSpace vectors;
+  Vector x = vectors.make(mass.size());
+  K.solve(start_vector(mass.size()), x.span());
+  Lanczos lanczos(apply_M, apply_K, solve_K, std::move(x), true);
+  Lanczos::Largest largest{.theta = std::numeric_limits<double>::quiet_NaN()};
+  double error = std::numeric_limits<double>::infinity();
+  int held = 0;
+  while (lanczos.applications() < most && held < 2 && lanczos.step()) {
+    largest = lanczos.largest();
+    error = std::max(largest.error / largest.theta, std::numeric_limits<double>::epsilon());
+    held = error <= std::max(tolerance, std::numeric_limits<double>::epsilon()) ? held + 1 : 0;
+  }
+  const bool exhausted = lanczos.finite() && lanczos.applications() < most && held == 1;
+  Lowest lowest{.omega_squared = 1 / largest.theta,
+                .applications = lanczos.applications(),
+                .converged = held == 2 || exhausted,
+                .status = "the Rayleigh quotient is not finite",
+                .mode = {}};
+  if (!lanczos.finite() || !std::isfinite(largest.theta)) {
+    lowest.converged = false;
+    return lowest;
+  }
+  lowest.status = status_of(error, lowest.converged, lowest.applications, tolerance);
+  lowest.mode = lanczos.vector();
+  return lowest;
+}
+
+}  // namespace
+
+// With the same factor by ARPACK, if Lanczos' method does not converge: rounding in solutions with an ill-conditioned K
+// may keep it from that, or a second mode of nearly the same frequency.
 FrequencyEstimate lowest_frequency(const SparseMatrix& of_body, const Mass& mass, const SpectrumOptions& options) {
   require_valid(options);
   const Stopwatch watch;
   const FactorisedStiffness K(mass, of_body);
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
-  const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
-  const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
-  const int half = std::max(1, options.max_iterations / 2);
-  const PowerIterationResult result = power_iteration(mass.size(), apply_M, solve_K, options.tolerance, half);
-  FrequencyEstimate estimate{0, result.iterations, 0, result.converged, status_of(result, options), result.x};
-  double omega_squared = 1 / result.eigenvalue;  // from above
-  if (!result.converged && std::isfinite(result.eigenvalue) && options.max_iterations > half) {
-    const NearestEigenvalue lowest = nearest_eigenvalue(
-        solve_K, mass, 0, {.tolerance = options.tolerance, .max_iterations = options.max_iterations - half});
-    estimate.iterations += lowest.applications;
-    estimate.converged = lowest.converged;
-    if (lowest.converged) {
-      omega_squared = lowest.lambda;
-      estimate.mode = lowest.mode;
+  constexpr int most_vectors = 60;  // that are kept
+  const int most = std::clamp(options.max_iterations / 2, 1, most_vectors);
+  Lowest lowest = lowest_by_lanczos(K, mass, options.tolerance, most);
+  FrequencyEstimate estimate{0, lowest.applications, 0, lowest.converged, lowest.status, std::move(lowest.mode)};
+  double omega_squared = lowest.omega_squared;
+  if (!lowest.converged && std::isfinite(omega_squared) && options.max_iterations > most) {
+    const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
+    const NearestEigenvalue nearest = nearest_eigenvalue(
+        solve_K, mass, 0, {.tolerance = options.tolerance, .max_iterations = options.max_iterations - most});
+    estimate.iterations += nearest.applications;
+    estimate.converged = nearest.converged;
+    if (nearest.converged) {
+      omega_squared = nearest.lambda;
+      estimate.mode = nearest.mode;
     }
-    estimate.status = fmt::format("{}; {}", estimate.status, lowest.status);
+    estimate.status = fmt::format("{}; {}", estimate.status, nearest.status);
   }
   estimate.wall_s = watch.seconds();
   if (const std::string refusal = K.refusal(omega_squared); !refusal.empty()) {
@@ -86,8 +134,7 @@ FrequencyEstimate lowest_frequency(const SparseMatrix& of_body, const Mass& mass
   return estimate;
 }
 
-FrequencyEstimate omega_1_by_inverse_iteration(const SemiDiscrete& system, double t, ConstVec u,
-                                               const SpectrumOptions& options) {
+FrequencyEstimate omega_1_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {
   return lowest_frequency(system.tangents().matrix(Tangent::elastic, t, u), system.mass(), options);
 }
 
