@@ -43,21 +43,24 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
   LawMaterialBase(const Law& law, std::size_t begin, std::size_t count, const PointMaterialInfo& info)
       : PointMaterial<K>(info), law_(law), begin_(begin), count_(count) {}
 
-  /// Σ point(q), q = 0 … count − 1, in groups that fill the processor's registers. The last group begins early enough
-  /// to be whole: a point that it meets again answers the same again, which costs less than a rest of single points.
+  /// Σ point(q), q = 0 … count − 1, vectorised. What is left of whole groups is one that begins early enough: a point
+  /// that it meets again answers the same again, which costs less than a rest of single points. The loop is one over
+  /// all groups, as the compiler makes a third more of their instructions if each is a loop of its own.
   template <class Point>
   [[gnu::always_inline]] static double sum_in_groups(std::size_t count, const Point& point) {
-    constexpr std::size_t group = 8;
+    constexpr std::size_t group = 8;  // fills the registers of any of today's processors
+    const std::size_t whole = count / group * group;
     double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (std::size_t q = 0; q < whole; ++q) sum += point(q);  // all locals are point's own, or GCC gives up
+    if (whole == count) return sum;
     if (count < group) {
       for (std::size_t q = 0; q < count; ++q) sum += point(q);
       return sum;
     }
-    for (std::size_t begin = 0; begin < count; begin += group) {
-      const std::size_t from = std::min(begin, count - group);
+    const std::size_t last = count - group;
 #pragma omp simd reduction(+ : sum)
-      for (std::size_t q = 0; q < group; ++q) sum += point(from + q);  // all locals are point's own, or GCC gives up
-    }
+    for (std::size_t q = 0; q < group; ++q) sum += point(last + q);
     return sum;
   }
 
