@@ -86,7 +86,7 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
 //
 // until so many digits of the second are lost that it has to be summed anew.
 void ConjugateDescent::turn_by_beta(double theta, const Vector& z) {
-  constexpr double most_lost = 1e-10;
+  constexpr double most_lost = 1e-12;
   const double rest = 1 - theta;
   const double of_x = rest * rest * Q_dot_z_, mixed = 2 * theta * rest * Q_dot_.z_x, of_w = theta * theta * Q_dot_.z;
   double now = of_x + mixed + of_w;

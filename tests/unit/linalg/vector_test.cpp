@@ -168,6 +168,29 @@ TEST_CASE("multiple scaled additions and dot products agree with single ones", "
   CHECK(products[1] == stillpoint::dot(s.X, s.Y));
 }
 
+TEST_CASE("products of one vector with several in one pass have the bits of each alone, at any length", "[vector]") {
+  const VectorSpace space;
+  for (const std::size_t n : {1u, 15u, 16u, 511u, 512u, 513u, 1025u, 8191u, 8192u, 100'003u}) {
+    CAPTURE(n);
+    std::vector<Vector> all;
+    for (unsigned seed = 0; seed < 11; ++seed) {
+      Vector& v = all.emplace_back(space.make(n));
+      std::ranges::copy(random_values(n, seed + 1), v.span().begin());
+    }
+    const auto few = stillpoint::dots(all[0], all[0], all[1], all[2]);
+    for (std::size_t k = 0; k < few.size(); ++k) CHECK(few[k] == stillpoint::dot(all[0], all[k]));
+    std::vector<NVectorHandle> Y;  // more than one pass takes
+    for (const Vector& v : all) Y.push_back(v.handle());
+    Values products(Y.size());
+    stillpoint::dot_each(all[0], Y, products);
+    for (std::size_t k = 0; k < Y.size(); ++k) CHECK(products[k] == stillpoint::dot(all[0], all[k]));
+    all[1].span()[n / 2] = std::numeric_limits<double>::quiet_NaN();
+    const auto [whole, broken] = stillpoint::dots(all[0], all[2], all[1]);
+    CHECK(whole == few[2]);
+    CHECK(std::isnan(broken));
+  }
+}
+
 TEST_CASE("reductions give the same bits for one and for two threads", "[vector]") {
   Sample s(1'234'567);
   const auto all = [&] {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -191,6 +192,87 @@ TEST_CASE("auto takes the steps of conjugate gradients for one evaluation each, 
   }
 }
 
+TEST_CASE("the out-of-balance force that auto has found on its way is that of its iterate, down to rounding",
+          "[strategies]") {
+  for (const double cubic : {0.0, 1e3}) {  // linear, and stiffening
+    test::ChainOptions chain_options = long_chain();
+    chain_options.cubic = cubic;
+    const test::Chain chain(chain_options);
+    test::Chain again(chain_options);
+    const auto damping = test::damping_of("auto", 0, 0);
+    test::Chain system(chain_options);
+    RelaxationSystem relaxation(system, *damping), fresh(again, *damping);
+    IntegratorOptions options;
+    options.max_step = 0.9;
+    const auto integrator = test::stepper_of("auto", options, relaxation, {.linear = cubic == 0});
+    Values y(2 * system.size());
+    Vector state = relaxation.vectors().view(y), Q = relaxation.vectors().make(system.size());
+    integrator->start(0, state);
+    const double load = chain_options.load * std::sqrt(static_cast<double>(chain_options.n));
+    double least = load;
+    for (int k = 0; k < 5000 && integrator->static_iteration() && least > 1e-12 * load; ++k) {
+      const StepReport step = integrator->step(1e9);
+      REQUIRE(step.status == StepReport::Status::ok);
+      REQUIRE(fresh.out_of_balance(step.t, first_half(ConstVec(y)), Q.span()));
+      const auto known = integrator->unbalanced_force();
+      if (!known) break;
+      CAPTURE(cubic, k);
+      CHECK(*known == Approx(norm(Q)).epsilon(1e-9).margin(1e-13 * load));
+      CHECK(relaxation.relative_to_loads(*known) == Approx(fresh.last_residual()).epsilon(1e-9).margin(1e-13));
+      least = norm(Q);
+    }
+    CHECK(least < 1e-9 * load);  // it came that far by such steps
+  }
+}
+
+TEST_CASE("auto ends after as many steps as a short chain has modes, though its residual falls by all digits at once",
+          "[strategies]") {
+  for (std::size_t n = 1; n <= 12; ++n) {
+    const test::Chain chain({.n = n, .stiffness = 3, .load = 1e-3});
+    test::Chain system(chain.options());
+    const long evaluations = evaluations_to(1e-12, system, static_solution(chain), 2 * std::sqrt(3),
+                                            {.strategy = "auto", .options = {.linear = true}});
+    CAPTURE(n);
+    CHECK(evaluations <= static_cast<long>(n) + 3);  // the start, and one beyond the last iterate
+  }
+  for (const std::size_t n : {3u, 5u, 7u, 10u}) {  // masses from 0.1 to 10: some steps more, as rounding counts
+    Values masses, loads;
+    for (std::size_t i = 0; i < n; ++i) {
+      masses.push_back(std::pow(10.0, std::sin(static_cast<double>(i))));
+      loads.push_back(std::sin(17.0 * static_cast<double>(i * i)));
+    }
+    const LoadedChain chain({.n = n, .masses = masses}, loads);
+    LoadedChain system({.n = n, .masses = masses}, loads);
+    const double omega_max = 2 / std::sqrt(std::ranges::min(masses));
+    CAPTURE(n);
+    CHECK(evaluations_to(1e-11, system, static_solution(chain), omega_max,
+                         {.strategy = "auto", .options = {.linear = true}}) <= static_cast<long>(n) + 6);
+  }
+}
+
+TEST_CASE("a force that is not finite ends a step of auto, though the system has let it pass", "[strategies]") {
+  class Breaking final : public test::Chain {
+   public:
+    using Chain::Chain;
+    bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const override {
+      Chain::internal_force(t, u, R, trial);
+      if (u[0] != 0) R[1] = std::numeric_limits<double>::infinity();
+      return true;
+    }
+  };
+  Breaking chain({.n = 3, .load = 1});
+  const auto damping = test::damping_of("auto", 0, 0);
+  RelaxationSystem relaxation(chain, *damping);
+  IntegratorOptions options;
+  options.max_step = 0.9;
+  const auto integrator = test::stepper_of("auto", options, relaxation, {.linear = true});
+  Values y(6);
+  Vector state = relaxation.vectors().view(y);
+  integrator->start(0, state);
+  CHECK(integrator->step(1e9).status == StepReport::Status::not_finite);
+  CHECK(y == Values(6, 0.0));  // the last good state
+}
+
 TEST_CASE("auto costs no more than lbfgs where the stiffness changes", "[strategies]") {
   for (const double cubic : {1.0, 1e2, 1e4}) {
     test::ChainOptions options = long_chain();
@@ -233,7 +315,7 @@ TEST_CASE("auto stays where nothing but rounding is left", "[strategies]") {
     integrator->start(0, state);
     for (int k = 0; k < 5000; ++k) {
       REQUIRE(integrator->step(1e9).status == StepReport::Status::ok);
-      if (k < (linear ? 80 : 500)) continue;
+      if (k < (linear ? 90 : 500)) continue;  // 78 modes, and some steps for rounding
       double error = 0;
       for (std::size_t i = 0; i < solution.size(); ++i) error = std::max(error, std::abs(y[i] - solution[i]));
       CAPTURE(linear, k);

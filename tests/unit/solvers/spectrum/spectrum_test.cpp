@@ -266,6 +266,21 @@ TEST_CASE("omega_1 is found beside a second mode of nearly the same frequency") 
   CHECK(estimate.omega == near(1));
 }
 
+TEST_CASE("omega_1 takes a third of the solutions of inverse iteration where modes lie close") {
+  // Modes ω² = 1, 1.3, 1.6, …: inverse iteration gains 1.3² in a step, and needs some 45 to 1e-10.
+  constexpr int n = 200;
+  Eigen::VectorXd squares(n);
+  for (int k = 0; k < n; ++k) squares[k] = 1 + 0.3 * k;
+  const PlainSystem system(squares.asDiagonal().toDenseMatrix(), Eigen::MatrixXd::Identity(n, n));
+  const FrequencyEstimate estimate = omega_1_by_lanczos(system, 0, std::vector<double>(n, 0.0));
+  INFO(estimate.status);
+  REQUIRE(estimate.converged);
+  CHECK(estimate.iterations <= 15);
+  CHECK(std::pow(estimate.omega, 2) == Approx(1).epsilon(1e-10));
+  REQUIRE(estimate.mode.size() == n);
+  for (std::size_t k = 1; k < n; ++k) CHECK(std::abs(estimate.mode[k]) < 1e-4 * std::abs(estimate.mode[0]));
+}
+
 TEST_CASE("Lanczos' method shows its mode, that of the lowest frequency") {
   const Chain chain({.n = 30});
   const std::vector<double> mode = omega_1_by_lanczos(chain, 0, at_rest(chain)).mode;

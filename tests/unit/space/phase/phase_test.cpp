@@ -143,6 +143,26 @@ TEST_CASE("body force, traction and point force are in balance with the supports
   }
 }
 
+TEST_CASE("loads are constant unless one depends on t or follows the body, and are the same at every t then") {
+  const auto is_constant = [](const std::string& setting) {
+    const auto phase = make_phase(scenes::load("incompressible", {setting}));
+    if (!phase->loads_are_constant()) return false;
+    std::vector<double> u(phase->size()), now(u.size()), later(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-3 * static_cast<double>(i % 7);
+    phase->external_force(0, std::vector<double>(u.size(), 0.0), now);
+    phase->external_force(17, u, later);
+    CHECK(now == later);
+    return true;
+  };
+  CHECK(is_constant("body_force.value=[0.0, \"-x*y\"]"));
+  CHECK_FALSE(is_constant("body_force.value=[0.0, \"-x*t\"]"));
+  CHECK(is_constant("force=[{at=[1.0, 1.0], value=[0.0, 1.0]}]"));
+  CHECK_FALSE(is_constant("force=[{at=[1.0, 1.0], value=[0.0, \"t\"]}]"));
+  CHECK(is_constant("traction=[{face=\"top\", value=[\"x\", 1.0]}]"));
+  CHECK_FALSE(is_constant("traction=[{face=\"top\", value=[0.0, \"x*t\"]}]"));
+  CHECK_FALSE(is_constant("traction=[{face=\"top\", pressure=1.0}]"));
+}
+
 TEST_CASE("initial values of a polynomial that the basis holds are reproduced at the points") {
   const auto phase =
       make_phase(scenes::bar({"body.points_per_cell=5", "grid.basis=cubic", "initial.u=x^3 - 2*x", "initial.v=x^2"}));
