@@ -34,10 +34,10 @@ inline void for_each_block(std::size_t n, const Body& body) {
   for (std::size_t k = 0; k < n; ++k) body(k);
 }
 
-/// For each k < count ≤ most: join over term(k, 0) … term(k, n−1), join associative up to rounding. Of all k in one pass
-/// over memory, a piece that the first-level cache holds at a time. The order is fixed by n alone: at most 64 blocks,
-/// each in 16 lanes, lanes and then blocks joined in order; neither threads, the compiler's vectors nor other k change
-/// it.
+/// For each k < count ≤ most: join over term(k, 0) … term(k, n−1), join associative up to rounding. Of all k in one
+/// pass over memory, a piece that the first-level cache holds at a time. The order is fixed by n alone: at most 64
+/// blocks, each in 16 lanes, lanes and then blocks joined in order; neither threads, the compiler's vectors nor other k
+/// change it.
 template <std::size_t most, class Value, class Term, class Join>
 inline std::array<Value, most> reduce_each(std::size_t count, std::size_t n, Value neutral, const Term& term,
                                            const Join& join) {

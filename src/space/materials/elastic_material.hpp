@@ -46,6 +46,20 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
           return push(F_0, law.first_piola(total(F_0, H)));
         });
   }
+  // Where P is linear in H, δP = P(δH).
+  [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
+    if constexpr (Law::finite_strain) {
+      Base::tangent(kind, block, V, dt);
+    } else {
+      const Law law = law_;
+      const double* volume = V + block.first;
+      const std::size_t count = block.count;
+      const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+        return block.store_stress(q, volume[q], law.first_piola(block.direction_at(q)));
+      };
+      Base::sum_in_groups(count, point);
+    }
+  }
   double committed_stress(Block& block, const double* V) const override { return stress(block, V, 0, nullptr); }
   void commit(std::vector<double>&) override {}
 
