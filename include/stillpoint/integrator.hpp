@@ -71,6 +71,8 @@ class Integrator {
   virtual bool force_is_current() const { return false; }
   /// ‖F − R‖ at the present (t, y) [N], if it was found on the way.
   virtual std::optional<double> unbalanced_force() const { return std::nullopt; }
+  /// ω₁ [rad/s] of the motions that the loads drive, if its steps have come to tell; it may cost some of them.
+  virtual std::optional<double> lowest_frequency() const { return std::nullopt; }
   /// The damping c at present [1/s], if a relaxation finds it on the way.
   virtual std::optional<double> damping_rate() const { return std::nullopt; }
   /// What an integrator of the same kind has to be given to carry on in the next phase.

@@ -3,6 +3,7 @@
 
 #include <stillpoint/relaxation_system.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -19,6 +20,8 @@ class ErrorBound {
   /// omega_1: of the beginning; empty if there is none, and then there is no distance. volume: empty if V = M.
   ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1, std::optional<VolumeNorm> volume);
 
+  /// ω₁, where none was known at the beginning and V = M: the lowest so far.
+  void learn(double omega_1) { omega_1_ = std::min(omega_1, omega_1_.value_or(omega_1)); }
   std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u);
   /// The last one beside the largest ‖u‖_V so far instead, if that is a hundred times as large: unloaded to nothing.
   std::optional<double> beside_largest() const { return beside_largest_; }

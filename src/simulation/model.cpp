@@ -180,7 +180,7 @@ double dwell_of(const Scene& scene, const Model& model) {
 // that is small only beside the stiffest part's forces does not pass.
 double distance_goal_of(const Scene& scene, const Model& model) {
   constexpr double usual = 1e-3;
-  const bool is_known = model.omega_1 && !model.phase->info().updated_lagrangian;
+  const bool is_known = (model.omega_1 && !model.phase->info().updated_lagrangian) || model.learns_omega_1;
   const bool by_default = scene.stop.residual > 0 && is_known && !scene.where.contains("stop.distance");
   return by_default ? usual : scene.stop.distance;
 }
@@ -248,6 +248,9 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   begin("the lowest frequency, with a factor of the stiffness");
   if (needs.any()) find_omega_1(scene, needs, set_up, model);
   begin("the norm of errors");
+  const bool norm_is_of_mass = mass_measures_volume(scene, scaled || scene.mass.scaling != MassScaling::uniform);
+  model.learns_omega_1 = !model.omega_1 && chooses_mass && wants_equilibrium_only(scene) && norm_is_of_mass &&
+                         !model.phase->info().updated_lagrangian && is_linear(*model.phase, model.u);
   if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian) {
     model.volume_norm = set_up.shared("norm", model.mass, [&] {
       return volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);

@@ -23,6 +23,7 @@ struct Model {
   std::vector<double> u, v;               // initial values, (n) each
   double t = 0;                           // when it begins; the end of the loads for a static solver [s]
   std::optional<double> omega_1;          // [rad/s]; only if something needs it and the body is held
+  bool learns_omega_1 = false;            // what is not known may show on the way, for the distance
   std::optional<VolumeNorm> volume_norm;  // if omega_1 is known, and errors are not measured by the mass
   double omega_max = 0;                   // [rad/s], by power iteration; for auto a bound by few Lanczos steps
   int tangent_applications = 0;           // that auto spent on ω_max

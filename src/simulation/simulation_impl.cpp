@@ -175,6 +175,8 @@ void Simulation::Impl::tell_phase_change(bool begun) const {
 void Simulation::Impl::measure() {
   if (std::exchange(measured_, true)) return;
   residual_ = motion_->residual(t_);
+  if (const auto omega_1 = model_.learns_omega_1 ? motion_->integrator->lowest_frequency() : std::nullopt)
+    error_bound_.learn(*omega_1);
   distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
   work_scale_ = motion_->system.work_scale(motion_->u_vector);
   power_ = motion_->system.power(motion_->v_vector);

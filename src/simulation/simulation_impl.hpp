@@ -103,7 +103,9 @@ class Simulation::Impl {
   void follow_period();
 
   void measure();
-  bool has_distance() const { return model_.omega_1 && !model_.phase->info().updated_lagrangian; }
+  bool has_distance() const {
+    return model_.learns_omega_1 || (model_.omega_1 && !model_.phase->info().updated_lagrangian);
+  }
   std::optional<double> distance_to_go() const;
   void refresh_distance();
   void refresh_distance_in_time();

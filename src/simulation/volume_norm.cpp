@@ -26,8 +26,12 @@ Mass mass_of_density_1(Scene scene) {
 
 }  // namespace
 
+bool mass_measures_volume(const Scene& scene, bool scaled) {
+  return scaled ? same_material(scene) : same_density(scene);
+}
+
 std::optional<VolumeNorm> volume_norm(const Scene& scene, const LagrangianPhase& phase, bool scaled, ConstVec u) {
-  if (scaled ? same_material(scene) : same_density(scene)) return std::nullopt;
+  if (mass_measures_volume(scene, scaled)) return std::nullopt;
   VolumeNorm norm{.V = mass_of_density_1(scene)};
   const FrequencyEstimate lowest = lowest_frequency(phase.tangents().matrix(Tangent::elastic, 0, u), norm.V);
   if (!lowest.converged) return std::nullopt;

@@ -20,6 +20,9 @@ struct VolumeNorm {
   double omega_1 = 0;  // ω₁² the lowest eigenvalue of K x = ω² V x
 };
 
+/// Whether the M-norm is as good; scaled: whether the masses are.
+bool mass_measures_volume(const Scene& scene, bool scaled);
+
 /// Nothing if the M-norm of phase is as good, or K has no lowest eigenvalue; phase: of scene, with its masses scaled or
 /// not, u: (n) at the beginning.
 std::optional<VolumeNorm> volume_norm(const Scene& scene, const LagrangianPhase& phase, bool scaled, ConstVec u);

@@ -366,3 +366,43 @@ TEST_CASE("of a body that stiffens the run stops by the distance with the tangen
   CHECK(end.summary.distance.value() <= 1e-4);
   CHECK(error_of(end, equilibrium_of(scene)) <= 1e-4);
 }
+
+TEST_CASE("a large body learns omega_1 from the steps of auto, and its distance bounds the error from then on") {
+  struct Load {
+    const char* description;
+    std::vector<std::string> overrides;
+  };
+  const std::vector<Load> loads = {
+      {"its weight", {}},
+      {"a pressure on a tenth of its top", {"traction=[{line=[[0.45, 1.0], [0.55, 1.0]], value=[0.0, -0.01]}]"}},
+      {"a load that drives short waves", {"body_force.value=[0.0, \"0.01*sin(60*x)*sin(50*y)\"]"}}};
+  for (const auto& [description, overrides] : loads) {
+    std::vector<std::string> all = {"constants.nu=0.3", "grid.cells=[130, 104]", "grid.basis=linear",
+                                    "damping.strategy=auto"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const Scene scene = scenes::load("incompressible", all);
+    const Values rest = equilibrium_of(scene);
+    Simulation simulation(scene, {.records = false});
+    REQUIRE_FALSE(simulation.model().omega_1);  // it has more than 20 000 unknowns
+    const Mass& M = simulation.model().phase->mass();
+    const double scale = mass_norm(M, rest);
+    Smallest least;
+    long unknown = 0;
+    while (simulation.step() == RunStatus::running) {
+      const auto distance = simulation.distance();
+      if (!distance) {
+        ++unknown;
+        continue;
+      }
+      const double error = relative_difference(M, simulation.u(), rest);
+      if (error > 1e-9) least.take(*distance * mass_norm(M, simulation.u()) / scale / error);
+    }
+    INFO(description << ": " << least.value() << ", " << unknown << " of " << simulation.steps()
+                     << " steps without a distance");
+    CHECK(simulation.status() == RunStatus::equilibrium);
+    CHECK(least.value() >= 1);
+    CHECK(unknown < 3 * simulation.steps() / 4);  // it wants to be sure
+    REQUIRE(simulation.distance());
+    CHECK(*simulation.distance() <= 1e-3);
+  }
+}

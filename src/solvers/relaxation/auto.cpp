@@ -50,6 +50,10 @@ class Auto final : public StaggeredIteration {
 
   std::optional<double> damping_rate() const override { return descends_ ? std::nullopt : std::optional(c_); }
   bool static_iteration() const override { return descends_; }
+  std::optional<double> lowest_frequency() const override {
+    const std::optional<double> squared = descends_ ? descent_->lowest() : std::nullopt;
+    return squared ? std::optional(std::sqrt(*squared)) : std::nullopt;
+  }
   // Where no support inertia is in Q.
   std::optional<double> unbalanced_force() const override {
     if (!descends_ || !force_is_current() || !mass_is_lumped_) return std::nullopt;

@@ -34,6 +34,7 @@ void ConjugateDescent::begin(const Vector& Q, const Vector& z, double h) {
   Q_dot_z_error_ = epsilon * Q_dot_.z;
   h_ = first_h_ = h;
   trials_ = 0;
+  spectrum_.begin();
   if (memory_) memory_->forget();
 }
 
@@ -113,6 +114,7 @@ void ConjugateDescent::turn_by_beta(double theta, const Vector& z) {
   } else {
     for_each_index(p_.size(), [=](std::size_t i) { turn(i, move_z(i)); });
   }
+  spectrum_.add(alpha, beta);
   slope_ = Q_dot_z_ = now;
   pMp_ = now + beta * beta * pMp_;
   h_ = alpha;
@@ -151,7 +153,11 @@ void ConjugateDescent::archive(const StateArchive& state) {
   state("Q_dot_z_w", Q_dot_.z);
   state("Q_dot_Q", Q_dot_.Q);
   state("trials", trials_);
-  if (memory_) memory_->archive(state.part("memory"));
+  if (memory_) {
+    memory_->archive(state.part("memory"));
+  } else {
+    spectrum_.archive(state.part("spectrum"));
+  }
 }
 
 }  // namespace stillpoint

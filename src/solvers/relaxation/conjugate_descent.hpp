@@ -24,6 +24,7 @@
 #include <cmath>
 #include <optional>
 
+#include "solvers/relaxation/descent_spectrum.hpp"
 #include "solvers/relaxation/limited_memory.hpp"
 
 namespace stillpoint {
@@ -47,6 +48,8 @@ class ConjugateDescent {
   ConstVec way() const { return way_.span(); }
   /// pᵀKp/pᵀMp of the last line [1/s²].
   double quotient() const { return quotient_; }
+  /// ω₁² of the motions that it has met [1/s²], where Q is linear and it shows.
+  std::optional<double> lowest() const { return memory_ ? std::nullopt : spectrum_.lowest(); }
   /// ‖Q‖ where it was last evaluated or begun [N].
   double unbalanced_force() const { return std::sqrt(Q_dot_.Q); }
   /// √(QᵀM⁻¹Q) there [N/√kg].
@@ -72,6 +75,7 @@ class ConjugateDescent {
   double Q_dot_z_error_ = 0;  // and what rounding may have made of it
   double pMp_ = 0;            // pᵀMp
   double quotient_ = 0;
+  DescentSpectrum spectrum_;
   Products Q_dot_{};
   int trials_ = 0;  // on this line
 };

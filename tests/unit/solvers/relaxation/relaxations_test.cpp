@@ -250,6 +250,45 @@ TEST_CASE("auto ends after as many steps as a short chain has modes, though its 
   }
 }
 
+TEST_CASE("auto learns the lowest frequency that its load drives, and keeps quiet before it knows", "[strategies]") {
+  class Oscillators final : public test::Chain {  // ω² = 1, and 199 from 100 to 199
+   public:
+    explicit Oscillators(double load_on_slowest) : Chain({.n = 200}), load_on_slowest_(load_on_slowest) {}
+    static double squared(std::size_t i) { return i == 0 ? 1 : 99.5 + 0.5 * static_cast<double>(i); }
+    void external_force(double, ConstVec, Vec F) const override {
+      for (std::size_t i = 0; i < F.size(); ++i) F[i] = i == 0 ? load_on_slowest_ : 1;
+    }
+    bool internal_force(double, ConstVec u, Vec R, TrialState&) const override {
+      for (std::size_t i = 0; i < R.size(); ++i) R[i] = squared(i) * u[i];
+      return true;
+    }
+
+   private:
+    double load_on_slowest_;
+  };
+  for (const double load : {1.0, 1e-3, 0.0}) {
+    Oscillators system(load);
+    const auto damping = test::damping_of("auto", 0, 0);
+    RelaxationSystem relaxation(system, *damping);
+    IntegratorOptions options;
+    options.max_step = 0.9 * 2 / std::sqrt(199.0);
+    const auto integrator = test::stepper_of("auto", options, relaxation, {.linear = true});
+    Values y(2 * system.size());
+    Vector state = relaxation.vectors().view(y);
+    integrator->start(0, state);
+    CHECK_FALSE(integrator->lowest_frequency());
+    const double exact = std::sqrt(Oscillators::squared(load > 0 ? 0 : 1));
+    CAPTURE(load);
+    for (int k = 0; k < 16; ++k) {
+      REQUIRE(integrator->step(1e9).status == StepReport::Status::ok);
+      const auto known = integrator->lowest_frequency();
+      if (known) CHECK(*known <= 1.02 * exact);
+    }
+    REQUIRE(integrator->lowest_frequency());
+    CHECK(*integrator->lowest_frequency() == Approx(exact).epsilon(5e-3));
+  }
+}
+
 TEST_CASE("a force that is not finite ends a step of auto, though the system has let it pass", "[strategies]") {
   class Breaking final : public test::Chain {
    public:
