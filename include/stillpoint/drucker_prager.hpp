@@ -158,13 +158,25 @@ class DruckerPrager {
   // Elastic, with the committed stress: δσ = C : d + w σ − σ w. The trial's derivative has σ tr d besides. It is left
   // out, as if Jaumann's rate of τ were the elastic one: ∂P/∂H is symmetric, frequencies are real, and σ/K of it is
   // missing.
-  Moduli<S> elastic_moduli(const Gradient<S>& H, const History& now) const {
+  Gradient<S> elastic_rate(const Gradient<S>& H, const Gradient<S>& dH, const History& now) const {
     const PlaneTensor f = deformation_gradient<S>(H), sigma{now[0], now[3], now[3], now[1], now[2]};
     const double J = determinant(f);
-    return moduli_of_rate<S>(f, J * sigma, [&](const PlaneTensor& l) {
+    const auto rate = [&](const PlaneTensor& l) {
       const PlaneTensor d = 0.5 * (l + transpose(l)), w = l - d;
       return J * ((K_ - 2 * G_ / 3) * trace(d) * identity + 2 * G_ * d + w * sigma - sigma * w);
-    });
+    };
+    return stress_rate<S>(inverse(f), J * sigma, rate, dH);
+  }
+  Moduli<S> elastic_moduli(const Gradient<S>& H, const History& now) const {
+    constexpr std::size_t n = gradient_components(S);
+    Moduli<S> A;
+    for (std::size_t b = 0; b < n; ++b) {
+      Gradient<S> one{};
+      one[b] = 1;
+      const Gradient<S> dP = elastic_rate(H, one, now);
+      for (std::size_t a = 0; a < n; ++a) A[n * a + b] = dP[a];
+    }
+    return A;
   }
 
  private:

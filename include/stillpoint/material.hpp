@@ -74,9 +74,11 @@ concept HistoryLaw = requires(const L law, const Gradient<L::state>& H, double d
   { law.cauchy(next) } -> std::same_as<Stress<L::state>>;
   // Whether the committed stress is what an increment of nothing answers, to rounding
   { law.stress_stays() } -> std::same_as<bool>;
-  // ∂P/∂H of first_piola() if H and dH change alike, and of an elastic trial: symmetric, and no trial is stiffer
+  // ∂P/∂H of first_piola() if H and dH change alike, and of an elastic trial: symmetric, and no trial is stiffer; of
+  // the latter δP for one δH too
   { law.moduli(H, H, dt, next) } -> std::same_as<Moduli<L::state>>;
   { law.elastic_moduli(H, next) } -> std::same_as<Moduli<L::state>>;
+  { law.elastic_rate(H, H, next) } -> std::same_as<Gradient<L::state>>;
   { law.initial_history(law.cauchy(next)) } -> std::same_as<typename L::History>;  // of a point under this stress
 };
 

@@ -57,7 +57,15 @@ constexpr Stress<S> stress_part(const PlaneTensor& sigma) {
   return {sigma.xx, sigma.yy, sigma.zz, sigma.xy};
 }
 
-/// ∂P/∂H from the rate of the Kirchhoff stress, rate(l) = δτ for l = δF F⁻¹:  P = τ F⁻ᵀ,  δP = (δτ − τ lᵀ) F⁻ᵀ.
+/// δP for δH from the rate of the Kirchhoff stress, rate(l) = δτ for l = δF F⁻¹:  P = τ F⁻ᵀ,  δP = (δτ − τ lᵀ) F⁻ᵀ.
+template <StressState S, class Rate>
+constexpr Gradient<S> stress_rate(const PlaneTensor& F_inverse, const PlaneTensor& tau, const Rate& rate,
+                                  const Gradient<S>& dH) {
+  const PlaneTensor dF = deformation_gradient<S>(dH) - deformation_gradient<S>({}), l = dF * F_inverse;
+  return gradient_part<S>((rate(l) - tau * transpose(l)) * transpose(F_inverse));
+}
+
+/// ∂P/∂H, column by column.
 template <StressState S, class Rate>
 constexpr Moduli<S> moduli_of_rate(const PlaneTensor& F, const PlaneTensor& tau, const Rate& rate) {
   constexpr int components = gradient_components(S);
@@ -66,9 +74,7 @@ constexpr Moduli<S> moduli_of_rate(const PlaneTensor& F, const PlaneTensor& tau,
   for (int b = 0; b < components; ++b) {
     Gradient<S> one{};
     one[b] = 1;
-    const PlaneTensor dF = deformation_gradient<S>(one) - deformation_gradient<S>({});
-    const PlaneTensor l = dF * F_inverse;
-    const Gradient<S> dP = gradient_part<S>((rate(l) - tau * transpose(l)) * transpose(F_inverse));
+    const Gradient<S> dP = stress_rate<S>(F_inverse, tau, rate, one);
     for (int a = 0; a < components; ++a) A[components * a + b] = dP[a];
   }
   return A;

@@ -56,6 +56,19 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     };
     return Base::sum_in_groups(block.count, point);
   }
+  [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
+    if (kind == Tangent::consistent) return Base::tangent(kind, block, V, dt);
+    const double* from = committed_.data() + block.first - begin_;
+    const double* volume = V + block.first;
+    const Law law = law_;
+    const std::size_t n = count_;
+    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+      History now;
+      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { now[h] = from[n * h + q]; });
+      return block.store_stress(q, volume[q], law.elastic_rate(block.H_at(q), block.direction_at(q), now));
+    };
+    Base::sum_in_groups(block.count, point);
+  }
   void commit(std::vector<double>& trial) override { committed_.swap(trial); }
 
   ModuliMatrix moduli(Tangent kind, const Tensor& H, const Tensor& dH, double dt, std::size_t p) const override {
