@@ -159,27 +159,31 @@ class DruckerPrager {
   // out, as if Jaumann's rate of τ were the elastic one: ∂P/∂H is symmetric, frequencies are real, and σ/K of it is
   // missing.
   Gradient<S> elastic_rate(const Gradient<S>& H, const Gradient<S>& dH, const History& now) const {
-    const PlaneTensor f = deformation_gradient<S>(H), sigma{now[0], now[3], now[3], now[1], now[2]};
-    const double J = determinant(f);
-    const auto rate = [&](const PlaneTensor& l) {
-      const PlaneTensor d = 0.5 * (l + transpose(l)), w = l - d;
-      return J * ((K_ - 2 * G_ / 3) * trace(d) * identity + 2 * G_ * d + w * sigma - sigma * w);
-    };
-    return stress_rate<S>(inverse(f), J * sigma, rate, dH);
+    const ElasticTrial at(H, now);
+    return stress_rate<S>(inverse(at.f), at.tau, rate_at(at), dH);
   }
   Moduli<S> elastic_moduli(const Gradient<S>& H, const History& now) const {
-    constexpr std::size_t n = gradient_components(S);
-    Moduli<S> A;
-    for (std::size_t b = 0; b < n; ++b) {
-      Gradient<S> one{};
-      one[b] = 1;
-      const Gradient<S> dP = elastic_rate(H, one, now);
-      for (std::size_t a = 0; a < n; ++a) A[n * a + b] = dP[a];
-    }
-    return A;
+    const ElasticTrial at(H, now);
+    return moduli_of_rate<S>(at.f, at.tau, rate_at(at));
   }
 
  private:
+  struct ElasticTrial {
+    ElasticTrial(const Gradient<S>& H, const History& now)
+        : f(deformation_gradient<S>(H)),
+          sigma{now[0], now[3], now[3], now[1], now[2]},
+          J(determinant(f)),
+          tau(J * sigma) {}
+    PlaneTensor f, sigma;
+    double J;
+    PlaneTensor tau;
+  };
+  auto rate_at(const ElasticTrial& at) const {
+    return [this, at](const PlaneTensor& l) {
+      const PlaneTensor d = 0.5 * (l + transpose(l)), w = l - d;
+      return at.J * ((K_ - 2 * G_ / 3) * trace(d) * identity + 2 * G_ * d + w * at.sigma - at.sigma * w);
+    };
+  }
   // Keeps 0/0 out of √J₂ = 0 and of φ = 0, whose apex is out of reach.
   static constexpr double tiny = 1e-300;
 

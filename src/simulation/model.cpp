@@ -248,13 +248,13 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   begin("the lowest frequency, with a factor of the stiffness");
   if (needs.any()) find_omega_1(scene, needs, set_up, model);
   begin("the norm of errors");
-  const bool norm_is_of_mass = mass_measures_volume(scene, scaled || scene.mass.scaling != MassScaling::uniform);
-  model.learns_omega_1 = !model.omega_1 && chooses_mass && wants_equilibrium_only(scene) && norm_is_of_mass &&
-                         !model.phase->info().updated_lagrangian && is_linear(*model.phase, model.u);
+  const bool has_scaled_mass = scaled || scene.mass.scaling != MassScaling::uniform;
+  model.learns_omega_1 = !model.omega_1 && chooses_mass && wants_equilibrium_only(scene) &&
+                         mass_measures_volume(scene, has_scaled_mass) && !model.phase->info().updated_lagrangian &&
+                         is_linear(*model.phase, model.u);
   if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian) {
-    model.volume_norm = set_up.shared("norm", model.mass, [&] {
-      return volume_norm(scene, *model.phase, scaled || scene.mass.scaling != MassScaling::uniform, model.u);
-    });
+    model.volume_norm =
+        set_up.shared("norm", model.mass, [&] { return volume_norm(scene, *model.phase, has_scaled_mass, model.u); });
   }
   if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
     model.notes.push_back(

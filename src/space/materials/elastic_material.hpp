@@ -35,30 +35,26 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     const Law law = law_;
     if (!moved()) {
       return loop(
-          block, V, [law](const Tensor& H, std::size_t) __attribute__((always_inline)) { return law.first_piola(H); });
+          block, V,
+          [ law, &block ](std::size_t q) __attribute__((always_inline)) { return law.first_piola(block.H_at(q)); });
     }
     const double* of_block = F0_.data() + block.first - begin_;
     const std::size_t n = count_;
     return loop(
-        block, V, [ law, of_block, n ](const Tensor& H, std::size_t q) __attribute__((always_inline)) {
+        block, V, [ law, &block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
           Tensor F_0;
           unroll<components>([&](auto c) __attribute__((always_inline)) { F_0[c] = of_block[n * c + q]; });
-          return push(F_0, law.first_piola(total(F_0, H)));
+          return push(F_0, law.first_piola(total(F_0, block.H_at(q))));
         });
   }
   // Where P is linear in H, δP = P(δH).
   [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
-    if constexpr (Law::finite_strain) {
-      Base::tangent(kind, block, V, dt);
-    } else {
-      const Law law = law_;
-      const double* volume = V + block.first;
-      const std::size_t count = block.count;
-      const auto point = [&](std::size_t q) __attribute__((always_inline)) {
-        return block.store_stress(q, volume[q], law.first_piola(block.direction_at(q)));
-      };
-      Base::sum_in_groups(count, point);
-    }
+    if constexpr (Law::finite_strain) return Base::tangent(kind, block, V, dt);
+    const Law law = law_;
+    loop(
+        block, V, [ law, &block ](std::size_t q) __attribute__((always_inline)) {
+          return law.first_piola(block.direction_at(q));
+        });
   }
   double committed_stress(Block& block, const double* V) const override { return stress(block, V, 0, nullptr); }
   void commit(std::vector<double>&) override {}
@@ -126,12 +122,13 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     for (double& component : pushed) component /= J;
     return pushed;
   }
-  template <class StressAt>
-  double loop(Block& block, const double* V, const StressAt& stress_at) const {
+  // answer(q) becomes the block's V P.
+  template <class Answer>
+  double loop(Block& block, const double* V, const Answer& answer) const {
     const double* volume = V + block.first;
     const std::size_t count = block.count;
     const auto point = [&](std::size_t q) __attribute__((always_inline)) {
-      return block.store_stress(q, volume[q], stress_at(block.H_at(q), q));
+      return block.store_stress(q, volume[q], answer(q));
     };
     return Base::sum_in_groups(count, point);
   }

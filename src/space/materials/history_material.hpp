@@ -45,29 +45,19 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     return Base::sum_in_groups(count, point);
   }
   [[gnu::flatten]] double committed_stress(Block& block, const double* V) const override {
-    const double* from = committed_.data() + block.first - begin_;
-    const double* volume = V + block.first;
     const Law law = law_;
-    const std::size_t n = count_;
-    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
-      History now;
-      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { now[h] = from[n * h + q]; });
-      return block.store_stress(q, volume[q], tensor_of<K>(law.cauchy(now)));
-    };
-    return Base::sum_in_groups(block.count, point);
+    return loop(
+        block, V, [law](std::size_t, const History& now) __attribute__((always_inline)) {
+          return tensor_of<K>(law.cauchy(now));
+        });
   }
   [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
     if (kind == Tangent::consistent) return Base::tangent(kind, block, V, dt);
-    const double* from = committed_.data() + block.first - begin_;
-    const double* volume = V + block.first;
     const Law law = law_;
-    const std::size_t n = count_;
-    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
-      History now;
-      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { now[h] = from[n * h + q]; });
-      return block.store_stress(q, volume[q], law.elastic_rate(block.H_at(q), block.direction_at(q), now));
-    };
-    Base::sum_in_groups(block.count, point);
+    loop(
+        block, V, [ law, &block ](std::size_t q, const History& now) __attribute__((always_inline)) {
+          return law.elastic_rate(block.H_at(q), block.direction_at(q), now);
+        });
   }
   void commit(std::vector<double>& trial) override { committed_.swap(trial); }
 
@@ -108,6 +98,19 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   }
 
  private:
+  // answer(q, what point q remembers) becomes the block's V P.
+  template <class Answer>
+  [[gnu::always_inline]] double loop(Block& block, const double* V, const Answer& answer) const {
+    const double* from = committed_.data() + block.first - begin_;
+    const double* volume = V + block.first;
+    const std::size_t n = count_;
+    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+      History now;
+      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { now[h] = from[n * h + q]; });
+      return block.store_stress(q, volume[q], answer(q, now));
+    };
+    return Base::sum_in_groups(block.count, point);
+  }
   History history(std::size_t p) const {
     History of_point;
     for (std::size_t h = 0; h < Law::history; ++h) of_point[h] = committed_[count_ * h + p - begin_];
