@@ -42,6 +42,9 @@ class Mass {
   void apply(ConstVec x, Vec y) const;
   /// x = M⁻¹ b; b, x: (n), may be the same array. Allocates nothing.
   void solve(ConstVec b, Vec x) const;
+  /// b = D M⁻¹ b, D = diag M, of a lumped mass: from then on M⁻¹b is b_i/D_ii at every degree of freedom; b: (n).
+  /// Allocates nothing.
+  void decouple(Vec b) const;
   /// What of ½ vᵀMv is of the relative inertia, [J]; v: (n).
   double relative_energy(ConstVec v) const;
 

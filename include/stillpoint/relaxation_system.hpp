@@ -34,7 +34,9 @@ class RelaxationSystem {
   bool out_of_balance(double t, ConstVec u, Vec Q);
   /// And a = M⁻¹Q, (n), in the same pass over memory where it can be.
   bool out_of_balance(double t, ConstVec u, Vec Q, Vec a);
-  /// The same from the last evaluation, at no cost, after contacts have opened or closed.
+  /// Q = F(t) − R(u) + D(v, F − R), with local damping, in one pass over memory where it can be; u, v, Q: (n).
+  bool damped_out_of_balance(double t, ConstVec u, ConstVec v, Vec Q);
+  /// The same as out_of_balance() from the last evaluation, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
   /// Why the last evaluation was refused, and where.
   std::string refusal() const;
@@ -86,6 +88,8 @@ class RelaxationSystem {
  private:
   bool evaluate(double t, ConstVec u);
   bool balance(double t, ConstVec u, Vec Q);
+  bool is_sum_of_its_own() const;
+  void add_local_damping(std::size_t begin, ConstVec v, Vec Q) const;
 
   SemiDiscrete& system_;
   const Damping& damping_;

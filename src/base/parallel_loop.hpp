@@ -26,6 +26,17 @@ inline void for_each_index(std::size_t n, const Body& body) {
   }
 }
 
+/// body(begin, count) for pieces that divide 0 … n−1, in any order: for several loops, of for_each_index() too, over
+/// what the caches nearest to a core hold.
+template <class Body>
+inline void for_each_piece(std::size_t n, const Body& body) {
+  constexpr std::size_t piece = 2048;
+  static_assert(piece < threaded_from);  // by one thread each
+  const std::size_t pieces = (n + piece - 1) / piece;
+#pragma omp parallel for schedule(static) if (n >= threaded_from)
+  for (std::size_t k = 0; k < pieces; ++k) body(k * piece, std::min(piece, n - k * piece));
+}
+
 /// body(k) for k = 0 … n−1, a body that is itself a loop over the points of a cell: threaded from a thousand on.
 template <class Body>
 inline void for_each_block(std::size_t n, const Body& body) {

@@ -107,6 +107,11 @@ class Mass::Relative {
     factor_->solve(work_, work_);
     for (std::size_t k = 0; k < dofs_.size(); ++k) x[static_cast<std::size_t>(dofs_[k])] = work_[k];
   }
+  void decouple(Vec b, ConstVec diagonal) const {
+    take(b);
+    solve(b);
+    for (const int dof : dofs_) b[static_cast<std::size_t>(dof)] *= diagonal[static_cast<std::size_t>(dof)];
+  }
   double energy(ConstVec v) const {
     double sum = 0;
     for (const RelativeInertia& term : terms_) {
@@ -189,6 +194,11 @@ void Mass::solve(ConstVec b, Vec x) const {
   } else {
     consistent_->factor.solve(b, x);
   }
+}
+
+void Mass::decouple(Vec b) const {
+  if (!is_lumped()) throw std::logic_error("only a lumped mass can be decoupled");
+  if (relative_) relative_->decouple(b, diagonal_);
 }
 
 double Mass::relative_energy(ConstVec v) const { return relative_ ? relative_->energy(v) : 0; }

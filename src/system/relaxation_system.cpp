@@ -33,8 +33,7 @@ bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
   const Vec u_dot = first_half(ydot), v_dot = second_half(ydot);
   const std::size_t n = u.size();
 
-  if (!out_of_balance(t, u, v_dot)) return false;
-  add_local_damping(v, v_dot);
+  if (!damped_out_of_balance(t, u, v, v_dot)) return false;
   if (linear_.identity != 0) {
     for_each_index(n, [=, c = linear_.identity](std::size_t i) { v_dot[i] -= c * v[i]; });
   }
@@ -54,7 +53,7 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
 bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q, Vec a) {
   ++evaluations_;
   const Mass& mass = system_.mass();
-  if (!mass.is_diagonal() || system_.contact()) {
+  if (!mass.is_diagonal() || !is_sum_of_its_own()) {
     if (!balance(t, u, Q)) return false;
     mass.solve(Q, a);
     return true;
@@ -66,6 +65,26 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q, Vec a) {
   });
   return true;
 }
+
+bool RelaxationSystem::damped_out_of_balance(double t, ConstVec u, ConstVec v, Vec Q) {
+  ++evaluations_;
+  if (!is_sum_of_its_own()) {
+    if (!balance(t, u, Q)) return false;
+    add_local_damping(v, Q);
+    return true;
+  }
+  if (!evaluate(t, u)) return false;
+  for_each_piece(Q.size(), [=, this](std::size_t begin, std::size_t count) {
+    const ConstVec F = F_.span().subspan(begin, count), R = R_.span().subspan(begin, count);
+    const Vec piece = Q.subspan(begin, count);
+    for_each_index(count, [=](std::size_t i) { piece[i] = F[i] - R[i]; });
+    add_local_damping(begin, v.subspan(begin, count), piece);
+  });
+  return true;
+}
+
+// Whether Q = F − R at each degree of freedom: no contact, and no inertia of supports, which a lumped mass has none of.
+bool RelaxationSystem::is_sum_of_its_own() const { return system_.mass().is_lumped() && !system_.contact(); }
 
 // F and R
 bool RelaxationSystem::evaluate(double t, ConstVec u) {
@@ -94,13 +113,18 @@ void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
 std::string RelaxationSystem::refusal() const { return system_.diagnosis().refusal(*trial_); }
 
 void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
-  if (!damping_.is_local()) return;
+  add_local_damping(0, v, Q);
+  if (const Contact* contact = damping_.is_local() ? system_.contact() : nullptr) contact->hold(Q);
+}
+
+// v, Q: of degrees of freedom from `begin` on.
+void RelaxationSystem::add_local_damping(std::size_t begin, ConstVec v, Vec Q) const {
   if (damping_.uses_last_force()) {
-    damping_.add_local_since(v, force_remembered_ ? Q_last_->span() : Q, Q);  // at first nothing is known of dQ/dt
-  } else {
+    // At first nothing is known of dQ/dt.
+    damping_.add_local_since(v, force_remembered_ ? Q_last_->span().subspan(begin, Q.size()) : Q, Q);
+  } else if (damping_.is_local()) {
     damping_.add_local(v, Q);
   }
-  if (const Contact* contact = system_.contact()) contact->hold(Q);
 }
 
 void RelaxationSystem::remember_force() {

@@ -5,7 +5,6 @@
 
 #include <Eigen/SparseCore>
 
-#include "base/parallel_loop.hpp"
 #include "solvers/spectrum/two_by_two.hpp"
 
 namespace stillpoint {
@@ -53,31 +52,40 @@ DampedAcceleration::DampedAcceleration(DampingTreatment treatment, const LinearD
   }
 }
 
-void DampedAcceleration::operator()(double h, ConstVec v, Vec Q_to_a) {
-  if (C_.identity == 0 || mass_.is_diagonal()) {
-    solve_diagonal(h, v, Q_to_a);
-  } else {
+// What degrees of freedom have to do with one another: afterwards each has its own mass, or its acceleration.
+void DampedAcceleration::couple(double h, ConstVec v, Vec Q_to_a) {
+  if (is_coupled()) {
     solve_coupled(h, v, Q_to_a);
+  } else if (mass_.is_lumped()) {
+    mass_.decouple(Q_to_a);
+    make_factors(h);
+  } else {
+    mass_.solve(Q_to_a, Q_to_a);
   }
   h_ = h;
 }
 
+void DampedAcceleration::make_factors(double h) {
+  if (C_.identity == 0 || h == h_) return;
+  const ConstVec m = mass_.diagonal();
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    factor_[i] = damping_factor(treatment_, h * (C_.mass + C_.identity / m[i]));
+  }
+}
+
 // a = g(h r) (M⁻¹ Q − r v)
-void DampedAcceleration::solve_diagonal(double h, ConstVec v, Vec a) {
-  mass_.solve(a, a);
-  if (C_.identity == 0) {
-    if (C_.mass == 0) return;
+void DampedAcceleration::of_piece(double h, std::size_t begin, ConstVec v, Vec a) const {
+  if (is_coupled()) return;
+  const double* m = mass_.diagonal().data() + begin;
+  if (mass_.is_lumped()) for_each_index(a.size(), [=](std::size_t i) { a[i] /= m[i]; });
+  if (C_.identity != 0) {
+    for_each_index(a.size(), [=, C = C_, g = factor_.data() + begin](std::size_t i) {
+      a[i] = g[i] * (a[i] - (C.mass + C.identity / m[i]) * v[i]);
+    });
+  } else if (C_.mass != 0) {
     const double r = C_.mass, g = damping_factor(treatment_, h * r);
     for_each_index(a.size(), [=](std::size_t i) { a[i] = g * (a[i] - r * v[i]); });
-    return;
   }
-  const ConstVec m = mass_.diagonal();
-  const auto rate = [=, C = C_](std::size_t i) { return C.mass + C.identity / m[i]; };
-  if (h != h_) {
-    for (std::size_t i = 0; i < a.size(); ++i) factor_[i] = damping_factor(treatment_, h * rate(i));
-  }
-  const double* g = factor_.data();
-  for_each_index(a.size(), [=](std::size_t i) { a[i] = g[i] * (a[i] - rate(i) * v[i]); });
 }
 
 // (M + θ h C) a = Q − C v,  M + θ h C = (1 + θ h c_m) M + θ h c_i I

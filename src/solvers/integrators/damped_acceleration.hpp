@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/parallel_loop.hpp"
 #include "linalg/sparse_cholesky.hpp"
 
 namespace stillpoint {
@@ -30,12 +31,25 @@ class DampedAcceleration {
   /// this.
   DampedAcceleration(DampingTreatment treatment, const LinearDamping& C, const Mass& mass);
 
-  /// a from Q, in its place; h [s], v: (n), Q_to_a: (n). Allocates only if M + θ h C has to be factorised for a new
-  /// h.
-  void operator()(double h, ConstVec v, Vec Q_to_a);
+  /// a from Q, in its place, a piece of the degrees of freedom at a time, and then use(begin, count) of each piece.
+  /// h [s]; v, Q_to_a: (n). Allocates only if M + θ h C has to be factorised for a new h.
+  template <class Use>
+  void operator()(double h, ConstVec v, Vec Q_to_a, const Use& use) {
+    couple(h, v, Q_to_a);
+    for_each_piece(Q_to_a.size(), [&](std::size_t begin, std::size_t count) {
+      of_piece(h, begin, v.subspan(begin, count), Q_to_a.subspan(begin, count));
+      use(begin, count);
+    });
+  }
+  void operator()(double h, ConstVec v, Vec Q_to_a) {
+    (*this)(h, v, Q_to_a, [](std::size_t, std::size_t) {});
+  }
 
  private:
-  void solve_diagonal(double h, ConstVec v, Vec Q_to_a);
+  bool is_coupled() const { return C_.identity != 0 && !mass_.is_diagonal(); }
+  void couple(double h, ConstVec v, Vec Q_to_a);
+  void of_piece(double h, std::size_t begin, ConstVec v, Vec Q_to_a) const;
+  void make_factors(double h);
   void solve_coupled(double h, ConstVec v, Vec Q_to_a);
 
   DampingTreatment treatment_;

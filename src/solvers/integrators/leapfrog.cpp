@@ -12,6 +12,8 @@
 //
 // Local damping D sees the half-step velocity, as in FLAC. One force evaluation a step, and one at the start.
 
+#include <atomic>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -44,7 +46,9 @@ class Leapfrog final : public SteppingIntegrator {
  private:
   // M a_0 = Q_0 + D(v_0, Q_0) − C v_0
   void begin(double t, const Vector& y) override {
-    admissible_ = evaluate(t, y.span(), initial_acceleration_, 0, a_.span());
+    const ConstVec v = second_half(y.span());
+    admissible_ = system().damped_out_of_balance(t, first_half(y.span()), v, a_.span());
+    if (admissible_) initial_acceleration_(0, v, a_.span());
     force_is_current_ = true;
   }
 
@@ -65,10 +69,20 @@ class Leapfrog final : public SteppingIntegrator {
       u_new[i] = u[i] + h * v_new[i];
     });
     force_is_current_ = false;
-    if (!evaluate(t + h, trial.span(), acceleration_, h, a_new))
+    if (!system().damped_out_of_balance(t + h, u_new, v_new, a_new))
       return {.status = StepReport::Status::inadmissible, .h = h};
-    for_each_index(u.size(), [=](std::size_t i) { v_new[i] += h / 2 * a_new[i]; });
-    return {.h = h};
+    std::atomic<bool> finite = true;
+    acceleration_(h, v_new, a_new, [&](std::size_t begin, std::size_t count) {
+      const double *a_piece = a_new.data() + begin, *u_piece = u_new.data() + begin;
+      double *v_piece = v_new.data() + begin, squares = 0;
+#pragma omp simd reduction(+ : squares)
+      for (std::size_t i = 0; i < count; ++i) {
+        v_piece[i] += h / 2 * a_piece[i];
+        squares += v_piece[i] * v_piece[i] + u_piece[i] * u_piece[i];
+      }
+      if (!std::isfinite(squares)) finite = false;
+    });
+    return {.h = h, .is_finite = finite};
   }
 
   void accepted() override {
@@ -77,15 +91,6 @@ class Leapfrog final : public SteppingIntegrator {
   }
 
   void archive_memory(const StateArchive& state) override { state("a", a_.span()); }
-
-  // M a = Q + D(v, Q) − C (v + θ h a),  Q = F(t) − R(u)
-  bool evaluate(double t, ConstVec y, DampedAcceleration& acceleration, double h, Vec a) {
-    const ConstVec u = first_half(y), v = second_half(y);
-    if (!system().out_of_balance(t, u, a)) return false;
-    system().add_local_damping(v, a);
-    acceleration(h, v, a);
-    return true;
-  }
 
   DampedAcceleration initial_acceleration_, acceleration_;
   Vector a_, next_a_;  // (n) at t_n and at the trial's time

@@ -51,10 +51,12 @@ class SymplecticEuler final : public SteppingIntegrator {
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
 
     std::ranges::copy(std::as_const(Q_).span(), a.begin());
-    acceleration_(h, v, a);
-    for_each_index(u.size(), [=](std::size_t i) {
-      v_new[i] = v[i] + h * a[i];
-      u_new[i] = u[i] + h * v_new[i];
+    acceleration_(h, v, a, [=](std::size_t begin, std::size_t count) {
+      for_each_index(count, [=, u = u.data() + begin, v = v.data() + begin, a = a.data() + begin,
+                             u_new = u_new.data() + begin, v_new = v_new.data() + begin](std::size_t i) {
+        v_new[i] = v[i] + h * a[i];
+        u_new[i] = u[i] + h * v_new[i];
+      });
     });
     force_is_current_ = false;
     if (!evaluate(t + h, trial.span(), next_Q_.span())) return {.status = StepReport::Status::inadmissible, .h = h};
@@ -63,9 +65,7 @@ class SymplecticEuler final : public SteppingIntegrator {
 
   // Q + D(v, Q)
   bool evaluate(double t, ConstVec y, Vec Q) {
-    if (!system().out_of_balance(t, first_half(y), Q)) return false;
-    system().add_local_damping(second_half(y), Q);
-    return true;
+    return system().damped_out_of_balance(t, first_half(y), second_half(y), Q);
   }
 
   void accepted() override {

@@ -116,6 +116,7 @@ class MaterialPointPhase final : public LagrangianPhase,
     const MaterialPointPhase* of = nullptr;
     long phase = 0;
     bool evaluated = false;
+    double motion = 0;          // the largest [cells], if that ends the phase
     bool keeps_history = true;  // false if there is nothing in it that was not committed before
     std::shared_ptr<TrialArrays> arrays;
   };
@@ -231,8 +232,9 @@ class MaterialPointPhase final : public LagrangianPhase,
   void refuse_folded_domains() const;
   void take_materials(const std::vector<int>& from);
 
-  bool is_within_phase(ConstVec u, const double* grid_u) const;
+  bool is_within_phase(double motion, const double* grid_u) const;
   double largest_motion(ConstVec u) const;
+  double spread_and_measure(double t, ConstVec u, std::vector<double>& grid) const;
   double largest_strain(const double* grid_u) const;
 
   PhaseParts<B, K> parts() const { return {grid_, body_.points, weights_, held_, *dofs_, inertia_.mass(), *mass_}; }
@@ -318,7 +320,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::optional<Mass> mass_;
   std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)
   std::vector<double> committed_u_;     // likewise
-  double committed_t_ = 0;
+  double committed_t_ = 0, committed_motion_ = 0;
   // If points share their change of volume: V/W of cells, or splines, and what averaging does to the committed state.
   std::vector<double> volume_share_, committed_averages_;
   SplineMeans<B, K> splines_;

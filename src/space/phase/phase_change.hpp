@@ -14,7 +14,10 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   if (!updated_lagrangian()) return 0;
   if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
   double share = 0;
-  if (scene_.phase.max_motion) share = largest_motion(u) / *scene_.phase.max_motion;
+  if (scene_.phase.max_motion) {
+    const bool committed = history_dependent_ && t == committed_t_;
+    share = (committed ? committed_motion_ : largest_motion(u)) / *scene_.phase.max_motion;
+  }
   constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
   if (scene_.phase.max_strain && ++looks_ % between_looks == 0) {
     spread(t, u, grid_u_);
@@ -25,11 +28,11 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
 
 // A step that leads past 3/2 of where the phase was to end is too long for its frozen weights.
 template <AxisBasis B, Kinematics K>
-bool MaterialPointPhase<B, K>::is_within_phase(ConstVec u, const double* grid_u) const {
+bool MaterialPointPhase<B, K>::is_within_phase(double motion, const double* grid_u) const {
   constexpr double most = 1.5, of_remapping_every_step = 0.5;
   if (scene_.phase.max_motion) {
     const double allowed = *scene_.phase.max_motion > 0 ? most * *scene_.phase.max_motion : of_remapping_every_step;
-    if (!(largest_motion(u) <= allowed)) return false;
+    if (!(motion <= allowed)) return false;
   }
   return !scene_.phase.max_strain || largest_strain(grid_u) <= most * *scene_.phase.max_strain;
 }
@@ -101,6 +104,7 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   committed_u_.assign(unknowns, 0);
   spread_others(t, committed_u_);
   committed_t_ = t;
+  committed_motion_ = 0;
   begin_means();
   take_elastic_moments();
   make_mass();
@@ -255,6 +259,23 @@ double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
       u.size(), 0.0,
       [u = u.data(), weight = motion_weight_.data()](std::size_t k) { return std::abs(u[k]) * weight[k]; },
       [](double a, double b) { return a > b ? a : b; });
+}
+
+// The grid's displacements and, if the phase ends by it, the largest motion, in one pass over the unknowns.
+template <AxisBasis B, Kinematics K>
+double MaterialPointPhase<B, K>::spread_and_measure(double t, ConstVec u, std::vector<double>& grid) const {
+  if (!scene_.phase.max_motion) {
+    spread(t, u, grid);
+    return 0;
+  }
+  const auto spread_one = [u = u.data(), to = grid.data(), number = dofs_->free.data(),
+                           weight = motion_weight_.data()](std::size_t k) {
+    to[number[k]] = u[k];
+    return std::abs(u[k]) * weight[k];
+  };
+  const double motion = reduce(u.size(), 0.0, spread_one, [](double a, double b) { return a > b ? a : b; });
+  spread_others(t, grid);
+  return motion;
 }
 
 template <AxisBasis B, Kinematics K>

@@ -87,10 +87,10 @@ template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, TrialState& any) const {
   Trial& trial = own(any);
   std::vector<double>& grid_u = trial.arrays->u;
-  spread(t, u, grid_u);
+  trial.motion = spread_and_measure(t, u, grid_u);
   trial.t = t;
   trial.evaluated = false;
-  trial.too_far = !is_within_phase(u, grid_u.data());
+  trial.too_far = !is_within_phase(trial.motion, grid_u.data());
   if (trial.too_far) return false;
   take_means(grid_u.data());
   trial.keeps_history = true;
@@ -132,6 +132,7 @@ void MaterialPointPhase<B, K>::commit(TrialState& any) {
   committed_u_.swap(trial.arrays->u);
   if (averages_dilatation()) committed_averages_.swap(trial.arrays->averages);
   committed_t_ = trial.t;
+  committed_motion_ = trial.motion;
 }
 
 // For grid_du_.

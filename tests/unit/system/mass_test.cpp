@@ -74,6 +74,9 @@ TEST_CASE("relative inertia resists what deviates from the extrapolation, and no
   mass.solve(y, y);
   CHECK((Eigen::Map<const Eigen::Vector4d>(y.data()) - v).norm() < 1e-12);
   CHECK(mass.relative_energy(linear) == 0);
+  mass.apply(x, y);
+  mass.decouple(y);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(y[i] / mass.diagonal()[i] == Approx(x[i]).epsilon(1e-12));
   mass.apply(linear, y);
   for (std::size_t i = 0; i < 3; ++i) CHECK(y[i] == Approx(m[i] * linear[i]).margin(1e-13));  // of 3 · 5
   // A node that has no mass of its own.

@@ -2,8 +2,10 @@
 //   M (v⁺ − v⁻)/h + C w = Q(u_n),   v⁺ = (u_{n+1} − u_n)/h,   v⁻ = (u_n − u_{n−1})/h.
 #include <stillpoint/integrator.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -139,3 +141,64 @@ TEST_CASE("leapfrog with identity damping may change its step between calls", "[
 }
 
 }  // namespace
+
+TEST_CASE("of a long vector, in one pass over memory, the damped force is what it is in two") {
+  const auto* strategy = GENERATE("none", "one-sided", "cundall", "combined");
+  CAPTURE(strategy);
+  constexpr std::size_t n = 20'001;  // several threads, pieces, and a last one that is not whole
+  test::Chain chain({.n = n, .consistent = GENERATE(false, true), .load = 1e-3});
+  const auto damping = make_damping(strategy, 0, 0.4);
+  RelaxationSystem system(chain, *damping);
+  Values u(n), v(n), in_one(n), in_two(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    u[i] = std::sin(0.7 * static_cast<double>(i));
+    v[i] = std::sin(1.3 * static_cast<double>(i));
+  }
+  for (const bool remembered : {false, true}) {
+    REQUIRE(system.out_of_balance(0, u, in_two));
+    if (remembered) system.remember_force();
+    for (double& x : u) x *= 1.1;
+    REQUIRE(system.out_of_balance(0, u, in_two));
+    system.add_local_damping(v, in_two);
+    REQUIRE(system.damped_out_of_balance(0, u, v, in_one));
+    CHECK(in_one == in_two);
+  }
+}
+
+TEST_CASE("a mode of a long chain stays one, at every degree of freedom, under each method and treatment") {
+  const auto [method, treatment] =
+      GENERATE(table<std::string, DampingTreatment>({{"leapfrog", DampingTreatment::averaged},
+                                                     {"leapfrog", DampingTreatment::lagged},
+                                                     {"symplectic-euler", DampingTreatment::implicit},
+                                                     {"symplectic-euler", DampingTreatment::exact}}));
+  const auto* strategy = GENERATE("none", "viscous", "identity");
+  CAPTURE(method, strategy);
+  constexpr std::size_t n = 20'001;
+  constexpr double waves = 3001;
+  test::Chain chain({.n = n, .right_held = true});
+  const auto damping = make_damping(strategy, 0.3, 0);
+  RelaxationSystem system(chain, *damping);
+  IntegratorOptions options;
+  options.method = method;
+  options.max_step = h;
+  options.treatment = treatment;
+  Vector y = system.vectors().make(2 * n);
+  const Vec u = first_half(y.span()), v = second_half(y.span());
+  Values mode(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = std::numbers::pi * waves * static_cast<double>(i + 1) / static_cast<double>(n + 1);
+    mode[i] = u[i] = std::sin(angle);
+  }
+  const auto integrator = make_integrator(options, system);
+  integrator->start(0, y);
+  for (int k = 0; k < 5; ++k) REQUIRE(integrator->step(1e9).status == StepReport::Status::ok);
+  const auto largest = static_cast<std::size_t>(std::ranges::max_element(mode) - mode.begin());
+  const double u_share = u[largest] / mode[largest], v_share = v[largest] / mode[largest];
+  CHECK(std::abs(v_share) > 0.01);
+  Largest worst;
+  for (std::size_t i = 0; i < n; ++i) {
+    worst.take_magnitude(u[i] - u_share * mode[i]);
+    worst.take_magnitude(v[i] - v_share * mode[i]);
+  }
+  CHECK(worst.value() < 1e-9);  // rounding of the angle, 1e4 times π
+}
