@@ -53,6 +53,7 @@ struct StrategyInfo {
   bool has_own_step = false;     // integrator.step and step_fraction have no part in it
   bool resets_velocity = false;  // of all unknowns, also of those that a wall drives
   bool is_local = false;         // a damping whose force is discontinuous in v
+  bool takes_inverse_mass = false;  // a relaxation that goes with a mass known by its inverse alone
 
   bool goes_with(std::string_view integrator) const;
   bool uses(std::string_view key) const;
@@ -66,6 +67,7 @@ struct StaticMethodInfo {
   std::string_view name, equation, source;
   bool takes_end_of_loads = false;  // loads and supports may depend on t: the equilibrium is that at stop.time
   bool is_newton = false;           // one step is the whole solution
+  bool factorises = false;          // K, so that no mass has a part in it
 };
 
 /// A name of integrator.method.

@@ -1,5 +1,5 @@
 // The mass matrix M of a Lagrangian phase: a diagonal, with inertia against relative motion if nodes are light, or a
-// sparse matrix with its factor.
+// sparse matrix with its factor. On the way to rest inertia is fictitious, and M may be one that only M⁻¹ is known of.
 #pragma once
 
 #include <stillpoint/sparse_matrix.hpp>
@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,10 +32,16 @@ class Mass {
   /// M_ij = Σ_p m_p N_ip N_jp, factorised once. Throws std::invalid_argument if M is not positive definite.
   static Mass consistent(const SparseMatrix& matrix);
 
-  std::size_t size() const { return diagonal_.size(); }
-  bool is_lumped() const { return !consistent_; }
+  /// M by what M⁻¹ does: solve(b, x), x = M⁻¹ b, symmetric and positive definite; b, x: (n), may be the same array.
+  static Mass by_inverse(std::size_t n, std::function<void(ConstVec b, Vec x)> solve);
+
+  std::size_t size() const { return size_; }
+  bool is_lumped() const { return !consistent_ && !inverse_; }
+  /// Whether there is an M to multiply by, so that v is as good an unknown as the momentum p = M v; then everything
+  /// below can be asked for, else solve() alone.
+  bool has_product() const { return !inverse_; }
   bool is_diagonal() const { return is_lumped() && !relative_; }
-  /// The diagonal of M, (n).
+  /// The diagonal of M, (n); empty if M is known by its inverse.
   ConstVec diagonal() const { return diagonal_; }
   /// M as a sparse matrix, for assembly and shift-invert.
   SparseMatrix matrix() const;
@@ -52,7 +59,11 @@ class Mass {
   struct Consistent;
   class Relative;
 
+  void require_product() const;
+
+  std::size_t size_ = 0;
   std::vector<double> diagonal_;
+  std::function<void(ConstVec, Vec)> inverse_;    // empty if M is known
   std::shared_ptr<const Relative> relative_;      // null if there is none
   std::shared_ptr<const Consistent> consistent_;  // the matrix and its factor; null if lumped
 };

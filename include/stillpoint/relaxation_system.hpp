@@ -18,8 +18,11 @@ class ForceScale;
 /// The right-hand side that integrators see. Repeatable, allocates nothing, counts its evaluations.
 class RelaxationSystem {
  public:
-  /// Both outlive this object.
-  RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors = {});
+  /// All outlive this object. fictitious: the mass of the motion, on the way to an equilibrium that no mass has a part
+  /// in; null: that of the system. Throws std::invalid_argument if it is known by its inverse alone and the damping is
+  /// not C = c M.
+  RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors = {},
+                   const Mass* fictitious = nullptr);
   ~RelaxationSystem();
 
   std::size_t size() const { return system_.size(); }  // n: free degrees of freedom
@@ -27,6 +30,9 @@ class RelaxationSystem {
   const SemiDiscrete& system() const { return system_; }
   const Damping& damping() const { return damping_; }
   const VectorSpace& vectors() const { return vectors_; }
+  const Mass& mass() const { return mass_; }
+  /// Whether y = [u; p] with the momentum p = M v, of a mass that is known by its inverse: u' = M⁻¹p, p' = Q − c p.
+  bool keeps_momentum() const { return !mass_.has_product(); }
 
   /// ydot = f(t, y); y, ydot: (2n). False if the trial y cannot be evaluated: retry with a smaller step.
   bool operator()(double t, ConstVec y, Vec ydot);
@@ -68,13 +74,16 @@ class RelaxationSystem {
   double mass_norm(const Mass& M, const Vector& u);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
   double work_scale(const Vector& u);
-  /// Q·v with the Q of the last residual() [W], before kinetic_energy() takes its place; v: (n).
-  double power(const Vector& v) const;
+  /// R·u of the last evaluation [J]; u: (n).
+  double internal_work(const Vector& u) const;
+  /// Q·v with the Q of the last residual() [W], before kinetic_energy() takes its place; v: the second half of y, (n).
+  double power(const Vector& v);
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
+  double last_t() const { return last_t_; }
   /// Reactions of the supports of the last evaluation [N], as in TrialState.
   ConstVec last_reactions() const { return trial_->reactions; }
-  /// ½ vᵀ M v [J], without what was added to light nodes; v: (n).
+  /// ½ vᵀ M v [J], without what was added to light nodes; v: the second half of y, (n).
   double kinetic_energy(const Vector& v);
 
   /// Saves what is kept of earlier evaluations, or restores it.
@@ -93,13 +102,14 @@ class RelaxationSystem {
 
   SemiDiscrete& system_;
   const Damping& damping_;
+  const Mass& mass_;
   LinearDamping linear_;
   VectorSpace vectors_;
   std::unique_ptr<TrialState> trial_;  // of the last evaluation
   Vector F_, R_, Q_;
   std::optional<Vector> Q_last_;  // of remember_force()
   bool force_remembered_ = false;
-  std::optional<Vector> Q_inverse_;  // M⁻¹Q, work of distance()
+  std::optional<Vector> work_;  // of norms, (n)
   double last_t_ = 0;
   bool loads_are_constant_, loads_are_known_ = false;
   std::optional<double> load_norm_;          // ‖F‖, if known [N]

@@ -24,6 +24,8 @@ struct NewtonOptions {
   double symmetry = 1e-12;      // K is symmetric if ‖K − Kᵀ‖ ≤ this ‖K‖ (Frobenius)
   int max_cg_iterations = 0;    // in a Newton iteration; 0: n
   LinearSolver solver = LinearSolver::automatic;
+  /// Of conjugate gradients: B r, B ≈ K⁻¹ symmetric positive definite; none: that of diag M.
+  std::function<void(ConstVec r, Vec Br)> preconditioner{};
   bool accept_unstable = false;  // if there is no stable equilibrium on the way that load steps follow
   /// Says what is wrong, or nothing.
   std::string validate() const;

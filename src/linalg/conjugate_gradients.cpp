@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-ConjugateGradientResult conjugate_gradients(const LinearMap& A, ConstVec D, ConstVec b, Vec x, double tolerance,
+ConjugateGradientResult conjugate_gradients(const LinearMap& A, const LinearMap& B, ConstVec b, Vec x, double tolerance,
                                             int max_iterations, const std::function<void(double)>& each) {
   const std::size_t n = b.size();
   const VectorSpace vectors;
@@ -22,7 +22,7 @@ ConjugateGradientResult conjugate_gradients(const LinearMap& A, ConstVec D, Cons
   ConjugateGradientResult result;
   double rz_before = 0;
   while (!(result.converged = norm(r) <= enough) && result.iterations < max_iterations) {
-    for_each_index(n, [=](std::size_t i) { z_i[i] = r_i[i] / D[i]; });
+    B(r.span(), z.span());
     const double rz = dot(r, z), beta = result.iterations > 0 ? rz / rz_before : 0;
     for_each_index(n, [=](std::size_t i) { p_i[i] = z_i[i] + beta * p_i[i]; });
     heed_stop_request();
@@ -42,6 +42,10 @@ ConjugateGradientResult conjugate_gradients(const LinearMap& A, ConstVec D, Cons
     if (each) each(norm(r));
   }
   return result;
+}
+
+LinearMap division_by(ConstVec D) {
+  return [D](ConstVec x, Vec y) { for_each_index(y.size(), [=](std::size_t i) { y[i] = x[i] / D[i]; }); };
 }
 
 }  // namespace stillpoint

@@ -22,39 +22,51 @@ Eigensystem eigensystem(const std::vector<double>& alpha, const std::vector<doub
   return T;
 }
 
+// The eigenvalue at one end of T, beside the one next to it; beta: what T's last row lacks.
+Lanczos::Largest at_end(const Eigensystem& T, double beta, Eigen::Index end, Eigen::Index next) {
+  const Eigen::Index m = T.eigenvalues().size();
+  const double theta = T.eigenvalues()(end), r = beta * std::abs(T.eigenvectors()(m - 1, end));
+  const double gap = m > 1 ? std::abs(theta - T.eigenvalues()(next)) : 0;
+  return {.theta = theta, .missing = r, .error = r < gap ? r * r / gap : r};
+}
+
 }  // namespace
 
-Lanczos::Lanczos(LinearMap apply_A, LinearMap apply_B, LinearMap solve_B, Vector x, bool keeps_vectors)
+Lanczos::Lanczos(LinearMap apply_A, LinearMap solve_B, Vector b, bool keeps_vectors)
     : apply_A_(std::move(apply_A)),
-      apply_B_(std::move(apply_B)),
       solve_B_(std::move(solve_B)),
-      q_(std::move(x)),
-      last_q_(VectorSpace().make(q_.size())),
-      Aq_(VectorSpace().make(q_.size())),
-      z_(VectorSpace().make(q_.size())),
-      Bz_(VectorSpace().make(q_.size())),
+      w_(std::move(b)),
+      last_w_(VectorSpace().make(w_.size())),
+      q_(VectorSpace().make(w_.size())),
+      Aq_(VectorSpace().make(w_.size())),
       keeps_vectors_(keeps_vectors) {
-  apply_B_(q_.span(), Bz_.span());
-  const double norm = std::sqrt(dot(q_, Bz_));
+  solve_B_(w_.span(), q_.span());
+  const double norm = std::sqrt(dot(q_, w_));
   finite_ = std::isfinite(norm);
   exhausted_ = !(norm > 0);
-  for_each_index(q_.size(), [=, q = q_.span().data()](std::size_t i) { q[i] /= norm; });
+  divide(norm);
+}
+
+// q and w by their norm.
+void Lanczos::divide(double norm) {
+  for_each_index(q_.size(), [=, q = q_.span().data(), w = w_.span().data()](std::size_t i) {
+    q[i] /= norm;
+    w[i] /= norm;
+  });
 }
 
 bool Lanczos::step() {
   if (exhausted_ || !finite_) return false;
   heed_stop_request();
-  const std::size_t n = q_.size();
   const double last_beta = beta_.empty() ? 0 : beta_.back();
   if (keeps_vectors_) all_.emplace_back(q_.span().begin(), q_.span().end());
   apply_A_(q_.span(), Aq_.span());
   const double alpha = dot(q_, Aq_);
-  solve_B_(Aq_.span(), z_.span());
-  for_each_index(n, [=, z = z_.span().data(), q = q_.span().data(), last_q = last_q_.span().data()](std::size_t i) {
-    z[i] -= alpha * q[i] + last_beta * last_q[i];
-  });
-  apply_B_(z_.span(), Bz_.span());
-  const double square = dot(z_, Bz_), beta = std::sqrt(std::max(0.0, square));
+  for_each_index(q_.size(), [=, next = last_w_.span().data(), w = w_.span().data(), Aq = Aq_.span().data()](
+                                std::size_t i) { next[i] = Aq[i] - (alpha * w[i] + last_beta * next[i]); });
+  std::swap(w_, last_w_);
+  solve_B_(w_.span(), q_.span());
+  const double square = dot(q_, w_), beta = std::sqrt(std::max(0.0, square));
   alpha_.push_back(alpha);
   beta_.push_back(beta);
   finite_ = std::isfinite(alpha) && std::isfinite(square);
@@ -62,19 +74,17 @@ bool Lanczos::step() {
   constexpr double rounding = 1e-12;
   bound_ = std::max(bound_, std::abs(alpha) + last_beta + beta);
   exhausted_ = beta <= rounding * bound_;
-  if (exhausted_) return true;
-  std::swap(last_q_, q_);
-  for_each_index(n, [=, q = q_.span().data(), z = z_.span().data()](std::size_t i) { q[i] = z[i] / beta; });
+  if (!exhausted_) divide(beta);
   return true;
 }
 
 Lanczos::Largest Lanczos::largest() const {
   const Eigensystem T = eigensystem(alpha_, beta_);
   const Eigen::Index m = T.eigenvalues().size();
-  const double theta = T.eigenvalues()(m - 1), r = beta_.back() * std::abs(T.eigenvectors()(m - 1, m - 1));
-  const double gap = m > 1 ? theta - T.eigenvalues()(m - 2) : 0;
-  return {.theta = theta, .missing = r, .error = r < gap ? r * r / gap : r};
+  return at_end(T, beta_.back(), m - 1, m - 2);
 }
+
+Lanczos::Largest Lanczos::smallest() const { return at_end(eigensystem(alpha_, beta_), beta_.back(), 0, 1); }
 
 std::vector<double> Lanczos::vector() const {
   const Eigensystem T = eigensystem(alpha_, beta_);

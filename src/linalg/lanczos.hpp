@@ -1,7 +1,8 @@
 // Lanczos' method for the largest eigenvalue of A x = λ B x [Parlett, The Symmetric Eigenvalue Problem, 1980, ch. 13]:
 //
-//   β_j q_{j+1} = B⁻¹A q_j − α_j q_j − β_{j−1} q_{j−1},   α_j = q_jᵀA q_j,   qᵀBq = 1
+//   β_j w_{j+1} = A q_j − α_j w_j − β_{j−1} w_{j−1},   q = B⁻¹w,   α_j = q_jᵀA q_j,   qᵀw = 1
 //
+// which never multiplies by B.
 // The largest eigenvalue θ of the tridiagonal matrix T of the α and β is from below; some λ lies within r = β_m |s_m|
 // of it, s_m the last entry of its eigenvector s of T, and within r²/gap, the gap to the next one. Q s is its vector.
 // It keeps the polynomial that power iteration throws away, and takes the square root of its applications.
@@ -18,14 +19,14 @@ namespace stillpoint {
 
 class Lanczos {
  public:
-  struct Largest {
-    double theta = 0;    // from below
+  struct Largest {       // or smallest
+    double theta = 0;    // from below; the smallest from above
     double missing = 0;  // r
     double error = 0;    // what of λ is missing, estimated: min(r, r²/gap)
   };
 
-  /// A, B symmetric, B positive definite. x: the start, (n). keeps_vectors: all q, for vector().
-  Lanczos(LinearMap apply_A, LinearMap apply_B, LinearMap solve_B, Vector x, bool keeps_vectors = false);
+  /// A, B symmetric, B positive definite. The start is B⁻¹b, b: (n). keeps_vectors: all q, for vector().
+  Lanczos(LinearMap apply_A, LinearMap solve_B, Vector b, bool keeps_vectors = false);
 
   /// One application more of B⁻¹A. False if there was nothing to find out: the start lies in what has been seen, or a
   /// value is not finite.
@@ -34,12 +35,15 @@ class Lanczos {
   int applications() const { return static_cast<int>(alpha_.size()); }
   /// After a step().
   Largest largest() const;
-  /// Q s, (n). Needs keeps_vectors.
+  Largest smallest() const;
+  /// Q s of the largest, (n). Needs keeps_vectors.
   std::vector<double> vector() const;
 
  private:
-  LinearMap apply_A_, apply_B_, solve_B_;
-  Vector q_, last_q_, Aq_, z_, Bz_;
+  void divide(double norm);
+
+  LinearMap apply_A_, solve_B_;
+  Vector w_, last_w_, q_, Aq_;
   bool keeps_vectors_, finite_ = true, exhausted_ = false;
   std::vector<double> alpha_, beta_;
   std::vector<std::vector<double>> all_;  // q, if kept

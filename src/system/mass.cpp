@@ -140,6 +140,7 @@ Mass Mass::lumped(std::vector<double> diagonal, const std::vector<RelativeInerti
     }
   }
   Mass mass;
+  mass.size_ = diagonal.size();
   mass.diagonal_ = std::move(diagonal);
   if (!relative.empty()) mass.relative_ = std::make_shared<const Relative>(relative, mass.diagonal_);
   return mass;
@@ -154,7 +155,8 @@ struct Mass::Consistent {
 
 Mass Mass::consistent(const SparseMatrix& matrix) {
   Mass mass;
-  mass.diagonal_.resize(static_cast<std::size_t>(matrix.rows()));
+  mass.size_ = static_cast<std::size_t>(matrix.rows());
+  mass.diagonal_.resize(mass.size_);
   Map(mass.diagonal_.data(), matrix.rows()) = matrix.diagonal();
   mass.consistent_ = std::make_shared<const Consistent>(matrix);
   const SparseCholesky& factor = mass.consistent_->factor;
@@ -166,7 +168,20 @@ Mass Mass::consistent(const SparseMatrix& matrix) {
   return mass;
 }
 
+Mass Mass::by_inverse(std::size_t n, std::function<void(ConstVec b, Vec x)> solve) {
+  if (!solve) throw std::invalid_argument("a mass by its inverse needs one");
+  Mass mass;
+  mass.size_ = n;
+  mass.inverse_ = std::move(solve);
+  return mass;
+}
+
+void Mass::require_product() const {
+  if (!has_product()) throw std::logic_error("this mass is known by its inverse: there is no product with it");
+}
+
 SparseMatrix Mass::matrix() const {
+  require_product();
   if (!is_lumped()) return consistent_->matrix;
   SparseMatrix diagonal_matrix(index(size()), index(size()));
   diagonal_matrix.setIdentity();
@@ -178,6 +193,7 @@ SparseMatrix Mass::matrix() const {
 }
 
 void Mass::apply(ConstVec x, Vec y) const {
+  require_product();
   if (is_lumped()) {
     for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { y[i] = m[i] * x[i]; });
     if (relative_) relative_->add_off_diagonal(x, y);
@@ -187,7 +203,9 @@ void Mass::apply(ConstVec x, Vec y) const {
 }
 
 void Mass::solve(ConstVec b, Vec x) const {
-  if (is_lumped()) {
+  if (inverse_) {
+    inverse_(b, x);
+  } else if (is_lumped()) {
     if (relative_) relative_->take(b);  // before x, which may be b
     for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { x[i] = b[i] / m[i]; });
     if (relative_) relative_->solve(x);

@@ -11,9 +11,11 @@
 
 namespace stillpoint {
 
-RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors)
+RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors,
+                                   const Mass* fictitious)
     : system_(system),
       damping_(damping),
+      mass_(fictitious ? *fictitious : system.mass()),
       linear_(damping.linear()),
       vectors_(vectors),
       trial_(system.make_trial()),
@@ -22,12 +24,15 @@ RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping,
       Q_(vectors_.make(system.size())),
       loads_are_constant_(system.loads_are_constant()),
       force_scale_(std::make_unique<ForceScale>()) {
+  if (keeps_momentum() && (damping.is_local() || linear_.identity != 0)) {
+    throw std::invalid_argument("a mass that is known by its inverse takes a damping of C = c M, or none");
+  }
   if (damping.uses_last_force()) Q_last_ = vectors_.make(system.size());
 }
 
 RelaxationSystem::~RelaxationSystem() = default;
 
-// y' = [ v ; M⁻¹ (F − R + D(v, F − R) − c_i v) − c_m v ]  for  C = c_m M + c_i I
+// y' = [ v ; M⁻¹ (F − R + D(v, F − R) − c_i v) − c_m v ]  for  C = c_m M + c_i I, or [ M⁻¹p ; F − R − c_m p ]
 bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
   const ConstVec u = first_half(y), v = second_half(y);
   const Vec u_dot = first_half(ydot), v_dot = second_half(ydot);
@@ -37,11 +42,13 @@ bool RelaxationSystem::operator()(double t, ConstVec y, Vec ydot) {
   if (linear_.identity != 0) {
     for_each_index(n, [=, c = linear_.identity](std::size_t i) { v_dot[i] -= c * v[i]; });
   }
-  system_.mass().solve(v_dot, v_dot);
-  for_each_index(n, [=, c = linear_.mass](std::size_t i) {
-    u_dot[i] = v[i];
-    v_dot[i] -= c * v[i];
-  });
+  if (keeps_momentum()) {
+    mass_.solve(v, u_dot);
+  } else {
+    mass_.solve(v_dot, v_dot);
+    std::ranges::copy(v, u_dot.begin());
+  }
+  for_each_index(n, [=, c = linear_.mass](std::size_t i) { v_dot[i] -= c * v[i]; });
   return true;
 }
 
@@ -52,14 +59,13 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q) {
 
 bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q, Vec a) {
   ++evaluations_;
-  const Mass& mass = system_.mass();
-  if (!mass.is_diagonal() || !is_sum_of_its_own()) {
+  if (!mass_.is_diagonal() || !is_sum_of_its_own()) {
     if (!balance(t, u, Q)) return false;
-    mass.solve(Q, a);
+    mass_.solve(Q, a);
     return true;
   }
   if (!evaluate(t, u)) return false;
-  for_each_index(Q.size(), [=, F = F_.span().data(), R = R_.span().data(), m = mass.diagonal().data()](std::size_t i) {
+  for_each_index(Q.size(), [=, F = F_.span().data(), R = R_.span().data(), m = mass_.diagonal().data()](std::size_t i) {
     Q[i] = F[i] - R[i];
     a[i] = Q[i] / m[i];
   });
@@ -162,15 +168,15 @@ double RelaxationSystem::relative_to_loads(double unbalanced) {
 
 // ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q
 double RelaxationSystem::energy_error(const Mass& M, double omega_1) {
-  if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
-  M.solve(Q_.span(), Q_inverse_->span());
-  return std::sqrt(dot(Q_, *Q_inverse_)) / omega_1;
+  if (!work_) work_ = vectors_.make(size());
+  M.solve(Q_.span(), work_->span());
+  return std::sqrt(dot(Q_, *work_)) / omega_1;
 }
 
 double RelaxationSystem::mass_norm(const Mass& M, const Vector& u) {
-  if (!Q_inverse_) Q_inverse_ = vectors_.make(size());
-  M.apply(u.span(), Q_inverse_->span());
-  return std::sqrt(dot(u, *Q_inverse_));
+  if (!work_) work_ = vectors_.make(size());
+  M.apply(u.span(), work_->span());
+  return std::sqrt(dot(u, *work_));
 }
 
 void RelaxationSystem::archive(const StateArchive& state) {
@@ -188,11 +194,23 @@ void RelaxationSystem::archive(const StateArchive& state) {
 
 double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
 
-double RelaxationSystem::power(const Vector& v) const { return dot(Q_, v); }
+double RelaxationSystem::internal_work(const Vector& u) const { return dot(R_, u); }
 
+double RelaxationSystem::power(const Vector& v) {
+  if (!keeps_momentum()) return dot(Q_, v);
+  if (!work_) work_ = vectors_.make(size());
+  mass_.solve(v.span(), work_->span());
+  return dot(Q_, *work_);
+}
+
+// Or ½ pᵀ M⁻¹ p.
 double RelaxationSystem::kinetic_energy(const Vector& v) {
-  system_.mass().apply(v.span(), Q_.span());
-  return 0.5 * dot(v, Q_) - system_.mass().relative_energy(v.span());
+  if (keeps_momentum()) {
+    mass_.solve(v.span(), Q_.span());
+    return 0.5 * dot(v, Q_);
+  }
+  mass_.apply(v.span(), Q_.span());
+  return 0.5 * dot(v, Q_) - mass_.relative_energy(v.span());
 }
 
 }  // namespace stillpoint

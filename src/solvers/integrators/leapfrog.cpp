@@ -19,6 +19,7 @@
 
 #include "base/parallel_loop.hpp"
 #include "solvers/integrators/damped_acceleration.hpp"
+#include "solvers/integrators/kick_drift.hpp"
 #include "solvers/integrators/staggered_integrators.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
 
@@ -35,8 +36,9 @@ class Leapfrog final : public SteppingIntegrator {
  public:
   Leapfrog(const IntegratorOptions& options, RelaxationSystem& system)
       : SteppingIntegrator(options, system),
-        initial_acceleration_(DampingTreatment::lagged, system.damping().linear(), system.system().mass()),
-        acceleration_(treatment_of_leapfrog(options.treatment), system.damping().linear(), system.system().mass()),
+        kick_drift_(system),
+        initial_acceleration_(DampingTreatment::lagged, system.damping().linear(), kick_drift_.mass_of_kick()),
+        acceleration_(treatment_of_leapfrog(options.treatment), system.damping().linear(), kick_drift_.mass_of_kick()),
         a_(system.vectors().make(system.size())),
         next_a_(system.vectors().make(system.size())) {}
 
@@ -64,10 +66,7 @@ class Leapfrog final : public SteppingIntegrator {
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span()), a = a_.span();
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a_new = next_a_.span();
 
-    for_each_index(u.size(), [=](std::size_t i) {
-      v_new[i] = v[i] + h / 2 * a[i];
-      u_new[i] = u[i] + h * v_new[i];
-    });
+    kick_drift_(h / 2, a, h, u, v, u_new, v_new);
     force_is_current_ = false;
     if (!system().damped_out_of_balance(t + h, u_new, v_new, a_new))
       return {.status = StepReport::Status::inadmissible, .h = h};
@@ -92,6 +91,7 @@ class Leapfrog final : public SteppingIntegrator {
 
   void archive_memory(const StateArchive& state) override { state("a", a_.span()); }
 
+  KickDrift kick_drift_;
   DampedAcceleration initial_acceleration_, acceleration_;
   Vector a_, next_a_;  // (n) at t_n and at the trial's time
   bool admissible_ = true;

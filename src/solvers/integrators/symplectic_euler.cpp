@@ -10,6 +10,7 @@
 
 #include "base/parallel_loop.hpp"
 #include "solvers/integrators/damped_acceleration.hpp"
+#include "solvers/integrators/kick_drift.hpp"
 #include "solvers/integrators/staggered_integrators.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
 
@@ -26,8 +27,9 @@ class SymplecticEuler final : public SteppingIntegrator {
  public:
   SymplecticEuler(const IntegratorOptions& options, RelaxationSystem& system)
       : SteppingIntegrator(options, system),
+        kick_drift_(system),
         acceleration_(treatment_of_symplectic_euler(options.treatment), system.damping().linear(),
-                      system.system().mass()),
+                      kick_drift_.mass_of_kick()),
         Q_(system.vectors().make(system.size())),
         next_Q_(system.vectors().make(system.size())),
         a_(system.vectors().make(system.size())) {}
@@ -51,13 +53,8 @@ class SymplecticEuler final : public SteppingIntegrator {
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
 
     std::ranges::copy(std::as_const(Q_).span(), a.begin());
-    acceleration_(h, v, a, [=](std::size_t begin, std::size_t count) {
-      for_each_index(count, [=, u = u.data() + begin, v = v.data() + begin, a = a.data() + begin,
-                             u_new = u_new.data() + begin, v_new = v_new.data() + begin](std::size_t i) {
-        v_new[i] = v[i] + h * a[i];
-        u_new[i] = u[i] + h * v_new[i];
-      });
-    });
+    acceleration_(h, v, a);
+    kick_drift_(h, a, h, u, v, u_new, v_new);
     force_is_current_ = false;
     if (!evaluate(t + h, trial.span(), next_Q_.span())) return {.status = StepReport::Status::inadmissible, .h = h};
     return {.h = h};
@@ -75,6 +72,7 @@ class SymplecticEuler final : public SteppingIntegrator {
 
   void archive_memory(const StateArchive& state) override { state("Q", Q_.span()); }
 
+  KickDrift kick_drift_;
   DampedAcceleration acceleration_;
   Vector Q_, next_Q_;  // Q + D, (n), at t_n and at the trial's time
   Vector a_;           // (n)

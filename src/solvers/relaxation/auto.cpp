@@ -45,7 +45,7 @@ class Auto final : public StaggeredIteration {
         steady_(options.steady),
         c_(options.from.rate.value_or(0)),
         share_(options.from.step_share > 0 ? options.from.step_share : 1) {
-    if (may_descend_) descent_.emplace(system.vectors(), system.system().mass(), options.linear);
+    if (may_descend_) descent_.emplace(system.vectors(), system.mass(), options.linear);
   }
 
   std::optional<double> damping_rate() const override { return descends_ ? std::nullopt : std::optional(c_); }

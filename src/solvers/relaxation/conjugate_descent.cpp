@@ -16,9 +16,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 ConjugateDescent::ConjugateDescent(const VectorSpace& vectors, const Mass& mass, bool linear)
     : mass_(mass), p_(vectors.make(mass.size())), way_(vectors.make(mass.size())), z_(vectors.make(mass.size())) {
-  if (linear) return;
-  Q_ = vectors.make(mass.size());
-  memory_.emplace(vectors, mass, memory);
+  if (!linear || !mass.has_product()) Q_ = vectors.make(mass.size());
+  if (!linear) memory_.emplace(vectors, mass, memory);
 }
 
 void ConjugateDescent::begin(const Vector& Q, const Vector& z, double h) {
@@ -65,7 +64,7 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
     if (memory_) {
       turn_by_memory(theta, Q);
     } else {
-      turn_by_beta(theta, z);
+      turn_by_beta(theta, Q, z);
     }
     trials_ = 0;
     return slope_ >= 0;  // also if it is not a number
@@ -79,6 +78,13 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
   return true;
 }
 
+// Q(x⁺)
+void ConjugateDescent::move_Q(double theta, const Vector& Q) {
+  for_each_index(Q_->size(), [=, Q_x = Q_->span().data(), Q_w = Q.span().data()](std::size_t i) {
+    Q_x[i] += theta * (Q_w[i] - Q_x[i]);
+  });
+}
+
 // Q(x⁺)·p = 0, so that Q(x⁺)·p⁺ = Q(x⁺)·M⁻¹Q(x⁺) and p⁺ᵀMp⁺ = that + β² pᵀMp. As M is symmetric, all is known from
 // products with Q(w):
 //
@@ -86,7 +92,7 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
 //   Q(x⁺)·M⁻¹Q(x⁺) = (1 − θ)² Q(x)·M⁻¹Q(x) + 2 θ (1 − θ) Q(w)·M⁻¹Q(x) + θ² Q(w)·M⁻¹Q(w)
 //
 // until so many digits of the second are lost that it has to be summed anew.
-void ConjugateDescent::turn_by_beta(double theta, const Vector& z) {
+void ConjugateDescent::turn_by_beta(double theta, const Vector& Q, const Vector& z) {
   constexpr double most_lost = 1e-12;
   const double rest = 1 - theta;
   const double of_x = rest * rest * Q_dot_z_, mixed = 2 * theta * rest * Q_dot_.z_x, of_w = theta * theta * Q_dot_.z;
@@ -96,10 +102,11 @@ void ConjugateDescent::turn_by_beta(double theta, const Vector& z) {
   const auto move_z = [=, z_x = z_.span().data(), z = z.span().data()](std::size_t i) {
     return z_x[i] += theta * (z[i] - z_x[i]);
   };
+  if (Q_) move_Q(theta, Q);
   if (is_lost) {
     for_each_index(p_.size(), move_z);
-    mass_.apply(z_.span(), way_.span());
-    now = dot(z_, way_);
+    if (!Q_) mass_.apply(z_.span(), way_.span());
+    now = dot(z_, Q_ ? *Q_ : way_);
     Q_dot_z_error_ = epsilon * now;
   }
   const double with_last = rest * Q_dot_z_ + theta * Q_dot_.z_x;
@@ -128,8 +135,12 @@ void ConjugateDescent::turn_by_memory(double theta, const Vector& Q) {
   });
   memory_->apply(way_);
   slope_ = dot(*Q_, way_);
-  mass_.apply(way_.span(), z_.span());
-  pMp_ = dot(way_, z_);
+  if (mass_.has_product()) {
+    mass_.apply(way_.span(), z_.span());
+    pMp_ = dot(way_, z_);
+  } else {
+    pMp_ = slope_;  // as of M⁻¹Q: what M takes from K is its scale
+  }
   for_each_index(p_.size(), [back = (theta - 1) * h_, way = way_.span().data(), p = p_.span().data()](std::size_t i) {
     const double p_next = way[i];
     way[i] = back * p[i] + p_next;

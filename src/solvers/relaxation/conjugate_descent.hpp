@@ -49,7 +49,11 @@ class ConjugateDescent {
   /// pᵀKp/pᵀMp of the last line [1/s²].
   double quotient() const { return quotient_; }
   /// ω₁² of the motions that it has met [1/s²], where Q is linear and it shows.
-  std::optional<double> lowest() const { return memory_ ? std::nullopt : spectrum_.lowest(); }
+  std::optional<double> lowest() const {
+    // Where M⁻¹K has a small κ the descent is over in a few steps, and no value stays near a wrong one for long.
+    constexpr double usual = 0.02, of_few_steps = 0.1;
+    return memory_ ? std::nullopt : spectrum_.lowest(mass_.has_product() ? usual : of_few_steps);
+  }
   /// ‖Q‖ where it was last evaluated or begun [N].
   double unbalanced_force() const { return std::sqrt(Q_dot_.Q); }
   /// √(QᵀM⁻¹Q) there [N/√kg].
@@ -61,14 +65,15 @@ class ConjugateDescent {
   struct Products {  // of Q(w) with each of these; with z_x = M⁻¹Q(x) only where Q is linear
     double p, z_x, z, Q;
   };
-  void turn_by_beta(double theta, const Vector& z);
+  void move_Q(double theta, const Vector& Q);
+  void turn_by_beta(double theta, const Vector& Q, const Vector& z);
   void turn_by_memory(double theta, const Vector& Q);
 
   const Mass& mass_;
   std::optional<LimitedMemory> memory_;  // if Q is not linear
   Vector p_, way_;                       // p, w⁺ − w, (n)
   Vector z_;                             // M⁻¹Q(x), or work with a memory, (n)
-  std::optional<Vector> Q_;              // Q(x), with a memory, (n)
+  std::optional<Vector> Q_;              // Q(x), with a memory or without products with M, (n)
   double h_ = 0, first_h_ = 0;
   double slope_ = 0;          // Q(x)·p
   double Q_dot_z_ = 0;        // Q(x)·M⁻¹Q(x), where Q is linear,

@@ -54,15 +54,14 @@ void DescentSpectrum::add(double alpha, double beta) {
   carried_ = beta / alpha;
 }
 
-std::optional<double> DescentSpectrum::lowest() const {
+std::optional<double> DescentSpectrum::lowest(double share) const {
   constexpr std::size_t fewest = 6;
-  constexpr double steady = 0.02;
   const std::size_t m = diagonal_.size();
   if (m < fewest) return std::nullopt;
   const std::span diagonal(diagonal_), off_diagonal_squared(off_diagonal_squared_);
   const double now = lowest_eigenvalue(diagonal, off_diagonal_squared);
   const double before = lowest_eigenvalue(diagonal.first(m - m / 3), off_diagonal_squared);
-  if (!(now > 0) || !(before <= (1 + steady) * now)) return std::nullopt;
+  if (!(now > 0) || !(before <= (1 + share) * now)) return std::nullopt;
   return now;
 }
 

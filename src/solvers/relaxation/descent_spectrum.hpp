@@ -23,8 +23,8 @@ class DescentSpectrum {
   void begin();
   /// alpha: the step along the last direction [s²]; beta: by which the next one has turned.
   void add(double alpha, double beta);
-  /// ω₁² [1/s²], if the last third of the steps has changed it by less than 2 %.
-  std::optional<double> lowest() const;
+  /// ω₁² [1/s²], if the last third of the steps has changed it by less than a share.
+  std::optional<double> lowest(double share = 0.02) const;
 
   void archive(const StateArchive& state);
 

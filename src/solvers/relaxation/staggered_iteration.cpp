@@ -31,7 +31,7 @@ void StaggeredIteration::begin(double t, const Vector& /*y*/) {
 
 void StaggeredIteration::restart(double t, const Vector& /*y*/) {
   system().last_out_of_balance(t, Q_.span());
-  system().system().mass().solve(Q_.span(), a_.span());
+  system().mass().solve(Q_.span(), a_.span());
   remember_loads();
   on_restart();
 }
@@ -98,11 +98,11 @@ void StaggeredIteration::set_rate(double c) {
   // What holds a contact, and what a moving support does through a consistent mass, depend on c.
   if (!system().system().contact() && system().system().mass().is_lumped()) return;
   system().last_out_of_balance(t_, Q_.span());
-  system().system().mass().solve(Q_.span(), a_.span());
+  system().mass().solve(Q_.span(), a_.span());
 }
 
 double StaggeredIteration::mass_dot(const Vector& x, const Vector& y) {
-  system().system().mass().apply(x.span(), Mx_.span());
+  system().mass().apply(x.span(), Mx_.span());
   return dot(Mx_, y);
 }
 

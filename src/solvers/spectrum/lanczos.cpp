@@ -27,12 +27,12 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
   const Stopwatch watch;
   const Mass& mass = system.mass();
   const LinearMap apply_K = [&](ConstVec x, Vec Kx) { system.tangents().apply(Tangent::elastic, t, u, x, Kx); };
-  const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
   const LinearMap solve_M = [&](ConstVec b, Vec x) { mass.solve(b, x); };
   const VectorSpace vectors;
-  Vector x = vectors.make(system.size());
+  Vector x = vectors.make(system.size()), Mx = vectors.make(system.size());
   std::ranges::copy(start_vector(system.size()), x.span().begin());
-  Lanczos lanczos(apply_K, apply_M, solve_M, std::move(x));
+  mass.apply(x.span(), Mx.span());
+  Lanczos lanczos(apply_K, solve_M, std::move(Mx));
   // Of ω² twice the share of ω.
   const auto is_found = [&](const Lanczos::Largest& largest) {
     return !tolerance || largest.missing <= 2 * *tolerance * largest.theta;

@@ -69,12 +69,11 @@ struct Lowest {
 // Of K⁻¹M the largest eigenvalue by Lanczos' method, its error within the tolerance twice running.
 Lowest lowest_by_lanczos(const FactorisedStiffness& K, const Mass& mass, double tolerance, int most) {
   const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
-  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { K.apply(x, Kx); };
   const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
   const VectorSpace vectors;
-  Vector x = vectors.make(mass.size());
-  K.solve(start_vector(mass.size()), x.span());
-  Lanczos lanczos(apply_M, apply_K, solve_K, std::move(x), true);
+  Vector b = vectors.make(mass.size());
+  std::ranges::copy(start_vector(mass.size()), b.span().begin());
+  Lanczos lanczos(apply_M, solve_K, std::move(b), true);
   Lanczos::Largest largest{.theta = std::numeric_limits<double>::quiet_NaN()};
   double error = std::numeric_limits<double>::infinity();
   int held = 0;

@@ -21,11 +21,6 @@ double largest_diagonal_ratio(const SparseMatrix& K, const Mass& mass) {
 FactorisedStiffness::FactorisedStiffness(const Mass& mass, const SparseMatrix& K)
     : mass_(mass), K_(K), factor_(K), scale_(largest_diagonal_ratio(K_, mass_)) {}
 
-void FactorisedStiffness::apply(ConstVec x, Vec y) const {
-  const auto n = static_cast<Eigen::Index>(x.size());
-  Eigen::Map<Eigen::VectorXd>(y.data(), n) = K_ * Eigen::Map<const Eigen::VectorXd>(x.data(), n);
-}
-
 std::string FactorisedStiffness::refusal(double omega_squared) const {
   if (mass_.size() == 0) return "no free degrees of freedom";
   const std::string singular = "K is singular: the body is not held, or has too few material points for its basis";

@@ -18,8 +18,6 @@ class FactorisedStiffness {
 
   /// Whether there is a factor to solve with.
   bool usable() const { return mass_.size() > 0 && factor_.positive_definite(); }
-  /// y = K x; x, y: (n), distinct.
-  void apply(ConstVec x, Vec y) const;
   /// x = K⁻¹ b; b, x: (n). Needs usable().
   void solve(ConstVec b, Vec x) const { factor_.solve(b, x); }
   /// Why K gives no ω₁: no degrees of freedom, not finite, indefinite, or singular. Empty if it gives one.

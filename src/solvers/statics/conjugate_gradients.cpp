@@ -56,7 +56,7 @@ StaticReport conjugate_gradients(const SemiDiscrete& system, double t, Vec u, co
       subtract_product(1, of_loads, x, Kx);
     };
     const double first = report.residual / norm(balance.Q);
-    const auto result = conjugate_gradients(K, system.mass().diagonal(), balance.Q.span(), du,
+    const auto result = conjugate_gradients(K, division_by(system.mass().diagonal()), balance.Q.span(), du,
                                             0.5 * options.tolerance / report.residual, most - report.iterations,
                                             [&](double r) { residuals.push_back(first * r); });
     report.iterations += result.iterations;

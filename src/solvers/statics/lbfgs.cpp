@@ -13,7 +13,7 @@ class LimitedMemoryBfgs final : public StaticIteration {
  public:
   LimitedMemoryBfgs(double max_step, RelaxationSystem& system)
       : StaticIteration(max_step, system, {.first = 0.9, .later = 0.9}),
-        memory_(system.vectors(), system.system().mass(), 10),
+        memory_(system.vectors(), system.mass(), 10),
         q_(system.vectors().make(system.size())) {}
 
  private:

@@ -223,8 +223,8 @@ class Newton {
     const std::size_t n = du_.size();
     const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
     const double forcing = std::min(0.1, balance_.residual());
-    const auto result =
-        stillpoint::conjugate_gradients(K, system_.mass().diagonal(), balance_.Q.span(), du_, forcing, most);
+    const LinearMap B = options_.preconditioner ? options_.preconditioner : division_by(system_.mass().diagonal());
+    const auto result = stillpoint::conjugate_gradients(K, B, balance_.Q.span(), du_, forcing, most);
     report_.tangent_products += result.iterations;
     return result.converged;
   }

@@ -59,6 +59,9 @@ std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, Rela
   NewtonOptions newton_options;
   newton_options.tolerance = options.tolerance;
   newton_options.solver = linear_solver_of(options.name);
+  if (system.keeps_momentum()) {
+    newton_options.preconditioner = [&M = system.mass()](ConstVec r, Vec Br) { M.solve(r, Br); };
+  }
   // The run tests its end itself, and says what is wrong with it.
   newton_options.accept_unstable = !system.system().history_dependent() && system.size() <= direct_solver_limit;
   return std::make_unique<NewtonStep>(newton_options, system);

@@ -25,7 +25,7 @@ StaticIteration::StaticIteration(double max_step, RelaxationSystem& system, Line
 void StaticIteration::begin(double t, const Vector& /*y*/) {
   forget();
   admissible_ = system().out_of_balance(t, first_half(std::as_const(state()).span()), Q_.span());
-  if (admissible_) system().system().mass().solve(Q_.span(), z_.span());
+  if (admissible_) system().mass().solve(Q_.span(), z_.span());
 }
 
 SteppingIntegrator::Attempt StaticIteration::attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) {
@@ -79,7 +79,7 @@ bool StaticIteration::search(double t, Vec u_new) {
 void StaticIteration::accepted() {
   if (!moves_) return;
   std::swap(Q_, next_Q_);
-  system().system().mass().solve(Q_.span(), z_.span());
+  system().mass().solve(Q_.span(), z_.span());
   moved(alpha_);
 }
 
