@@ -17,7 +17,8 @@ enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_s
 std::string_view to_string(StressState state);
 enum class Placement { uniform, gauss, random };
 enum class VolumeRule { equal, consistent };
-enum class MassKind { consistent, lumped };
+/// multigrid: fictitious, M⁻¹ one cycle of multigrid on the elastic stiffness.
+enum class MassKind { consistent, lumped, multigrid };
 enum class MassScaling { uniform, gershgorin };
 enum class Transfer { flip, pic, apic, xpic };
 /// Where the deformation of an elastic point comes from when a phase begins.

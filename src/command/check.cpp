@@ -63,7 +63,10 @@ int check(const SceneArguments& arguments) {
   fmt::print("  phases           {}\n",
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
-             phase.discretisation().supported_degrees_of_freedom, phase.mass().is_lumped() ? "lumped" : "consistent");
+             phase.discretisation().supported_degrees_of_freedom,
+             model.multigrid            ? "multigrid"
+             : phase.mass().is_lumped() ? "lumped"
+                                        : "consistent");
   for (const WeakSupport& weak : phase.weak_supports(0, model.u)) {
     fmt::print("  weak support     support[{}]: {} spring{} of {:.4g} {}\n", weak.support, weak.springs,
                weak.springs == 1 ? "" : "s", weak.stiffness, scene.supports[weak.support].face ? "N/m3" : "N/m");

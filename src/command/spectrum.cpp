@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "base/stopwatch.hpp"
 #include "command/commands.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/model.hpp"
+#include "simulation/multigrid_mass.hpp"
 #include "solvers/spectrum/local_damping_gain.hpp"
 
 namespace stillpoint::command {
@@ -20,6 +22,35 @@ void print_estimate(std::string_view what, std::string_view how, const Frequency
   }
 }
 
+struct Ends {
+  FrequencyEstimate omega_1, omega_max;
+};
+
+Ends ends_by_mass(const LagrangianPhase& phase, ConstVec u) {
+  Ends ends;
+  ends.omega_1 = omega_1_by_lanczos(phase, 0, u);
+  print_estimate("omega_1", "Lanczos on K⁻¹M (CHOLMOD)", ends.omega_1);
+  print_estimate("omega_1", "ARPACK, shift-invert at 0", omega_1_by_arpack(phase, 0, u));
+  ends.omega_max = omega_max_by_power_iteration(phase, 0, u);
+  print_estimate("omega_max", "power iteration, matrix-free", ends.omega_max);
+  print_estimate("omega_max", "ARPACK, shift-invert at the bound", omega_max_by_arpack(phase, 0, u));
+  print_estimate("omega_max", "Gershgorin, guaranteed upper bound", omega_max_bound_by_gershgorin(phase, 0, u));
+  return ends;
+}
+
+// Of the modes that the loads drive.
+Ends ends_by_multigrid(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
+  const Stopwatch watch;
+  const auto made = make_multigrid_mass(scene, phase, u, false);
+  const auto estimate = [&](double omega) {
+    return FrequencyEstimate{omega, made->applications, watch.seconds(), true, "Lanczos' method"};
+  };
+  const Ends ends{estimate(made->omega_1), estimate(made->omega_max)};
+  print_estimate("omega_1", "Lanczos on M⁻¹K, M⁻¹ by multigrid", ends.omega_1);
+  print_estimate("omega_max", "likewise, the cycle's set-up too", ends.omega_max);
+  return ends;
+}
+
 }  // namespace
 
 int spectrum(const SceneArguments& arguments) {
@@ -29,14 +60,8 @@ int spectrum(const SceneArguments& arguments) {
 
   fmt::print("{}\n  {:<10}{:<36}{:>14}{:>12}{:>12}\n", scene.title.empty() ? scene.name : scene.title, "", "method",
              "rad/s", "iterations", "ms");
-  const FrequencyEstimate omega_1 = omega_1_by_lanczos(*phase, 0, u);
-  print_estimate("omega_1", "Lanczos on K⁻¹M (CHOLMOD)", omega_1);
-  print_estimate("omega_1", "ARPACK, shift-invert at 0", omega_1_by_arpack(*phase, 0, u));
-  const FrequencyEstimate omega_max = omega_max_by_power_iteration(*phase, 0, u);
-  print_estimate("omega_max", "power iteration, matrix-free", omega_max);
-  print_estimate("omega_max", "ARPACK, shift-invert at the bound", omega_max_by_arpack(*phase, 0, u));
-  print_estimate("omega_max", "Gershgorin, guaranteed upper bound", omega_max_bound_by_gershgorin(*phase, 0, u));
-
+  const auto [omega_1, omega_max] =
+      scene.mass.kind == MassKind::multigrid ? ends_by_multigrid(scene, *phase, u) : ends_by_mass(*phase, u);
   if (omega_1.converged) {
     const double ratio = omega_max.omega / omega_1.omega;
     fmt::print("  kappa = (omega_max/omega_1)^2 = {:.8g}\n  critical damping c = 2 omega_1 = {:.9g}\n", ratio * ratio,

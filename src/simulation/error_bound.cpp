@@ -14,12 +14,14 @@ ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega
 std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u) {
   beside_largest_.reset();
   if (!omega_1_) return std::nullopt;
-  const Mass& V = volume_ ? volume_->V : phase_.mass();
-  const double omega_V = volume_ ? volume_->omega_1 : *omega_1_;
-  energy_error_ = relaxation.energy_error(phase_.mass(), *omega_1_);
+  const Mass& M = relaxation.mass();
+  const Mass& V = volume_ ? volume_->V : M;
+  by_strain_ = !V.has_product();
+  const double omega_V = this->omega_V();
+  energy_error_ = relaxation.energy_error(M, *omega_1_);
   if (volume_) energy_error_ = std::min(energy_error_, relaxation.energy_error(V, omega_V));
   const double error = energy_error_ / omega_V;
-  size_ = relaxation.mass_norm(V, u);
+  size_ = by_strain_ ? strain_norm(relaxation, u) : relaxation.mass_norm(V, u);
   largest_ = std::max(largest_, std::min(size_, most_));
   const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
   constexpr double next_to_nothing = 0.01;
@@ -27,16 +29,27 @@ std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const V
   return beside(size_);
 }
 
+double ErrorBound::omega_V() const { return by_strain_ ? 1 : volume_ ? volume_->omega_1 : *omega_1_; }
+
+// ‖u‖_K² = uᵀK u over free unknowns and supports: u·R + u_s·R_s.
+double ErrorBound::strain_norm(const RelaxationSystem& relaxation, const Vector& u) const {
+  const std::vector<double> support = phase_.support_displacements(relaxation.last_t());
+  const ConstVec reactions = relaxation.last_reactions();
+  double work = relaxation.internal_work(u);
+  for (std::size_t s = 0; s < std::min(support.size(), reactions.size()); ++s) work += support[s] * reactions[s];
+  return std::sqrt(std::abs(work));
+}
+
 // ‖u‖_V ≤ ‖u_s‖_V + ‖u − u*‖_V + ‖u_s − u*‖_V,  ω_V² ‖u − u*‖_V² ≤ ‖u − u*‖_K² ≤ ‖u_s − u*‖_K² + ‖v_s‖_M²
 void ErrorBound::loads_have_settled(double kinetic_energy) {
   if (!omega_1_ || phase_.info().nonlinear || std::isfinite(most_)) return;
-  const double omega_V = volume_ ? volume_->omega_1 : *omega_1_;
+  const double omega_V = this->omega_V();
   most_ = size_ + 2 * std::sqrt(energy_error_ * energy_error_ + 2 * kinetic_energy) / omega_V;
 }
 
 bool ErrorBound::refresh(double t, ConstVec u, double residual) {
   constexpr double much_nearer = 0.25;
-  if (!omega_1_ || !phase_.info().nonlinear || !(residual < much_nearer * refreshed_at_)) return false;
+  if (!omega_1_ || by_strain_ || !phase_.info().nonlinear || !(residual < much_nearer * refreshed_at_)) return false;
   // What is consistent with the body at u, yielding included.
   const SparseMatrix K = phase_.tangents().matrix(Tangent::consistent, t, u), K_transposed = K.transpose();
   const auto frequency = [&, symmetric = SparseMatrix(0.5 * (K + K_transposed))](const Mass& mass) {

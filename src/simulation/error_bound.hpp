@@ -13,7 +13,8 @@
 namespace stillpoint {
 
 /// ‖u − u*‖_V ≤ ‖u − u*‖_K/ω_V,  ‖u − u*‖_K ≤ ‖M⁻¹Q‖_M/ω₁ and ≤ ‖V⁻¹Q‖_V/ω_V, Q = F − R, relative to ‖u‖_V, with the
-/// lowest frequencies ω₁ and ω_V of K beside M and V; V = M if the M-norm is as good. A bound if K is constant, with
+/// lowest frequencies ω₁ and ω_V of K beside M and V; V = M if the M-norm is as good; V = K, ω_V = 1, if M is known by
+/// its inverse, as no product with it is then needed. A bound if K is constant, with
 /// the frequencies of the beginning; if it is not, an estimate with those of the tangent where refresh() last looked.
 class ErrorBound {
  public:
@@ -22,6 +23,7 @@ class ErrorBound {
 
   /// ω₁, where none was known at the beginning and V = M: the lowest so far.
   void learn(double omega_1) { omega_1_ = std::min(omega_1, omega_1_.value_or(omega_1)); }
+  /// After an evaluation at u, (n).
   std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u);
   /// The last one beside the largest ‖u‖_V so far instead, if that is a hundred times as large: unloaded to nothing.
   std::optional<double> beside_largest() const { return beside_largest_; }
@@ -45,9 +47,13 @@ class ErrorBound {
   }
 
  private:
+  double omega_V() const;
+  double strain_norm(const RelaxationSystem& relaxation, const Vector& u) const;
+
   const LagrangianPhase& phase_;
   std::optional<double> omega_1_, beside_largest_;
   std::optional<VolumeNorm> volume_;
+  bool by_strain_ = false;                                         // V = K
   double energy_error_ = 0, size_ = 0;                             // of the last distance()
   double largest_ = 0;                                             // ‖u‖_V so far
   double most_ = std::numeric_limits<double>::infinity();          // that it can become

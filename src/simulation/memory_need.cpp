@@ -13,6 +13,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/highest_frequency.hpp"
+#include "simulation/multigrid_mass.hpp"
 #include "simulation/omega_1_needs.hpp"
 #include "solvers/relaxation/conjugate_descent.hpp"
 #include "solvers/statics/static_methods.hpp"
@@ -167,6 +168,14 @@ bool factorises(const Scene& scene, const BodySize& size) {
   return solves || omega_1_needs(scene, static_cast<std::size_t>(size.unknowns)).any();
 }
 
+// As asked for, or as auto may choose.
+bool takes_multigrid(const Scene& scene, const BodySize& size) {
+  if (scene.mass.kind == MassKind::multigrid) return true;
+  const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
+  return relaxation && relaxation->chooses_mass && !is_nonlinear(scene) && !moves_on(scene) && scene.walls.empty() &&
+         multigrid_pays(scene, size.unknowns);
+}
+
 }  // namespace
 
 double MemoryNeed::total() const {
@@ -195,7 +204,14 @@ MemoryNeed memory_need(const Scene& scene) {
   constexpr double little = 1e7;
   if (const MemoryNeed::Part of_loads = formulas(scene); of_loads.bytes > little) need.parts.push_back(of_loads);
   if (const MemoryNeed::Part of_springs = springs(scene); of_springs.bytes > little) need.parts.push_back(of_springs);
-  const bool factor = factorises(scene, size), consistent = scene.mass.kind == MassKind::consistent;
+  const bool consistent = scene.mass.kind == MassKind::consistent;
+  const bool multigrid = takes_multigrid(scene, size), factor = !multigrid && factorises(scene, size);
+  if (multigrid) {
+    // K, the module's copy of it, transfers and coarser levels.
+    constexpr double of_hierarchy = 2.0;
+    add("stiffness matrix", of_matrix(scene, size), "grid.cells");
+    add("hierarchy of multigrid", of_hierarchy * of_matrix(scene, size), "grid.cells");
+  }
   if (factor || consistent || chooses_mass) add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
   if (consistent)
     // As it was assembled, and as it is factorised.

@@ -98,6 +98,23 @@ double step_fraction(const Scene& scene, const Model& model) {
   return follows ? relaxation->step_fraction / StiffeningStep::notch : relaxation->step_fraction;
 }
 
+// Leapfrog's step h takes M⁻¹K's ω² to 1 − h²ω²/2 = cos θ, a motion of the angle θ a step. Where κ is small the usual
+// large step damps the highest modes less than the lowest: with
+//
+//   h² = 4/(ω₁² + ω_max²),   c = 2 ω₁ √(1 − h²ω₁²/4)
+//
+// both ends are critical, and all modes go by (√κ − 1)/(√κ + 1) a step, as by Polyak's heavy ball [1964]; for a large κ
+// that c is 2 ω₁.
+bool is_critical_leapfrog(const Scene& scene, const Model& model) {
+  const DampingTreatment treatment = scene.integrator.treatment;
+  return model.multigrid && model.omega_1 && model.c && !scene.damping.c && model.method.hosts_relaxations &&
+         (treatment == DampingTreatment::automatic || treatment == DampingTreatment::averaged);
+}
+double balanced_step(const Model& model) { return 2 / std::hypot(*model.omega_1, model.omega_max); }
+double balanced_damping(double omega_1, double h) {
+  return 2 * omega_1 * std::sqrt(std::max(0.0, 1 - h * h * omega_1 * omega_1 / 4));
+}
+
 void choose_step(const Scene& scene, Model& model) {
   const IntegratorSpec& spec = scene.integrator;
   const bool adaptive = spec.rtol.has_value();
@@ -124,6 +141,8 @@ void choose_step(const Scene& scene, Model& model) {
     }
   } else if (model.critical_step && *model.critical_step > 0) {
     model.integrator.max_step = step_fraction(scene, model) * *model.critical_step;
+    if (is_critical_leapfrog(scene, model))
+      model.integrator.max_step = std::min(model.integrator.max_step, balanced_step(model));
   } else if (adaptive) {
     model.integrator.max_step = 1 / model.omega_max;  // no limit of its own: the error control is what bounds the step
   } else {
@@ -200,6 +219,10 @@ bool is_linear(const LagrangianPhase& phase, ConstVec u) {
 // How the way to rest is gone: the damping and what steps it.
 void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
   if (takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
+  if (is_critical_leapfrog(scene, model)) {
+    const double longest = scene.integrator.step_fraction * 2 / model.omega_max;
+    model.c = balanced_damping(*model.omega_1, scene.integrator.step.value_or(std::min(longest, balanced_step(model))));
+  }
   model.damping = model.relaxation || model.static_method
                       ? no_damping()
                       : make_damping(scene.damping.strategy, model.c.value_or(0), scene.damping.alpha);
@@ -216,6 +239,31 @@ void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
                     .linear = is_linear(*model.phase, model.u)};
 }
 
+// Whether conjugate directions lead to rest with any mass.
+bool may_take_multigrid(const LagrangianPhase& phase) {
+  return !phase.info().updated_lagrangian && !phase.contact() && is_linear(phase, phase.initial_displacement(0));
+}
+
+void take_multigrid(const Scene& scene, bool is_auto, SetUp& set_up, Model& model) {
+  const bool by_motion = !model.static_method && !is_auto;
+  if (by_motion || is_auto) {
+    const char* const what = model.phase->info().history_names.empty() ? "a nonlinear body" : "points that remember";
+    if (!is_linear(*model.phase, model.u)) {
+      throw_scene_error(scene, "mass.kind",
+                        fmt::format("'multigrid' keeps to the stiffness of the start, which leads {} nowhere; take "
+                                    "solve.method = \"newton-cg\" with it",
+                                    what));
+    }
+  }
+  model.multigrid = set_up.shared(by_motion ? "multigrid" : "multigrid without omega_1", scene.mass,
+                                  [&] { return make_multigrid_mass(scene, *model.phase, model.u, !by_motion); });
+  model.omega_max = model.multigrid->omega_max;
+  if (by_motion) model.omega_1 = model.multigrid->omega_1;
+  model.notes.push_back(
+      "with mass.kind = \"multigrid\" frequencies and velocities are those of a fictitious inertia, and the distance "
+      "is that of the strain energy, ‖u − u*‖_K/‖u‖_K");
+}
+
 // begin(what) is told of each part before it is made.
 template <class Begin>
 Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
@@ -230,7 +278,16 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   model.phase = set_up.phase(scene);
   model.mass = scene.mass;
   begin("the choice of a mass");
-  const bool chooses_mass = model.relaxation && model.relaxation->chooses_mass;
+  const bool is_multigrid = scene.mass.kind == MassKind::multigrid;
+  const bool is_auto = model.relaxation && model.relaxation->chooses_mass;
+  const bool pays = is_auto && !is_multigrid && may_take_multigrid(*model.phase) &&
+                    multigrid_pays(scene, static_cast<double>(model.phase->size()));
+  if (pays) {
+    model.notes.push_back(
+        fmt::format("auto takes mass.kind = \"multigrid\", which is quicker than a lumped mass with {} unknowns",
+                    model.phase->size()));
+  }
+  const bool chooses_mass = is_auto && !is_multigrid && !pays;
   const bool scaled = chooses_mass && choose_mass(scene, model, set_up, store);
   std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
   begin("the initial state");
@@ -239,20 +296,24 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   check_probes(scene, *model.phase);
   check_initial_state(scene, *model.phase, model.u);
   std::ranges::move(load_notes(scene, *model.phase, model.u), std::back_inserter(model.notes));
+  if (is_multigrid || pays) {
+    begin("the hierarchy of multigrid");
+    take_multigrid(scene, is_auto, set_up, model);
+  }
   begin("the highest frequency");
-  if (!chooses_mass) {
+  if (!chooses_mass && !model.multigrid) {
     model.omega_max =
         set_up.shared("omega_max", model.mass, [&] { return highest_frequency(scene, *model.phase, model.u); });
   }
   const Omega1Needs needs = omega_1_needs(scene, model.phase->size());
   begin("the lowest frequency, with a factor of the stiffness");
-  if (needs.any()) find_omega_1(scene, needs, set_up, model);
+  if (needs.any() && !model.multigrid) find_omega_1(scene, needs, set_up, model);
   begin("the norm of errors");
   const bool has_scaled_mass = scaled || scene.mass.scaling != MassScaling::uniform;
-  model.learns_omega_1 = !model.omega_1 && chooses_mass && wants_equilibrium_only(scene) &&
-                         mass_measures_volume(scene, has_scaled_mass) && !model.phase->info().updated_lagrangian &&
-                         is_linear(*model.phase, model.u);
-  if (model.omega_1 && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian) {
+  model.learns_omega_1 = !model.omega_1 && is_auto && wants_equilibrium_only(scene) &&
+                         (model.multigrid || mass_measures_volume(scene, has_scaled_mass)) &&
+                         !model.phase->info().updated_lagrangian && is_linear(*model.phase, model.u);
+  if (model.omega_1 && !model.multigrid && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian) {
     model.volume_norm =
         set_up.shared("norm", model.mass, [&] { return volume_norm(scene, *model.phase, has_scaled_mass, model.u); });
   }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/multigrid_mass.hpp"
 #include "simulation/set_up_store.hpp"
 #include "simulation/volume_norm.hpp"
 #include "space/phase/lagrangian_phase.hpp"
@@ -19,15 +20,16 @@ namespace stillpoint {
 
 struct Model {
   std::unique_ptr<LagrangianPhase> phase;
-  MassSpec mass;                          // that the phase was made with
-  std::vector<double> u, v;               // initial values, (n) each
-  double t = 0;                           // when it begins; the end of the loads for a static solver [s]
-  std::optional<double> omega_1;          // [rad/s]; only if something needs it and the body is held
-  bool learns_omega_1 = false;            // what is not known may show on the way, for the distance
-  std::optional<VolumeNorm> volume_norm;  // if omega_1 is known, and errors are not measured by the mass
-  double omega_max = 0;                   // [rad/s], by power iteration; for auto a bound by few Lanczos steps
-  int tangent_applications = 0;           // that auto spent on ω_max
-  std::optional<double> c;                // of viscous and identity damping
+  MassSpec mass;                                   // that the phase was made with
+  std::shared_ptr<const MultigridMass> multigrid;  // in the place of the phase's mass; null: there is none
+  std::vector<double> u, v;                        // initial values, (n) each
+  double t = 0;                                    // when it begins; the end of the loads for a static solver [s]
+  std::optional<double> omega_1;                   // [rad/s]; only if something needs it and the body is held
+  bool learns_omega_1 = false;                     // what is not known may show on the way, for the distance
+  std::optional<VolumeNorm> volume_norm;           // if omega_1 is known, and errors are not measured by the mass
+  double omega_max = 0;                            // [rad/s], by power iteration; for auto a bound by few Lanczos steps
+  int tangent_applications = 0;                    // that auto spent on ω_max
+  std::optional<double> c;                         // of viscous and identity damping
   std::unique_ptr<Damping> damping;
   Method method;
   const RelaxationInfo* relaxation = nullptr;       // in the place of the integrator's step; null: a damping

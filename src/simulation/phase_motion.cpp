@@ -23,7 +23,7 @@ std::unique_ptr<Integrator> make_stepper(const Model& model, const Scene& scene,
 
 PhaseMotion::PhaseMotion(Model& model, const Scene& scene, const VectorSpace& vectors, double t, ConstVec u0,
                          ConstVec v0)
-    : system(*model.phase, *model.damping, vectors),
+    : system(*model.phase, *model.damping, vectors, model.multigrid ? &model.multigrid->mass : nullptr),
       y(vectors.make(2 * model.phase->size())),
       u_vector(vectors.view(first_half(y.span()))),
       v_vector(vectors.view(second_half(y.span()))),
@@ -34,6 +34,14 @@ PhaseMotion::PhaseMotion(Model& model, const Scene& scene, const VectorSpace& ve
   if (!model.initial_stiffening) return;
   stiffening_.emplace(*model.phase, model.phase->size(), model.integrator.max_step, *model.initial_stiffening);
   follow_stiffness(t);
+}
+
+ConstVec PhaseMotion::v() const {
+  const ConstVec second = second_half(y.span());
+  if (!system.keeps_momentum()) return second;
+  velocity_.assign(second.size(), 0.0);
+  if (!integrator->static_iteration()) system.mass().solve(second, velocity_);
+  return velocity_;
 }
 
 void PhaseMotion::accept(double t) {

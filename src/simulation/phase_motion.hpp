@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "simulation/model.hpp"
 #include "simulation/stiffening_step.hpp"
@@ -19,7 +20,8 @@ class PhaseMotion {
   PhaseMotion& operator=(const PhaseMotion&) = delete;
 
   ConstVec u() const { return first_half(y.span()); }
-  ConstVec v() const { return second_half(y.span()); }
+  /// Velocities, whichever y has; until the next call.
+  ConstVec v() const;
 
   /// After an accepted step to t: laws remember, contacts open and close, the step follows the stiffness. With a static
   /// solver laws remember the end only.
@@ -39,13 +41,14 @@ class PhaseMotion {
   }
 
   RelaxationSystem system;
-  Vector y;                   // [u; v]
+  Vector y;                   // [u; v], or [u; p] if the system keeps momentum
   Vector u_vector, v_vector;  // its halves, in place
   std::unique_ptr<Integrator> integrator;
 
  private:
   void follow_stiffness(double t);
 
+  mutable std::vector<double> velocity_;  // M⁻¹p, if asked for
   std::optional<StiffeningStep> stiffening_;
 };
 

@@ -217,8 +217,10 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("seed", &BodySpec::seed, "of random points and of jitter", {.range = kNotNegative});
   for (TableInfo& material : material_tables(catalogue)) tables.all.push_back(std::move(material));
   tables.add({"mass", "the mass matrix"}, &Scene::mass)
-      .key("kind", &MassSpec::kind, "of the mass matrix; lumped by default if dim = 2",
-           {.words = {"consistent", "lumped"}})
+      .key("kind", &MassSpec::kind,
+           "of the mass matrix; lumped by default if dim = 2; multigrid, towards equilibrium only: fictitious, with "
+           "M⁻¹ a cycle of multigrid on the elastic stiffness, so that steps do not grow with the body",
+           {.words = {"consistent", "lumped", "multigrid"}})
       .key("scaling", &MassSpec::factor,
            "of the inertia, not of the weight; or each node by the bound of its stiffness",
            {.range = kPositive, .words = {"gershgorin"}},

@@ -49,6 +49,35 @@ void check_mass(SceneCheck& check) {
     check.add("mass.scaling", "needs mass.kind = \"lumped\"");
 }
 
+/// What a mass that only M⁻¹ is known of cannot do.
+void check_multigrid(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  if (scene.mass.kind != MassKind::multigrid || !check.sound("mass.kind")) return;
+  const std::string key = "mass.kind";
+  const auto refuse = [&](const std::string& why) { check.add(key, "'multigrid' " + why); };
+  if (!scene.stop.wants_equilibrium() || loads_vary(scene)) {
+    refuse(
+        "is a fictitious inertia, whose motion means nothing: take it where equilibrium under steady loads is all "
+        "that is asked for");
+  }
+  if (scene.grid.basis == BasisKind::hermite) refuse("needs a basis of values alone; take linear, quadratic or cubic");
+  if (!scene.initial_v.empty()) refuse("has no velocities to begin with; leave out initial.v");
+  if (scene.solve.is_static()) {
+    const StaticMethodInfo* const method = check.catalogue().static_method(scene.solve.method);
+    if (method && method->factorises)
+      refuse("has no part in a method that factorises K; take solve.method = \"newton-cg\", \"cg\" or \"lbfgs\"");
+    return;
+  }
+  const StrategyInfo* const strategy = check.catalogue().strategy(scene.damping.strategy);
+  if (!strategy) return;
+  if (strategy->is_local || strategy->is_identity)
+    refuse(fmt::format("couples all degrees of freedom, and damping '{}' takes each by itself; take viscous or auto",
+                       strategy->name));
+  if (strategy->is_relaxation && !strategy->takes_inverse_mass)
+    refuse(fmt::format("has no products with M, which '{}' needs; take viscous or auto", strategy->name));
+  if (scene.integrator.rtol) refuse("has no velocities to be accurate in; leave out integrator.rtol");
+}
+
 void check_integrator(SceneCheck& check) {
   const Scene& scene = check.scene();
   const IntegratorSpec& spec = scene.integrator;
@@ -193,6 +222,7 @@ void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
   const bool grid = check_grid(check);
   const std::optional<BodyBox> body = check_bodies(check, grid);
   check_mass(check);
+  check_multigrid(check);
   check_loads(check, grid, body);
   check_exact(check, body.has_value());
   check_phases(check, grid);

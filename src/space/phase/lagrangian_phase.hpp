@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/memory_report.hpp"
+#include "linalg/nodal_layout.hpp"
 #include "space/boundary/load_state.hpp"
 #include "space/boundary/support_report.hpp"
 #include "space/boundary/wall_reaction.hpp"
@@ -107,6 +108,9 @@ class LagrangianPhase : public SemiDiscrete {
  public:
   const PhaseInfo& info() const { return info_; }
   virtual Discretisation discretisation() const = 0;
+  /// Where the unknowns stand, at the coefficients by which the basis gives a linear motion; empty for a basis of
+  /// slopes.
+  virtual NodalLayout layout() const = 0;
   virtual PointData point_data() const = 0;
   /// nodal: u, or v for the velocity, (n).
   virtual void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const = 0;

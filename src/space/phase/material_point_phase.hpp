@@ -88,6 +88,7 @@ class MaterialPointPhase final : public LagrangianPhase,
 
   // --- LagrangianPhase, see phase_points.hpp -------------------------------------------------------
   Discretisation discretisation() const override;
+  NodalLayout layout() const override;
   PointData point_data() const override;
   void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const override;
   void point_history(const std::string& name, Vec out) const override;

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <set>
+#include <utility>
 
 #include "space/phase/law_gradients.hpp"
 #include "space/phase/material_point_phase.hpp"
@@ -192,6 +193,24 @@ std::vector<FreePart> MaterialPointPhase<B, K>::free_parts() const {
   for (const Springs::Weight& weight : weak_supports_.springs().weights())
     sprung[static_cast<std::size_t>(weight.unknown)] = 1;
   return find_free_parts<B, K>(body_.points, weights_, *dofs_, sprung, /*as_one=*/updated_lagrangian());
+}
+
+template <AxisBasis B, Kinematics K>
+NodalLayout MaterialPointPhase<B, K>::layout() const {
+  if (scene_.grid.basis == BasisKind::hermite) return {};
+  NodalLayout layout;
+  layout.dim = Dim;
+  int function = -1, nodes = 0;
+  for (const int unknown : dofs_->free) {
+    if (std::exchange(function, unknown / Dim) != unknown / Dim) {
+      ++nodes;
+      for (int d = 0; d < Dim; ++d)
+        layout.positions.push_back(B::centre(grid_.axes[d], Basis::index_along(grid_, function, d)));
+    }
+    layout.node.push_back(nodes - 1);
+    layout.component.push_back(unknown % Dim);
+  }
+  return layout;
 }
 
 template <AxisBasis B, Kinematics K>

@@ -1,0 +1,71 @@
+#include "linalg/multigrid.hpp"
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+namespace stillpoint {
+namespace {
+
+using MakeGamg = Multigrid* (*)(const SparseMatrix&, const NodalLayout&);
+
+struct Module {
+  MakeGamg make = nullptr;
+  std::string missing;  // why there is none
+};
+
+// The folder of the program, or of the shared library, that this code is in.
+std::filesystem::path own_folder() {
+  Dl_info info{};
+  static const char anchor = 0;
+  if (dladdr(&anchor, &info) == 0 || !info.dli_fname) return {};
+  std::error_code ignored;
+  const auto file = std::filesystem::canonical(info.dli_fname, ignored);
+  return ignored ? std::filesystem::path() : file.parent_path();
+}
+
+// Beside the program as it was built; installed, in the folder of libraries, wherever the two were put.
+Module load_module() {
+  const std::string file = STILLPOINT_MULTIGRID_MODULE;
+  if (file.empty()) {
+    return {nullptr,
+            "this stillpoint was built without PETSc; install libpetsc-real-dev (Debian's package) and build it again"};
+  }
+  const std::filesystem::path own = own_folder();
+  const std::array candidates{own / file, own / ".." / STILLPOINT_LIBDIR / "stillpoint" / file,
+                              std::filesystem::path(STILLPOINT_FULL_LIBDIR) / "stillpoint" / file};
+  std::string tried;
+  for (const std::filesystem::path& candidate : candidates) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(candidate, ignored)) continue;
+    void* const module = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!module) {
+      tried = dlerror();
+      continue;
+    }
+    if (const auto make = reinterpret_cast<MakeGamg>(dlsym(module, "stillpoint_make_gamg"))) return {make, ""};
+    tried = fmt::format("{} is of another version", candidate.string());
+  }
+  return {nullptr, fmt::format("the module {} cannot be loaded: {}; expected Debian's package libpetsc-real3.18, and "
+                               "the module beside the program or in {}/stillpoint",
+                               file, tried.empty() ? "there is no such file" : tried, STILLPOINT_FULL_LIBDIR)};
+}
+
+const Module& module() {
+  static const Module loaded = load_module();
+  return loaded;
+}
+
+}  // namespace
+
+std::string multigrid_is_missing() { return module().missing; }
+
+std::unique_ptr<Multigrid> make_multigrid(const SparseMatrix& K, const NodalLayout& layout) {
+  if (const std::string& missing = module().missing; !missing.empty()) throw NoMultigrid(missing);
+  return std::unique_ptr<Multigrid>(module().make(K, layout));
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,165 @@
+// A mass whose inverse is a cycle of multigrid: steps that do not grow with the body, the same equilibrium, and an
+// error bound in the norm of the strain energy.
+#include "linalg/multigrid.hpp"
+
+#include <stillpoint/stillpoint.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "largest.hpp"
+#include "linalg/sparse_cholesky.hpp"
+#include "scenes.hpp"
+#include "simulation/model.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+
+using namespace stillpoint;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<std::string> block(int cells, std::vector<std::string> others = {}) {
+  const std::string n = std::to_string(cells);
+  others.insert(others.begin(), {"constants.nu=0.3", "grid.basis=linear", "grid.cells=[" + n + "," + n + "]",
+                                 "stop.residual=1e-6", "mass.kind=multigrid"});
+  return others;
+}
+
+Simulation run(const std::string& problem, const std::vector<std::string>& set) {
+  Simulation simulation(scenes::load(problem, set));
+  simulation.run();
+  CAPTURE(simulation.reason());
+  CHECK(simulation.status() == RunStatus::equilibrium);
+  return simulation;
+}
+
+/// u of K u = F, by another factorisation.
+std::vector<double> equilibrium(const LagrangianPhase& phase) {
+  std::vector<double> u(phase.size());
+  phase.external_force(0, u, u);
+  SparseCholesky(phase.tangents().matrix(Tangent::elastic, 0, std::vector<double>(phase.size()))).solve(u, u);
+  return u;
+}
+
+/// ‖u − u*‖_K/‖u‖_K
+double true_distance(const Simulation& simulation) {
+  const LagrangianPhase& phase = simulation.phase();
+  const ConstVec u = simulation.u();
+  std::vector<double> e = equilibrium(phase), Ke(e.size()), Ku(e.size());
+  for (std::size_t i = 0; i < e.size(); ++i) e[i] -= u[i];
+  const std::vector<double> zero(e.size());
+  phase.tangents().apply(Tangent::elastic, 0, zero, e, Ke);
+  phase.tangents().apply(Tangent::elastic, 0, zero, u, Ku);
+  double of_error = 0, of_u = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) of_error += e[i] * Ke[i], of_u += u[i] * Ku[i];
+  return std::sqrt(of_error / of_u);
+}
+
+#define REQUIRE_MULTIGRID() \
+  if (!multigrid_is_missing().empty()) return
+
+}  // namespace
+
+TEST_CASE(
+    "with a multigrid mass 1e3, 1e4 and 1e5 unknowns come to rest in 25 evaluations by critical viscous damping, "
+    "16 by auto, in balance as by a factor") {
+  REQUIRE_MULTIGRID();
+  const auto [strategy, most] = GENERATE(table<std::string, long>({{"viscous", 25}, {"auto", 16}}));
+  for (const int cells : {22, 70, 224}) {
+    CAPTURE(strategy, cells);
+    Simulation simulation = run("incompressible", block(cells, {"damping.strategy=" + strategy}));
+    CHECK(simulation.evaluations() <= most);
+    CHECK(simulation.residual() <= 1e-6);
+    const std::vector<double> u = equilibrium(simulation.phase());
+    CHECK(largest_difference(simulation.u(), u) < 1e-5 * largest_magnitude(u));
+  }
+}
+
+TEST_CASE("the distance of a run by a multigrid mass bounds that of the strain energy, not by more than ten times") {
+  REQUIRE_MULTIGRID();
+  const std::string strategy = GENERATE("viscous", "auto");
+  const auto* residual = GENERATE("stop.residual=1e-4", "stop.residual=1e-7");
+  CAPTURE(strategy, residual);
+  Simulation simulation = run("incompressible", block(48, {"damping.strategy=" + strategy, residual}));
+  const double error = true_distance(simulation);
+  REQUIRE(simulation.distance());
+  CHECK(*simulation.distance() >= error);
+  CHECK(*simulation.distance() < 10 * error);
+}
+
+TEST_CASE(
+    "cg, lbfgs and newton-cg with a multigrid mass come to the equilibrium of a factor in a few dozen evaluations") {
+  REQUIRE_MULTIGRID();
+  const std::string method = GENERATE("cg", "lbfgs", "newton-cg");
+  CAPTURE(method);
+  Scene scene = scenes::load("incompressible", block(70));
+  scene.solve.method = method;
+  Simulation simulation(scene);
+  simulation.run();
+  CHECK(simulation.status() == RunStatus::equilibrium);
+  CHECK(simulation.evaluations() <= 40);
+  const std::vector<double> u = equilibrium(simulation.phase());
+  CHECK(largest_difference(simulation.u(), u) < 1e-5 * largest_magnitude(u));
+}
+
+TEST_CASE("an inclusion a million times as stiff takes auto with a multigrid mass 25 evaluations at most") {
+  REQUIRE_MULTIGRID();
+  for (const auto* cells : {"grid.cells=[24,24]", "grid.cells=[96,96]"}) {
+    CAPTURE(cells);
+    CHECK(run("inclusion", {cells, "damping.strategy=auto", "mass.kind=multigrid"}).evaluations() <= 25);
+  }
+}
+
+TEST_CASE("quadratic and cubic functions come to rest by a multigrid mass as linear ones do") {
+  REQUIRE_MULTIGRID();
+  const std::string basis = GENERATE("quadratic", "cubic");
+  CAPTURE(basis);
+  Simulation simulation = run("incompressible", block(48, {"grid.basis=" + basis, "damping.strategy=auto"}));
+  CHECK(simulation.evaluations() <= 40);
+  const std::vector<double> u = equilibrium(simulation.phase());
+  CHECK(largest_difference(simulation.u(), u) < 1e-4 * largest_magnitude(u));
+}
+
+TEST_CASE(
+    "auto takes a multigrid mass for a large linear body that leaves the mass open, says so, and not for a small") {
+  REQUIRE_MULTIGRID();
+  const auto model = [](const std::vector<std::string>& set) {
+    std::vector<std::string> all = {"constants.nu=0.3", "grid.basis=linear", "damping.strategy=auto"};
+    all.insert(all.end(), set.begin(), set.end());
+    return make_model(scenes::load("incompressible", all));
+  };
+  const Model large = model({"grid.cells=[224,224]"});
+  REQUIRE(large.multigrid);
+  CHECK(std::ranges::any_of(large.notes, [](const std::string& n) { return n.starts_with("auto takes mass.kind"); }));
+  CHECK_FALSE(model({"grid.cells=[64,64]"}).multigrid);
+  CHECK_FALSE(model({"grid.cells=[224,224]", "mass.kind=lumped"}).multigrid);
+  CHECK_FALSE(model({"grid.cells=[224,224]", "mass.scaling=gershgorin"}).multigrid);
+  CHECK_FALSE(model({"grid.cells=[224,224]", "stop.residual=0", "stop.time=1"}).multigrid);
+}
+
+TEST_CASE(
+    "a multigrid mass is refused with the reason where a motion means something, and where nothing can be done "
+    "with an inverse") {
+  const auto refusal = [](const std::vector<std::string>& set) {
+    std::vector<std::string> all = {"mass.kind=multigrid"};
+    all.insert(all.end(), set.begin(), set.end());
+    return scenes::refusal("incompressible", all);
+  };
+  CHECK_THAT(refusal({"stop.residual=0", "stop.time=1"}), Contains("mass.kind") && Contains("fictitious inertia"));
+  CHECK_THAT(refusal({"damping.strategy=one-sided"}), Contains("takes each by itself"));
+  CHECK_THAT(refusal({"damping.strategy=kinetic"}), Contains("products with M"));
+  CHECK_THAT(refusal({"grid.basis=hermite"}), Contains("basis of values"));
+  CHECK_THAT(refusal({"mass.scaling=gershgorin"}), Contains("needs mass.kind = \"lumped\""));
+  CHECK(refusal({"damping.strategy=viscous"}).empty());
+  CHECK_THAT(scenes::refusal("slope", {"mass.kind=multigrid"}), Contains("mass.kind"));
+}
+
+TEST_CASE("a program without PETSc refuses mass.kind = \"multigrid\" with the package to install, at the key") {
+  if (multigrid_is_missing().empty()) return;
+  CHECK_THROWS_WITH(Simulation(scenes::load("incompressible", block(22, {"damping.strategy=auto"}))),
+                    Contains("mass.kind") && Contains("libpetsc-real-dev"));
+}
