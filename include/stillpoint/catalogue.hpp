@@ -47,12 +47,12 @@ struct StrategyInfo {
   std::vector<std::string_view> keys{};  // of [damping] that it uses: "c", "alpha", "peak", "quotient"
   /// The integrators that it goes with, by the beginning of their names; empty: all.
   std::vector<std::string_view> integrators{};
-  bool damps = true;             // takes energy out of the motion
-  bool is_identity = false;      // C = c I, which is no multiple of M
-  bool is_relaxation = false;    // with leapfrog it takes the place of the integrator's step
-  bool has_own_step = false;     // integrator.step and step_fraction have no part in it
-  bool resets_velocity = false;  // of all unknowns, also of those that a wall drives
-  bool is_local = false;         // a damping whose force is discontinuous in v
+  bool damps = true;                // takes energy out of the motion
+  bool is_identity = false;         // C = c I, which is no multiple of M
+  bool is_relaxation = false;       // with leapfrog it takes the place of the integrator's step
+  bool has_own_step = false;        // integrator.step and step_fraction have no part in it
+  bool resets_velocity = false;     // of all unknowns, also of those that a wall drives
+  bool is_local = false;            // a damping whose force is discontinuous in v
   bool takes_inverse_mass = false;  // a relaxation that goes with a mass known by its inverse alone
 
   bool goes_with(std::string_view integrator) const;
