@@ -12,12 +12,20 @@
 #include "linalg/power_iteration.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/highest_frequency.hpp"
-#include "simulation/load_schedule.hpp"
 
 namespace stillpoint {
 namespace {
 
 const char* const key = "mass.kind";
+
+// F − R at the start: what it holds of a mode is what the run meets of it. Any vector where it is 0.
+std::vector<double> out_of_balance(const LagrangianPhase& phase, ConstVec u) {
+  std::vector<double> Q(phase.size()), R(phase.size());
+  phase.external_force(0, u, Q);
+  if (!phase.internal_force(0, u, R, *phase.make_trial())) return start_vector(phase.size());
+  for (std::size_t i = 0; i < Q.size(); ++i) Q[i] -= R[i];
+  return std::ranges::all_of(Q, [](double q) { return q == 0; }) ? start_vector(phase.size()) : Q;
+}
 
 // Both ends of the spectrum of B K by Lanczos' method. Ritz values are inside of it: what they miss is taken off ω₁²
 // and added to ω_max².
@@ -70,7 +78,7 @@ std::shared_ptr<const MultigridMass> make_multigrid_mass(const Scene& scene, con
   made->levels = cycle->levels();
   made->bytes = cycle->bytes();
   const LinearMap apply_K = [&](ConstVec x, Vec Kx) { phase.tangents().apply(Tangent::elastic, 0, u, x, Kx); };
-  find_frequencies(scene, apply_K, total_load_at(phase, 0), only_omega_max, *made);
+  find_frequencies(scene, apply_K, out_of_balance(phase, u), only_omega_max, *made);
   return made;
 }
 
