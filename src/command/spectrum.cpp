@@ -45,7 +45,7 @@ Ends ends_by_multigrid(const Scene& scene, const LagrangianPhase& phase, ConstVe
   const auto estimate = [&](double omega) {
     return FrequencyEstimate{omega, made->applications, watch.seconds(), true, "Lanczos' method"};
   };
-  const Ends ends{estimate(made->omega_1), estimate(made->omega_max)};
+  Ends ends{estimate(made->omega_1), estimate(made->omega_max)};
   print_estimate("omega_1", "Lanczos on M⁻¹K, M⁻¹ by multigrid", ends.omega_1);
   print_estimate("omega_max", "likewise, the cycle's set-up too", ends.omega_max);
   return ends;
