@@ -6,6 +6,8 @@
 
 #include "base/stopwatch.hpp"
 #include "command/commands.hpp"
+#include "scene/throw_scene_error.hpp"
+#include "simulation/balanced_leapfrog.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/model.hpp"
 #include "simulation/multigrid_mass.hpp"
@@ -41,9 +43,10 @@ Ends ends_by_mass(const LagrangianPhase& phase, ConstVec u) {
 // Of the modes that the loads drive.
 Ends ends_by_multigrid(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
   const Stopwatch watch;
-  const auto made = make_multigrid_mass(scene, phase, u, false);
-  const auto estimate = [&](double omega) {
-    return FrequencyEstimate{omega, made->applications, watch.seconds(), true, "Lanczos' method"};
+  const auto [made, refusal] = make_multigrid_mass(phase, u, false);
+  if (!made) throw_scene_error(scene, "mass.kind", refusal);
+  const auto estimate = [&watch, count = made->applications](double omega) {
+    return FrequencyEstimate{omega, count, watch.seconds(), true, "Lanczos' method"};
   };
   Ends ends{estimate(made->omega_1), estimate(made->omega_max)};
   print_estimate("omega_1", "Lanczos on M⁻¹K, M⁻¹ by multigrid", ends.omega_1);
@@ -60,12 +63,17 @@ int spectrum(const SceneArguments& arguments) {
 
   fmt::print("{}\n  {:<10}{:<36}{:>14}{:>12}{:>12}\n", scene.title.empty() ? scene.name : scene.title, "", "method",
              "rad/s", "iterations", "ms");
-  const auto [omega_1, omega_max] =
-      scene.mass.kind == MassKind::multigrid ? ends_by_multigrid(scene, *phase, u) : ends_by_mass(*phase, u);
+  const bool is_multigrid = scene.mass.kind == MassKind::multigrid;
+  const auto [omega_1, omega_max] = is_multigrid ? ends_by_multigrid(scene, *phase, u) : ends_by_mass(*phase, u);
   if (omega_1.converged) {
     const double ratio = omega_max.omega / omega_1.omega;
     fmt::print("  kappa = (omega_max/omega_1)^2 = {:.8g}\n  critical damping c = 2 omega_1 = {:.9g}\n", ratio * ratio,
                2 * omega_1.omega);
+    if (is_multigrid) {
+      const double h = balanced_step(omega_1.omega, omega_max.omega);
+      fmt::print("  taken by leapfrog: c = 2 omega_1 sqrt(1 - h²omega_1²/4) = {:.9g}, h = {:.9g}\n",
+                 balanced_damping(omega_1.omega, h), h);
+    }
   }
   const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
   if (strategy.uses("c") && !scene.damping.c && !omega_1.converged) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include <dlfcn.h>
@@ -64,7 +65,7 @@ const Module& module() {
 std::string multigrid_is_missing() { return module().missing; }
 
 std::unique_ptr<Multigrid> make_multigrid(const SparseMatrix& K, const NodalLayout& layout) {
-  if (const std::string& missing = module().missing; !missing.empty()) throw NoMultigrid(missing);
+  if (const std::string& missing = module().missing; !missing.empty()) throw std::runtime_error(missing);
   return std::unique_ptr<Multigrid>(module().make(K, layout));
 }
 

@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "linalg/nodal_layout.hpp"
@@ -28,16 +27,10 @@ class Multigrid {
   virtual std::size_t bytes() const = 0;
 };
 
-/// Thrown where multigrid was asked for and the program has been built or installed without.
-class NoMultigrid : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// Whether there is a module to load, or why not, with the package to install; empty: there is one.
 std::string multigrid_is_missing();
 
-/// K: (n × n), symmetric positive definite. Throws NoMultigrid; std::runtime_error if PETSc fails.
+/// K: (n × n), symmetric positive definite. Throws std::runtime_error if there is no module, or if PETSc fails.
 std::unique_ptr<Multigrid> make_multigrid(const SparseMatrix& K, const NodalLayout& layout);
 
 }  // namespace stillpoint

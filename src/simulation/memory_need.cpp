@@ -13,7 +13,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/highest_frequency.hpp"
-#include "simulation/multigrid_mass.hpp"
+#include "simulation/multigrid_choice.hpp"
 #include "simulation/omega_1_needs.hpp"
 #include "solvers/relaxation/conjugate_descent.hpp"
 #include "solvers/statics/static_methods.hpp"

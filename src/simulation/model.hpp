@@ -23,6 +23,7 @@ struct Model {
   MassSpec mass;                                   // that the phase was made with
   std::shared_ptr<const MultigridMass> multigrid;  // in the place of the phase's mass; null: there is none
   std::vector<double> u, v;                        // initial values, (n) each
+  bool linear = false;                             // whether Q = F − R is linear in u, and symmetric
   double t = 0;                                    // when it begins; the end of the loads for a static solver [s]
   std::optional<double> omega_1;                   // [rad/s]; only if something needs it and the body is held
   bool learns_omega_1 = false;                     // what is not known may show on the way, for the distance

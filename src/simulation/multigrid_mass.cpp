@@ -10,13 +10,9 @@
 #include "linalg/lanczos.hpp"
 #include "linalg/multigrid.hpp"
 #include "linalg/power_iteration.hpp"
-#include "scene/throw_scene_error.hpp"
-#include "simulation/highest_frequency.hpp"
 
 namespace stillpoint {
 namespace {
-
-const char* const key = "mass.kind";
 
 // F − R at the start: what it holds of a mode is what the run meets of it. Any vector where it is 0.
 std::vector<double> out_of_balance(const LagrangianPhase& phase, ConstVec u) {
@@ -28,9 +24,9 @@ std::vector<double> out_of_balance(const LagrangianPhase& phase, ConstVec u) {
 }
 
 // Both ends of the spectrum of B K by Lanczos' method. Ritz values are inside of it: what they miss is taken off ω₁²
-// and added to ω_max².
-void find_frequencies(const Scene& scene, const LinearMap& apply_K, const std::vector<double>& load,
-                      bool only_omega_max, MultigridMass& made) {
+// and added to ω_max². False if one of them is negative.
+bool find_frequencies(const LinearMap& apply_K, const std::vector<double>& load, bool only_omega_max,
+                      MultigridMass& made) {
   constexpr int fewest = 4, most = 32;
   constexpr double accuracy = 0.05;
   const LinearMap solve = [&](ConstVec b, Vec x) { made.mass.solve(b, x); };
@@ -46,54 +42,36 @@ void find_frequencies(const Scene& scene, const LinearMap& apply_K, const std::v
   }
   made.applications = lanczos.applications();
   if (lanczos.applications() > 0) lowest = lanczos.smallest(), highest = lanczos.largest();
-  if (!lanczos.finite() || !(lowest.theta > 0)) {
-    throw_scene_error(scene, key,
-                      "the elastic stiffness is not positive definite at the start: multigrid needs a body that is "
-                      "held, in a stable state; expected supports, or mass.kind = \"lumped\"");
-  }
+  if (!lanczos.finite() || !(lowest.theta > 0)) return false;
   made.omega_max = std::sqrt(highest.theta + highest.missing);
   if (!only_omega_max) made.omega_1 = std::sqrt(lowest.theta - std::min(lowest.error, lowest.theta / 2));
+  return true;
 }
 
 }  // namespace
 
-std::shared_ptr<const MultigridMass> make_multigrid_mass(const Scene& scene, const LagrangianPhase& phase, ConstVec u,
-                                                         bool only_omega_max) {
-  if (const std::string missing = multigrid_is_missing(); !missing.empty()) throw_scene_error(scene, key, missing);
+MultigridAttempt make_multigrid_mass(const LagrangianPhase& phase, ConstVec u, bool only_omega_max) {
+  if (std::string missing = multigrid_is_missing(); !missing.empty()) return {nullptr, std::move(missing)};
   const auto made = std::make_shared<MultigridMass>();
   std::shared_ptr<const Multigrid> cycle;
   {
     const SparseMatrix K = phase.tangents().matrix(Tangent::elastic, 0, u);
     for (Eigen::Index k = 0; k < K.outerSize(); ++k) {
-      if (!(K.coeff(k, k) > 0)) {
-        throw_scene_error(
-            scene, key,
-            fmt::format("the elastic stiffness of {} is {}, not positive",
-                        to_string(phase.diagnosis().of_unknown(static_cast<std::size_t>(k))), K.coeff(k, k)));
-      }
+      if (K.coeff(k, k) > 0) continue;
+      return {nullptr,
+              fmt::format("the elastic stiffness of {} is {}, not positive",
+                          to_string(phase.diagnosis().of_unknown(static_cast<std::size_t>(k))), K.coeff(k, k))};
     }
     cycle = make_multigrid(K, phase.layout());
   }
   made->mass = Mass::by_inverse(phase.size(), [cycle](ConstVec b, Vec x) { cycle->apply(b, x); });
-  made->levels = cycle->levels();
-  made->bytes = cycle->bytes();
   const LinearMap apply_K = [&](ConstVec x, Vec Kx) { phase.tangents().apply(Tangent::elastic, 0, u, x, Kx); };
-  find_frequencies(scene, apply_K, out_of_balance(phase, u), only_omega_max, *made);
-  return made;
-}
-
-// Seconds on a core of 2022, of which only the ratios count, measured by incompressible.toml with 1e4 to 3e5 unknowns:
-// evaluations without multigrid grow with the cells across the body, those with it do not, and both cost as much as
-// there are unknowns.
-bool multigrid_pays(const Scene& scene, double unknowns) {
-  constexpr double per_cell = 7.4;                          // evaluations to 1e-6, a cell along the longest side
-  constexpr double evaluation = 12e-9, start = 0.12;        // [s an unknown], [s] of PETSc
-  constexpr double set_up = 4.0e-6, cycles = 15 * 0.15e-6;  // [s an unknown]
-  const bool is_open = !scene.where.contains("mass.scaling") && !scene.where.contains("mass.kind");
-  if (!is_open || !wants_equilibrium_only(scene) || scene.stop.distance > 0) return false;
-  if (scene.grid.basis == BasisKind::hermite || scene.grid.cells.empty()) return false;
-  const double without = per_cell * *std::ranges::max_element(scene.grid.cells) * evaluation * unknowns;
-  return without > start + (set_up + cycles) * unknowns && multigrid_is_missing().empty();
+  if (!find_frequencies(apply_K, out_of_balance(phase, u), only_omega_max, *made)) {
+    return {nullptr,
+            "the elastic stiffness is not positive definite at the start: multigrid needs a body that is held, in a "
+            "stable state; expected supports, or mass.kind = \"lumped\""};
+  }
+  return {made, ""};
 }
 
 }  // namespace stillpoint

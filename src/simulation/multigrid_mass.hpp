@@ -4,9 +4,7 @@
 #pragma once
 
 #include <stillpoint/mass.hpp>
-#include <stillpoint/scene.hpp>
 
-#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -18,17 +16,15 @@ struct MultigridMass {
   Mass mass;
   double omega_1 = 0, omega_max = 0;  // of M⁻¹K, not below the lowest and not above the highest but by their errors
   int applications = 0;               // of K, that they took
-  int levels = 0;
-  std::size_t bytes = 0;
 };
 
-/// With the elastic K at (0, u). Frequencies to a few per cent; only_omega_max: ω₁ stays 0, in fewer applications.
-/// Throws SceneError if the program has no PETSc, or if K is not positive definite.
-std::shared_ptr<const MultigridMass> make_multigrid_mass(const Scene& scene, const LagrangianPhase& phase, ConstVec u,
-                                                         bool only_omega_max);
+struct MultigridAttempt {
+  std::shared_ptr<const MultigridMass> mass;  // null if there is none:
+  std::string refusal;                        // then why, with what was expected
+};
 
-/// Whether auto takes multigrid for a linear body of so many unknowns in one phase, that nothing touches: as the scene
-/// leaves it open, and less is spent than without.
-bool multigrid_pays(const Scene& scene, double unknowns);
+/// With the elastic K at (0, u); there is none if the program has no PETSc, or if K is not positive definite.
+/// Frequencies to a few per cent; only_omega_max: ω₁ stays 0, in fewer applications.
+MultigridAttempt make_multigrid_mass(const LagrangianPhase& phase, ConstVec u, bool only_omega_max);
 
 }  // namespace stillpoint

@@ -1,0 +1,14 @@
+// How a run goes to rest: its damping, the step and the tolerances of what takes it.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include "simulation/model.hpp"
+
+namespace stillpoint {
+
+/// After the frequencies: sets c, the damping, the step and what the integrator or the relaxation is made of. A note if
+/// the damping holds the motion back. Throws SceneError as make_model().
+void choose_damping_and_step(const Scene& scene, SetUp& set_up, Model& model);
+
+}  // namespace stillpoint

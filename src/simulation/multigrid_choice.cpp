@@ -1,0 +1,89 @@
+#include "simulation/multigrid_choice.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "linalg/multigrid.hpp"
+#include "scene/throw_scene_error.hpp"
+#include "simulation/highest_frequency.hpp"
+#include "simulation/multigrid_mass.hpp"
+
+namespace stillpoint {
+namespace {
+
+// Seconds on a core of 2022, of which only the ratios count, measured by incompressible.toml with 1e4 to 3e5 unknowns:
+// evaluations without multigrid grow with the cells across the body, those with it do not, and both cost as much as
+// there are unknowns.
+struct Cost {
+  double without, with;  // [s]
+};
+Cost cost_of(const Scene& scene, double unknowns) {
+  constexpr double per_cell = 7.4;                          // evaluations to 1e-6, a cell along the longest side
+  constexpr double evaluation = 12e-9, start = 0.12;        // [s an unknown], [s] of PETSc
+  constexpr double set_up = 4.0e-6, cycles = 15 * 0.15e-6;  // [s an unknown]
+  const double cells = *std::ranges::max_element(scene.grid.cells);
+  return {per_cell * cells * evaluation * unknowns, start + (set_up + cycles) * unknowns};
+}
+
+bool is_open(const Scene& scene) {
+  return !scene.where.contains("mass.scaling") && !scene.where.contains("mass.kind") && wants_equilibrium_only(scene) &&
+         scene.stop.distance <= 0 && scene.grid.basis != BasisKind::hermite && !scene.grid.cells.empty();
+}
+
+bool is_auto(const Model& model) { return model.relaxation && model.relaxation->chooses_mass; }
+
+// Whether auto may: conjugate directions then lead to rest with any mass, in a body that its supports hold.
+bool may_choose(const Model& model) {
+  const LagrangianPhase& phase = *model.phase;
+  return is_auto(model) && model.linear && !phase.info().updated_lagrangian && !phase.contact();
+}
+
+// What yields on the way of a motion is remembered, and this motion's way is that of no load.
+void refuse_what_remembers(const Scene& scene, const Model& model) {
+  if (model.static_method || model.phase->info().history_names.empty()) return;
+  throw_scene_error(scene, "mass.kind",
+                    "'multigrid' moves a body on a way of its own, which points that remember would not forget; take "
+                    "solve.method = \"newton-cg\" or \"lbfgs\" with it");
+}
+
+MultigridAttempt attempt(const Scene& scene, SetUp& set_up, const Model& model) {
+  const bool only_omega_max = model.static_method || is_auto(model);
+  return set_up.shared(only_omega_max ? "multigrid without omega_1" : "multigrid", scene.mass,
+                       [&] { return make_multigrid_mass(*model.phase, model.u, only_omega_max); });
+}
+
+}  // namespace
+
+bool multigrid_pays(const Scene& scene, double unknowns) {
+  if (!is_open(scene)) return false;
+  const Cost cost = cost_of(scene, unknowns);
+  return cost.without > cost.with && multigrid_is_missing().empty();
+}
+
+void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
+  const bool is_asked = scene.mass.kind == MassKind::multigrid;
+  const auto unknowns = static_cast<double>(model.phase->size());
+  if (!is_asked && !(may_choose(model) && multigrid_pays(scene, unknowns) && model.phase->free_parts().empty())) return;
+  if (is_asked) refuse_what_remembers(scene, model);
+  MultigridAttempt made = attempt(scene, set_up, model);
+  if (!made.mass && is_asked) throw_scene_error(scene, "mass.kind", made.refusal);
+  if (!made.mass) return;
+  model.multigrid = std::move(made.mass);
+  model.omega_max = model.multigrid->omega_max;
+  if (model.multigrid->omega_1 > 0) model.omega_1 = model.multigrid->omega_1;
+  if (!is_asked) {
+    const Cost cost = cost_of(scene, unknowns);
+    model.notes.push_back(
+        fmt::format("auto takes mass.kind = \"multigrid\": with {} unknowns about {:.2g} times as quick as a lumped "
+                    "mass",
+                    model.phase->size(), cost.without / cost.with));
+  }
+  model.notes.push_back(
+      "with mass.kind = \"multigrid\" frequencies and velocities are those of a fictitious inertia, and the distance "
+      "is that of the strain energy, ‖u − u*‖_K/‖u‖_K");
+}
+
+}  // namespace stillpoint

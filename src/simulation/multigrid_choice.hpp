@@ -1,0 +1,20 @@
+// Whether a run takes a multigrid mass: asked for by its scene, or by auto where it pays.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include "simulation/model.hpp"
+#include "simulation/set_up_store.hpp"
+
+namespace stillpoint {
+
+/// Sets multigrid, the frequencies that it makes and what a user should know of it; leaves all as it is where the
+/// scene does not ask for it and auto does better without. After u. Throws SceneError if the scene asks for what cannot
+/// be had.
+void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model);
+
+/// Whether less is spent with multigrid than without, by a linear body of so many unknowns in one phase that nothing
+/// touches; false where the scene settles it.
+bool multigrid_pays(const Scene& scene, double unknowns);
+
+}  // namespace stillpoint
