@@ -77,7 +77,9 @@ class RelaxationSystem {
   /// R·u of the last evaluation [J]; u: (n).
   double internal_work(const Vector& u) const;
   /// Q·v with the Q of the last residual() [W], before kinetic_energy() takes its place; v: the second half of y, (n).
-  double power(const Vector& v);
+  double power(const Vector& v) { return power(v, Q_); }
+  /// The same with any Q, (n), also one that is not of the last evaluation.
+  double power(const Vector& v, const Vector& Q);
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
   double last_t() const { return last_t_; }

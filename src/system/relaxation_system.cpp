@@ -196,11 +196,11 @@ double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u
 
 double RelaxationSystem::internal_work(const Vector& u) const { return dot(R_, u); }
 
-double RelaxationSystem::power(const Vector& v) {
-  if (!keeps_momentum()) return dot(Q_, v);
+double RelaxationSystem::power(const Vector& v, const Vector& Q) {
+  if (!keeps_momentum()) return dot(Q, v);
   if (!work_) work_ = vectors_.make(size());
   mass_.solve(v.span(), work_->span());
-  return dot(Q_, *work_);
+  return dot(Q, *work_);
 }
 
 // Or ½ pᵀ M⁻¹ p.

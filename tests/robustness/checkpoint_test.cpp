@@ -10,6 +10,7 @@
 
 #include "child.hpp"
 #include "files.hpp"
+#include "linalg/multigrid.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
@@ -61,7 +62,7 @@ std::string resumed(const fs::path& out) {
 }
 
 void check_same_bits(const Case& one, long steps) {
-  const Scene scene = scenes::load(one.scene, with(one.set, {"checkpoint.every_steps=20"}));
+  const Scene scene = scenes::load(one.scene, with({"checkpoint.every_steps=20"}, one.set));
   CAPTURE(one.scene, one.set);
   const TemporaryFolder folder;
   break_off(scene, folder.path(), steps);
@@ -97,6 +98,16 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
     const std::string strategy = "damping.strategy=" + std::string(relaxation.about.name);
     check_same_bits({"inclusion", {strategy, "grid.cells=[8, 8]", "stop.steps=90"}}, 70);
     check_same_bits({"hard/fast_column", {strategy, "stop.steps=300"}}, 250);
+  }
+}
+
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with the momentum of multigrid") {
+  if (!multigrid_is_missing().empty()) return;
+  for (const char* strategy : {"viscous", "kinetic", "adaptive", "chebyshev", "auto"}) {
+    check_same_bits({"incompressible",
+                     {"mass.kind=multigrid", std::string("damping.strategy=") + strategy, "stop.steps=30",
+                      "checkpoint.every_steps=5"}},
+                    12);
   }
 }
 

@@ -74,7 +74,10 @@ void check_multigrid(SceneCheck& check) {
     refuse(fmt::format("couples all degrees of freedom, and damping '{}' takes each by itself; take viscous or auto",
                        strategy->name));
   if (strategy->is_relaxation && !strategy->takes_inverse_mass)
-    refuse(fmt::format("has no products with M, which '{}' needs; take viscous or auto", strategy->name));
+    refuse(fmt::format("has no products with M, which '{}' needs; take viscous, kinetic, adaptive or auto",
+                       strategy->name));
+  if (strategy->uses("quotient") && scene.damping.quotient == Quotient::diagonal)
+    check.add("damping.quotient", "'diagonal' needs products with M, which mass.kind = \"multigrid\" has none of");
   if (scene.integrator.rtol) refuse("has no velocities to be accurate in; leave out integrator.rtol");
 }
 

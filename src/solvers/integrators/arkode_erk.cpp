@@ -188,7 +188,7 @@ class Erk final : public SteppingIntegrator {
       erk.inadmissible_ = !erk.system().out_of_balance(t, first_half(both), erk.Q_.span());
       if (erk.inadmissible_) return 1;
       N_VSetArrayPointer(N_VGetArrayPointer(y) + erk.system().size(), erk.v_.handle());
-      *value = dot(erk.v_, erk.Q_);
+      *value = erk.system().power(erk.v_, erk.Q_);
       return 0;
     } catch (...) {
       erk.exception_ = std::current_exception();

@@ -29,9 +29,10 @@ class Adaptive final : public StaggeredIteration {
   }
 
   void moved(double h) override {
-    const double omega_squared = quotient_ == Quotient::global
-                                     ? global_quotient(v(), last_Q(), Q(), h, mass_dot(v(), v()), work())
-                                     : diagonal_quotient(u(), v(), last_Q(), Q(), h, mass_dot(u(), u()), work());
+    const double omega_squared =
+        quotient_ == Quotient::global
+            ? global_quotient(v(), last_Q(), Q(), h, energy(), work())
+            : diagonal_quotient(u(), v(), last_Q(), Q(), h, mass_norm_squared(u().span()), work());
     c_ = 2 * std::sqrt(omega_squared);
     set_rate(c_);
   }

@@ -144,7 +144,7 @@ class Auto final : public StaggeredIteration {
       return;
     }
     const double h = share_ * step;
-    const double quotient = global_quotient(v(), last_Q(), Q(), h, mass_dot(v(), v()), work());
+    const double quotient = global_quotient(v(), last_Q(), Q(), h, energy(), work());
     c_ = kinetic_ ? 0 : 2 * std::sqrt(quotient);
     set_rate(c_);
     const double unbalanced = this->unbalanced();

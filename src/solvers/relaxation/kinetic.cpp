@@ -30,11 +30,11 @@ class Kinetic final : public StaggeredIteration {
       : StaggeredIteration(options, system), peak_(options.peak) {}
 
  private:
-  void on_restart() override { peak_.restart(mass_dot(v(), v())); }
+  void on_restart() override { peak_.restart(energy()); }
 
   void propose(double h, Vec u_new, Vec v_new) override {
     kick_and_drift({.beta = 1, .gamma = 1}, kick(h), h, u_new, v_new);
-    trial_energy_ = mass_norm_squared(v_new);  // 2 K
+    trial_energy_ = trial_energy(v_new);  // 2 K
     falls_ = peak_.passed(trial_energy_);
     if (!falls_) return;
     const double back = peak_.steps_back(trial_energy_) * last_step();

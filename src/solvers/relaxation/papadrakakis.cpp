@@ -38,7 +38,7 @@ class Papadrakakis final : public StaggeredIteration {
   void on_restart() override { forget(); }
 
   void moved(double h) override {
-    const double size = h * std::sqrt(mass_dot(v(), v()));  // ‖Δu‖
+    const double size = h * std::sqrt(energy());  // ‖Δu‖
     const double ratio = size / size_, change = std::abs(ratio - ratio_);
     constexpr double settled = 0.01;  // change of λ in a step, as a share of its distance from 1
     if (ratio < 1 && change < settled * (1 - ratio)) {

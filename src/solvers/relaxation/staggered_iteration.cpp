@@ -19,7 +19,13 @@ StaggeredIteration::StaggeredIteration(const RelaxationOptions& options, Relaxat
 
 void StaggeredIteration::begin(double t, const Vector& /*y*/) {
   u_.emplace(system().vectors().view(first_half(state().span())));
-  v_.emplace(system().vectors().view(second_half(state().span())));
+  if (system().keeps_momentum()) {
+    p_.emplace(system().vectors().view(second_half(state().span())));
+    if (!v_) v_ = system().vectors().make(system().size()), next_v_ = system().vectors().make(system().size());
+    system().mass().solve(p_->span(), v_->span());
+  } else {
+    v_.emplace(system().vectors().view(second_half(state().span())));
+  }
   t_ = t;
   last_step_ = relaxation().from.last_step;
   system().set_damping_rate(relaxation().from.rate.value_or(0));
@@ -45,8 +51,9 @@ void StaggeredIteration::remember_loads() {
 SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/, double h, double /*t_stop*/,
                                                         Vector& trial) {
   if (!admissible_) return {.status = StepReport::Status::inadmissible};
-  const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span());
-  propose(h, u_new, v_new);
+  const Vec u_new = first_half(trial.span());
+  if (p_ && !next_p_) next_p_.emplace(system().vectors().view(second_half(trial.span())));
+  propose(h, u_new, p_ ? next_v_->span() : second_half(trial.span()));
   force_is_current_ = false;
   if (!system().out_of_balance(t + h, u_new, next_Q_.span(), next_a_.span()))
     return {.status = StepReport::Status::inadmissible, .h = h};
@@ -58,6 +65,7 @@ SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/,
 void StaggeredIteration::accepted() {
   std::swap(Q_, next_Q_);
   std::swap(a_, next_a_);
+  if (p_ && !keeps_v()) std::swap(v_, next_v_);
   force_is_current_ = true;
   last_step_ = trial_step_;
   t_ = trial_t_;
@@ -76,20 +84,35 @@ void StaggeredIteration::archive_memory(const StateArchive& state) {
   state("Q", Q_.span());
   state("a", a_.span());
   state("last_step", last_step_);
+  if (p_) state("v", v_->span());
   if (!relaxation_.steady) state("F", F_);
   archive_strategy(state);
 }
 
-void StaggeredIteration::kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new) const {
-  const ConstVec u = u_->span(), v = v_->span(), a = a_.span();
-  for_each_index(u.size(), [=, beta = coefficients.beta, kick = coefficients.gamma * k](std::size_t i) {
+void StaggeredIteration::kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new) {
+  const double beta = coefficients.beta, kick = coefficients.gamma * k;
+  for_each_index(u_new.size(), [=, u = u_->span().data(), v = v_->span().data(), a = a_.span().data()](std::size_t i) {
     v_new[i] = beta * v[i] + kick * a[i];
     u_new[i] = u[i] + h * v_new[i];
   });
+  if (!p_) return;
+  for_each_index(u_new.size(), [=, p_new = next_p_->span().data(), p = p_->span().data(),
+                                Q = Q_.span().data()](std::size_t i) { p_new[i] = beta * p[i] + kick * Q[i]; });
+}
+
+double StaggeredIteration::energy() {
+  if (p_) return dot(*v_, *p_);
+  system().mass().apply(v_->span(), Mx_.span());
+  return dot(Mx_, *v_);
+}
+
+double StaggeredIteration::trial_energy(ConstVec v_new) {
+  return p_ ? dot(*next_v_, *next_p_) : mass_norm_squared(v_new);
 }
 
 void StaggeredIteration::stop() {
   std::ranges::fill(v_->span(), 0.0);
+  if (p_) std::ranges::fill(p_->span(), 0.0);
   last_step_ = 0;
 }
 
@@ -101,14 +124,11 @@ void StaggeredIteration::set_rate(double c) {
   system().mass().solve(Q_.span(), a_.span());
 }
 
-double StaggeredIteration::mass_dot(const Vector& x, const Vector& y) {
-  system().mass().apply(x.span(), Mx_.span());
-  return dot(Mx_, y);
-}
-
+// By Mx_, as x may be work_.
 double StaggeredIteration::mass_norm_squared(ConstVec x) {
+  system().mass().apply(x, Mx_.span());
   std::ranges::copy(x, work_.span().begin());
-  return mass_dot(work_, work_);
+  return dot(Mx_, work_);
 }
 
 }  // namespace stillpoint

@@ -9,6 +9,9 @@
 // this is leapfrog with C = c M: the same displacements as its synchronised form. It is also the heavy ball
 // [Polyak 1964]: u_{n+1} = u_n + β (u_n − u_{n−1}) + γ h² M⁻¹Q. The v of y is v⁺, half a step behind u. A step ends
 // with the force at its end.
+//
+// Where y = [u; p] with the momentum p = M v, of a mass that is known by its inverse, v is kept beside it: both are the
+// same sum, p⁺ = β p⁻ + γ k Q, so that no step takes more than one M⁻¹, and vᵀMv = v·p.
 #pragma once
 
 #include <stillpoint/relaxation.hpp>
@@ -36,7 +39,8 @@ class StaggeredIteration : public SteppingIntegrator {
   static Coefficients leapfrog(double c, double k) { return {(1 - c * k / 2) / (1 + c * k / 2), 1 / (1 + c * k / 2)}; }
 
   /// The trial of a step h from the present state: u_new, v_new, (n). Repeatable: a trial that cannot be evaluated is
-  /// made again with a shorter step.
+  /// made again with a shorter step. With momentum v_new is that of
+  /// kick_and_drift(), or moved() stops.
   virtual void propose(double h, Vec u_new, Vec v_new) = 0;
   /// Whether v stays what it is, and propose() leaves v_new alone.
   virtual bool keeps_v() const { return false; }
@@ -54,8 +58,11 @@ class StaggeredIteration : public SteppingIntegrator {
   virtual double step_share() const { return 0; }
 
   /// v⁺ = β v⁻ + γ k M⁻¹Q,  u⁺ = u + h v⁺
-  void kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new) const;
+  void kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new);
   double kick(double h) const { return (last_step_ + h) / 2; }  // k
+  /// vᵀMv of the state, or of a trial that kick_and_drift() has made.
+  double energy();
+  double trial_energy(ConstVec v_new);
   /// v = 0, and half a kick next.
   void stop();
   /// c, if one is in force: supports and walls that move take it along.
@@ -68,9 +75,7 @@ class StaggeredIteration : public SteppingIntegrator {
   const Vector& a() const { return a_; }            // M⁻¹Q [m/s²]
   const Vector& last_Q() const { return next_Q_; }  // before the step, under the loads of now; in moved() only
   double last_step() const { return last_step_; }   // h⁻
-  /// xᵀMy, by a work array.
-  double mass_dot(const Vector& x, const Vector& y);
-  /// uᵀMu of what is not a Vector; x: (n).
+  /// xᵀMx; x: (n). Not with momentum: M is then known by its inverse alone.
   double mass_norm_squared(ConstVec x);
   /// (n), for the moment: mass_norm_squared() writes to it as well.
   Vector& work() { return work_; }
@@ -86,7 +91,8 @@ class StaggeredIteration : public SteppingIntegrator {
   void remember_loads();
 
   RelaxationOptions relaxation_;
-  std::optional<Vector> u_, v_;  // the halves of y, in place
+  std::optional<Vector> u_, v_;                // the halves of y, in place; v_ apart from it with momentum
+  std::optional<Vector> p_, next_p_, next_v_;  // with momentum: the second half of y, and of the trial
   Vector Q_, a_, next_Q_, next_a_, Mx_, work_;
   std::vector<double> F_;  // of Q_, if the loads depend on t [N]
   double t_ = 0, trial_t_ = 0;
