@@ -11,8 +11,9 @@ namespace stillpoint {
 
 /// How K du = Q is solved. automatic: by CHOLMOD if K is symmetric and positive definite, by UMFPACK otherwise, and
 /// an equilibrium whose K is symmetric but indefinite is refused as unstable, unless accept_unstable.
-/// cholesky: with the symmetric part of K.
-enum class LinearSolver { automatic, cholesky, lu, conjugate_gradients };
+/// cholesky: with the symmetric part of K. iterative: by conjugate gradients if K is symmetric, by GMRES otherwise,
+/// without a matrix.
+enum class LinearSolver { automatic, cholesky, lu, iterative };
 
 struct NewtonOptions {
   double tolerance = 1e-10;     // of ‖F − R‖/‖F‖
@@ -22,9 +23,9 @@ struct NewtonOptions {
   double max_load_step = 1;     // share of the load, so that a path is followed closely
   double min_load_step = 1e-3;  // share of the load: a shorter step that fails is the end
   double symmetry = 1e-12;      // K is symmetric if ‖K − Kᵀ‖ ≤ this ‖K‖ (Frobenius)
-  int max_cg_iterations = 0;    // in a Newton iteration; 0: n
+  int max_cg_iterations = 0;    // of an iterative solver, in a Newton iteration; 0: 10 n
   LinearSolver solver = LinearSolver::automatic;
-  /// Of conjugate gradients: B r, B ≈ K⁻¹ symmetric positive definite; none: that of diag M.
+  /// Of an iterative solver: B r, B ≈ K⁻¹ symmetric positive definite; none: that of diag M.
   std::function<void(ConstVec r, Vec Br)> preconditioner{};
   bool accept_unstable = false;  // if there is no stable equilibrium on the way that load steps follow
   /// Says what is wrong, or nothing.
@@ -54,7 +55,7 @@ struct StaticReport {
   int cholesky_factorisations = 0, lu_factorisations = 0;
   int elastic_iterations = 0;  // that took the elastic tangent, the consistent one being of no use
   long force_evaluations = 0;  // R(u)
-  long tangent_products = 0;   // K du, of conjugate gradients
+  long tangent_products = 0;   // K du, of iterative solvers
   double wall_s = 0;
   std::size_t factor_bytes = 0;  // of the largest factor
 };
@@ -64,7 +65,7 @@ struct StaticReport {
 /// each committed if history_dependent(). u, (n): u₀ at the start, in the end the last equilibrium. A step du is
 /// halved while ‖Q(u + λ du)‖ > (1 − 10⁻⁴ λ) ‖Q(u)‖ [Kelley 1995, §8.1] or u + λ du is inadmissible; if that comes
 /// down to three short steps in a row, in a body without history, the load step is begun again with full ones.
-/// Conjugate gradients solve K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the order 2 [Dembo, Eisenstat and Steihaug
+/// Iterative solvers take K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the order 2 [Dembo, Eisenstat and Steihaug
 /// 1982]. A matrix K that is that of the iteration before, as in a linear system, is not factorised again. Everything
 /// happens at t: supports are where they then are from the first load step on, and a viscous law
 /// flows in the first one, for the time since the last commit. Throws std::invalid_argument on bad options and if

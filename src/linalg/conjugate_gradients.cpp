@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-ConjugateGradientResult conjugate_gradients(const LinearMap& A, const LinearMap& B, ConstVec b, Vec x, double tolerance,
+IterativeResult conjugate_gradients(const LinearMap& A, const LinearMap& B, ConstVec b, Vec x, double tolerance,
                                             int max_iterations, const std::function<void(double)>& each) {
   const std::size_t n = b.size();
   const VectorSpace vectors;
@@ -19,7 +19,7 @@ ConjugateGradientResult conjugate_gradients(const LinearMap& A, const LinearMap&
   std::ranges::copy(b, r_i);
   std::ranges::fill(x, 0.0);
   const double enough = tolerance * norm(r);
-  ConjugateGradientResult result;
+  IterativeResult result;
   double rz_before = 0;
   while (!(result.converged = norm(r) <= enough) && result.iterations < max_iterations) {
     B(r.span(), z.span());

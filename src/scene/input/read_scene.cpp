@@ -50,7 +50,9 @@ void drop_keys_of_other_choices(toml::table& root, const Catalogue& catalogue) {
   }
   if (!chosen("exact", "solution").empty())
     for (const char* key : {"u", "stress"}) drop(root, "exact", key);
-  if (catalogue.static_method(chosen("solve", "method"))) {
+  const StaticMethodInfo* const solver = catalogue.static_method(chosen("solve", "method"));
+  if (!chosen("solve", "method").empty() && !(solver && solver->is_newton)) drop(root, "solve", "load_steps");
+  if (solver) {
     for (const std::string_view name : kTablesOfMotion) {
       std::vector<std::string> keys;
       if (const toml::table* const table = root[name].as_table())

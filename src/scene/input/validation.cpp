@@ -160,6 +160,8 @@ void check_static_solver(SceneCheck& check, const StaticMethodInfo& info) {
                                SolveSpec().method));
   if (!scene.initial_v.empty())
     check.add("initial.v", fmt::format("'{}' is a static solver, which has no velocity", info.name));
+  if (check.written("solve.load_steps") && !info.is_newton)
+    check.add("solve.load_steps", fmt::format("'{}' takes the load in one; expected \"newton\" or \"newton-cg\"", info.name));
   if (!loads_vary(scene)) return;
   if (!info.takes_end_of_loads) {
     check.add(key, fmt::format("'{}' is a static solver, which has no time: loads and supports must not depend on t",
@@ -233,6 +235,8 @@ void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
   if (const StaticMethodInfo* const solver = catalogue.static_method(scene.solve.method)) {
     check_static_solver(check, *solver);
   } else {
+    if (check.written("solve.load_steps"))
+      check.add("solve.load_steps", "has no part in a motion; leave it out, or take solve.method = \"newton\"");
     check_integrator(check);
     check_strategy(check);
   }

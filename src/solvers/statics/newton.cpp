@@ -10,6 +10,8 @@
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
 #include "linalg/conjugate_gradients.hpp"
+#include "linalg/gmres.hpp"
+#include "linalg/power_iteration.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "solvers/statics/subtract_product.hpp"
@@ -172,11 +174,13 @@ class Newton {
   bool consistent_direction(double s, ConstVec u) {
     indefinite_ = false;
     const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
-    if (options_.solver == LinearSolver::conjugate_gradients) {
-      return by_conjugate_gradients([&](ConstVec x, Vec Kx) {
+    if (options_.solver == LinearSolver::iterative) {
+      const LinearMap apply_K = [&](ConstVec x, Vec Kx) {
         system_.tangents().apply(Tangent::consistent, t_, u, x, Kx);
         subtract_product(s, of_loads, x, Kx);
-      });
+      };
+      const bool may_be_unsymmetric = system_.history_dependent() || of_loads.nonZeros() > 0;
+      return by_iterations(apply_K, !may_be_unsymmetric || looks_symmetric(apply_K));
     }
     SparseMatrix K = system_.tangents().matrix(Tangent::consistent, t_, u);
     if (of_loads.nonZeros() > 0) K -= s * of_loads;
@@ -188,9 +192,9 @@ class Newton {
     return by_lu(K);
   }
   bool elastic_direction(ConstVec u) {
-    if (options_.solver == LinearSolver::conjugate_gradients)
-      return by_conjugate_gradients(
-          [&](ConstVec x, Vec Kx) { system_.tangents().apply(Tangent::elastic, t_, u, x, Kx); });
+    if (options_.solver == LinearSolver::iterative) {
+      return by_iterations([&](ConstVec x, Vec Kx) { system_.tangents().apply(Tangent::elastic, t_, u, x, Kx); }, true);
+    }
     return by_cholesky(system_.tangents().matrix(Tangent::elastic, t_, u));
   }
 
@@ -219,14 +223,28 @@ class Newton {
     if (factor.regular()) factor.solve(balance_.Q.span(), du_);
     return factor.regular();
   }
-  bool by_conjugate_gradients(const LinearMap& K) {
+  bool by_iterations(const LinearMap& K, bool is_symmetric) {
     const std::size_t n = du_.size();
     const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
     const double forcing = std::min(0.1, balance_.residual());
     const LinearMap B = options_.preconditioner ? options_.preconditioner : division_by(system_.mass().diagonal());
-    const auto result = stillpoint::conjugate_gradients(K, B, balance_.Q.span(), du_, forcing, most);
+    const IterativeResult result = is_symmetric
+                                       ? stillpoint::conjugate_gradients(K, B, balance_.Q.span(), du_, forcing, most)
+                                       : gmres(K, B, balance_.Q.span(), du_, forcing, most);
     report_.tangent_products += result.iterations;
     return result.converged;
+  }
+
+  // x·K y = y·K x for what is out of balance and a vector that has to do with nothing.
+  bool looks_symmetric(const LinearMap& K) {
+    const VectorSpace vectors;
+    Vector y = vectors.make(du_.size()), Kx = vectors.make(du_.size()), Ky = vectors.make(du_.size());
+    std::ranges::copy(start_vector(du_.size()), y.span().begin());
+    K(balance_.Q.span(), Kx.span());
+    K(y.span(), Ky.span());
+    report_.tangent_products += 2;
+    constexpr double rounding = 1e-10;
+    return std::abs(dot(balance_.Q, Ky) - dot(y, Kx)) <= rounding * norm(balance_.Q) * norm(Ky);
   }
 
   StaticReport finished() {

@@ -59,6 +59,8 @@ std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, Rela
   NewtonOptions newton_options;
   newton_options.tolerance = options.tolerance;
   newton_options.solver = linear_solver_of(options.name);
+  newton_options.load_steps = options.load_steps;
+  newton_options.max_load_step = 1.0 / options.load_steps;
   if (system.keeps_momentum()) {
     newton_options.preconditioner = [&M = system.mass()](ConstVec r, Vec Br) { M.solve(r, Br); };
   }

@@ -15,6 +15,7 @@ struct StaticMethodOptions {
   std::string_view name;  // one of static_methods()
   double max_step = 0;    // below leapfrog's critical step, for the first try along M⁻¹Q [s]; > 0
   double tolerance = 0;   // of ‖F − R‖/‖F‖, at which Newton's method ends; > 0
+  int load_steps = 1;     // of Newton's methods, at least
 };
 
 /// Every static solver, in the order of `stillpoint list`.
