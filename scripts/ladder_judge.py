@@ -18,12 +18,12 @@ import numpy as np
 
 import closed_answers
 import heap
+from fitted_line import fitted_slope
 from limited_run import Run, difference, limited, run_in
 from scene_constants import constants_of, value_of
 
 LAST = "output.stages=[1e300]"  # the fields of the end
 WIDEST = 2.0  # interval of an order that says something
-STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447}  # 97.5 % of t by degrees of freedom
 
 
 class Missing(Exception):
@@ -190,14 +190,7 @@ def fitted_order(errors):
     """(order, low, high) of errors at sizes 1, 1/2, 1/4, …; log₂ of them by least squares, with 95 % by Student's t."""
     if not all(math.isfinite(error) and error > 0 for error in errors):
         raise Missing(f"errors {errors}")
-    level, logs = np.arange(len(errors)), -np.log2(errors)
-    slope, start = np.polyfit(level, logs, 1)
-    degrees = len(errors) - 2
-    if degrees < 1:
-        return slope, None, None
-    spread = np.sqrt(np.sum((logs - start - slope * level) ** 2) / degrees / np.sum((level - level.mean()) ** 2))
-    half = STUDENT[degrees] * spread
-    return slope, slope - half, slope + half
+    return fitted_slope(np.arange(len(errors)), -np.log2(errors))
 
 
 # --- judging -----------------------------------------------------------------------------------------

@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""plot_scaling.py DIR [--out FILE]: the picture of a scaling study, from DIR/scaling.csv.
+
+Left time, right evaluations against the number of unknowns, a line a way to rest, with the exponents beyond 5000
+unknowns below. FILE is DIR/scaling.png if not given. Exit status 2 and a message if there is nothing to draw.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from pictures import COLOURS, STYLE, Refused, finish, plain  # before pyplot: sets the backend
+import matplotlib.pyplot as plt  # noqa: E402
+
+from scaling_table import by_way, exponent, exponent_text, read_csv
+
+MARKERS = "osd^v<>"
+
+
+def label_of(way, rows, quantity):
+    fitted = exponent_text(exponent(rows, quantity))
+    return plain(f"{way}: {fitted}" if fitted else way)
+
+
+def draw_quantity(axis, ways, quantity, name):
+    for number, (way, rows) in enumerate(ways.items()):
+        found = [row for row in rows if row.found]
+        look = {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)], "linewidth": 1.4}
+        axis.plot([row.unknowns for row in found], [getattr(row, quantity) for row in found],
+                  label=label_of(way, rows, quantity), **look)  # fmt: skip
+    axis.set(xscale="log", yscale="log", xlabel="unknowns", ylabel=name)
+    axis.grid(color="0.92")
+    axis.set_axisbelow(True)
+    axis.legend(title="exponent (95 %)", frameon=False, fontsize="small", ncol=2, loc="upper center",
+                bbox_to_anchor=(0.5, -0.13))  # fmt: skip
+
+
+def draw(rows, file):
+    plt.rcParams.update(STYLE)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 6))
+    draw_quantity(left, by_way(rows), "seconds", "wall time [s]")
+    draw_quantity(right, by_way(rows), "evaluations", "force evaluations")
+    figure.suptitle("An elastic block to rest: time and evaluations to a residual of 1e-6", fontsize="medium")
+    figure.tight_layout()
+    figure.savefig(file, dpi=100)
+    plt.close(figure)
+
+
+def read(file):
+    if not file.exists():
+        raise Refused(f"{file.parent}: no {file.name}; is this the folder of a scaling study?")
+    try:
+        rows = read_csv(file)
+    except (ValueError, TypeError) as error:
+        raise Refused(f"{file}: {error}") from None
+    if not any(row.found for row in rows):
+        raise Refused(f"{file}: no figures")
+    return rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="DIR", type=Path)
+    parser.add_argument("--out", metavar="FILE", type=Path)
+    options = parser.parse_args()
+    file = options.folder / "scaling.csv"
+    return finish("plot_scaling", lambda to: draw(read(file), to), options.out or options.folder / "scaling.png")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
