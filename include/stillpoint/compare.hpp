@@ -17,7 +17,7 @@ namespace stillpoint {
 
 struct CompareOptions {
   std::vector<std::string> integrators{};   // empty: leapfrog and a few of ARKODE's
-  std::vector<std::string> strategies{};    // of damping, and "newton", "newton-cg"; empty: all
+  std::vector<std::string> strategies{};    // of damping, and static solvers, also "auto:multigrid"; empty: all
   std::vector<double> step_fractions{0.9};  // of the critical step, for fixed steps
   std::vector<double> tolerances{1e-3};     // rtol, for adaptive steps
   double goal = 1e-6;                       // relative error at which evaluations and time are read
@@ -56,6 +56,7 @@ struct Spread {
 /// One way to rest, and how it went.
 struct ComparedRun {
   std::string strategy, integrator;
+  std::string mass;  // "multigrid"; empty: that of the scene
   std::optional<double> step_fraction, rtol;
   ComparedStatus status = ComparedStatus::refused;
   std::string reason;
@@ -71,7 +72,7 @@ struct ComparedRun {
   std::optional<double> overshoot;  // ‖u − u_ramp‖_M/‖u_ramp‖_M
   std::size_t memory_bytes = 0;     // of unknowns, points and, of Newton's method, matrix and factor
   std::vector<ComparedSample> samples;
-  std::string label() const;  // "kinetic", "viscous, erk:rk4 0.9"
+  std::string label() const;  // "kinetic", "viscous, erk:rk4 0.9", "auto:multigrid"
   /// What a user waits for: set-up and steps; if it converged [s].
   std::optional<double> total_s() const { return wall_s ? std::optional(setup_s + wall_s->median) : std::nullopt; }
 };

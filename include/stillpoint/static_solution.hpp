@@ -27,6 +27,7 @@ struct NewtonOptions {
   LinearSolver solver = LinearSolver::automatic;
   /// Of an iterative solver: B r, B ≈ K⁻¹ symmetric positive definite; none: that of diag M.
   std::function<void(ConstVec r, Vec Br)> preconditioner{};
+  bool assembles = false;        // K for an iterative solver: quicker than the laws at every product, if there is room
   bool accept_unstable = false;  // if there is no stable equilibrium on the way that load steps follow
   /// Says what is wrong, or nothing.
   std::string validate() const;

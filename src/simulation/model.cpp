@@ -74,7 +74,6 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   model.mass = scene.mass;
   begin("the initial state");
   model.u = model.phase->initial_displacement(0);
-  model.v = model.phase->initial_velocity(0);
   check_probes(scene, *model.phase);
   check_initial_state(scene, *model.phase, model.u);
   model.linear = is_linear(*model.phase, model.u);
@@ -85,6 +84,7 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   const bool scaled = chooses_mass && choose_mass(scene, model, set_up, store);
   std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
   std::ranges::move(load_notes(scene, *model.phase, model.u), std::back_inserter(model.notes));
+  model.v = model.phase->initial_velocity(0);
   begin("the highest frequency");
   if (!chooses_mass && !model.multigrid) {
     model.omega_max =

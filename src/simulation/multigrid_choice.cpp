@@ -49,12 +49,6 @@ void refuse_what_remembers(const Scene& scene, const Model& model) {
                     "solve.method = \"newton-cg\" or \"lbfgs\" with it");
 }
 
-MultigridAttempt attempt(const Scene& scene, SetUp& set_up, const Model& model) {
-  const bool only_omega_max = model.static_method || is_auto(model);
-  return set_up.shared(only_omega_max ? "multigrid without omega_1" : "multigrid", scene.mass,
-                       [&] { return make_multigrid_mass(*model.phase, model.u, only_omega_max); });
-}
-
 }  // namespace
 
 bool multigrid_pays(const Scene& scene, double unknowns) {
@@ -68,7 +62,8 @@ void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
   const auto unknowns = static_cast<double>(model.phase->size());
   if (!is_asked && !(may_choose(model) && multigrid_pays(scene, unknowns) && model.phase->free_parts().empty())) return;
   if (is_asked) refuse_what_remembers(scene, model);
-  MultigridAttempt made = attempt(scene, set_up, model);
+  MultigridAttempt made = shared_multigrid_mass(set_up, scene.mass, *model.phase, model.u,
+                                                /*only_omega_max=*/model.static_method || is_auto(model));
   if (!made.mass && is_asked) throw_scene_error(scene, "mass.kind", made.refusal);
   if (!made.mass) return;
   model.multigrid = std::move(made.mass);

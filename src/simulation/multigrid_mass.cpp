@@ -74,4 +74,10 @@ MultigridAttempt make_multigrid_mass(const LagrangianPhase& phase, ConstVec u, b
   return {made, ""};
 }
 
+MultigridAttempt shared_multigrid_mass(SetUp& set_up, const MassSpec& mass, const LagrangianPhase& phase, ConstVec u,
+                                       bool only_omega_max) {
+  return set_up.shared(only_omega_max ? "multigrid without omega_1" : "multigrid", mass,
+                       [&] { return make_multigrid_mass(phase, u, only_omega_max); });
+}
+
 }  // namespace stillpoint

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "simulation/set_up_store.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
@@ -26,5 +27,8 @@ struct MultigridAttempt {
 /// With the elastic K at (0, u); there is none if the program has no PETSc, or if K is not positive definite.
 /// Frequencies to a few per cent; only_omega_max: ω₁ stays 0, in fewer applications.
 MultigridAttempt make_multigrid_mass(const LagrangianPhase& phase, ConstVec u, bool only_omega_max);
+/// The same, or what others have made of a body with this mass.
+MultigridAttempt shared_multigrid_mass(SetUp& set_up, const MassSpec& mass, const LagrangianPhase& phase, ConstVec u,
+                                       bool only_omega_max);
 
 }  // namespace stillpoint

@@ -51,8 +51,10 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
       schedule_(scene_, *model_.phase, scene_.stop.time),
       plastic_path_(scene_, model_),
       standstill_(model_.integrator.max_step),
-      // What a static solver does in one step and in the next are not the same.
-      thread_choice_(model_.static_method && options_.threads == 0 ? threads : options_.threads, threads),
+      // What Newton's method does in one step and in the next are not the same.
+      thread_choice_(
+          model_.static_method && model_.static_method->is_newton && options_.threads == 0 ? threads : options_.threads,
+          threads),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
   if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);

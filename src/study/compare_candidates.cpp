@@ -5,13 +5,15 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "linalg/multigrid.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 
 namespace stillpoint {
 namespace {
 
-constexpr std::string_view adaptive_suffix = ":adaptive", best_with_runge_kutta = "viscous";
+constexpr std::string_view adaptive_suffix = ":adaptive", multigrid_suffix = ":multigrid",
+                           best_with_runge_kutta = "viscous";
 
 const std::vector<std::string> default_integrators{"leapfrog", "erk:sofroniou-spaletta-5-3-4", "erk:rk4",
                                                    "erk:bogacki-shampine-4-2-3:adaptive"};
@@ -28,7 +30,19 @@ std::string method_of(std::string_view integrator) {
   return std::string(integrator);
 }
 
-void check_strategy(const std::string& strategy, bool transient) {
+bool is_multigrid(std::string_view strategy) { return strategy.ends_with(multigrid_suffix); }
+std::string name_of(std::string_view strategy) {
+  if (is_multigrid(strategy)) strategy.remove_suffix(multigrid_suffix.size());
+  return std::string(strategy);
+}
+
+// Whether a way to rest goes with a mass that is known by its inverse alone.
+bool takes_multigrid(const StrategyInfo& info) {
+  return info.is_relaxation ? info.takes_inverse_mass : info.damps && !info.is_local && !info.is_identity;
+}
+
+void check_strategy(const std::string& given, bool transient) {
+  const std::string strategy = name_of(given);
   if (catalogue().static_method(strategy)) {
     if (!transient) return;
     throw_option_error("--strategies", strategy, "a static solution has no transient; expected a damping");
@@ -48,6 +62,16 @@ void check_integrator(const std::string& integrator) {
   std::vector<std::string> names;
   for (const MethodInfo& method : catalogue().methods) names.push_back(method.name);
   throw_option_error("--integrators", integrator, unknown_word("there is no integrator", method_of(integrator), names));
+}
+
+// The same ways once more, with a multigrid mass, where they go with it.
+void add_multigrid(std::vector<std::string>& strategies) {
+  const std::vector<std::string> all = strategies;
+  for (const std::string& strategy : all) {
+    const StaticMethodInfo* const method = catalogue().static_method(strategy);
+    if (method ? !method->factorises : takes_multigrid(*catalogue().strategy(strategy)))
+      strategies.push_back(strategy + std::string(multigrid_suffix));
+  }
 }
 
 Candidate stepping(const Scene& scene, const StrategyInfo& info, const std::string& integrator,
@@ -78,6 +102,7 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
       if (does_something) strategies.emplace_back(info.name);
     }
     for (const StaticMethodInfo& info : catalogue().static_methods) strategies.emplace_back(info.name);
+    if (multigrid_is_missing().empty()) add_multigrid(strategies);
   }
   const auto& integrators = !options.integrators.empty() ? options.integrators
                             : transient                  ? default_transient
@@ -87,31 +112,39 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
   for (const std::string& integrator : integrators) check_integrator(integrator);
 
   std::vector<Candidate> all;
-  for (const std::string& strategy : strategies) {
+  const auto add = [&](Candidate candidate, bool multigrid) {
+    candidate.is_extra = multigrid && options.strategies.empty();
+    if (multigrid) candidate.run.mass = "multigrid", candidate.overrides.emplace_back("mass.kind=multigrid");
+    all.push_back(std::move(candidate));
+  };
+  for (const std::string& given : strategies) {
+    const std::string strategy = name_of(given);
+    const bool multigrid = is_multigrid(given);
     if (const StaticMethodInfo* method = catalogue().static_method(strategy)) {
       Candidate candidate;
       candidate.run.strategy = strategy;
       candidate.is_newton = method->is_newton;
       candidate.overrides = {"solve.method=" + strategy};
-      all.push_back(std::move(candidate));
+      add(std::move(candidate), multigrid);
       continue;
     }
     const StrategyInfo& info = *catalogue().strategy(strategy);
     for (const std::string& integrator : integrators) {
       if (!info.goes_with(method_of(integrator))) continue;
       // Without being asked for, Runge-Kutta methods are tried with the damping that is best for them.
-      const bool is_default = integrator == default_integrators.front() || strategy == best_with_runge_kutta;
+      const bool is_default =
+          integrator == default_integrators.front() || (strategy == best_with_runge_kutta && !multigrid);
       const bool of_interest = transient || is_default || !options.integrators.empty() || !options.strategies.empty();
       if (!of_interest) continue;
       if (is_adaptive(integrator)) {
         for (const double rtol : options.tolerances) {
-          all.push_back(stepping(scene, info, integrator, std::nullopt, rtol));
+          add(stepping(scene, info, integrator, std::nullopt, rtol), multigrid);
         }
       } else if (info.has_own_step) {
-        all.push_back(stepping(scene, info, integrator, std::nullopt, std::nullopt));
+        add(stepping(scene, info, integrator, std::nullopt, std::nullopt), multigrid);
       } else {
         for (const double fraction : options.step_fractions) {
-          all.push_back(stepping(scene, info, integrator, fraction, std::nullopt));
+          add(stepping(scene, info, integrator, fraction, std::nullopt), multigrid);
         }
       }
     }

@@ -18,16 +18,16 @@ std::string cell(const std::optional<double>& value) {
 std::string csv(const Comparison& c) {
   std::string text =
       "strategy,integrator,step_fraction,rtol,status,steps,evaluations,first_evaluations,over_lower_bound,wall_s,"
-      "wall_least_s,wall_most_s,setup_s,error,residual,distance,overshoot,memory_bytes,reason,total_s\n";
+      "wall_least_s,wall_most_s,setup_s,error,residual,distance,overshoot,memory_bytes,reason,total_s,mass\n";
   for (const ComparedRun& run : c.runs) {
     const auto& wall = run.wall_s;
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{},{},{},{},{}\n", run.strategy, run.integrator,
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{},{},{},{},{},{}\n", run.strategy, run.integrator,
         cell(run.step_fraction), cell(run.rtol), to_string(run.status), run.steps, run.evaluations,
         run.first_evaluations, cell(c.over_chebyshev_estimate(run)),
         cell(wall ? std::optional(wall->median) : std::nullopt), cell(wall ? std::optional(wall->least) : std::nullopt),
         cell(wall ? std::optional(wall->most) : std::nullopt), run.setup_s, cell(run.error), cell(run.residual),
-        cell(run.distance), cell(run.overshoot), run.memory_bytes, quoted(run.reason), cell(run.total_s()));
+        cell(run.distance), cell(run.overshoot), run.memory_bytes, quoted(run.reason), cell(run.total_s()), run.mass);
   }
   return text;
 }
@@ -46,6 +46,7 @@ std::string json(const Comparison& c) {
     runs.push_back({{"label", run.label()},
                     {"strategy", run.strategy},
                     {"integrator", run.integrator},
+                    {"mass", run.mass},
                     {"step_fraction", number(run.step_fraction)},
                     {"rtol", number(run.rtol)},
                     {"status", to_string(run.status)},

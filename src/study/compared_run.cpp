@@ -28,7 +28,7 @@ std::string to_string(ComparedStatus status) {
 }
 
 std::string ComparedRun::label() const {
-  std::string text = strategy;
+  std::string text = mass.empty() ? strategy : strategy + ":" + mass;
   if (!integrator.empty() && integrator != IntegratorSpec{}.method) text += ", " + integrator;
   if (step_fraction) text += fmt::format(" {:g}", *step_fraction);
   if (rtol) text += fmt::format(" rtol {:g}", *rtol);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "largest.hpp"
 #include "linalg/sparse_cholesky.hpp"
@@ -192,10 +193,12 @@ TEST_CASE("auto keeps a lumped mass for a large linear body that its supports do
   const std::string text = R"(
 dim = 2
 [grid]
+min = [0.0, 0.0]
 max = [1.25, 1.0]
 cells = [250, 200]
 basis = "linear"
 [body]
+min = [0.0, 0.0]
 max = [1.0, 1.0]
 material = "rubber"
 state = "plane-strain"
@@ -246,6 +249,39 @@ TEST_CASE("a cantilever that bends by half its length takes auto a sixth of the 
   const Simulation lumped = bent("mass.kind=lumped"), multigrid = bent("mass.kind=multigrid");
   CHECK(multigrid.evaluations() < lumped.evaluations() / 6);
   CHECK(largest_difference(multigrid.u(), lumped.u()) < 1e-5 * largest_magnitude(lumped.u()));
+}
+
+TEST_CASE(
+    "a footing on ground that flows without dilating comes by newton-cg with a multigrid mass where UMFPACK leads") {
+  REQUIRE_MULTIGRID();
+  const std::vector<std::string> not_associated = {"material.ground.psi=0", "stop.residual=1e-8"};
+  const auto by = [&](const char* method, const char* mass) {
+    std::vector<std::string> set = {std::string("solve.method=") + method, mass};
+    set.insert(set.end(), not_associated.begin(), not_associated.end());
+    return run("footing", set);
+  };
+  const Simulation factor = by("newton", "mass.kind=lumped"), multigrid = by("newton-cg", "mass.kind=multigrid");
+  CHECK(largest_difference(multigrid.u(), factor.u()) < 1e-6 * largest_magnitude(factor.u()));
+}
+
+TEST_CASE("the load in eight shares ends three times as near to that in 64 as in one, where points remember") {
+  const auto by = [](int shares) {
+    const Simulation simulation =
+        run("footing", {"solve.method=newton", fmt::format("solve.load_steps={}", shares), "stop.residual=1e-8"});
+    const ConstVec u = simulation.u();
+    return std::vector<double>(u.begin(), u.end());
+  };
+  const std::vector<double> slow = by(64);
+  const double one = largest_difference(by(1), slow), eight = largest_difference(by(8), slow);
+  CHECK(one > 1e-3 * largest_magnitude(slow));  // the path counts
+  CHECK(eight < one / 3);
+}
+
+TEST_CASE("shares of the load are refused where they have no part") {
+  CHECK_THAT(scenes::refusal("footing", {"solve.method=cg", "solve.load_steps=4"}), Contains("solve.load_steps"));
+  CHECK_THAT(scenes::refusal("footing", {"solve.load_steps=4"}), Contains("solve.load_steps"));
+  CHECK_THAT(scenes::refusal("footing", {"solve.method=newton", "solve.load_steps=0"}), Contains("solve.load_steps"));
+  CHECK(scenes::refusal("footing", {"solve.method=newton-cg", "solve.load_steps=4"}).empty());
 }
 
 TEST_CASE("points that remember are refused a motion with a multigrid mass, and told what takes them") {

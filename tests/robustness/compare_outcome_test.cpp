@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include "files.hpp"
+#include "linalg/multigrid.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
@@ -53,6 +54,37 @@ TEST_CASE("strategies that walls refuse are rows with the reason, beside those t
   }
   CHECK_THAT(row(c, "cg").reason, Contains("no wall can open or close"));
   CHECK_THAT(row(c, "newton").reason, Contains("no wall can open or close"));
+}
+
+TEST_CASE("a strategy named with :multigrid is a row of its own, with the set-up of its hierarchy", "[compare]") {
+  if (!multigrid_is_missing().empty()) return;
+  const std::vector<std::string> strategies = {"auto",         "auto:multigrid",      "viscous:multigrid",
+                                               "cg:multigrid", "newton-cg:multigrid", "fire:multigrid"};
+  const Comparison c = compared("incompressible", {.strategies = strategies, .repeats = 1}, {"constants.nu=0.3"});
+  REQUIRE(c.runs.size() == strategies.size());
+  for (const char* label : {"auto:multigrid", "viscous:multigrid 0.9", "cg:multigrid", "newton-cg:multigrid"}) {
+    const ComparedRun& run = row(c, label);
+    CAPTURE(label, run.reason);
+    CHECK(run.status == ComparedStatus::converged);
+    CHECK(run.mass == "multigrid");
+    CHECK(run.evaluations <= 60);
+    CHECK(run.error <= 1e-6);
+    CHECK(std::ranges::any_of(run.setup_parts, [](const auto& part) { return part.first.starts_with("multigrid"); }));
+  }
+  CHECK(row(c, "fire:multigrid 0.9").status == ComparedStatus::refused);
+  CHECK(row(c, "auto").mass.empty());
+}
+
+TEST_CASE("without names a comparison has the rows of multigrid that its scene goes with, and no others", "[compare]") {
+  if (!multigrid_is_missing().empty()) return;
+  const auto with_multigrid = [](const Comparison& c) {
+    return std::ranges::count(c.runs, std::string("multigrid"), &ComparedRun::mass);
+  };
+  const CompareOptions options{.limit = 1, .repeats = 0};
+  CHECK(with_multigrid(compared("chain", options)) == 9);
+  CHECK(with_multigrid(compared("block_on_wall", options, {"stop.residual=1e-6", "stop.time=0"})) == 0);
+  // Points that remember: the static solvers alone.
+  CHECK(with_multigrid(compared("footing", options)) == 3);
 }
 
 TEST_CASE("a bar that is crushed on the way is a diverged row, and Newton's method still arrives", "[compare]") {
@@ -173,7 +205,7 @@ TEST_CASE("a row has the time that its own set-up would take, whoever made its p
   std::istringstream csv(contents(folder.path() / "compare.csv"));
   std::string heading;
   std::getline(csv, heading);
-  CHECK(heading.ends_with(",total_s"));
+  CHECK(heading.ends_with(",total_s,mass"));
 }
 
 TEST_CASE("a row that was refused has no error in the files, not one of 0", "[compare]") {

@@ -12,6 +12,7 @@
 #include "linalg/conjugate_gradients.hpp"
 #include "linalg/gmres.hpp"
 #include "linalg/power_iteration.hpp"
+#include "linalg/row_product.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "solvers/statics/subtract_product.hpp"
@@ -174,7 +175,7 @@ class Newton {
   bool consistent_direction(double s, ConstVec u) {
     indefinite_ = false;
     const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
-    if (options_.solver == LinearSolver::iterative) {
+    if (options_.solver == LinearSolver::iterative && !options_.assembles) {
       const LinearMap apply_K = [&](ConstVec x, Vec Kx) {
         system_.tangents().apply(Tangent::consistent, t_, u, x, Kx);
         subtract_product(s, of_loads, x, Kx);
@@ -184,6 +185,8 @@ class Newton {
     }
     SparseMatrix K = system_.tangents().matrix(Tangent::consistent, t_, u);
     if (of_loads.nonZeros() > 0) K -= s * of_loads;
+    if (options_.solver == LinearSolver::iterative)
+      return by_iterations(row_product(K), symmetric(K, options_.symmetry));
     if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
     if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
       if (by_cholesky(K)) return true;

@@ -62,6 +62,7 @@ std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, Rela
   newton_options.load_steps = options.load_steps;
   newton_options.max_load_step = 1.0 / options.load_steps;
   if (system.keeps_momentum()) {
+    newton_options.assembles = true;  // K has had room before, for the cycle
     newton_options.preconditioner = [&M = system.mass()](ConstVec r, Vec Br) { M.solve(r, Br); };
   }
   // The run tests its end itself, and says what is wrong with it.
