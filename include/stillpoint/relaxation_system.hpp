@@ -76,17 +76,19 @@ class RelaxationSystem {
   double work_scale(const Vector& u);
   /// R·u of the last evaluation [J]; u: (n).
   double internal_work(const Vector& u) const;
-  /// Q·v with the Q of the last residual() [W], before kinetic_energy() takes its place; v: the second half of y, (n).
-  double power(const Vector& v) { return power(v, Q_); }
-  /// The same with any Q, (n), also one that is not of the last evaluation.
-  double power(const Vector& v, const Vector& Q);
+  /// Q·v [W]; v: the second half of y, Q: (n).
+  double power(const Vector& v, const Vector& Q) { return keeps_momentum() ? motion(v, Q).power : dot(Q, v); }
+  struct Motion {
+    double power;           // Q·v [W]
+    double kinetic_energy;  // ½ vᵀ M v [J], without what was added to light nodes
+  };
+  /// With the Q of the last residual(); v: the second half of y, (n). By one M⁻¹ if v is p.
+  Motion motion(const Vector& v) { return motion(v, Q_); }
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
   double last_t() const { return last_t_; }
   /// Reactions of the supports of the last evaluation [N], as in TrialState.
   ConstVec last_reactions() const { return trial_->reactions; }
-  /// ½ vᵀ M v [J], without what was added to light nodes; v: the second half of y, (n).
-  double kinetic_energy(const Vector& v);
 
   /// Saves what is kept of earlier evaluations, or restores it.
   void archive(const StateArchive& state);
@@ -97,6 +99,7 @@ class RelaxationSystem {
   void count_evaluations(long count) { evaluations_ += count; }
 
  private:
+  Motion motion(const Vector& v, const Vector& Q);
   bool evaluate(double t, ConstVec u);
   bool balance(double t, ConstVec u, Vec Q);
   bool is_sum_of_its_own() const;

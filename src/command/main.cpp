@@ -36,7 +36,9 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
   const CLI::Validator positive = CLI::PositiveNumber;
   add_scene(compare, arguments.scene);
   compare.add_option("--out", arguments.out, "folder to write into (default: out/<scene>-compare)")->type_name("DIR");
-  compare.add_option("--strategies", options.strategies, "of damping, and newton, newton-cg (default: all)")
+  compare
+      .add_option("--strategies", options.strategies,
+                  "of damping, and static solvers; with ':multigrid' behind a name for that mass (default: all)")
       ->delimiter(',')
       ->type_name("NAME,...");
   compare

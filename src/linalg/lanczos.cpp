@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -85,6 +86,16 @@ Lanczos::Largest Lanczos::largest() const {
 }
 
 Lanczos::Largest Lanczos::smallest() const { return at_end(eigensystem(alpha_, beta_), beta_.back(), 0, 1); }
+
+double Lanczos::residual() const {
+  double product = 1, pivot = 0;
+  for (std::size_t j = 0; j < alpha_.size(); ++j) {
+    pivot = j == 0 ? alpha_[0] : alpha_[j] - beta_[j - 1] * beta_[j - 1] / pivot;
+    if (!(pivot > 0)) return std::numeric_limits<double>::infinity();
+    product *= beta_[j] / pivot;
+  }
+  return product;
+}
 
 std::vector<double> Lanczos::vector() const {
   const Eigensystem T = eigensystem(alpha_, beta_);

@@ -36,6 +36,10 @@ class Lanczos {
   /// After a step().
   Largest largest() const;
   Largest smallest() const;
+  /// After a step(): what conjugate gradients on A x = b, with B⁻¹ for a preconditioner, would have left of b after as
+  /// many applications, √(rᵀB⁻¹r)/√(bᵀB⁻¹b) = Π β_j/d_j with the pivots d of T. A mode that b drives and that no Ritz
+  /// value shows yet is in r. Infinity where T is not positive definite.
+  double residual() const;
   /// Q s of the largest, (n). Needs keeps_vectors.
   std::vector<double> vector() const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,21 @@ void refuse_what_remembers(const Scene& scene, const Model& model) {
                     "solve.method = \"newton-cg\" or \"lbfgs\" with it");
 }
 
+// The cycle's smoothers and coarse spaces know nothing of motions that keep the volume.
+void note_incompressible(const Scene& scene, std::vector<std::string>& notes) {
+  constexpr double much = 20;
+  for (const auto& [name, material] : scene.materials) {
+    const auto nu = material.parameters.find("nu");
+    if (nu == material.parameters.end()) continue;
+    const double lambda_over_mu = 2 * nu->second / (1 - 2 * nu->second);
+    if (!(lambda_over_mu >= much)) continue;
+    notes.push_back(fmt::format(
+        "material.{} is nearly incompressible (nu = {:.6g}): with a multigrid mass, as without, evaluations grow with "
+        "the root of lambda/mu = {:.3g}",
+        material.name, nu->second, lambda_over_mu));
+  }
+}
+
 }  // namespace
 
 bool multigrid_pays(const Scene& scene, double unknowns) {
@@ -79,6 +95,7 @@ void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
   model.notes.push_back(
       "with mass.kind = \"multigrid\" frequencies and velocities are those of a fictitious inertia, and the distance "
       "is that of the strain energy, ‖u − u*‖_K/‖u‖_K");
+  note_incompressible(scene, model.notes);
 }
 
 }  // namespace stillpoint

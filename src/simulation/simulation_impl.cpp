@@ -181,8 +181,9 @@ void Simulation::Impl::measure() {
     error_bound_.learn(*omega_1);
   distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
   work_scale_ = motion_->system.work_scale(motion_->u_vector);
-  power_ = motion_->system.power(motion_->v_vector);
-  kinetic_energy_ = motion_->system.kinetic_energy(motion_->v_vector);
+  const RelaxationSystem::Motion motion = motion_->system.motion(motion_->v_vector);
+  power_ = motion.power;
+  kinetic_energy_ = motion.kinetic_energy;
   if (schedule_.settled_for_good(t_)) error_bound_.loads_have_settled(kinetic_energy_);
 }
 

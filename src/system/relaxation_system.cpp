@@ -196,21 +196,16 @@ double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u
 
 double RelaxationSystem::internal_work(const Vector& u) const { return dot(R_, u); }
 
-double RelaxationSystem::power(const Vector& v, const Vector& Q) {
-  if (!keeps_momentum()) return dot(Q, v);
+// Or Q·M⁻¹p and ½ pᵀ M⁻¹ p.
+RelaxationSystem::Motion RelaxationSystem::motion(const Vector& v, const Vector& Q) {
   if (!work_) work_ = vectors_.make(size());
-  mass_.solve(v.span(), work_->span());
-  return dot(Q, *work_);
-}
-
-// Or ½ pᵀ M⁻¹ p.
-double RelaxationSystem::kinetic_energy(const Vector& v) {
   if (keeps_momentum()) {
-    mass_.solve(v.span(), Q_.span());
-    return 0.5 * dot(v, Q_);
+    mass_.solve(v.span(), work_->span());
+    return {.power = dot(Q, *work_), .kinetic_energy = 0.5 * dot(v, *work_)};
   }
-  mass_.apply(v.span(), Q_.span());
-  return 0.5 * dot(v, Q_) - mass_.relative_energy(v.span());
+  const double power = dot(Q, v);
+  mass_.apply(v.span(), work_->span());
+  return {.power = power, .kinetic_energy = 0.5 * dot(v, *work_) - mass_.relative_energy(v.span())};
 }
 
 }  // namespace stillpoint
