@@ -20,6 +20,9 @@ def read(folder):
     return read_study(folder, "compare", "runs")
 
 
+WAY = ("strategy", "integrator", "step_fraction", "rtol")
+
+
 def way_of(run, column):
     """[(evaluations, error)] of a run, its end where there is no more."""
     points = [(sample[0], sample[column]) for sample in run["samples"] if sample[column] is not None]
@@ -37,11 +40,14 @@ def draw(comparison, file):
         raise Refused("none of the runs got anywhere: nothing to draw")
     plt.rcParams.update(STYLE)
     figure, (by_evaluations, by_time) = plt.subplots(1, 2, figsize=(13, 6), sharey=True)
-    for number, (run, way) in enumerate(ways):
+    numbers = {}  # of ways; with another mass it is the same way, drawn broad
+    for run, way in ways:
+        number = numbers.setdefault(tuple(run.get(key) for key in WAY), len(numbers))
         look = {
             "color": COLOURS[number % len(COLOURS)],
             "linestyle": LINES[number // len(COLOURS) % len(LINES)],
-            "linewidth": 1.4,
+            "linewidth": 3.0 if run.get("mass") else 1.4,
+            "alpha": 0.6 if run.get("mass") else 1,
             "marker": "o" if len(way) == 1 else None,
         }
         label = run["label"] + ("" if run["status"] == "converged" else f" ({run['status']})")

@@ -158,7 +158,7 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
 
 bool takes(const std::string& strategy, const std::string& key) {
   const StrategyInfo* info = catalogue().strategy(strategy);
-  if (!info) return true;  // a static solver
+  if (!info) return !key.starts_with("damping.") && !key.starts_with("integrator.");  // a static solver
   if (key == "integrator.step" || key == "integrator.step_fraction") return !info->has_own_step;
   const std::string table = "damping.";
   return !key.starts_with(table) || key == "damping.strategy" || info->takes(key.substr(table.size()));

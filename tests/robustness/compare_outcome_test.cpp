@@ -75,6 +75,12 @@ TEST_CASE("a strategy named with :multigrid is a row of its own, with the set-up
   CHECK(row(c, "auto").mass.empty());
 }
 
+TEST_CASE("static solvers are compared also where a damping is set for the strategies that take it", "[compare]") {
+  const Comparison c = compared("chain", {.strategies = {"cundall", "newton", "cg"}, .repeats = 0},
+                                {"damping.strategy=cundall", "damping.alpha=0.2"});
+  for (const char* label : {"cundall 0.9", "newton", "cg"}) CHECK(row(c, label).status == ComparedStatus::converged);
+}
+
 TEST_CASE("without names a comparison has the rows of multigrid that its scene goes with, and no others", "[compare]") {
   if (!multigrid_is_missing().empty()) return;
   const auto with_multigrid = [](const Comparison& c) {
