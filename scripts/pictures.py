@@ -67,6 +67,16 @@ def read_study(folder, name, *keys):
     return study
 
 
+def draw_table(name, about, read, draw):
+    """The program plot_NAME.py DIR [--out FILE], of DIR/NAME.csv; returns the exit status."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="DIR", type=Path)
+    parser.add_argument("--out", metavar="FILE", type=Path)
+    options = parser.parse_args()
+    file = options.folder / f"{name}.csv"
+    return finish(f"plot_{name}", lambda to: draw(read(file), to), options.out or options.folder / f"{name}.png")
+
+
 def draw_study(name, about, read, draw):
     """The program plot_NAME.py DIR [--out FILE]; returns the exit status."""
     parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)

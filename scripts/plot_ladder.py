@@ -6,13 +6,11 @@ order and the theory's; a MISS is a cross. FILE is DIR/ladder.png if not given. 
 nothing to draw.
 """
 
-import argparse
 import csv
 import math
 import sys
-from pathlib import Path
 
-from pictures import COLOURS, STYLE, Refused, finish, plain  # before pyplot: sets the backend
+from pictures import COLOURS, STYLE, Refused, draw_table, plain  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
@@ -105,14 +103,5 @@ def read(file):
     return lines
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="DIR", type=Path)
-    parser.add_argument("--out", metavar="FILE", type=Path)
-    options = parser.parse_args()
-    file = options.folder / "ladder.csv"
-    return finish("plot_ladder", lambda to: draw(read(file), to), options.out or options.folder / "ladder.png")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw_table("ladder", __doc__, read, draw))

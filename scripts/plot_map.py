@@ -6,13 +6,11 @@ colour, with the evaluations where there is room. FILE is DIR/map.png if not giv
 is nothing to draw.
 """
 
-import argparse
 import csv
 import math
 import sys
-from pathlib import Path
 
-from pictures import Refused, finish, plain  # before pyplot: sets the backend
+from pictures import Refused, draw_table, plain  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.patches import Patch, Rectangle  # noqa: E402
 
@@ -85,24 +83,15 @@ def draw(lines, file):
     plt.close(figure)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="DIR", type=Path)
-    parser.add_argument("--out", metavar="FILE", type=Path)
-    options = parser.parse_args()
-
-    def draw_to(file):
-        table = options.folder / "map.csv"
-        if not table.exists():
-            raise Refused(f"{options.folder}: no map.csv; is this the folder of a stability map?")
-        with open(table, newline="", encoding="utf-8") as text:
-            lines = list(csv.DictReader(text))
-        if not lines:
-            raise Refused(f"{table}: no rows")
-        draw(lines, file)
-
-    return finish("plot_map", draw_to, options.out or options.folder / "map.png")
+def read(file):
+    if not file.exists():
+        raise Refused(f"{file.parent}: no {file.name}; is this the folder of a stability map?")
+    with open(file, newline="", encoding="utf-8") as text:
+        lines = list(csv.DictReader(text))
+    if not lines:
+        raise Refused(f"{file}: no rows")
+    return lines
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw_table("map", __doc__, read, draw))

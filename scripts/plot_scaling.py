@@ -5,11 +5,9 @@ Left time, right evaluations against the number of unknowns, a line a way to res
 unknowns below. FILE is DIR/scaling.png if not given. Exit status 2 and a message if there is nothing to draw.
 """
 
-import argparse
 import sys
-from pathlib import Path
 
-from pictures import COLOURS, STYLE, Refused, finish, plain  # before pyplot: sets the backend
+from pictures import COLOURS, STYLE, Refused, draw_table, plain  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 
 from scaling_table import by_way, exponent, exponent_text, read_csv
@@ -58,14 +56,5 @@ def read(file):
     return rows
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="DIR", type=Path)
-    parser.add_argument("--out", metavar="FILE", type=Path)
-    options = parser.parse_args()
-    file = options.folder / "scaling.csv"
-    return finish("plot_scaling", lambda to: draw(read(file), to), options.out or options.folder / "scaling.png")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw_table("scaling", __doc__, read, draw))

@@ -10,7 +10,7 @@
 namespace stillpoint {
 
 IterativeResult conjugate_gradients(const LinearMap& A, const LinearMap& B, ConstVec b, Vec x, double tolerance,
-                                            int max_iterations, const std::function<void(double)>& each) {
+                                    int max_iterations, const std::function<void(double)>& each) {
   const std::size_t n = b.size();
   const VectorSpace vectors;
   Vector r = vectors.make(n), z = vectors.make(n), p = vectors.make(n), Ap = vectors.make(n);

@@ -17,7 +17,7 @@ struct IterativeResult {
 /// by its recurrence. b, x: (n). each(‖b − A x‖) after every iteration. [Hestenes and Stiefel 1952; Saad 2003,
 /// algorithm 9.1]
 IterativeResult conjugate_gradients(const LinearMap& A, const LinearMap& B, ConstVec b, Vec x, double tolerance,
-                                            int max_iterations, const std::function<void(double)>& each = {});
+                                    int max_iterations, const std::function<void(double)>& each = {});
 
 /// The preconditioner diag(D)⁻¹; D outlives it.
 LinearMap division_by(ConstVec D);

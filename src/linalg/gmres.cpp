@@ -10,11 +10,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
 
 #include "base/stop_request.hpp"
 #include "linalg/sundials.hpp"
-
-#include <sunlinsol/sunlinsol_spgmr.h>
 
 namespace stillpoint {
 namespace {

@@ -163,8 +163,7 @@ MemoryNeed::Part springs(const Scene& scene) {
 
 bool factorises(const Scene& scene, const BodySize& size) {
   const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
-  const bool solves =
-      method && method->is_newton && linear_solver_of(scene.solve.method) != LinearSolver::iterative;
+  const bool solves = method && method->is_newton && linear_solver_of(scene.solve.method) != LinearSolver::iterative;
   return solves || omega_1_needs(scene, static_cast<std::size_t>(size.unknowns)).any();
 }
 

@@ -12,12 +12,11 @@ std::unique_ptr<Integrator> make_stepper(const Model& model, const Scene& scene,
   if (model.static_method) {
     constexpr double tight = 1e-10;  // if only the distance is asked for
     const double residual = scene.stop.residual > 0 ? scene.stop.residual : tight;
-    return make_static_method(
-        {.name = model.static_method->name,
-         .max_step = model.integrator.max_step,
-         .tolerance = residual,
-         .load_steps = scene.solve.load_steps},
-        system);
+    return make_static_method({.name = model.static_method->name,
+                               .max_step = model.integrator.max_step,
+                               .tolerance = residual,
+                               .load_steps = scene.solve.load_steps},
+                              system);
   }
   if (model.relaxation && model.method.hosts_relaxations) return make_relaxation(model.relaxing, system);
   return make_integrator(model.integrator, system);

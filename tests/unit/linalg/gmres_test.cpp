@@ -7,28 +7,14 @@
 #include <catch2/catch.hpp>
 
 #include "base/stop_request.hpp"
+#include "convection.hpp"
 #include "largest.hpp"
 #include "linalg/sparse_lu.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::convection;
 
 namespace {
-
-// Upwind convection and diffusion on m × m nodes, unsymmetric by `wind`.
-SparseMatrix convection(int m, double wind) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < m; ++j) {
-    for (int i = 0; i < m; ++i) {
-      const int k = j * m + i;
-      entries.emplace_back(k, k, 4 + 2 * wind);
-      if (i > 0) entries.emplace_back(k, k - 1, -1 - wind), entries.emplace_back(k - 1, k, -1);
-      if (j > 0) entries.emplace_back(k, k - m, -1 - wind), entries.emplace_back(k - m, k, -1);
-    }
-  }
-  SparseMatrix A(m * m, m * m);
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
-}
 
 struct Problem {
   SparseMatrix A;
@@ -52,7 +38,7 @@ struct Problem {
 
 TEST_CASE("GMRES solves an unsymmetric system as UMFPACK does, also where it begins again") {
   const double wind = GENERATE(0.0, 0.3, 5.0);
-  const Problem problem(convection(60, wind));
+  const Problem problem(convection(60, wind, wind));
   std::vector<double> x(problem.size()), exact(problem.size());
   const IterativeResult result = gmres(problem.product(), division_by(problem.diagonal), problem.b, x, 1e-10, 5000);
   CAPTURE(wind, result.iterations);
@@ -64,17 +50,17 @@ TEST_CASE("GMRES solves an unsymmetric system as UMFPACK does, also where it beg
 }
 
 TEST_CASE("a good preconditioner lets GMRES end in a single iteration") {
-  const Problem problem(convection(20, 1.0));
+  const Problem problem(convection(20, 1.0, 1.0));
   const SparseLu factor(problem.A);
   std::vector<double> x(problem.size());
-  const IterativeResult result =
-      gmres(problem.product(), [&](ConstVec r, Vec Br) { factor.solve(r, Br); }, problem.b, x, 1e-10, 100);
+  const IterativeResult result = gmres(
+      problem.product(), [&](ConstVec r, Vec Br) { factor.solve(r, Br); }, problem.b, x, 1e-10, 100);
   CHECK(result.converged);
   CHECK(result.iterations <= 2);  // SUNDIALS forms the residual of the start by one more
 }
 
 TEST_CASE("GMRES that has not come to its tolerance says so, and hands on what it is called with") {
-  const Problem problem(convection(60, 0.3));
+  const Problem problem(convection(60, 0.3, 0.3));
   std::vector<double> x(problem.size());
   CHECK_FALSE(gmres(problem.product(), division_by(problem.diagonal), problem.b, x, 1e-10, 60).converged);
   const std::vector<double> nothing(problem.size(), std::nan(""));

@@ -11,29 +11,15 @@
 #include <dlfcn.h>
 #include <suitesparse/SuiteSparse_config.h>
 
+#include "convection.hpp"
 #include "linalg/sparse_cholesky.hpp"
 
 using stillpoint::SparseCholesky;
 using stillpoint::SparseLu;
 using stillpoint::SparseMatrix;
+using stillpoint::test::convection;
 
 namespace {
-
-// Upwind convection-diffusion on m × m nodes, unsymmetric by `wind`.
-SparseMatrix convection(int m, double wind) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < m; ++j) {
-    for (int i = 0; i < m; ++i) {
-      const int k = j * m + i;
-      entries.emplace_back(k, k, 4 + wind);
-      if (i > 0) entries.emplace_back(k, k - 1, -1 - wind), entries.emplace_back(k - 1, k, -1);
-      if (j > 0) entries.emplace_back(k, k - m, -1), entries.emplace_back(k - m, k, -1);
-    }
-  }
-  SparseMatrix A(m * m, m * m);
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
-}
 
 SparseMatrix dense(const Eigen::MatrixXd& A) { return A.sparseView(); }
 
