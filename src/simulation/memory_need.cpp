@@ -211,7 +211,11 @@ MemoryNeed memory_need(const Scene& scene) {
     add("stiffness matrix", of_matrix(scene, size), "grid.cells");
     add("hierarchy of multigrid", of_hierarchy * of_matrix(scene, size), "grid.cells");
   }
-  if (factor || consistent || chooses_mass) add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
+  const StaticMethodInfo* const solver = catalogue().static_method(scene.solve.method);
+  const bool multiplies = multigrid && solver && solver->is_newton;
+  if (multiplies) add("stiffness matrix by columns and by rows", 2 * of_matrix(scene, size), "grid.cells");
+  if (factor || consistent || chooses_mass || multiplies)
+    add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
   if (consistent)
     // As it was assembled, and as it is factorised.
     add("mass matrix and its factor", (2 * of_matrix(scene, size) + of_factor(scene, size)) / scene.dim, "grid.cells");

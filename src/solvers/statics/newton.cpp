@@ -175,24 +175,27 @@ class Newton {
   bool consistent_direction(double s, ConstVec u) {
     indefinite_ = false;
     const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
-    if (options_.solver == LinearSolver::iterative && !options_.assembles) {
-      const LinearMap apply_K = [&](ConstVec x, Vec Kx) {
+    if (options_.solver == LinearSolver::iterative) {
+      const LinearMap by_laws = [&](ConstVec x, Vec Kx) {
         system_.tangents().apply(Tangent::consistent, t_, u, x, Kx);
         subtract_product(s, of_loads, x, Kx);
       };
+      const LinearMap apply_K = options_.assembles ? row_product(consistent_matrix(s, u, of_loads)) : by_laws;
       const bool may_be_unsymmetric = system_.history_dependent() || of_loads.nonZeros() > 0;
       return by_iterations(apply_K, !may_be_unsymmetric || looks_symmetric(apply_K));
     }
-    SparseMatrix K = system_.tangents().matrix(Tangent::consistent, t_, u);
-    if (of_loads.nonZeros() > 0) K -= s * of_loads;
-    if (options_.solver == LinearSolver::iterative)
-      return by_iterations(row_product(K), symmetric(K, options_.symmetry));
+    const SparseMatrix K = consistent_matrix(s, u, of_loads);
     if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
     if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
       if (by_cholesky(K)) return true;
       indefinite_ = true;
     }
     return by_lu(K);
+  }
+  SparseMatrix consistent_matrix(double s, ConstVec u, const SparseMatrix& of_loads) const {
+    SparseMatrix K = system_.tangents().matrix(Tangent::consistent, t_, u);
+    if (of_loads.nonZeros() > 0) K -= s * of_loads;
+    return K;
   }
   bool elastic_direction(ConstVec u) {
     if (options_.solver == LinearSolver::iterative) {
