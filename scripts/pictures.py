@@ -1,6 +1,7 @@
 """What the scripts that draw have in common."""
 
 import argparse
+import csv
 import json
 import re
 import sys
@@ -65,6 +66,17 @@ def read_study(folder, name, *keys):
     if not isinstance(study, dict) or not any(isinstance(study.get(key), (dict, list)) for key in keys):
         raise Refused(f"{file}: expected an object with {' or '.join(keys)}")
     return study
+
+
+def read_table(file, what):
+    """The lines of a table, {column: text} each; what: of which it is."""
+    if not file.exists():
+        raise Refused(f"{file.parent}: no {file.name}; is this the folder of {what}?")
+    with open(file, newline="", encoding="utf-8") as text:
+        lines = list(csv.DictReader(text))
+    if not lines:
+        raise Refused(f"{file}: no rows")
+    return lines
 
 
 def draw_table(name, about, read, draw):

@@ -6,11 +6,10 @@ order and the theory's; a MISS is a cross. FILE is DIR/ladder.png if not given. 
 nothing to draw.
 """
 
-import csv
 import math
 import sys
 
-from pictures import COLOURS, STYLE, Refused, draw_table, plain  # before pyplot: sets the backend
+from pictures import COLOURS, STYLE, draw_table, plain, read_table  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
@@ -94,13 +93,7 @@ def draw(lines, file):
 
 
 def read(file):
-    if not file.exists():
-        raise Refused(f"{file.parent}: no {file.name}; is this the folder of an accuracy ladder?")
-    with open(file, newline="", encoding="utf-8") as text:
-        lines = list(csv.DictReader(text))
-    if not lines:
-        raise Refused(f"{file}: no rows")
-    return lines
+    return read_table(file, "an accuracy ladder")
 
 
 if __name__ == "__main__":

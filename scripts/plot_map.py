@@ -6,11 +6,10 @@ colour, with the evaluations where there is room. FILE is DIR/map.png if not giv
 is nothing to draw.
 """
 
-import csv
 import math
 import sys
 
-from pictures import Refused, draw_table, plain  # before pyplot: sets the backend
+from pictures import draw_table, plain, read_table  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.patches import Patch, Rectangle  # noqa: E402
 
@@ -84,13 +83,7 @@ def draw(lines, file):
 
 
 def read(file):
-    if not file.exists():
-        raise Refused(f"{file.parent}: no {file.name}; is this the folder of a stability map?")
-    with open(file, newline="", encoding="utf-8") as text:
-        lines = list(csv.DictReader(text))
-    if not lines:
-        raise Refused(f"{file}: no rows")
-    return lines
+    return read_table(file, "a stability map")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ namespace stillpoint {
 /// How K du = Q is solved. automatic: by CHOLMOD if K is symmetric and positive definite, by UMFPACK otherwise, and
 /// an equilibrium whose K is symmetric but indefinite is refused as unstable, unless accept_unstable.
 /// cholesky: with the symmetric part of K. iterative: by conjugate gradients if K is symmetric, by GMRES otherwise,
-/// without a matrix.
+/// without a factor.
 enum class LinearSolver { automatic, cholesky, lu, iterative };
 
 struct NewtonOptions {

@@ -80,8 +80,10 @@ void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
   if (is_asked) refuse_what_remembers(scene, model);
   MultigridAttempt made = shared_multigrid_mass(set_up, scene.mass, *model.phase, model.u,
                                                 /*only_omega_max=*/model.static_method || is_auto(model));
-  if (!made.mass && is_asked) throw_scene_error(scene, "mass.kind", made.refusal);
-  if (!made.mass) return;
+  if (!made.mass) {
+    if (is_asked) throw_scene_error(scene, "mass.kind", made.refusal);
+    return;
+  }
   model.multigrid = std::move(made.mass);
   model.omega_max = model.multigrid->omega_max;
   if (model.multigrid->omega_1 > 0) model.omega_1 = model.multigrid->omega_1;

@@ -34,13 +34,14 @@ bool find_frequencies(const LinearMap& apply_K, const std::vector<double>& load,
   Vector b = VectorSpace().make(made.mass.size());
   std::ranges::copy(load, b.span().begin());
   Lanczos lanczos(apply_K, solve, std::move(b));
-  while (lanczos.applications() < (only_omega_max ? few : most) && lanczos.step() &&
-         (lanczos.applications() < few || only_omega_max || lanczos.residual() > rest)) {
+  const int limit = only_omega_max ? few : most;
+  while (lanczos.applications() < limit && lanczos.step()) {
+    if (lanczos.applications() >= few && lanczos.residual() <= rest) break;
   }
-  Lanczos::Largest lowest{}, highest{};
   made.applications = lanczos.applications();
-  if (lanczos.applications() > 0) lowest = lanczos.smallest(), highest = lanczos.largest();
-  if (!lanczos.finite() || !(lowest.theta > 0)) return false;
+  if (made.applications == 0 || !lanczos.finite()) return false;
+  const Lanczos::Largest lowest = lanczos.smallest(), highest = lanczos.largest();
+  if (!(lowest.theta > 0)) return false;
   made.omega_max = std::sqrt(highest.theta + highest.missing);
   if (!only_omega_max) made.omega_1 = std::sqrt(lowest.theta - std::min(lowest.error, lowest.theta / 2));
   return true;

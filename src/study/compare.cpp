@@ -209,12 +209,13 @@ class Comparing {
     run.setup_s = setup_s;
     run.setup_parts = {{"phase", setup_s}};
     std::vector<double> u = phase->initial_displacement(end_time());
-    NewtonOptions newton_options;
-    if (scene.mass.kind == MassKind::multigrid) take_multigrid(scene, *phase, u, newton_options, run);
-    newton_options.solver = linear_solver_of(run.strategy);
+    NewtonOptions of_newton = newton_options(run.strategy, scene.solve.load_steps);
+    const bool is_multigrid = scene.mass.kind == MassKind::multigrid;
+    const auto multigrid = is_multigrid ? find_multigrid(scene, *phase, u, run) : nullptr;
+    if (multigrid) precondition(of_newton, multigrid->mass);
     // An error below the goal needs a residual that is smaller by up to κ: as far as rounding goes.
-    newton_options.tolerance = result_.by_residual ? options_.goal : std::max(1e-3 * options_.goal, reference_residual);
-    const StaticReport report = newton(*phase, end_time(), u, newton_options);
+    of_newton.tolerance = result_.by_residual ? options_.goal : std::max(1e-3 * options_.goal, reference_residual);
+    const StaticReport report = newton(*phase, end_time(), u, of_newton);
     run.status = report.converged ? ComparedStatus::converged : ComparedStatus::diverged;
     run.reason = report.reason;
     run.steps = report.iterations;
@@ -230,17 +231,16 @@ class Comparing {
     return report.wall_s;
   }
 
-  void take_multigrid(const Scene& scene, const LagrangianPhase& phase, ConstVec u, NewtonOptions& newton_options,
-                      ComparedRun& run) {
+  std::shared_ptr<const MultigridMass> find_multigrid(const Scene& scene, const LagrangianPhase& phase, ConstVec u,
+                                                      ComparedRun& run) {
     SetUp set_up(&store_);
     const MultigridAttempt made = shared_multigrid_mass(set_up, scene.mass, phase, u, true);
     if (!made.mass) throw_scene_error(scene, "mass.kind", made.refusal);
-    newton_options.preconditioner = [multigrid = made.mass](ConstVec r, Vec Br) { multigrid->mass.solve(r, Br); };
-    newton_options.assembles = true;
     for (const SetUpPart& part : set_up.parts()) {
       run.setup_s += part.seconds;
       run.setup_parts.emplace_back(part.name, part.seconds);
     }
+    return made.mass;
   }
 
   // Those that arrived, in random order, so that what the machine does meanwhile falls on all alike.

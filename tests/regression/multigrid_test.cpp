@@ -200,35 +200,11 @@ TEST_CASE(
 }
 
 TEST_CASE("auto keeps a lumped mass for a large linear body that its supports do not hold") {
-  const std::string text = R"(
-dim = 2
-[grid]
-min = [0.0, 0.0]
-max = [1.25, 1.0]
-cells = [250, 200]
-basis = "linear"
-[body]
-min = [0.0, 0.0]
-max = [1.0, 1.0]
-material = "rubber"
-state = "plane-strain"
-points_per_cell = 1
-[material.rubber]
-law = "linear-elastic"
-E = 1.0
-nu = 0.3
-rho = 1.0
-[[support]]
-face = "left"
-kind = "roller"
-[body_force]
-value = [-0.1, 0.0]
-[damping]
-strategy = "auto"
-[stop]
-residual = 1e-6
-)";
-  CHECK_FALSE(make_model(load_scene("slides.toml", text, {})).multigrid);
+  CHECK_FALSE(
+      make_model(scenes::load("incompressible",
+                              {"constants.nu=0.3", "grid.basis=linear", "grid.cells=[224,224]", "damping.strategy=auto",
+                               "body_force.value=[-0.1,0.0]", "support=[{face='left', kind='roller'}]"}))
+          .multigrid);
 }
 
 TEST_CASE("what finds rest by a motion does so with a multigrid mass in a few dozen evaluations, in any body") {
@@ -272,26 +248,6 @@ TEST_CASE(
   };
   const Simulation factor = by("newton", "mass.kind=lumped"), multigrid = by("newton-cg", "mass.kind=multigrid");
   CHECK(largest_difference(multigrid.u(), factor.u()) < 1e-6 * largest_magnitude(factor.u()));
-}
-
-TEST_CASE("the load in eight shares ends three times as near to that in 64 as in one, where points remember") {
-  const auto by = [](int shares) {
-    const Simulation simulation =
-        run("footing", {"solve.method=newton", fmt::format("solve.load_steps={}", shares), "stop.residual=1e-8"});
-    const ConstVec u = simulation.u();
-    return std::vector<double>(u.begin(), u.end());
-  };
-  const std::vector<double> slow = by(64);
-  const double one = largest_difference(by(1), slow), eight = largest_difference(by(8), slow);
-  CHECK(one > 1e-3 * largest_magnitude(slow));  // the path counts
-  CHECK(eight < one / 3);
-}
-
-TEST_CASE("shares of the load are refused where they have no part") {
-  CHECK_THAT(scenes::refusal("footing", {"solve.method=cg", "solve.load_steps=4"}), Contains("solve.load_steps"));
-  CHECK_THAT(scenes::refusal("footing", {"solve.load_steps=4"}), Contains("solve.load_steps"));
-  CHECK_THAT(scenes::refusal("footing", {"solve.method=newton", "solve.load_steps=0"}), Contains("solve.load_steps"));
-  CHECK(scenes::refusal("footing", {"solve.method=newton-cg", "solve.load_steps=4"}).empty());
 }
 
 TEST_CASE(

@@ -162,7 +162,7 @@ void check_static_solver(SceneCheck& check, const StaticMethodInfo& info) {
     check.add("initial.v", fmt::format("'{}' is a static solver, which has no velocity", info.name));
   if (check.written("solve.load_steps") && !info.is_newton)
     check.add("solve.load_steps",
-              fmt::format("'{}' takes the load in one; expected \"newton\" or \"newton-cg\"", info.name));
+              fmt::format("'{}' takes the whole load at once; expected \"newton\" or \"newton-cg\"", info.name));
   if (!loads_vary(scene)) return;
   if (!info.takes_end_of_loads) {
     check.add(key, fmt::format("'{}' is a static solver, which has no time: loads and supports must not depend on t",

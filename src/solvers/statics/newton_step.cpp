@@ -55,19 +55,26 @@ class NewtonStep final : public Integrator {
 
 }  // namespace
 
+NewtonOptions newton_options(std::string_view name, int load_steps) {
+  NewtonOptions options;
+  options.solver = linear_solver_of(name);
+  options.load_steps = load_steps;
+  options.max_load_step = 1.0 / load_steps;
+  return options;
+}
+
+void precondition(NewtonOptions& options, const Mass& M) {
+  options.preconditioner = [&M](ConstVec r, Vec Br) { M.solve(r, Br); };
+  options.assembles = true;
+}
+
 std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, RelaxationSystem& system) {
-  NewtonOptions newton_options;
-  newton_options.tolerance = options.tolerance;
-  newton_options.solver = linear_solver_of(options.name);
-  newton_options.load_steps = options.load_steps;
-  newton_options.max_load_step = 1.0 / options.load_steps;
-  if (system.keeps_momentum()) {
-    newton_options.assembles = true;  // K has had room before, for the cycle
-    newton_options.preconditioner = [&M = system.mass()](ConstVec r, Vec Br) { M.solve(r, Br); };
-  }
+  NewtonOptions of_newton = newton_options(options.name, options.load_steps);
+  of_newton.tolerance = options.tolerance;
+  if (system.keeps_momentum()) precondition(of_newton, system.mass());
   // The run tests its end itself, and says what is wrong with it.
-  newton_options.accept_unstable = !system.system().history_dependent() && system.size() <= direct_solver_limit;
-  return std::make_unique<NewtonStep>(newton_options, system);
+  of_newton.accept_unstable = !system.system().history_dependent() && system.size() <= direct_solver_limit;
+  return std::make_unique<NewtonStep>(of_newton, system);
 }
 
 }  // namespace stillpoint

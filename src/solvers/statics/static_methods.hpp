@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stillpoint/integrator.hpp>
+#include <stillpoint/mass.hpp>
 #include <stillpoint/static_solution.hpp>
 
 #include <memory>
@@ -23,6 +24,13 @@ const std::vector<StaticMethodInfo>& static_methods();
 
 /// How one of Newton's methods solves K du = Q.
 LinearSolver linear_solver_of(std::string_view name);
+
+/// Of that one of Newton's methods, with the load in equal shares.
+NewtonOptions newton_options(std::string_view name, int load_steps);
+
+/// Newton's method with an inverse mass for its preconditioner; K is assembled, as it has had room before, for that
+/// mass. M outlives the options.
+void precondition(NewtonOptions& options, const Mass& M);
 
 /// y = [u; 0]. Nothing is committed but by Newton's load steps: laws of the material see one increment to the solution.
 /// Throws std::invalid_argument for an unknown name, and if something touches the body.
