@@ -68,7 +68,7 @@ struct ExactSpec {                   // [exact]: the exact solution, if it is kn
 
 struct SolveSpec {                    // [solve]
   std::string method = "relaxation";  // or a static solver: "newton", "newton-cg", "cg", "lbfgs"
-  int load_steps = 1;                 // of Newton's methods: equal shares of the load, each remembered at its end
+  int load_steps = 1;                 // of a static solver: equal shares of the load, each remembered at its end
   bool is_static() const { return method != "relaxation"; }
 };
 

@@ -157,8 +157,7 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
 }
 
 bool takes(const std::string& strategy, const std::string& key) {
-  const StaticMethodInfo* solver = catalogue().static_method(strategy);
-  if (key == "solve.load_steps") return solver && solver->is_newton;
+  if (key == "solve.load_steps") return catalogue().static_method(strategy) != nullptr;
   const StrategyInfo* info = catalogue().strategy(strategy);
   if (!info) return !key.starts_with("damping.") && !key.starts_with("integrator.");  // a static solver
   if (key == "integrator.step" || key == "integrator.step_fraction") return !info->has_own_step;

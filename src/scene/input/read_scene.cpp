@@ -51,7 +51,7 @@ void drop_keys_of_other_choices(toml::table& root, const Catalogue& catalogue) {
   if (!chosen("exact", "solution").empty())
     for (const char* key : {"u", "stress"}) drop(root, "exact", key);
   const StaticMethodInfo* const solver = catalogue.static_method(chosen("solve", "method"));
-  if (!chosen("solve", "method").empty() && !(solver && solver->is_newton)) drop(root, "solve", "load_steps");
+  if (!chosen("solve", "method").empty() && !solver) drop(root, "solve", "load_steps");
   if (solver) {
     for (const std::string_view name : kTablesOfMotion) {
       std::vector<std::string> keys;

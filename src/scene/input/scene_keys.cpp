@@ -79,7 +79,7 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
   tables.add({"solve", "how equilibrium is found"}, &Scene::solve)
       .key("method", &SolveSpec::method, "relaxation in time, or a static solver", {.words = methods, .hint = strategy})
       .key("load_steps", &SolveSpec::load_steps,
-           "of Newton's methods: shares of the load, each committed to what points remember; halved where one fails",
+           "of a static solver: shares of the load, each committed to what points remember; halved where one fails",
            {.range = from(1, 100000)});
 
   const auto solver = [&catalogue](const std::string& word) {

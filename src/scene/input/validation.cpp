@@ -160,9 +160,6 @@ void check_static_solver(SceneCheck& check, const StaticMethodInfo& info) {
                                SolveSpec().method));
   if (!scene.initial_v.empty())
     check.add("initial.v", fmt::format("'{}' is a static solver, which has no velocity", info.name));
-  if (check.written("solve.load_steps") && !info.is_newton)
-    check.add("solve.load_steps",
-              fmt::format("'{}' takes the whole load at once; expected \"newton\" or \"newton-cg\"", info.name));
   if (!loads_vary(scene)) return;
   if (!info.takes_end_of_loads) {
     check.add(key, fmt::format("'{}' is a static solver, which has no time: loads and supports must not depend on t",

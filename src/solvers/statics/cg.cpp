@@ -17,8 +17,8 @@ namespace {
 
 class ConjugateGradients final : public StaticIteration {
  public:
-  ConjugateGradients(double max_step, RelaxationSystem& system)
-      : StaticIteration(max_step, system, {.first = 1e-3, .later = 0.1}) {}
+  ConjugateGradients(const StaticMethodOptions& options, RelaxationSystem& system)
+      : StaticIteration(options, system, {.first = 1e-3, .later = 0.1}) {}
 
  private:
   void forget() override { slope_ = 0; }
@@ -59,7 +59,7 @@ class ConjugateGradients final : public StaticIteration {
 }  // namespace
 
 std::unique_ptr<Integrator> make_cg(const StaticMethodOptions& options, RelaxationSystem& system) {
-  return std::make_unique<ConjugateGradients>(options.max_step, system);
+  return std::make_unique<ConjugateGradients>(options, system);
 }
 
 }  // namespace stillpoint

@@ -11,13 +11,14 @@ namespace {
 
 class LimitedMemoryBfgs final : public StaticIteration {
  public:
-  LimitedMemoryBfgs(double max_step, RelaxationSystem& system)
-      : StaticIteration(max_step, system, {.first = 0.9, .later = 0.9}),
+  LimitedMemoryBfgs(const StaticMethodOptions& options, RelaxationSystem& system)
+      : StaticIteration(options, system, {.first = 0.9, .later = 0.9}),
         memory_(system.vectors(), system.mass(), 10),
         q_(system.vectors().make(system.size())) {}
 
  private:
   void forget() override { memory_.forget(); }
+  void load_changed() override {}  // H is that of K, whatever the load
 
   double direction(Vec p) override {
     if (memory_.empty()) {
@@ -42,7 +43,7 @@ class LimitedMemoryBfgs final : public StaticIteration {
 }  // namespace
 
 std::unique_ptr<Integrator> make_lbfgs(const StaticMethodOptions& options, RelaxationSystem& system) {
-  return std::make_unique<LimitedMemoryBfgs>(options.max_step, system);
+  return std::make_unique<LimitedMemoryBfgs>(options, system);
 }
 
 }  // namespace stillpoint

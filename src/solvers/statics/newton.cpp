@@ -15,6 +15,7 @@
 #include "linalg/row_product.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_lu.hpp"
+#include "solvers/statics/load_increments.hpp"
 #include "solvers/statics/subtract_product.hpp"
 #include "system/largest_at.hpp"
 #include "system/static_balance.hpp"
@@ -52,12 +53,11 @@ class Newton {
       return finished();
     }
     std::vector<double> u(u_.begin(), u_.end());
-    double size = std::min(1.0 / options_.load_steps, options_.max_load_step);
-    while (report_.load_factor < 1) {
-      const double s = report_.load_factor, left = 1 - s;
+    LoadIncrements load({1.0 / options_.load_steps, options_.max_load_step, options_.min_load_step});
+    while (!load.at_end()) {
       LoadStep& step = report_.load_steps.emplace_back();
-      step.from = s;
-      step.to = size < 0.999 * left ? s + size : 1;
+      step.from = load.from();
+      step.to = load.to();
       std::ranges::copy(u_, u.begin());
       if (load_step(step, u)) {
         std::ranges::copy(u, u_.begin());
@@ -65,18 +65,16 @@ class Newton {
         if (system_.history_dependent()) system_.commit(balance_.trial());
         refused_ = false;
         constexpr std::size_t easy = 9;
-        if (step.residuals.size() <= easy) size = std::min(2 * size, options_.max_load_step);
-      } else {
-        size = (step.to - s) / 2;
-        if (size < options_.min_load_step && refused_ && options_.accept_unstable) {
-          size = std::min(1.0 / options_.load_steps, options_.max_load_step);
-          accepts_ = std::exchange(refused_, false);
-        } else if (size < options_.min_load_step) {
+        load.reached(step.residuals.size() <= easy);
+      } else if (!load.halve()) {
+        if (!refused_ || !options_.accept_unstable) {
           report_.reason =
-              fmt::format("no equilibrium beyond the load factor {:.4g}: {}, {}; load step {:.3g} < {:.3g}", s,
-                          report_.reason, worst(step.to, u), size, options_.min_load_step);
+              fmt::format("no equilibrium beyond the load factor {:.4g}: {}, {}; load step {:.3g} < {:.3g}", step.from,
+                          report_.reason, worst(step.to, u), load.size(), options_.min_load_step);
           return finished();
         }
+        load.begin_anew();
+        accepts_ = std::exchange(refused_, false);
       }
     }
     report_.converged = true;

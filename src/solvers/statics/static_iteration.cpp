@@ -4,53 +4,94 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/parallel_loop.hpp"
 #include "system/largest_at.hpp"
 
 namespace stillpoint {
+namespace {
 
-StaticIteration::StaticIteration(double max_step, RelaxationSystem& system, LineSearch::Accuracy sigma)
-    : SteppingIntegrator({.max_step = max_step}, system),
+LoadIncrements increments(const StaticMethodOptions& options) {
+  constexpr double smallest = 1e-3;
+  const double share = 1.0 / options.load_steps;
+  return LoadIncrements({share, share, smallest * share});
+}
+
+}  // namespace
+
+StaticIteration::StaticIteration(const StaticMethodOptions& options, RelaxationSystem& system,
+                                 LineSearch::Accuracy sigma)
+    : SteppingIntegrator({.max_step = options.max_step}, system),
       sigma_(sigma),
+      tolerance_(options.tolerance),
+      load_(increments(options)),
       Q_(system.vectors().make(system.size())),
       z_(system.vectors().make(system.size())),
       next_Q_(system.vectors().make(system.size())),
-      p_(system.vectors().make(system.size())) {
+      p_(system.vectors().make(system.size())),
+      u_begin_(system.vectors().make(system.size())),
+      Q_begin_(system.vectors().make(system.size())) {
   if (system.system().contact()) {
     throw std::invalid_argument(
         "in a static solution nothing that touches the body can open or close: take relaxation");
   }
 }
 
-void StaticIteration::begin(double t, const Vector& /*y*/) {
+void StaticIteration::begin(double t, const Vector& y) {
+  const ConstVec u = first_half(y.span());
   forget();
-  admissible_ = system().out_of_balance(t, first_half(std::as_const(state()).span()), Q_.span());
-  if (admissible_) system().mass().solve(Q_.span(), z_.span());
+  load_.start_over();
+  steps_of_first_ = 0;
+  std::ranges::fill(Q_begin_.span(), 0.0);
+  admissible_ = system().out_of_balance(t, u, Q_begin_.span());
+  if (!admissible_) return;
+  std::ranges::fill(Q_.span(), 0.0);
+  begin_increment(0, u);
 }
 
 SteppingIntegrator::Attempt StaticIteration::attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) {
   if (!admissible_) return {.status = StepReport::Status::inadmissible};
+  const ConstVec u = first_half(std::as_const(y).span());
   const Vec u_new = first_half(trial.span());
-  std::ranges::copy(first_half(std::as_const(y).span()), u_new.begin());
+  std::ranges::copy(u, u_new.begin());
   std::ranges::fill(second_half(trial.span()), 0.0);
   moves_ = dot(Q_, z_) > 0;
   if (!moves_) return {.h = h};  // in balance to the last bit
+  if (makes_no_way() && begin_half(t, u_new)) return {.h = h};
   if (search(t, u_new)) return {.h = h};
   forget();  // what was remembered may have been of no use: straight downhill
   if (search(t, u_new)) return {.h = h};
-  // The last evaluation has to be that of the state.
-  system().out_of_balance(t, first_half(std::as_const(y).span()), Q_.span());
-  return {.status = StepReport::Status::failed,
-          .h = h,
-          .message = "the line search finds no state that is more in balance; the out-of-balance force is largest at " +
-                     largest_at(system().system(), std::as_const(Q_).span())};
+  if (!is_as_good_as_balanced() && begin_half(t, u_new)) return {.h = h};
+  evaluate(t, u, Q_);  // the last evaluation has to be that of the state
+  return {.status = StepReport::Status::failed, .h = h, .message = failure()};
 }
 
 void StaticIteration::archive_memory(const StateArchive& state) {
   state("Q", Q_.span());
   state("z", z_.span());
   state("p", p_.span());
+  state("u_begin", u_begin_.span());
+  state("Q_begin", Q_begin_.span());
+  state("unbalanced_at_begin", unbalanced_at_begin_);
+  state("steps_of_first", steps_of_first_);
+  state("steps_of_this", steps_of_this_);
+  load_.archive(state);
   archive_method(state);
+}
+
+// Q_s at s = load_.to().
+bool StaticIteration::evaluate(double t, ConstVec u, Vector& Q) {
+  if (!system().out_of_balance(t, u, Q.span())) return false;
+  add_to(Q, load_.to() - 1);
+  return true;
+}
+
+// Q += share Q(u₀)
+void StaticIteration::add_to(Vector& Q, double share) const {
+  if (share == 0) return;
+  for_each_index(Q.size(),
+                 [=, Q = Q.span().data(), Q0 = Q_begin_.span().data()](std::size_t i) { Q[i] += share * Q0[i]; });
 }
 
 bool StaticIteration::search(double t, Vec u_new) {
@@ -67,7 +108,7 @@ bool StaticIteration::search(double t, Vec u_new) {
   for (int trial = 0; trial < most_trials; ++trial) {
     alpha_ = line.alpha();
     for_each_index(u.size(), [=, alpha = alpha_](std::size_t i) { u_new[i] = u[i] + alpha * p[i]; });
-    if (!system().out_of_balance(t, u_new, next_Q_.span())) {
+    if (!evaluate(t, u_new, next_Q_)) {
       line.refused();
     } else if (line.done(dot(next_Q_, p_))) {
       return true;
@@ -81,6 +122,59 @@ void StaticIteration::accepted() {
   std::swap(Q_, next_Q_);
   system().mass().solve(Q_.span(), z_.span());
   moved(alpha_);
+  ++steps_of_this_;
+  const bool is_last = load_.to() >= 1;  // which the run itself ends
+  if (!is_last && system().relative_to_loads(norm(Q_)) <= tolerance_) end_increment();
+}
+
+void StaticIteration::end_increment() {
+  system().accept(system().last_t(), state().span(), /*force_is_current=*/true);
+  if (steps_of_first_ == 0) steps_of_first_ = steps_of_this_;
+  const double s = load_.to();
+  load_.reached(/*easily=*/steps_of_this_ <= steps_of_first_);
+  begin_increment(s, first_half(std::as_const(state()).span()));
+}
+
+// Q_ is Q_s at u, where the last evaluation was.
+void StaticIteration::begin_increment(double s, ConstVec u) {
+  std::ranges::copy(u, u_begin_.span().begin());
+  add_to(Q_, load_.to() - s);
+  system().mass().solve(Q_.span(), z_.span());
+  unbalanced_at_begin_ = norm(Q_);
+  steps_of_this_ = 0;
+  load_changed();
+}
+
+// In many times the steps that the first increment took.
+bool StaticIteration::makes_no_way() const {
+  constexpr long patience = 10, few = 50;
+  constexpr double hardly = 1e-2;
+  return steps_of_first_ > 0 && steps_of_this_ > patience * std::max(few, steps_of_first_) &&
+         norm(Q_) > hardly * unbalanced_at_begin_;
+}
+
+// To what rounding may leave.
+bool StaticIteration::is_as_good_as_balanced() const {
+  constexpr double rounding = 1e-6;
+  return norm(Q_) <= rounding * unbalanced_at_begin_;
+}
+
+// Back to where the increment began. False if it is as small as may be.
+bool StaticIteration::begin_half(double t, Vec u_new) {
+  if (!load_.halve()) return false;
+  forget();
+  std::ranges::copy(std::as_const(u_begin_).span(), u_new.begin());
+  if (!evaluate(t, u_new, Q_)) return false;
+  begin_increment(load_.to(), u_new);
+  moves_ = false;
+  return true;
+}
+
+std::string StaticIteration::failure() {
+  return fmt::format(
+      "{}the line search finds no state that is more in balance; the out-of-balance force is largest at {}",
+      load_.is_divided() ? fmt::format("no equilibrium beyond the load factor {:.4g}: ", load_.from()) : "",
+      largest_at(system().system(), std::as_const(Q_).span()));
 }
 
 }  // namespace stillpoint

@@ -1,12 +1,19 @@
 // What static iterations share: u ← u + α p for a direction p that goes downhill, Q·p > 0, with α by a line search.
 //
 // There is no time in R(u) = F: a step is a new iterate, v is 0, and the pseudo-time goes by the step given so that
-// rows and limits work as for the others. Laws of the material see one increment from where they were last committed to
-// the solution, which is committed at the end: the implicit increment of a static step.
+// rows and limits work as for the others. The load comes in increments (LoadIncrements): what is out of balance is
+//
+//   Q_s(u) = Q(u) − (1 − s) Q(u₀),   Q = F − R,   s from 0 at u₀, the state at the start, to 1
+//
+// and laws of the material see one increment from where they were last committed to the equilibrium at the next s,
+// which is committed: the implicit increment of a static step. An increment that the line search cannot follow, or that
+// takes many times as long as the first one, is begun again with half of it.
 #pragma once
 
 #include "solvers/integrators/stepping_integrator.hpp"
 #include "solvers/statics/line_search.hpp"
+#include "solvers/statics/load_increments.hpp"
+#include "solvers/statics/static_methods.hpp"
 
 namespace stillpoint {
 
@@ -16,12 +23,13 @@ class StaticIteration : public SteppingIntegrator {
   bool static_iteration() const final { return true; }
 
  protected:
-  /// max_step: below leapfrog's critical step [s]; sigma: of the line search. Throws std::invalid_argument if
-  /// something touches the body.
-  StaticIteration(double max_step, RelaxationSystem& system, LineSearch::Accuracy sigma);
+  /// Throws std::invalid_argument if something touches the body.
+  StaticIteration(const StaticMethodOptions& options, RelaxationSystem& system, LineSearch::Accuracy sigma);
 
   /// Forgets earlier steps.
   virtual void forget() = 0;
+  /// Q() is that of another load, at the same u.
+  virtual void load_changed() { forget(); }
   /// p from Q() and M⁻¹Q, (n); returns the α to try first.
   virtual double direction(Vec p) = 0;
   /// The step α p was taken: the force is Q(), the one before last_Q().
@@ -42,11 +50,25 @@ class StaticIteration : public SteppingIntegrator {
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
   void archive_memory(const StateArchive& state) final;
+
+  bool evaluate(double t, ConstVec u, Vector& Q);
+  void add_to(Vector& Q, double share) const;
   bool search(double t, Vec u_new);
+  void begin_increment(double s, ConstVec u);
+  void end_increment();
+  bool makes_no_way() const;
+  bool is_as_good_as_balanced() const;
+  bool begin_half(double t, Vec u_new);
+  std::string failure();
 
   LineSearch::Accuracy sigma_;
+  double tolerance_;
+  LoadIncrements load_;
   Vector Q_, z_, next_Q_, p_;
+  Vector u_begin_, Q_begin_;  // u where the increment began; Q(u₀)
   double alpha_ = 0;
+  double unbalanced_at_begin_ = 0;               // ‖Q_s‖ there [N]
+  long steps_of_first_ = 0, steps_of_this_ = 0;  // increments; the first: 0 before its end
   bool admissible_ = true, moves_ = false;
 };
 

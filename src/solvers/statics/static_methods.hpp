@@ -15,8 +15,8 @@ namespace stillpoint {
 struct StaticMethodOptions {
   std::string_view name;  // one of static_methods()
   double max_step = 0;    // below leapfrog's critical step, for the first try along M⁻¹Q [s]; > 0
-  double tolerance = 0;   // of ‖F − R‖/‖F‖, at which Newton's method ends; > 0
-  int load_steps = 1;     // of Newton's methods, at least
+  double tolerance = 0;   // of ‖F − R‖/‖F‖, at which Newton's method and increments of the load end; > 0
+  int load_steps = 1;     // at least
 };
 
 /// Every static solver, in the order of `stillpoint list`.
@@ -32,7 +32,7 @@ NewtonOptions newton_options(std::string_view name, int load_steps);
 /// mass. M outlives the options.
 void precondition(NewtonOptions& options, const Mass& M);
 
-/// y = [u; 0]. Nothing is committed but by Newton's load steps: laws of the material see one increment to the solution.
+/// y = [u; 0]. What points remember is committed at the end of each increment of the load but the last.
 /// Throws std::invalid_argument for an unknown name, and if something touches the body.
 std::unique_ptr<Integrator> make_static_method(const StaticMethodOptions& options, RelaxationSystem& system);
 
