@@ -25,8 +25,9 @@ class TrialState {
 };
 
 /// consistent: the derivative of R(u). elastic: as if no point yielded, symmetric; frequencies and critical steps are
-/// those of K_e, since what yields only softens.
-enum class Tangent { consistent, elastic };
+/// those of K_e, since what yields only softens. stable: K_e without the directions in which stresses make a point
+/// unstable, positive semi-definite unless the dilatation is averaged: for a fictitious inertia, by matrix() alone.
+enum class Tangent { consistent, elastic, stable };
 
 /// K(u) = ∂R/∂u, of internal_force() since the last commit, at t.
 class Tangents {

@@ -34,10 +34,12 @@ void check_initial_state(const Scene& scene, const LagrangianPhase& phase, Const
 }
 
 // How long equilibrium has to last: a body that is not held has no lowest frequency, and a hundred of its shortest
-// periods stand in for the longest. A static solver has no motion that may only be turning round.
+// periods stand in for the longest; with multigrid, where all are nearly alike, five. A static solver has no motion
+// that may only be turning round.
 double dwell_of(const Scene& scene, const Model& model) {
   if (model.static_method) return 0;
-  return scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : 100 * two_pi / model.omega_max);
+  const double short_ones = model.multigrid ? 5 : 100;
+  return scene.stop.dwell * (model.omega_1 ? two_pi / *model.omega_1 : short_ones * two_pi / model.omega_max);
 }
 
 // The error bound that equilibrium takes: what the scene asks for; beside its residual one by default, which a residual

@@ -22,6 +22,7 @@ struct Model {
   std::unique_ptr<LagrangianPhase> phase;
   MassSpec mass;                                   // that the phase was made with
   std::shared_ptr<const MultigridMass> multigrid;  // in the place of the phase's mass; null: there is none
+  double multigrid_step = 0;                       // max_step omega_max, of all phases, once there is a second one
   std::vector<double> u, v;                        // initial values, (n) each
   bool linear = false;                             // whether Q = F − R is linear in u, and symmetric
   double t = 0;                                    // when it begins; the end of the loads for a static solver [s]

@@ -50,6 +50,15 @@ void refuse_what_remembers(const Scene& scene, const Model& model) {
                     "solve.method = \"newton-cg\" or \"lbfgs\" with it");
 }
 
+// Each phase has frequencies of its own: auto finds what it needs of them as it goes.
+void refuse_phases(const Scene& scene, const Model& model) {
+  if (model.static_method || is_auto(model) || !model.phase->info().updated_lagrangian) return;
+  throw_scene_error(scene, "mass.kind",
+                    fmt::format("'multigrid' goes from phase to phase by damping.strategy = \"auto\" alone, not by "
+                                "'{}'; take that, or phase.max_motion = \"none\"",
+                                scene.damping.strategy));
+}
+
 // The cycle's smoothers and coarse spaces know nothing of motions that keep the volume.
 void note_incompressible(const Scene& scene, std::vector<std::string>& notes) {
   constexpr double much = 20;
@@ -77,7 +86,7 @@ void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
   const bool is_asked = scene.mass.kind == MassKind::multigrid;
   const auto unknowns = static_cast<double>(model.phase->size());
   if (!is_asked && !(may_choose(model) && multigrid_pays(scene, unknowns) && model.phase->free_parts().empty())) return;
-  if (is_asked) refuse_what_remembers(scene, model);
+  if (is_asked) refuse_what_remembers(scene, model), refuse_phases(scene, model);
   MultigridAttempt made = shared_multigrid_mass(set_up, scene.mass, *model.phase, model.u,
                                                 /*only_omega_max=*/model.static_method || is_auto(model));
   if (!made.mass) {
@@ -98,6 +107,18 @@ void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
       "with mass.kind = \"multigrid\" frequencies and velocities are those of a fictitious inertia, and the distance "
       "is that of the strain energy, ‖u − u*‖_K/‖u‖_K");
   note_incompressible(scene, model.notes);
+}
+
+// A run that may be resumed in this phase makes its cycle anew, which can then be made again.
+void follow_multigrid(const Scene& scene, Model& model) {
+  if (!model.multigrid) return;
+  MultigridAttempt made =
+      next_multigrid_mass(*model.phase, scene.checkpoint.wanted() ? nullptr : model.multigrid.get());
+  if (!made.mass) throw_scene_error(scene, "mass.kind", made.refusal);
+  if (model.multigrid_step == 0) model.multigrid_step = model.integrator.max_step * model.omega_max;
+  model.multigrid = std::move(made.mass);
+  model.omega_max = model.multigrid->omega_max;
+  model.integrator.max_step = model.relaxing.max_step = model.multigrid_step / model.omega_max;
 }
 
 }  // namespace stillpoint

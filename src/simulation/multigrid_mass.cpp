@@ -7,9 +7,10 @@
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
+#include "linalg/carried_multigrid.hpp"
 #include "linalg/lanczos.hpp"
-#include "linalg/multigrid.hpp"
 #include "linalg/power_iteration.hpp"
+#include "linalg/row_product.hpp"
 
 namespace stillpoint {
 namespace {
@@ -36,7 +37,9 @@ bool find_frequencies(const LinearMap& apply_K, const std::vector<double>& load,
   Lanczos lanczos(apply_K, solve, std::move(b));
   const int limit = only_omega_max ? few : most;
   while (lanczos.applications() < limit && lanczos.step()) {
-    if (lanczos.applications() >= few && lanczos.residual() <= rest) break;
+    if (lanczos.applications() < few) continue;
+    if (lanczos.applications() == few) made.spread = lanczos.largest().theta / lanczos.smallest().theta;
+    if (lanczos.residual() <= rest) break;
   }
   made.applications = lanczos.applications();
   if (made.applications == 0 || !lanczos.finite()) return false;
@@ -47,30 +50,62 @@ bool find_frequencies(const LinearMap& apply_K, const std::vector<double>& load,
   return true;
 }
 
-}  // namespace
-
-MultigridAttempt make_multigrid_mass(const LagrangianPhase& phase, ConstVec u, bool only_omega_max) {
-  if (std::string missing = multigrid_is_missing(); !missing.empty()) return {nullptr, std::move(missing)};
-  const auto made = std::make_shared<MultigridMass>();
-  std::shared_ptr<const Multigrid> cycle;
-  {
-    const SparseMatrix K = phase.tangents().matrix(Tangent::elastic, 0, u);
-    for (Eigen::Index k = 0; k < K.outerSize(); ++k) {
-      if (K.coeff(k, k) > 0) continue;
-      return {nullptr,
-              fmt::format("the elastic stiffness of {} is {}, not positive",
-                          to_string(phase.diagnosis().of_unknown(static_cast<std::size_t>(k))), K.coeff(k, k))};
-    }
-    cycle = make_multigrid(K, phase.layout());
+// The diagonal entry of K that no cycle goes with, and where it is.
+std::string why_no_cycle(const LagrangianPhase& phase, const SparseMatrix& K) {
+  for (Eigen::Index k = 0; k < K.outerSize(); ++k) {
+    if (K.coeff(k, k) > 0) continue;
+    return fmt::format("the elastic stiffness of {} is {}, not positive",
+                       to_string(phase.diagnosis().of_unknown(static_cast<std::size_t>(k))), K.coeff(k, k));
   }
-  made->mass = Mass::by_inverse(phase.size(), [cycle](ConstVec b, Vec x) { cycle->apply(b, x); });
-  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { phase.tangents().apply(Tangent::elastic, 0, u, x, Kx); };
+  return "";
+}
+
+std::shared_ptr<MultigridMass> mass_of(std::shared_ptr<const Multigrid> cycle, std::size_t n) {
+  auto made = std::make_shared<MultigridMass>();
+  made->cycle = std::move(cycle);
+  made->mass = Mass::by_inverse(n, [cycle = made->cycle](ConstVec b, Vec x) { cycle->apply(b, x); });
+  return made;
+}
+
+MultigridAttempt make_anew(const LagrangianPhase& phase, const SparseMatrix& K, const LinearMap& apply_K, ConstVec u,
+                           bool only_omega_max) {
+  NodalLayout layout = phase.layout();
+  const auto made = mass_of(make_multigrid(K, layout), phase.size());
+  made->layout = std::move(layout);
   if (!find_frequencies(apply_K, out_of_balance(phase, u), only_omega_max, *made)) {
     return {nullptr,
             "the elastic stiffness is not positive definite at the start: multigrid needs a body that is held, in a "
             "stable state; expected supports, or mass.kind = \"lumped\""};
   }
   return {made, ""};
+}
+
+}  // namespace
+
+MultigridAttempt make_multigrid_mass(const LagrangianPhase& phase, ConstVec u, bool only_omega_max) {
+  if (std::string missing = multigrid_is_missing(); !missing.empty()) return {nullptr, std::move(missing)};
+  SparseMatrix K = phase.tangents().matrix(Tangent::elastic, 0, u);
+  if (std::string why = why_no_cycle(phase, K); !why.empty()) return {nullptr, std::move(why)};
+  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { phase.tangents().apply(Tangent::elastic, 0, u, x, Kx); };
+  return make_anew(phase, K, apply_K, u, only_omega_max);
+}
+
+// Of what the stresses on the way make unstable the inertia should know nothing: it has to be positive definite.
+MultigridAttempt next_multigrid_mass(const LagrangianPhase& phase, const MultigridMass* last) {
+  constexpr double worse = 2;  // 3 and more save no time: what a phase costs beside is as much
+  const std::vector<double> u(phase.size(), 0.0);
+  const SparseMatrix K = phase.tangents().matrix(Tangent::stable, 0, u);
+  if (std::string why = why_no_cycle(phase, K); !why.empty()) return {nullptr, std::move(why)};
+  const LinearMap apply_K = row_product(K);
+  if (!last) return make_anew(phase, K, apply_K, u, /*only_omega_max=*/true);
+  const auto carried = mass_of(carry(last->cycle, last->layout, phase.layout(), K), phase.size());
+  const bool serves = find_frequencies(apply_K, out_of_balance(phase, u), /*only_omega_max=*/true, *carried) &&
+                      carried->spread <= worse * last->spread;
+  if (!serves) return make_anew(phase, K, apply_K, u, /*only_omega_max=*/true);
+  carried->cycle = last->cycle;
+  carried->layout = last->layout;
+  carried->spread = last->spread;
+  return {carried, ""};
 }
 
 MultigridAttempt shared_multigrid_mass(SetUp& set_up, const MassSpec& mass, const LagrangianPhase& phase, ConstVec u,

@@ -13,6 +13,7 @@
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
 #include "scene/longest_cell.hpp"
+#include "simulation/multigrid_choice.hpp"
 
 namespace stillpoint {
 namespace {
@@ -141,7 +142,8 @@ void Simulation::Impl::next_phase() {
   }
   tell_phase_change(false);
   try {
-    const std::vector<double> v0 = model_.phase->control().begin_next(t_, motion_->u(), motion_->v());
+    const std::vector<double> v0 = model_.phase->control().begin_next(t_, motion_->u(), velocity_to_carry());
+    follow_multigrid(scene_, model_);
     earlier_steps_ = steps();
     earlier_evaluations_ = evaluations();
     earlier_rejected_ += motion_->integrator->rejected_steps();
@@ -159,6 +161,13 @@ void Simulation::Impl::next_phase() {
     reason_ = failure(now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what()));
     is_readable_ = false;
   }
+}
+
+// Of a fictitious inertia there is none: the next phase begins at rest.
+ConstVec Simulation::Impl::velocity_to_carry() {
+  if (!model_.multigrid) return motion_->v();
+  field_.assign(model_.phase->size(), 0.0);
+  return field_;
 }
 
 // A cell that is about to turn inside out is good again in the next phase.

@@ -88,6 +88,7 @@ class Simulation::Impl {
   std::optional<StepReport> try_step(double landing);
   double landing_time(double t_stop) const;
   void next_phase();
+  ConstVec velocity_to_carry();
   bool try_next_phase();
   void tell_phase_change(bool begun) const;
 

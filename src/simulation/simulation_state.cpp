@@ -146,6 +146,7 @@ void Simulation::Impl::archive_motion(const StateArchive& state) {
     std::vector<double> y(2 * model_.phase->size());
     state("y", Vec(y));
     motion_.reset();
+    if (phases_ > 1) follow_multigrid(scene_, model_);
     motion_.emplace(model_, scene_, vectors_, t_, first_half(ConstVec(y)), second_half(ConstVec(y)));
   }
   motion_->archive(state);

@@ -111,6 +111,14 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   }
 }
 
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with multigrid in a later phase") {
+  if (!multigrid_is_missing().empty()) return;
+  check_same_bits({"block",
+                   {"mass.kind=multigrid", "damping.strategy=auto", "phase.max_motion=0.1", "grid.cells=[20,20]",
+                    "stop.steps=40", "checkpoint.every_steps=3"}},
+                  25);
+}
+
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with every static solver") {
   for (const char* solver : {"cg", "lbfgs", "newton", "newton-cg"}) {
     const std::string method = std::string("solve.method=") + solver;

@@ -159,7 +159,7 @@ void check_phases(SceneCheck& check, bool grid) {
     check.add("grid.basis", fmt::format("'hermite' has no lumped mass to carry velocities from phase to phase; take "
                                         "linear, quadratic or cubic, {}",
                                         one_phase));
-  } else if (scene.mass.kind != MassKind::lumped) {
+  } else if (scene.mass.kind == MassKind::consistent) {
     check.add(
         check.written("mass.kind") ? "mass.kind" : asked,
         fmt::format("velocities are carried from phase to phase by a lumped mass; take mass.kind = \"lumped\", {}",

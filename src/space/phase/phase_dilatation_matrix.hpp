@@ -9,6 +9,7 @@
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/gather_scatter_bilinear.hpp"
 #include "space/kernels/mean_dilatation.hpp"
+#include "space/materials/moduli_of.hpp"
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
@@ -81,7 +82,7 @@ void MaterialPointPhase<B, K>::answer_columns(Tangent kind, double dt, std::size
   mean.keep_stress(block);
   std::vector<typename PointMaterial<K>::ModuliMatrix> A(block.count);
   for (std::size_t q = 0; q < block.count; ++q)
-    A[q] = law.moduli(kind, block.H_at(q), block.dH_at(q), dt, block.first + q);
+    A[q] = moduli_of(law, kind, block.H_at(q), block.dH_at(q), dt, block.first + q);
   for (int column = 0; column < columns; ++column) {
     direct(column);
     mean.average_direction(block);

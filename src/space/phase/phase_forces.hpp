@@ -1,6 +1,7 @@
 // Forces of a phase: R(u), its tangent, and what is remembered of an accepted step.
 #pragma once
 
+#include "space/materials/moduli_of.hpp"
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
@@ -144,6 +145,7 @@ void MaterialPointPhase<B, K>::add_springs_product(Vec dR) const {
 
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const {
+  if (kind == Tangent::stable) throw std::logic_error("the stable tangent is a matrix alone");
   spread(t, u, grid_u_);
   std::ranges::fill(grid_du_, 0.0);
   for (std::size_t k = 0; k < du.size(); ++k) grid_du_[static_cast<std::size_t>(dofs_->free[k])] = du[k];
@@ -173,7 +175,7 @@ SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u
   std::ranges::transform(grid_u_, committed_u_, grid_du_.begin(), std::minus<>());
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<Dim, per_cell>& matrix) {
     const auto H = weights_.gradient(grid_u_.data(), k, p), dH = weights_.gradient(grid_du_.data(), k, p);
-    const auto A = material_of(k).moduli(kind, H, dH, t - committed_t_, p);
+    const auto A = moduli_of(material_of(k), kind, H, dH, t - committed_t_, p);
     std::array<TensorOf<K>, Dim * per_cell> G{};
     const auto dN = weights_.dN(k, p);
     for (int a = 0; a < per_cell; ++a) {
