@@ -71,11 +71,15 @@ double of_motion(const Scene& scene) {
   return numbers * real;
 }
 
+const LawInfo& law_of(const Scene& scene, const BodySpec& body) {
+  return *catalogue().law(scene.materials.at(body.material).law);
+}
+bool remembers(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [&](const BodySpec& one) { return law_of(scene, one).history_dependent; });
+}
 bool is_nonlinear(const Scene& scene) {
-  return std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
-    const LawInfo& law = *catalogue().law(scene.materials.at(body.material).law);
-    return law.finite_strain || law.history_dependent;
-  });
+  return remembers(scene) ||
+         std::ranges::any_of(scene.bodies, [&](const BodySpec& one) { return law_of(scene, one).finite_strain; });
 }
 
 // Of linear bilinear cells six moments of their points, and their sides, see ElasticCells.
@@ -171,8 +175,8 @@ bool factorises(const Scene& scene, const BodySize& size) {
 bool takes_multigrid(const Scene& scene, const BodySize& size) {
   if (scene.mass.kind == MassKind::multigrid) return true;
   const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
-  return relaxation && relaxation->chooses_mass && !is_nonlinear(scene) && !moves_on(scene) && scene.walls.empty() &&
-         multigrid_pays(scene, size.unknowns);
+  return relaxation && relaxation->chooses_mass && !remembers(scene) && !moves_on(scene) && scene.walls.empty() &&
+         multigrid_pays(scene, size.unknowns, !is_nonlinear(scene));
 }
 
 }  // namespace

@@ -17,16 +17,18 @@ namespace {
 
 // Seconds on a core of 2022, of which only the ratios count, measured by incompressible.toml with 1e4 to 3e5 unknowns:
 // evaluations without multigrid grow with the cells across the body, those with it do not, and both cost as much as
-// there are unknowns.
+// there are unknowns. A body that turns or buckles on its way takes 100 to 1600 with multigrid (cantilever.toml, blocks
+// under their weight), one that hardly does as many as a linear one: 150 stand for both.
 struct Cost {
   double without, with;  // [s]
 };
-Cost cost_of(const Scene& scene, double unknowns) {
-  constexpr double per_cell = 7.4;                          // evaluations to 1e-6, a cell along the longest side
-  constexpr double evaluation = 12e-9, start = 0.12;        // [s an unknown], [s] of PETSc
-  constexpr double set_up = 4.0e-6, cycles = 15 * 0.15e-6;  // [s an unknown]
+Cost cost_of(const Scene& scene, double unknowns, bool linear) {
+  constexpr double per_cell = 7.4;                    // evaluations to 1e-6, a cell along the longest side
+  constexpr double evaluation = 12e-9, start = 0.12;  // [s an unknown], [s] of PETSc
+  constexpr double set_up = 4.0e-6, cycle = 0.15e-6;  // [s an unknown]
   const double cells = *std::ranges::max_element(scene.grid.cells);
-  return {per_cell * cells * evaluation * unknowns, start + (set_up + cycles) * unknowns};
+  const double cycles = linear ? 15 : 150;
+  return {per_cell * cells * evaluation * unknowns, start + (set_up + cycles * cycle) * unknowns};
 }
 
 bool is_open(const Scene& scene) {
@@ -36,10 +38,10 @@ bool is_open(const Scene& scene) {
 
 bool is_auto(const Model& model) { return model.relaxation && model.relaxation->chooses_mass; }
 
-// Whether auto may: conjugate directions then lead to rest with any mass, in a body that its supports hold.
+// Whether auto may: it then comes to the same rest with any mass, in a body that its supports hold.
 bool may_choose(const Model& model) {
   const LagrangianPhase& phase = *model.phase;
-  return is_auto(model) && model.linear && !phase.info().updated_lagrangian && !phase.contact();
+  return is_auto(model) && phase.info().history_names.empty() && !phase.info().updated_lagrangian && !phase.contact();
 }
 
 // What yields on the way of a motion is remembered, and this motion's way is that of no load.
@@ -76,16 +78,18 @@ void note_incompressible(const Scene& scene, std::vector<std::string>& notes) {
 
 }  // namespace
 
-bool multigrid_pays(const Scene& scene, double unknowns) {
+bool multigrid_pays(const Scene& scene, double unknowns, bool linear) {
   if (!is_open(scene)) return false;
-  const Cost cost = cost_of(scene, unknowns);
+  const Cost cost = cost_of(scene, unknowns, linear);
   return cost.without > cost.with && multigrid_is_missing().empty();
 }
 
 void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
   const bool is_asked = scene.mass.kind == MassKind::multigrid;
   const auto unknowns = static_cast<double>(model.phase->size());
-  if (!is_asked && !(may_choose(model) && multigrid_pays(scene, unknowns) && model.phase->free_parts().empty())) return;
+  if (!is_asked &&
+      !(may_choose(model) && multigrid_pays(scene, unknowns, model.linear) && model.phase->free_parts().empty()))
+    return;
   if (is_asked) refuse_what_remembers(scene, model), refuse_phases(scene, model);
   MultigridAttempt made = shared_multigrid_mass(set_up, scene.mass, *model.phase, model.u,
                                                 /*only_omega_max=*/model.static_method || is_auto(model));
@@ -97,7 +101,7 @@ void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model) {
   model.omega_max = model.multigrid->omega_max;
   if (model.multigrid->omega_1 > 0) model.omega_1 = model.multigrid->omega_1;
   if (!is_asked) {
-    const Cost cost = cost_of(scene, unknowns);
+    const Cost cost = cost_of(scene, unknowns, model.linear);
     model.notes.push_back(
         fmt::format("auto takes mass.kind = \"multigrid\": with {} unknowns about {:.2g} times as quick as a lumped "
                     "mass",

@@ -17,8 +17,8 @@ void choose_multigrid(const Scene& scene, SetUp& set_up, Model& model);
 /// if there is none for what the body is like now, and leaves the model as it was.
 void follow_multigrid(const Scene& scene, Model& model);
 
-/// Whether less is spent with multigrid than without, by a linear body of so many unknowns in one phase that nothing
+/// Whether less is spent with multigrid than without, by an elastic body of so many unknowns in one phase that nothing
 /// touches; false where the scene settles it.
-bool multigrid_pays(const Scene& scene, double unknowns);
+bool multigrid_pays(const Scene& scene, double unknowns, bool linear);
 
 }  // namespace stillpoint

@@ -53,8 +53,8 @@ TEST_CASE(
 TEST_CASE("the cycle of multigrid is kept for a phase that it serves, and made anew for one that it does not") {
   REQUIRE_MULTIGRID();
   const auto phase = [](const char* max) {
-    return make_phase(
-        scenes::load("block", pressed({std::string("body.max=[") + max + "," + max + "]", "probe=[]", "damping.strategy=auto"})));
+    return make_phase(scenes::load(
+        "block", pressed({std::string("body.max=[") + max + "," + max + "]", "probe=[]", "damping.strategy=auto"})));
   };
   const auto half = phase("0.5"), fewer = phase("0.475"), whole = phase("1");
   const MultigridAttempt first = next_multigrid_mass(*half, nullptr);

@@ -199,6 +199,20 @@ TEST_CASE(
   CHECK_FALSE(model({"grid.cells=[224,224]", "stop.residual=0", "stop.time=1"}).multigrid);
 }
 
+TEST_CASE(
+    "auto takes a multigrid mass for a long beam that may turn, and not for a short one or where points remember") {
+  REQUIRE_MULTIGRID();
+  const auto takes = [](const std::vector<std::string>& set) {
+    std::vector<std::string> all = {"grid.cells=[640,8]", "damping.strategy=auto"};
+    all.insert(all.end(), set.begin(), set.end());
+    return make_model(scenes::load("cantilever", all)).multigrid != nullptr;
+  };
+  CHECK(takes({}));
+  CHECK_FALSE(takes({"grid.cells=[160,8]"}));
+  CHECK_FALSE(takes({"material.beam={law='drucker-prager', E=12, nu=0, rho=1, phi=0, c=1}", "phase.max_motion=none"}));
+  CHECK_FALSE(takes({"phase.max_motion=0.5"}));
+}
+
 TEST_CASE("auto keeps a lumped mass for a large linear body that its supports do not hold") {
   CHECK_FALSE(
       make_model(scenes::load("incompressible",
