@@ -159,9 +159,10 @@ bool StaticIteration::is_as_good_as_balanced() const {
   return norm(Q_) <= rounding * unbalanced_at_begin_;
 }
 
-// Back to where the increment began. False if it is as small as may be.
+// Back to where the increment began. False if it is as small as may be, or if nothing is remembered: a body that takes
+// no more of the load would go on to where its springs have given way, as small as its forces are beside others.
 bool StaticIteration::begin_half(double t, Vec u_new) {
-  if (!load_.halve()) return false;
+  if (!system().system().history_dependent() || !load_.halve()) return false;
   forget();
   std::ranges::copy(std::as_const(u_begin_).span(), u_new.begin());
   if (!evaluate(t, u_new, Q_)) return false;

@@ -6,8 +6,8 @@
 //   Q_s(u) = Q(u) − (1 − s) Q(u₀),   Q = F − R,   s from 0 at u₀, the state at the start, to 1
 //
 // and laws of the material see one increment from where they were last committed to the equilibrium at the next s,
-// which is committed: the implicit increment of a static step. An increment that the line search cannot follow, or that
-// takes many times as long as the first one, is begun again with half of it.
+// which is committed: the implicit increment of a static step. Where points remember, an increment that the line search
+// cannot follow, or that gets nowhere in many times the steps of the first one, is begun again with half of it.
 #pragma once
 
 #include "solvers/integrators/stepping_integrator.hpp"
