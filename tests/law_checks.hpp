@@ -1,9 +1,10 @@
 // What every elastic law must satisfy, and the deformations to see it at.
 #pragma once
 
-#include <stillpoint/plane_tensor.hpp>
+#include <stillpoint/tensor.hpp>
 
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "largest.hpp"
@@ -15,6 +16,15 @@ template <StressState S>
 std::vector<Gradient<S>> deformations() {
   if constexpr (dimensions(S) == 1) {
     return {{-0.6}, {-0.1}, {0.0}, {0.2}, {1.5}, {4.0}};
+  } else if constexpr (S == StressState::space) {
+    return {{},
+            {1e-4, 2e-4, 3e-4, -1e-4, 3e-4, 2e-4, 1e-4, -2e-4, 1e-4},
+            {0.3, 0, 0, 0, 0.3, 0, 0, 0, 0.3},
+            {0.3, 0, 0, 0, 0.3, 0, 0, 0, -0.2},
+            {0, 0.1, 0, 0, 0, 0.3, 0, 0, -0.2},
+            {0, -0.5, 0.2, 0.5, 0, 0.1, -0.2, -0.1, 0.1},
+            {1.5, 0.4, 0.2, -0.3, -0.5, -0.3, 0.1, 0.5, 0.8},
+            {-0.6, 0.2, -0.1, 0.1, 0.3, 0.2, 0.05, -0.3, -0.5}};
   } else {
     const std::vector<PlaneTensor> all = {
         {0, 0, 0, 0, 0},        {1e-4, 2e-4, -1e-4, 3e-4, 1e-4}, {0.3, 0, 0, 0.3, 0.3},      {0, 0.1, 0, 0, -0.2},
@@ -48,17 +58,21 @@ double relative_distance(const Array& A, const Array& B) {
   return size > 0 ? distance / size : distance;
 }
 
-/// A rotation of the plane by an angle.
-inline PlaneTensor rotation(double angle) {
-  return {std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle), 1};
-}
-template <StressState S>
-PlaneTensor stress_tensor(const Stress<S>& sigma) {
-  return {sigma[0], sigma[3], sigma[3], sigma[1], sigma[2]};
+/// A rotation by an angle, in space about an axis that is none of the coordinates'.
+template <class Tensor = PlaneTensor>
+Tensor rotation(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  if constexpr (std::is_same_v<Tensor, PlaneTensor>) {
+    return {c, -s, s, c, 1};
+  } else {
+    const double x = 2.0 / 7, y = -3.0 / 7, z = 6.0 / 7;  // R = I + sin θ A + (1 − cos θ) A², A v = (x, y, z) × v
+    const SpaceTensor A{0, -z, y, z, 0, -x, -y, x, 0};
+    return identity<SpaceTensor> + s * A + (1 - c) * (A * A);
+  }
 }
 /// Q σ Qᵀ
 template <StressState S>
-Stress<S> turned(const PlaneTensor& Q, const Stress<S>& sigma) {
+Stress<S> turned(const TensorFor<S>& Q, const Stress<S>& sigma) {
   return stress_part<S>(Q * stress_tensor<S>(sigma) * transpose(Q));
 }
 

@@ -21,8 +21,8 @@
 
 #include <stillpoint/drucker_prager_cone.hpp>
 #include <stillpoint/dual.hpp>
-#include <stillpoint/plane_tensor.hpp>
 #include <stillpoint/scene.hpp>
+#include <stillpoint/tensor.hpp>
 
 #include <limits>
 
@@ -57,13 +57,19 @@ struct DruckerPragerParameters {
 
 template <StressState S>
 class DruckerPrager {
-  static_assert(S == StressState::plane_strain || S == StressState::axisymmetric, "the other states are not written");
+  static_assert(S == StressState::plane_strain || S == StressState::axisymmetric || S == StressState::space,
+                "the other states are not written");
 
  public:
   static constexpr StressState state = S;
-  static constexpr int history = 6;
-  using History = std::array<double, history>;  // σ_xx, σ_yy, σ_zz, σ_xy [Pa], gap, γᵖ
-  static constexpr std::array<std::string_view, history> history_names = {"", "", "", "", "gap", "plastic_strain"};
+  static constexpr int stresses = stress_components(S), history = stresses + 2;
+  using History = std::array<double, history>;  // σ_xx, σ_yy, σ_zz, σ_xy, in space σ_yz, σ_zx [Pa]; gap, γᵖ
+  static constexpr std::array<std::string_view, history> history_names = [] {
+    std::array<std::string_view, history> names{};
+    names[stresses] = "gap";
+    names[stresses + 1] = "plastic_strain";
+    return names;
+  }();
 
   template <class Number>
   using Components = std::array<Number, gradient_components(S)>;  // of H and P
@@ -86,61 +92,25 @@ class DruckerPrager {
   template <class Number>
   Components<Number> first_piola(const Components<Number>& H, const Components<Number>& dH, double dt,
                                  History& next) const {
-    using std::sqrt;
-    const auto [s_xx, s_yy, s_zz, s_xy, gap, plastic_strain] = next;
-
-    // g = f − dH/2,  l = dH g⁻¹
-    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
-    const Number det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
-    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
-    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
-    const Number dzz = hoop_increment(H, dH), tr_d = lxx + lyy + dzz;
-
-    // The rotation by θ, tan(θ/2) = q = w_yx/2; a tensor turns by 2θ in (half difference, shear), by θ under R½.
-    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
-    const Number cos = (1 - q * q) * over, sin = 2 * q * over, cos2 = 1 - 2 * sin * sin, sin2 = 2 * sin * cos;
-    const double half_n = (s_xx - s_yy) / 2;
-    const Number half_d = G_ * (lxx - lyy), shear_d = G_ * (lxy + lyx);
-    const Number half = cos2 * half_n - sin2 * s_xy + (cos * half_d - sin * shear_d);
-    const Number shear = sin2 * half_n + cos2 * s_xy + (sin * half_d + cos * shear_d);
-
-    // p_trial = p_n + K (tr d + gap),  s_zz = s_zz,n + 2 G dev d_zz,  J₂ = half² + shear² + ¾ s_zz²
-    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
-    const Number p_trial = p_n + K_ * (tr_d + gap);
-    const Number dev_zz = s_zz - p_n + 2 * G_ * (dzz - tr_d * (1.0 / 3));
-    const Number root_J2 = sqrt(half * half + shear * shear + 0.75 * (dev_zz * dev_zz) + tiny);
-
-    // The strength
-    const double lost = plastic_strain * softening_rate_, share = lost < 1 ? lost : 1;
-    const double eta = eta_ + share * eta_change_, k = k_ + share * k_change_;
-    const double apex = k / (eta + tiny), p_cut = tension_ < apex ? tension_ : apex;
-
-    // On the cone Δγ = f/(G + K η η̄ + 1/(β dt)), on its edge with the cut-off f(p_cut)/(G + 1/(β dt))
-    const double flow_resistance = fluidity_ > 0 ? G_ + 1 / (fluidity_ * dt) : G_;
-    const Number cone = positive(root_J2 + eta * p_trial - k) * (1 / (flow_resistance + K_ * eta * eta_bar_));
-    const Number edge = positive(root_J2 + eta * p_cut - k) * (1 / flow_resistance);
-    const Number p_cone = p_trial - K_ * eta_bar_ * cone;
-    const bool open = p_cone > p_cut;
-    const Number dgamma = open ? edge : cone, p = open ? Number(p_cut) : p_cone;
-    const Number opened = gap + tr_d + (p_n - p_cut) * (1 / K_) - eta_bar_ * edge;
-
-    // s = (1 − G Δγ/√J₂) s_trial
-    const Number over_root_J2 = 1 / root_J2, scale = 1 - G_ * dgamma * over_root_J2;
-    const Number half_s = scale * half, xy = scale * shear, dev = scale * dev_zz;
-    const Number xx = p - dev / 2 + half_s, yy = p - dev / 2 - half_s, zz = p + dev;
-    next = {value_of(xx),
-            value_of(yy),
-            value_of(zz),
-            value_of(xy),
-            open ? value_of(opened) : 0,
-            plastic_strain + value_of(dgamma)};
-    return nominal_stress(H, det_g, xx, yy, zz, xy);
+    if constexpr (S == StressState::space) {
+      return in_space(H, dH, dt, next);
+    } else {
+      return in_the_plane(H, dH, dt, next);
+    }
   }
 
   /// The strength of a step is that at its start, which softening takes from the stress at its end.
   bool stress_stays() const { return softening_rate_ == 0; }
-  Stress<S> cauchy(const History& now) const { return {now[0], now[1], now[2], now[3]}; }
-  History initial_history(const Stress<S>& s) const { return {s[0], s[1], s[2], s[3], 0, 0}; }
+  Stress<S> cauchy(const History& now) const {
+    Stress<S> sigma;
+    for (int a = 0; a < stresses; ++a) sigma[a] = now[a];
+    return sigma;
+  }
+  History initial_history(const Stress<S>& sigma) const {
+    History first{};
+    for (int a = 0; a < stresses; ++a) first[a] = sigma[a];
+    return first;
+  }
 
   /// Consistent with the return mapping [Simo and Taylor 1985]: the derivative of first_piola() to rounding, H and dH
   /// changing alike. Symmetric only without stress and plastic flow: flow that is not associated is not, and the
@@ -168,20 +138,137 @@ class DruckerPrager {
   }
 
  private:
+  using Tensor = TensorFor<S>;
+
+  template <class Number>
+  Components<Number> in_the_plane(const Components<Number>& H, const Components<Number>& dH, double dt,
+                                  History& next) const {
+    using std::sqrt;
+    const auto [s_xx, s_yy, s_zz, s_xy, gap, plastic_strain] = next;
+
+    // g = f − dH/2,  l = dH g⁻¹
+    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
+    const Number det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
+    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
+    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
+    const Number dzz = hoop_increment(H, dH), tr_d = lxx + lyy + dzz;
+
+    // The rotation by θ, tan(θ/2) = q = w_yx/2; a tensor turns by 2θ in (half difference, shear), by θ under R½.
+    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
+    const Number cos = (1 - q * q) * over, sin = 2 * q * over, cos2 = 1 - 2 * sin * sin, sin2 = 2 * sin * cos;
+    const double half_n = (s_xx - s_yy) / 2;
+    const Number half_d = G_ * (lxx - lyy), shear_d = G_ * (lxy + lyx);
+    const Number half = cos2 * half_n - sin2 * s_xy + (cos * half_d - sin * shear_d);
+    const Number shear = sin2 * half_n + cos2 * s_xy + (sin * half_d + cos * shear_d);
+
+    // s_zz = s_zz,n + 2 G dev d_zz,  J₂ = half² + shear² + ¾ s_zz²
+    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
+    const Number dev_zz = s_zz - p_n + 2 * G_ * (dzz - tr_d * (1.0 / 3));
+    const Number root_J2 = sqrt(half * half + shear * shear + 0.75 * (dev_zz * dev_zz) + tiny);
+
+    const Returned<Number> at = returned(p_n, tr_d, root_J2, gap, plastic_strain, dt);
+    const Number half_s = at.scale * half, xy = at.scale * shear, dev = at.scale * dev_zz;
+    const Number xx = at.p - dev / 2 + half_s, yy = at.p - dev / 2 - half_s, zz = at.p + dev;
+    next = {value_of(xx), value_of(yy), value_of(zz), value_of(xy), at.gap, at.plastic_strain};
+    return nominal_stress(H, det_g, xx, yy, zz, xy);
+  }
+
+  template <class Number>
+  Components<Number> in_space(const Components<Number>& H, const Components<Number>& dH, double dt,
+                              History& next) const {
+    using std::sqrt;
+    using T = SpaceTensorOf<Number>;
+    const auto [s_xx, s_yy, s_zz, s_xy, s_yz, s_zx, gap, plastic_strain] = next;
+    const Number one = 1, zero = 0;
+    const T unit{one, zero, zero, zero, one, zero, zero, zero, one};
+    const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
+    const T df{dH[0], dH[1], dH[2], dH[3], dH[4], dH[5], dH[6], dH[7], dH[8]};
+
+    // g = f − dH/2,  l = dH g⁻¹ = d + w
+    const T g = f - 0.5 * df, cof_g = cofactor(g);
+    const Number det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
+    const T l = (1 / det_g) * (df * transpose(cof_g));
+    const Number tr_d = trace(l), third = tr_d * (1.0 / 3);
+
+    // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
+    // of a/(1 + √(1 + a²)).
+    const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
+    const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
+    const T A{zero, -az, ay, az, zero, -ax, -ay, ax, zero};
+    const T A_half = by_half * A;
+    const T R = unit + (2 / (1 + a2)) * (A + A * A);
+    const T R_half = unit + (2 / (1 + a2 * by_half * by_half)) * (A_half + A_half * A_half);
+
+    // s = R s_n Rᵀ + R½ 2 G dev d R½ᵀ
+    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
+    const Number xy_n = s_xy, yz_n = s_yz, zx_n = s_zx;
+    const T s_n{s_xx - p_n, xy_n, zx_n, xy_n, s_yy - p_n, yz_n, zx_n, yz_n, s_zz - p_n};
+    const T dev_d = G_ * (l + transpose(l)) - (2 * G_ * third) * unit;
+    const T s = R * s_n * transpose(R) + R_half * dev_d * transpose(R_half);
+    const Number root_J2 =
+        sqrt((s.xx * s.xx + s.yy * s.yy + s.zz * s.zz) / 2 + (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx) + tiny);
+
+    const Returned<Number> at = returned(p_n, tr_d, root_J2, gap, plastic_strain, dt);
+    const Number xx = at.p + at.scale * s.xx, yy = at.p + at.scale * s.yy, zz = at.p + at.scale * s.zz;
+    const Number xy = at.scale * s.xy, yz = at.scale * s.yz, zx = at.scale * s.zx;
+    next = {value_of(xx), value_of(yy), value_of(zz), value_of(xy),
+            value_of(yz), value_of(zx), at.gap,       at.plastic_strain};
+
+    // P = σ cof f; NaN, through the shear stresses, if f or g is turned inside out
+    const T cof_f = cofactor(f);
+    const Number det_f = f.xx * cof_f.xx + f.xy * cof_f.xy + f.xz * cof_f.xz;
+    const Number good = det_f > 0 && det_g > 0 ? one : Number(std::numeric_limits<double>::quiet_NaN());
+    const T P = T{xx, good * xy, good * zx, good * xy, yy, good * yz, good * zx, good * yz, zz} * cof_f;
+    return {P.xx, P.xy, P.xz, P.yx, P.yy, P.yz, P.zx, P.zy, P.zz};
+  }
+
+  /// Where the return ends: σ = p I + scale s_trial, and what is remembered beside it.
+  template <class Number>
+  struct Returned {
+    Number p, scale;
+    double gap, plastic_strain;
+  };
+  // From the trial p_n + K (tr d + gap), √J₂.
+  template <class Number>
+  Returned<Number> returned(double p_n, const Number& tr_d, const Number& root_J2, double gap, double plastic_strain,
+                            double dt) const {
+    const Number p_trial = p_n + K_ * (tr_d + gap);
+
+    // The strength
+    const double lost = plastic_strain * softening_rate_, share = lost < 1 ? lost : 1;
+    const double eta = eta_ + share * eta_change_, k = k_ + share * k_change_;
+    const double apex = k / (eta + tiny), p_cut = tension_ < apex ? tension_ : apex;
+
+    // On the cone Δγ = f/(G + K η η̄ + 1/(β dt)), on its edge with the cut-off f(p_cut)/(G + 1/(β dt))
+    const double flow_resistance = fluidity_ > 0 ? G_ + 1 / (fluidity_ * dt) : G_;
+    const Number cone = positive(root_J2 + eta * p_trial - k) * (1 / (flow_resistance + K_ * eta * eta_bar_));
+    const Number edge = positive(root_J2 + eta * p_cut - k) * (1 / flow_resistance);
+    const Number p_cone = p_trial - K_ * eta_bar_ * cone;
+    const bool open = p_cone > p_cut;
+    const Number dgamma = open ? edge : cone, p = open ? Number(p_cut) : p_cone;
+    const Number opened = gap + tr_d + (p_n - p_cut) * (1 / K_) - eta_bar_ * edge;
+
+    // s = (1 − G Δγ/√J₂) s_trial
+    const Number over_root_J2 = 1 / root_J2;
+    return {p, 1 - G_ * dgamma * over_root_J2, open ? value_of(opened) : 0, plastic_strain + value_of(dgamma)};
+  }
+
   struct ElasticTrial {
     ElasticTrial(const Gradient<S>& H, const History& now)
-        : f(deformation_gradient<S>(H)),
-          sigma{now[0], now[3], now[3], now[1], now[2]},
-          J(determinant(f)),
-          tau(J * sigma) {}
-    PlaneTensor f, sigma;
+        : f(deformation_gradient<S>(H)), sigma(stress_of(now)), J(determinant(f)), tau(J * sigma) {}
+    Tensor f, sigma;
     double J;
-    PlaneTensor tau;
+    Tensor tau;
   };
+  static Tensor stress_of(const History& now) {
+    Stress<S> sigma;
+    for (int a = 0; a < stresses; ++a) sigma[a] = now[a];
+    return stress_tensor<S>(sigma);
+  }
   auto rate_at(const ElasticTrial& at) const {
-    return [this, at](const PlaneTensor& l) {
-      const PlaneTensor d = 0.5 * (l + transpose(l)), w = l - d;
-      return at.J * ((K_ - 2 * G_ / 3) * trace(d) * identity + 2 * G_ * d + w * at.sigma - at.sigma * w);
+    return [this, at](const Tensor& l) {
+      const Tensor d = 0.5 * (l + transpose(l)), w = l - d;
+      return at.J * (((K_ - 2 * G_ / 3) * trace(d)) * identity<Tensor> + 2 * G_ * d + w * at.sigma - at.sigma * w);
     };
   }
   // Keeps 0/0 out of √J₂ = 0 and of φ = 0, whose apex is out of reach.

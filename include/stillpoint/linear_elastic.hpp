@@ -1,7 +1,7 @@
 // Linear elasticity at small strain: σ = λ tr(ε) I + 2 μ ε, ε = (H + Hᵀ)/2, P = σ.
 #pragma once
 
-#include <stillpoint/material.hpp>
+#include <stillpoint/tensor.hpp>
 
 namespace stillpoint {
 
@@ -22,10 +22,8 @@ class LinearElastic {
     const Stress<S> sigma = cauchy(H);
     if constexpr (dimensions(S) == 1) {
       return sigma;
-    } else if constexpr (S == StressState::axisymmetric) {
-      return {sigma[0], sigma[3], sigma[3], sigma[1], sigma[2]};
     } else {
-      return {sigma[0], sigma[3], sigma[3], sigma[1]};
+      return gradient_part<S>(stress_tensor<S>(sigma));
     }
   }
 
@@ -33,6 +31,10 @@ class LinearElastic {
     if constexpr (dimensions(S) == 1) {
       // σ_xx = E ε_xx if the section is free to contract, (λ + 2μ) ε_xx if it is not
       return {uniaxial_ * H[0]};
+    } else if constexpr (S == StressState::space) {
+      const double all_round = lambda_ * (H[0] + H[4] + H[8]);  // λ tr(ε)
+      return {all_round + 2 * mu_ * H[0], all_round + 2 * mu_ * H[4], all_round + 2 * mu_ * H[8],
+              mu_ * (H[1] + H[3]),        mu_ * (H[5] + H[7]),        mu_ * (H[2] + H[6])};
     } else {
       const double e_zz = S == StressState::axisymmetric ? H[H.size() - 1] : 0;
       const double all_round = lambda_ * (H[0] + H[3] + e_zz);  // λ tr(ε)
@@ -56,7 +58,7 @@ class LinearElastic {
 
  private:
   double uniaxial_;     // of one dimension [Pa]
-  double lambda_, mu_;  // of two [Pa]
+  double lambda_, mu_;  // of two and three [Pa]
 };
 
 }  // namespace stillpoint

@@ -14,7 +14,7 @@
 namespace stillpoint {
 
 /// Which components a displacement gradient has; what happens across them is the law's affair.
-enum class Kinematics { line, plane, axisymmetric };
+enum class Kinematics { line, plane, axisymmetric, space };
 
 constexpr Kinematics kinematics(StressState state) {
   switch (state) {
@@ -23,18 +23,24 @@ constexpr Kinematics kinematics(StressState state) {
       return Kinematics::line;
     case StressState::axisymmetric:
       return Kinematics::axisymmetric;
+    case StressState::space:
+      return Kinematics::space;
     default:
       return Kinematics::plane;
   }
 }
-constexpr int dimensions(Kinematics k) { return k == Kinematics::line ? 1 : 2; }
+constexpr int dimensions(Kinematics k) { return k == Kinematics::line ? 1 : k == Kinematics::space ? 3 : 2; }
 constexpr int dimensions(StressState state) { return dimensions(kinematics(state)); }
 /// Of a displacement gradient H: in one dimension (xx); in the plane (xx, xy, yx, yy), H_ij = ∂u_i/∂x_j; axisymmetric
-/// (rr, rz, zr, zz, θθ) with H_θθ = u_r/r. Of the first Piola–Kirchhoff stress likewise.
-constexpr int gradient_components(Kinematics k) { return k == Kinematics::line ? 1 : k == Kinematics::plane ? 4 : 5; }
+/// (rr, rz, zr, zz, θθ) with H_θθ = u_r/r; in space (xx, xy, xz, yx, …, zz). Of the first Piola–Kirchhoff stress
+/// likewise.
+constexpr int gradient_components(Kinematics k) {
+  return dimensions(k) * dimensions(k) + (k == Kinematics::axisymmetric ? 1 : 0);
+}
 constexpr int gradient_components(StressState state) { return gradient_components(kinematics(state)); }
-/// Of a Cauchy stress: in one dimension (xx); otherwise (xx, yy, zz, xy), for r, z, θ (rr, zz, θθ, rz).
-constexpr int stress_components(Kinematics k) { return k == Kinematics::line ? 1 : 4; }
+/// Of a Cauchy stress: in one dimension (xx); in two (xx, yy, zz, xy), for r, z, θ (rr, zz, θθ, rz); in space (xx, yy,
+/// zz, xy, yz, zx).
+constexpr int stress_components(Kinematics k) { return k == Kinematics::line ? 1 : k == Kinematics::space ? 6 : 4; }
 constexpr int stress_components(StressState state) { return stress_components(kinematics(state)); }
 
 template <StressState S>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <stillpoint/logarithm.hpp>
-#include <stillpoint/plane_tensor.hpp>
+#include <stillpoint/tensor.hpp>
 
 #include <cmath>
 
@@ -24,7 +24,7 @@ class NeoHookean {
       const double F = 1 + H[0], log_J = std::log(F) + log_area_ratio(F);
       return {mu_ * (F - 1 / F) + lambda_ * log_J / F};
     } else {
-      const PlaneTensor F = stretched(H);
+      const Tensor F = stretched(H);
       return gradient_part<S>(mu_ * F + (lambda_ * log_volume_ratio(F) - mu_) * transpose(inverse(F)));
     }
   }
@@ -34,7 +34,7 @@ class NeoHookean {
       // σ = P/w: the force on the section that there is now
       return {first_piola(H)[0] * std::exp(-log_area_ratio(1 + H[0]))};
     } else {
-      const PlaneTensor F = stretched(H);  // σ = τ/J
+      const Tensor F = stretched(H);  // σ = τ/J
       return stress_part<S>(1 / determinant(F) * kirchhoff(F));
     }
   }
@@ -47,29 +47,36 @@ class NeoHookean {
       const double ds_dF = S == StressState::uniaxial_stress ? -lambda_ / F / (mu_ * std::exp(s) + lambda_) : 0;
       return {mu_ * (1 + 1 / (F * F)) + lambda_ * (1 + F * ds_dF - std::log(F) - s) / (F * F)};
     } else {
-      const PlaneTensor F = stretched(H), b = F * transpose(F);
+      const Tensor F = stretched(H), b = F * transpose(F);
       // δτ = μ (l b + b lᵀ) + λ tr(l) I
-      return moduli_of_rate<S>(F, kirchhoff(F), [&](PlaneTensor l) {
+      return moduli_of_rate<S>(F, kirchhoff(F), [&](Tensor l) {
         // τ_zz stays 0:  2 μ b_zz l_zz + λ tr(l) = 0
-        if (S == StressState::plane_stress) l.zz = -lambda_ * (l.xx + l.yy) / (2 * mu_ * b.zz + lambda_);
-        return mu_ * (l * b + b * transpose(l)) + lambda_ * trace(l) * identity;
+        if constexpr (S == StressState::plane_stress) l.zz = -lambda_ * (l.xx + l.yy) / (2 * mu_ * b.zz + lambda_);
+        return mu_ * (l * b + b * transpose(l)) + lambda_ * trace(l) * unit;
       });
     }
   }
 
  private:
+  using Tensor = TensorFor<S>;
+  static constexpr Tensor unit = identity<Tensor>;
+
   // ln J = ln det₂F + ln F_zz, NaN if either is turned inside out
-  static double log_volume_ratio(const PlaneTensor& F) {
-    return logarithm(plane_determinant(F)) + (S == StressState::plane_strain ? 0 : logarithm(F.zz));
+  static double log_volume_ratio(const Tensor& F) {
+    if constexpr (S == StressState::space) {
+      return logarithm(determinant(F));
+    } else {
+      return logarithm(plane_determinant(F)) + (S == StressState::plane_strain ? 0 : logarithm(F.zz));
+    }
   }
-  PlaneTensor kirchhoff(const PlaneTensor& F) const {
-    return mu_ * (F * transpose(F) - identity) + lambda_ * log_volume_ratio(F) * identity;
+  Tensor kirchhoff(const Tensor& F) const {
+    return mu_ * (F * transpose(F) - unit) + lambda_ * log_volume_ratio(F) * unit;
   }
 
   // F = I + H, in plane stress with the thickness that leaves the faces free, τ_zz = μ (F_zz² − 1) + λ ln(det₂F F_zz) =
   // 0.
-  PlaneTensor stretched(const Gradient<S>& H) const {
-    PlaneTensor F = deformation_gradient<S>(H);
+  Tensor stretched(const Gradient<S>& H) const {
+    Tensor F = deformation_gradient<S>(H);
     if constexpr (S == StressState::plane_stress) {
       F.zz = std::exp(free_log(lambda_ / 2, 2 * std::log(plane_determinant(F))) / 2);  // s = ln F_zz²
     }

@@ -10,9 +10,9 @@ enum class BasisKind { linear, quadratic, cubic, hermite };
 constexpr int degree_of(BasisKind basis) {
   return basis == BasisKind::linear ? 1 : basis == BasisKind::quadratic ? 2 : 3;
 }
-/// What happens across the coordinates that are computed: the first two in one dimension, the others in two. The
-/// coordinates of an axisymmetric scene are the radius r and the axis z.
-enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric };
+/// What happens across the coordinates that are computed: the first two in one dimension, the next three in two, and in
+/// space nothing is across. The coordinates of an axisymmetric scene are the radius r and the axis z.
+enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric, space };
 /// As scenes write it: "plane-strain".
 std::string_view to_string(StressState state);
 enum class Placement { uniform, gauss, random };

@@ -28,6 +28,8 @@ std::string_view to_string(StressState state) {
       return "plane-stress";
     case StressState::axisymmetric:
       return "axisymmetric";
+    case StressState::space:
+      return "space";
   }
   return "";
 }

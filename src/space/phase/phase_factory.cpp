@@ -14,6 +14,8 @@ std::unique_ptr<LagrangianPhase> make_phase(const Scene& scene) {
       return domains ? make_phase_of_domains<Kinematics::plane>(scene) : make_phase_of<Kinematics::plane>(scene);
     case Kinematics::axisymmetric:
       return make_phase_of<Kinematics::axisymmetric>(scene);
+    case Kinematics::space:
+      break;
   }
   throw std::logic_error("a kinematics without an instantiation");
 }

@@ -122,7 +122,7 @@ TEMPLATE_TEST_CASE_SIG("a rotation by 90 degrees turns the stress exactly, in an
     Path<S> path({.E = E, .nu = nu, .phi = 30, .c = 1e6}, before);
     Gradient<S> P{};
     for (int k = 1; k <= steps; ++k)
-      P = path.step(gradient_part<S>(checks::rotation(90 * degree * k / steps) - identity));
+      P = path.step(gradient_part<S>(checks::rotation(90 * degree * k / steps) - identity<PlaneTensor>));
     const PlaneTensor Q = checks::rotation(90 * degree);
     const Stress<S> exact = checks::turned<S>(Q, before);
     // H = Q − I rounds by 1e-16, which is 1e-16 K of stress an increment
@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE_SIG("a rotation by 90 degrees turns the stress exactly, in an
       CHECK(path.law.cauchy(path.now)[i] == Approx(exact[i]).margin(10 * rounding));
     }
     // P = σ cof Q = Q σ₀ Qᵀ Q
-    const auto P_exact = gradient_part<S>(Q * checks::stress_tensor<S>(before));
+    const auto P_exact = gradient_part<S>(Q * stress_tensor<S>(before));
     for (std::size_t a = 0; a < P.size(); ++a) CHECK(P[a] == Approx(P_exact[a]).margin(10 * rounding));
   }
 }
@@ -141,7 +141,7 @@ TEMPLATE_TEST_CASE_SIG("P is det(f) sigma f^-T after the increment", "", ((Stres
   Path<S> path({.E = E, .nu = nu, .phi = 30, .psi = 5, .c = 1e4}, {-3e3, -1e3, -2e3, 2e3});
   for (const auto& H : checks::deformations<S>()) {
     const auto P = path.step(H);
-    const PlaneTensor f = deformation_gradient<S>(H), sigma = checks::stress_tensor<S>(path.law.cauchy(path.now));
+    const PlaneTensor f = deformation_gradient<S>(H), sigma = stress_tensor<S>(path.law.cauchy(path.now));
     CHECK(checks::relative_distance(P, gradient_part<S>(determinant(f) * sigma * transpose(inverse(f)))) < 1e-13);
   }
 }
@@ -164,7 +164,7 @@ TEMPLATE_TEST_CASE_SIG("elastic moduli are the derivative of an elastic trial bu
     }
     // σ tr(d) cof f, tr(d) cof f_ij = (cof f ⊗ cof f)/det f
     const PlaneTensor f = deformation_gradient<S>(H), cof = determinant(f) * transpose(inverse(f));
-    const auto P = gradient_part<S>(checks::stress_tensor<S>(law.cauchy(history)) * cof);
+    const auto P = gradient_part<S>(stress_tensor<S>(law.cauchy(history)) * cof);
     const auto volume = gradient_part<S>(1 / determinant(f) * cof);
     for (int a = 0; a < n; ++a) {
       for (int b = 0; b < n; ++b) A[n * a + b] += P[a] * volume[b];
@@ -215,7 +215,7 @@ TEMPLATE_TEST_CASE_SIG("moduli are the derivative of the return: elastic, on the
     const DruckerPrager<S> law(m);
     for (const double angle : {0.0, 0.8}) {
       CAPTURE(k, angle);
-      const PlaneTensor start = checks::rotation(angle) * PlaneTensor{1.1, 0.1, 0, 0.9, 1.05} - identity;
+      const PlaneTensor start = checks::rotation(angle) * PlaneTensor{1.1, 0.1, 0, 0.9, 1.05} - identity<PlaneTensor>;
       const Gradient<S> H = gradient_part<S>(start + increment), dH = gradient_part<S>(increment);
       History next = before;
       const auto trial = [&, &before = before](const Gradient<S>& to) {
@@ -439,7 +439,7 @@ TEST_CASE("a rotation leaves an open gap open") {
   const double gap = path.gap();
   const PlaneTensor opened = {1.01, 0, 0, 1.01, 1};
   for (const double angle : {0.3, 1.2, 2.0})
-    path.step(gradient_part<plane_strain>(checks::rotation(angle) * opened - identity));
+    path.step(gradient_part<plane_strain>(checks::rotation(angle) * opened - identity<PlaneTensor>));
   CHECK(path.gap() == Approx(gap).epsilon(1e-13));
 }
 

@@ -19,8 +19,8 @@ constexpr double E = 210.0, nu = 0.3;
 const LameParameters lame = LameParameters::from(E, nu);
 
 #define STATES_OF(Law) \
-  Law<uniaxial_stress>, Law<uniaxial_strain>, Law<plane_strain>, Law<plane_stress>, Law<axisymmetric>
-#define PLANE_STATES_OF(Law) Law<plane_strain>, Law<plane_stress>, Law<axisymmetric>
+  Law<uniaxial_stress>, Law<uniaxial_strain>, Law<plane_strain>, Law<plane_stress>, Law<axisymmetric>, Law<space>
+#define SOLID_STATES_OF(Law) Law<plane_strain>, Law<plane_stress>, Law<axisymmetric>, Law<space>
 
 static_assert(ElasticLaw<LinearElastic<plane_stress>> && ElasticLaw<NeoHookean<axisymmetric>> &&
               ElasticLaw<Hencky<plane_strain>>);
@@ -86,6 +86,8 @@ TEMPLATE_TEST_CASE("elasticity at finite strain agrees with Hooke's law at small
                    (std::pair<NeoHookean<plane_strain>, LinearElastic<plane_strain>>),
                    (std::pair<NeoHookean<plane_stress>, LinearElastic<plane_stress>>),
                    (std::pair<NeoHookean<axisymmetric>, LinearElastic<axisymmetric>>),
+                   (std::pair<NeoHookean<space>, LinearElastic<space>>),
+                   (std::pair<Hencky<space>, LinearElastic<space>>),
                    (std::pair<NeoHookean<uniaxial_stress>, LinearElastic<uniaxial_stress>>),
                    (std::pair<NeoHookean<uniaxial_strain>, LinearElastic<uniaxial_strain>>),
                    (std::pair<Hencky<plane_strain>, LinearElastic<plane_strain>>),
@@ -106,23 +108,25 @@ TEMPLATE_TEST_CASE("elasticity at finite strain agrees with Hooke's law at small
   }
 }
 
-TEMPLATE_TEST_CASE("a rotation after the deformation turns the stress with it", "", PLANE_STATES_OF(NeoHookean),
-                   PLANE_STATES_OF(Hencky)) {
+TEMPLATE_TEST_CASE("a rotation after the deformation turns the stress with it", "", SOLID_STATES_OF(NeoHookean),
+                   SOLID_STATES_OF(Hencky)) {
   constexpr StressState S = TestType::state;
   const TestType law(lame);
-  const PlaneTensor Q = checks::rotation(0.7);
+  using Tensor = TensorFor<S>;
+  const auto Q = checks::rotation<Tensor>(0.7);
   for (const auto& H : checks::deformations<S>()) {
-    const auto QF = gradient_part<S>(Q * deformation_gradient<S>(H) - identity);
+    const auto QF = gradient_part<S>(Q * deformation_gradient<S>(H) - identity<Tensor>);
     CHECK(checks::relative_distance(law.cauchy(QF), checks::turned<S>(Q, law.cauchy(H))) < 1e-12);  // rounding
   }
 }
 
-TEMPLATE_TEST_CASE("P is det(F) sigma F^-T, in the plane and around the axis", "", NeoHookean<plane_strain>,
-                   NeoHookean<axisymmetric>, Hencky<plane_strain>, Hencky<axisymmetric>) {
+TEMPLATE_TEST_CASE("P is det(F) sigma F^-T, in the plane, around the axis and in space", "", NeoHookean<plane_strain>,
+                   NeoHookean<axisymmetric>, NeoHookean<space>, Hencky<plane_strain>, Hencky<axisymmetric>,
+                   Hencky<space>) {
   constexpr StressState S = TestType::state;
   const TestType law(lame);
   for (const auto& H : checks::deformations<S>()) {
-    const PlaneTensor F = deformation_gradient<S>(H), sigma = checks::stress_tensor<S>(law.cauchy(H));
+    const auto F = deformation_gradient<S>(H), sigma = stress_tensor<S>(law.cauchy(H));
     const auto P = gradient_part<S>(determinant(F) * sigma * transpose(inverse(F)));
     CHECK(checks::relative_distance(law.first_piola(H), P) < 1e-11);  // rounding over the smallest H
   }
@@ -149,7 +153,7 @@ TEMPLATE_TEST_CASE("a sheet in plane stress with free edges is a bar, and no str
 }
 
 TEMPLATE_TEST_CASE("a material turned inside out is not a number, so that the trial is refused", "",
-                   PLANE_STATES_OF(NeoHookean), PLANE_STATES_OF(Hencky)) {
+                   SOLID_STATES_OF(NeoHookean), SOLID_STATES_OF(Hencky)) {
   const TestType law(lame);
   Gradient<TestType::state> H{};
   H[0] = -1.1;

@@ -1,0 +1,132 @@
+// The logarithmic strain e = ½ ln b, b = F Fᵀ, with its rate and the change of volume.
+#pragma once
+
+#include <stillpoint/dual.hpp>
+#include <stillpoint/logarithm.hpp>
+#include <stillpoint/tensor.hpp>
+
+#include <cmath>
+#include <type_traits>
+
+namespace stillpoint {
+
+// In the plane, with the mean m = tr₂ b/2 of b's eigenvalues b₁, b₂ = m ± r, r = ‖dev₂ b‖/√2 and x = r/m,
+//   ln b = ½ ln(b₁ b₂) I + a/m dev₂ b,   a = artanh(x)/x = 1 + x²/3 + x⁴/5 + …,
+// a smooth function of y = x², so that equal eigenvalues are no exception.
+template <StressState S>
+struct PlaneLogStrain {
+  PlaneTensor b, dev;     // dev₂ b
+  double m, y, a, slope;  // slope = da/dy
+  double plane, zz, J;    // ln det₂F, ln F_zz and ln J, NaN if inside out
+
+  explicit PlaneLogStrain(const PlaneTensor& F) : b(F * transpose(F)), m((b.xx + b.yy) / 2) {
+    const double half = (b.xx - b.yy) / 2, plane_ratio = plane_determinant(F);
+    dev = {half, b.xy, b.xy, -half, 0};
+    y = (half * half + b.xy * b.xy) / (m * m);
+    plane = logarithm(plane_ratio);
+    zz = S == StressState::axisymmetric ? logarithm(F.zz) : 0;
+    J = plane + zz;
+    // (1 + x)/(1 − x) = b₁/b₂ = (b₁/√(b₁ b₂))², which loses no digits as b₂ → 0;  da/dy = (1/(1 − y) − a)/(2 y)
+    const double x = std::sqrt(y), b1_over_mean = m * (1 + x) / plane_ratio;
+    const double exact = logarithm(b1_over_mean) / x;
+    const double one_minus_y = plane_ratio * plane_ratio / (m * m);
+    const double exact_slope = (1 / one_minus_y - exact) / (2 * y);
+    const bool close = y < close_eigenvalues;
+    a = close ? series(y) : exact;
+    slope = close ? series_slope(y) : exact_slope;
+  }
+
+  PlaneTensor strain() const { return PlaneTensor{plane / 2, 0, 0, plane / 2, zz} + a / (2 * m) * dev; }
+
+  // δe for δb = l b + b lᵀ
+  PlaneTensor rate(const PlaneTensor& l) const {
+    const PlaneTensor db = l * b + b * transpose(l);
+    const double dm = (db.xx + db.yy) / 2, dhalf = (db.xx - db.yy) / 2, dln = (l.xx + l.yy) / 2;
+    const double dy = 2 * (dev.xx * dhalf + dev.xy * db.xy) / (m * m) - 2 * y * dm / m;
+    const double change = slope * dy / m - a * dm / (m * m);  // of a/m
+    return PlaneTensor{dln, 0, 0, dln, l.zz} + change / 2 * dev +
+           a / (2 * m) * PlaneTensor{dhalf, db.xy, db.xy, -dhalf, 0};
+  }
+
+  // Below y = 0.01 the sums up to y⁸ are exact to rounding; above it the differences lose at most two digits.
+  static constexpr double close_eigenvalues = 0.01;
+  static double series(double y) {
+    double sum = 1.0 / 17;
+    for (int n = 7; n >= 0; --n) sum = sum * y + 1.0 / (2 * n + 1);
+    return sum;
+  }
+  static double series_slope(double y) {
+    double sum = 9.0 / 19;
+    for (int n = 8; n >= 1; --n) sum = sum * y + static_cast<double>(n) / (2 * n + 1);
+    return sum;
+  }
+};
+
+/// ln(I + B), B symmetric and I + B positive definite, of numbers or of Duals.
+//
+// Four square roots take stretches of 0.1 to 10 to within a seventh of 1, where the logarithm's series is short:
+//
+//   I + X = (I + B)^½,  X = B (I + Y)⁻¹ with Y = I + X,    ln(I + B) = 2⁴ · 2 artanh Z,  Z = X₄ (2 I + X₄)⁻¹
+//   artanh Z = Z + Z³/3 + Z⁵/5 + …
+//
+// and Y = (i₁ i₂ − i₃)⁻¹ (i₁ i₃ I + (i₁² − i₂) C − C²) of C = I + B, from the invariants of Y [Hoger and Carlson 1984]:
+//
+//   i₃ = √I₃,   i₁² = I₁ + 2 i₂,   i₂² = I₂ + 2 i₃ i₁,
+//
+// where i₁ is the largest root of f(i₁) = (i₁² − I₁)²/4 − I₂ − 2 i₃ i₁, f' = 2 (i₁ i₂ − i₃) = 2 Π (y_a + y_b) > 0. Put
+// into one another, the two equations leave at most i₃/(i₁ i₂) ≤ 1/9 of an error, Newton's method ends it, both from
+// above, i₁² ≤ 3 I₁. No step asks whether eigenvalues are equal. X keeps the digits of a small B, which Y loses.
+template <class Number>
+SpaceTensorOf<Number> log_of_unit_plus(const SpaceTensorOf<Number>& B) {
+  using std::sqrt;
+  using Tensor = SpaceTensorOf<Number>;
+  const Tensor unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  constexpr int roots = 4, substitutions = 2, iterations = 3, terms = 9;
+  Tensor X = B;
+  for (int root = 0; root < roots; ++root) {
+    const Tensor C = unit + X, C2 = C * C;
+    const Number I1 = trace(C), I2 = (I1 * I1 - trace(C2)) / 2, i3 = sqrt(determinant(C));
+    Number i1 = sqrt(3 * I1);
+    for (int k = 0; k < substitutions; ++k) i1 = sqrt(I1 + 2 * sqrt(I2 + 2 * i3 * i1));
+    for (int k = 0; k < iterations; ++k) {
+      const Number i2 = (i1 * i1 - I1) / 2;
+      i1 = i1 - (i2 * i2 - I2 - 2 * i3 * i1) / (2 * (i1 * i2 - i3));
+    }
+    const Number i2 = (i1 * i1 - I1) / 2;
+    const Tensor Y = (1 / (i1 * i2 - i3)) * ((i1 * i3) * unit + (i1 * i1 - i2) * C - C2);
+    X = X * inverse(unit + Y);
+  }
+  const Tensor Z = X * inverse(unit + unit + X), Z2 = Z * Z;
+  Tensor sum = (1.0 / (2 * terms - 1)) * unit;
+  for (int n = terms - 2; n >= 0; --n) sum = sum * Z2 + (1.0 / (2 * n + 1)) * unit;
+  constexpr double scale = 2 * (1 << roots);
+  return scale * (sum * Z);
+}
+
+struct SpaceLogStrain {
+  SpaceTensor b;
+  double J;  // ln J, NaN if inside out
+
+  explicit SpaceLogStrain(const SpaceTensor& F) : b(F * transpose(F)), J(logarithm(determinant(F))) {}
+
+  SpaceTensor strain() const { return 0.5 * log_of_unit_plus(b - identity<SpaceTensor>); }
+
+  // δe for δb = l b + b lᵀ
+  SpaceTensor rate(const SpaceTensor& l) const {
+    using One = Dual<1>;
+    const SpaceTensor B = b - identity<SpaceTensor>, dB = l * b + b * transpose(l);
+    const auto with = [](double value, double change) { return One(value, {change}); };
+    const SpaceTensorOf<One> ln = log_of_unit_plus(SpaceTensorOf<One>{
+        with(B.xx, dB.xx), with(B.xy, dB.xy), with(B.xz, dB.xz), with(B.yx, dB.yx), with(B.yy, dB.yy),
+        with(B.yz, dB.yz), with(B.zx, dB.zx), with(B.zy, dB.zy), with(B.zz, dB.zz)});
+    const auto half = [](const One& x) { return x.derivative[0] / 2; };
+    return {half(ln.xx), half(ln.xy), half(ln.xz), half(ln.yx), half(ln.yy),
+            half(ln.yz), half(ln.zx), half(ln.zy), half(ln.zz)};
+  }
+};
+
+/// Made of F = I + H; strain(), rate(l) for δF = l F, and J = ln det F.
+template <StressState S>
+using LogStrainOf = std::conditional_t<S == StressState::space, SpaceLogStrain, PlaneLogStrain<S>>;
+
+}  // namespace stillpoint

@@ -1,0 +1,60 @@
+// Tensors of three dimensions, of numbers or of Duals.
+#pragma once
+
+namespace stillpoint {
+
+template <class Number>
+struct SpaceTensorOf {
+  Number xx, xy, xz, yx, yy, yz, zx, zy, zz;
+};
+using SpaceTensor = SpaceTensorOf<double>;
+
+template <class N>
+constexpr SpaceTensorOf<N> operator+(const SpaceTensorOf<N>& A, const SpaceTensorOf<N>& B) {
+  return {A.xx + B.xx, A.xy + B.xy, A.xz + B.xz, A.yx + B.yx, A.yy + B.yy,
+          A.yz + B.yz, A.zx + B.zx, A.zy + B.zy, A.zz + B.zz};
+}
+template <class N>
+constexpr SpaceTensorOf<N> operator-(const SpaceTensorOf<N>& A, const SpaceTensorOf<N>& B) {
+  return {A.xx - B.xx, A.xy - B.xy, A.xz - B.xz, A.yx - B.yx, A.yy - B.yy,
+          A.yz - B.yz, A.zx - B.zx, A.zy - B.zy, A.zz - B.zz};
+}
+template <class Scalar, class N>
+constexpr SpaceTensorOf<N> operator*(const Scalar& a, const SpaceTensorOf<N>& A) {
+  return {a * A.xx, a * A.xy, a * A.xz, a * A.yx, a * A.yy, a * A.yz, a * A.zx, a * A.zy, a * A.zz};
+}
+template <class N>
+constexpr SpaceTensorOf<N> operator*(const SpaceTensorOf<N>& A, const SpaceTensorOf<N>& B) {
+  return {A.xx * B.xx + A.xy * B.yx + A.xz * B.zx, A.xx * B.xy + A.xy * B.yy + A.xz * B.zy,
+          A.xx * B.xz + A.xy * B.yz + A.xz * B.zz, A.yx * B.xx + A.yy * B.yx + A.yz * B.zx,
+          A.yx * B.xy + A.yy * B.yy + A.yz * B.zy, A.yx * B.xz + A.yy * B.yz + A.yz * B.zz,
+          A.zx * B.xx + A.zy * B.yx + A.zz * B.zx, A.zx * B.xy + A.zy * B.yy + A.zz * B.zy,
+          A.zx * B.xz + A.zy * B.yz + A.zz * B.zz};
+}
+template <class N>
+constexpr SpaceTensorOf<N> transpose(const SpaceTensorOf<N>& A) {
+  return {A.xx, A.yx, A.zx, A.xy, A.yy, A.zy, A.xz, A.yz, A.zz};
+}
+template <class N>
+constexpr N trace(const SpaceTensorOf<N>& A) {
+  return A.xx + A.yy + A.zz;
+}
+/// cof A = det A A⁻ᵀ
+template <class N>
+constexpr SpaceTensorOf<N> cofactor(const SpaceTensorOf<N>& A) {
+  return {A.yy * A.zz - A.yz * A.zy, A.yz * A.zx - A.yx * A.zz, A.yx * A.zy - A.yy * A.zx,
+          A.xz * A.zy - A.xy * A.zz, A.xx * A.zz - A.xz * A.zx, A.xy * A.zx - A.xx * A.zy,
+          A.xy * A.yz - A.xz * A.yy, A.xz * A.yx - A.xx * A.yz, A.xx * A.yy - A.xy * A.yx};
+}
+template <class N>
+constexpr N determinant(const SpaceTensorOf<N>& A) {
+  const SpaceTensorOf<N> c = cofactor(A);
+  return A.xx * c.xx + A.xy * c.xy + A.xz * c.xz;
+}
+template <class N>
+constexpr SpaceTensorOf<N> inverse(const SpaceTensorOf<N>& A) {
+  const SpaceTensorOf<N> c = cofactor(A);
+  return (1 / (A.xx * c.xx + A.xy * c.xy + A.xz * c.xz)) * transpose(c);
+}
+
+}  // namespace stillpoint
