@@ -62,45 +62,54 @@ struct PlaneLogStrain {
   }
 };
 
-/// ln(I + B), B symmetric and I + B positive definite, of numbers or of Duals.
-//
-// Four square roots take stretches of 0.1 to 10 to within a seventh of 1, where the logarithm's series is short:
-//
-//   I + X = (I + B)^½,  X = B (I + Y)⁻¹ with Y = I + X,    ln(I + B) = 2⁴ · 2 artanh Z,  Z = X₄ (2 I + X₄)⁻¹
-//   artanh Z = Z + Z³/3 + Z⁵/5 + …
-//
-// and Y = (i₁ i₂ − i₃)⁻¹ (i₁ i₃ I + (i₁² − i₂) C − C²) of C = I + B, from the invariants of Y [Hoger and Carlson 1984]:
-//
-//   i₃ = √I₃,   i₁² = I₁ + 2 i₂,   i₂² = I₂ + 2 i₃ i₁,
-//
-// where i₁ is the largest root of f(i₁) = (i₁² − I₁)²/4 − I₂ − 2 i₃ i₁, f' = 2 (i₁ i₂ − i₃) = 2 Π (y_a + y_b) > 0. Put
-// into one another, the two equations leave at most i₃/(i₁ i₂) ≤ 1/9 of an error, Newton's method ends it, both from
-// above, i₁² ≤ 3 I₁. No step asks whether eigenvalues are equal. X keeps the digits of a small B, which Y loses.
+/// (I + B)^½ − I = B (I + Y)⁻¹, Y = (I + B)^½, of a B that is symmetric, with I + B positive definite; numbers or
+/// Duals.
+///
+/// Y = (i₁ i₂ − i₃)⁻¹ (i₁ i₃ I + (i₁² − i₂) C − C²) with C = I + B, from the invariants of Y [Hoger and Carlson 1984]:
+///
+///   i₃ = √I₃,   i₁² = I₁ + 2 i₂,   i₂² = I₂ + 2 i₃ i₁,
+///
+/// where i₁ is the largest root of f(i₁) = (i₁² − I₁)²/4 − I₂ − 2 i₃ i₁, f' = 2 (i₁ i₂ − i₃) = 2 Π (y_a + y_b) > 0. Put
+/// into one another, the two equations leave at most i₃/(i₁ i₂) ≤ 1/9 of an error, Newton's method ends it, both from
+/// above, i₁² ≤ 3 I₁. No step asks whether eigenvalues are equal. The product with B keeps the digits of a small one,
+/// which Y loses. Without a loop, so that one over points is vectorised.
+template <class Number>
+SpaceTensorOf<Number> root_of_unit_plus(const SpaceTensorOf<Number>& B) {
+  using std::sqrt;
+  const SpaceTensorOf<Number> unit{1, 0, 0, 0, 1, 0, 0, 0, 1}, C = unit + B, C2 = C * C;
+  const Number I1 = trace(C), I2 = (I1 * I1 - trace(C2)) / 2, i3 = sqrt(determinant(C));
+  const auto substituted = [&](const Number& i1) { return sqrt(I1 + 2 * sqrt(I2 + 2 * i3 * i1)); };
+  const auto newton = [&](const Number& i1) {
+    const Number i2 = (i1 * i1 - I1) / 2;
+    return i1 - (i2 * i2 - I2 - 2 * i3 * i1) / (2 * (i1 * i2 - i3));
+  };
+  const Number upper = sqrt(3 * I1);
+  const Number i1 = newton(newton(newton(substituted(substituted(upper))))), i2 = (i1 * i1 - I1) / 2;
+  const SpaceTensorOf<Number> Y = (1 / (i1 * i2 - i3)) * ((i1 * i3) * unit + (i1 * i1 - i2) * C - C2);
+  return B * inverse(unit + Y);
+}
+
+/// I/(2n + 1) + Z²/(2n + 3) + …, up to the power 16 of Z if n = 0
+template <int n, class Tensor>
+Tensor artanh_series(const Tensor& unit, const Tensor& Z2) {
+  if constexpr (n == 8) {
+    return (1.0 / (2 * n + 1)) * unit;
+  } else {
+    return (1.0 / (2 * n + 1)) * unit + artanh_series<n + 1>(unit, Z2) * Z2;
+  }
+}
+
+/// ln(I + B), B as above. Four square roots take stretches of 0.1 to 10 to within a seventh of 1, where the logarithm's
+/// series is short:
+///
+///   ln(I + B) = 2⁴ · 2 artanh Z,   Z = X (2 I + X)⁻¹,   X = (I + B)^(1/16) − I,   artanh Z = Z + Z³/3 + Z⁵/5 + …
 template <class Number>
 SpaceTensorOf<Number> log_of_unit_plus(const SpaceTensorOf<Number>& B) {
-  using std::sqrt;
-  using Tensor = SpaceTensorOf<Number>;
-  const Tensor unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  constexpr int roots = 4, substitutions = 2, iterations = 3, terms = 9;
-  Tensor X = B;
-  for (int root = 0; root < roots; ++root) {
-    const Tensor C = unit + X, C2 = C * C;
-    const Number I1 = trace(C), I2 = (I1 * I1 - trace(C2)) / 2, i3 = sqrt(determinant(C));
-    Number i1 = sqrt(3 * I1);
-    for (int k = 0; k < substitutions; ++k) i1 = sqrt(I1 + 2 * sqrt(I2 + 2 * i3 * i1));
-    for (int k = 0; k < iterations; ++k) {
-      const Number i2 = (i1 * i1 - I1) / 2;
-      i1 = i1 - (i2 * i2 - I2 - 2 * i3 * i1) / (2 * (i1 * i2 - i3));
-    }
-    const Number i2 = (i1 * i1 - I1) / 2;
-    const Tensor Y = (1 / (i1 * i2 - i3)) * ((i1 * i3) * unit + (i1 * i1 - i2) * C - C2);
-    X = X * inverse(unit + Y);
-  }
-  const Tensor Z = X * inverse(unit + unit + X), Z2 = Z * Z;
-  Tensor sum = (1.0 / (2 * terms - 1)) * unit;
-  for (int n = terms - 2; n >= 0; --n) sum = sum * Z2 + (1.0 / (2 * n + 1)) * unit;
-  constexpr double scale = 2 * (1 << roots);
-  return scale * (sum * Z);
+  const SpaceTensorOf<Number> unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const SpaceTensorOf<Number> X = root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(B))));
+  const SpaceTensorOf<Number> Z = X * inverse(unit + unit + X);
+  constexpr double scale = 2 * 16;
+  return scale * (artanh_series<0>(unit, Z * Z) * Z);
 }
 
 struct SpaceLogStrain {

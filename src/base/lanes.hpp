@@ -1,4 +1,5 @@
-// A few doubles that are computed together, in one register of the processor.
+// A few doubles that are computed together, in one register of the processor or, of eight, two where it has none as
+// wide.
 #pragma once
 
 #include <array>
@@ -26,9 +27,16 @@ struct LaneRegister<4> {
   typedef std::int64_t Mask __attribute__((vector_size(32)));  // NOLINT(modernize-use-using)
 };
 
+template <>
+struct LaneRegister<8> {
+  typedef double Type __attribute__((vector_size(64)));        // NOLINT(modernize-use-using)
+  typedef std::int64_t Mask __attribute__((vector_size(64)));  // NOLINT(modernize-use-using)
+};
+
 template <int N>
 struct Lanes {
-  typename LaneRegister<N>::Type lanes;
+  using Register = typename LaneRegister<N>::Type;
+  Register lanes;
 
   [[gnu::always_inline]] static Lanes load(const double* from) {
     Lanes loaded;

@@ -259,7 +259,22 @@ struct TensorBasis {
     if constexpr (Dim == 1) {
       std::copy(N[0].begin(), N[0].end(), product);
       std::copy(dN[0].begin(), dN[0].end(), gradients);
+    } else if constexpr (Dim == 3) {
+      constexpr int n = B::per_cell;
+      for (int c = 0; c < n; ++c) {
+        for (int b = 0; b < n; ++b) {
+          const double both = N[1][b] * N[2][c], along_y = dN[1][b] * N[2][c], along_z = N[1][b] * dN[2][c];
+          for (int a = 0; a < n; ++a) {
+            const int at = n * (n * c + b) + a;
+            product[at] = N[0][a] * both;
+            gradients[at] = dN[0][a] * both;
+            gradients[per_cell + at] = N[0][a] * along_y;
+            gradients[2 * per_cell + at] = N[0][a] * along_z;
+          }
+        }
+      }
     } else {
+      static_assert(Dim == 2);
       constexpr int n = B::per_cell;
       if constexpr (n <= 4) {
         // Rows of functions along x at once; what one writes past its end the next one writes again.

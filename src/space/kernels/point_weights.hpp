@@ -22,17 +22,17 @@ namespace stillpoint {
 /// All weights of a point lie together: the loops over cells go from point to point and take the local functions of one
 /// at a time. A row of gradients is ∂N_a/∂x_j for one j, and if axisymmetric the last row is N_a/r.
 ///
-/// Linear functions in the plane are made anew where they are needed, from the position of a point in its cell: that is
-/// less work than to read them from memory, and an eighth of the bytes.
+/// Linear functions in the plane and in space are made anew where they are needed, from the position of a point in its
+/// cell: that is less work than to read them from memory, and an eighth of the bytes or less.
 template <AxisBasis B, Kinematics K>
 class PointWeights {
  public:
   static constexpr int dim = dimensions(K);
   using Basis = TensorBasis<B, dim>;
   static constexpr int per_cell = Basis::per_cell;
-  static constexpr int slack = 4;  // entries after the last, for who reads a few at a time
+  static constexpr int slack = 8;  // entries after the last, for who reads a few at a time
   static constexpr int rows = K == Kinematics::axisymmetric ? dim + 1 : dim;
-  static constexpr bool from_positions = dim == 2 && std::same_as<B, BSpline<1>>;
+  static constexpr bool from_positions = dim > 1 && std::same_as<B, BSpline<1>>;
 
   /// A cell's corner and sides, from which its linear functions are made.
   struct Cell {
@@ -80,7 +80,9 @@ class PointWeights {
   int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
   /// N_a, [a] (per_cell), of point p in occupied cell k.
   auto N([[maybe_unused]] std::size_t k, std::size_t p) const {
-    if constexpr (from_positions) {
+    if constexpr (from_positions && dim == 3) {
+      return trilinear(p).N;
+    } else if constexpr (from_positions) {
       const double x = position_[0][p], y = position_[1][p];
       return std::array{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
     } else {
@@ -89,7 +91,15 @@ class PointWeights {
   }
   /// Its gradients, [per_cell row + a] (rows × per_cell).
   auto dN([[maybe_unused]] std::size_t k, std::size_t p) const {
-    if constexpr (from_positions) {
+    if constexpr (from_positions && dim == 3) {
+      std::array<double, rows * per_cell> of_point;
+      const auto values = trilinear(p);
+      for (int j = 0; j < dim; ++j) {
+        for (int a = 0; a < per_cell; ++a)
+          of_point[per_cell * j + a] = values.dN[j][a] * cell_[k].inverse_side[static_cast<std::size_t>(j)];
+      }
+      return of_point;
+    } else if constexpr (from_positions) {
       const double x = position_[0][p], y = position_[1][p];
       const auto [per_x, per_y] = cell_[k].inverse_side;
       std::array<double, rows * per_cell> of_point{-(1 - y) * per_x, (1 - y) * per_x, -y * per_x,      y * per_x,
@@ -148,6 +158,24 @@ class PointWeights {
   }
 
  private:
+  // Of eight corners, in a cell of unit sides.
+  auto trilinear(std::size_t p) const {
+    typename Basis::Values values;
+    for (int a = 0; a < per_cell; ++a) {
+      Point<dim> factor, sign;
+      for (std::size_t d = 0; d < dim; ++d) {
+        const bool far = Basis::axis_index(a, static_cast<int>(d)) == 1;
+        factor[d] = far ? position_[d][p] : 1 - position_[d][p];
+        sign[d] = far ? 1 : -1;
+      }
+      values.N[a] = factor[0] * factor[1] * factor[2];
+      values.dN[0][a] = sign[0] * factor[1] * factor[2];
+      values.dN[1][a] = factor[0] * sign[1] * factor[2];
+      values.dN[2][a] = factor[0] * factor[1] * sign[2];
+    }
+    return values;
+  }
+
   // functions: of all cells of the grid, if those of a domain are not means over it.
   template <class Functions>
   void evaluate_in_cell(const Grid<dim>& grid, const Functions& functions, const std::array<int, dim>& cell,

@@ -26,7 +26,7 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
   if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame));
   if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
   if (material.law == "hencky") return elastic(Hencky<S>(lame));
-  if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric) {
+  if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric || S == StressState::space) {
     if (material.law == "drucker-prager") {
       const DruckerPrager<S> law(DruckerPragerParameters::from(material));
       return std::make_unique<HistoryMaterial<DruckerPrager<S>>>(law, begin, count);
@@ -57,6 +57,12 @@ template <>
 Made<Kinematics::axisymmetric> make_point_material(const MaterialSpec& material, StressState, std::size_t begin,
                                                    std::size_t count, bool updated_lagrangian) {
   return make<StressState::axisymmetric>(material, begin, count, updated_lagrangian);
+}
+
+template <>
+Made<Kinematics::space> make_point_material(const MaterialSpec& material, StressState, std::size_t begin,
+                                            std::size_t count, bool updated_lagrangian) {
+  return make<StressState::space>(material, begin, count, updated_lagrangian);
 }
 
 }  // namespace stillpoint

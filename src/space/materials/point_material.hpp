@@ -23,7 +23,7 @@ namespace stillpoint {
 /// cache.
 template <Kinematics K>
 struct PointBlock {
-  static constexpr std::size_t size = 128;
+  static constexpr std::size_t size = K == Kinematics::space ? 64 : 128;
   static constexpr std::size_t slack = 8;  // entries after the last, for who writes a few at a time
   static constexpr int components = gradient_components(K);
   using Row = std::array<double, size + slack>;

@@ -95,3 +95,42 @@ TEST_CASE("the tensor product in the plane is the product of the axis functions"
   CHECK(Plane::count(grid) == 5 * 4);
   CHECK(Plane::first(grid, {1, 1}) + Plane::offsets(grid)[4] == (1 + 1) * 5 + (1 + 1));
 }
+
+TEMPLATE_TEST_CASE(
+    "in space a basis reproduces the coordinates, and its gradients are the derivatives of its functions", "",
+    BSpline<1>, BSpline<2>, BSpline<3>, CubicHermite) {
+  using Basis = TensorBasis<TestType, 3>;
+  const Grid<3> grid{{Axis{{0, 0.3, 1, 1.4}}, Axis{{-1, 0, 0.25}}, Axis{{0, 3, 4, 4.5, 5}}}};
+  constexpr double d = 1e-6;
+  const auto offset = Basis::offsets(grid);
+  for (int number = 0; number < grid.cells(); ++number) {
+    const auto cell = grid.cell_at(number);
+    Point<3> x;
+    for (std::size_t e = 0; e < 3; ++e) {
+      const auto& lines = grid.axes[e].nodes;
+      const auto c = static_cast<std::size_t>(cell[e]);
+      x[e] = lines[c] + (0.2 + 0.3 * static_cast<double>(e)) * (lines[c + 1] - lines[c]);
+    }
+    const auto at = Basis::evaluate(grid, cell, x);
+    if constexpr (TestType::partition_of_unity) {
+      for (int e = 0; e < 3; ++e) {
+        double sum = 0;
+        for (int a = 0; a < Basis::per_cell; ++a) {
+          const int function = Basis::first(grid, cell) + offset[a];
+          sum += at.N[a] * TestType::centre(grid.axes[e], Basis::index_along(grid, function, e));
+        }
+        CHECK(sum == Approx(x[e]).margin(1e-13));
+      }
+    }
+    for (std::size_t e = 0; e < 3; ++e) {
+      Point<3> above = x, below = x;
+      above[e] += d;
+      below[e] -= d;
+      const auto up = Basis::evaluate(grid, cell, above), down = Basis::evaluate(grid, cell, below);
+      double worst = 0;
+      for (int a = 0; a < Basis::per_cell; ++a)
+        worst = std::max(worst, std::abs(at.dN[e][a] - (up.N[a] - down.N[a]) / (2 * d)));
+      CHECK(worst < 1e-7);  // O(d²) and rounding/d
+    }
+  }
+}
