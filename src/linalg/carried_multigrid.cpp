@@ -29,8 +29,10 @@ std::vector<int> matches(const NodalLayout& from, const NodalLayout& to) {
   std::ranges::stable_sort(sorted, before, place);
   std::vector<int> match(to.node.size(), none);
   for (std::size_t k = 0; k < match.size(); ++k) {
-    for (const int unknown : std::ranges::equal_range(sorted, position(to, to.node[k]), before, place)) {
-      if (from.component[static_cast<std::size_t>(unknown)] == to.component[k]) match[k] = unknown;
+    const ConstVec here = position(to, to.node[k]);
+    auto other = std::ranges::lower_bound(sorted, here, before, place);
+    for (; other != sorted.end() && std::ranges::equal(place(*other), here); ++other) {
+      if (from.component[static_cast<std::size_t>(*other)] == to.component[k]) match[k] = *other;
     }
   }
   return match;
