@@ -72,9 +72,9 @@ struct PlaneLogStrain {
 /// where i₁ is the largest root of f(i₁) = (i₁² − I₁)²/4 − I₂ − 2 i₃ i₁, f' = 2 (i₁ i₂ − i₃) = 2 Π (y_a + y_b) > 0. Put
 /// into one another, the two equations leave at most i₃/(i₁ i₂) ≤ 1/9 of an error, Newton's method ends it, both from
 /// above, i₁² ≤ 3 I₁. No step asks whether eigenvalues are equal. The product with B keeps the digits of a small one,
-/// which Y loses. Without a loop, so that one over points is vectorised.
+/// which Y loses. Without a loop, and inlined whatever its size, so that one over points is vectorised.
 template <class Number>
-SpaceTensorOf<Number> root_of_unit_plus(const SpaceTensorOf<Number>& B) {
+[[gnu::always_inline]] inline SpaceTensorOf<Number> root_of_unit_plus(const SpaceTensorOf<Number>& B) {
   using std::sqrt;
   const SpaceTensorOf<Number> unit{1, 0, 0, 0, 1, 0, 0, 0, 1}, C = unit + B, C2 = C * C;
   const Number I1 = trace(C), I2 = (I1 * I1 - trace(C2)) / 2, i3 = sqrt(determinant(C));
@@ -91,7 +91,7 @@ SpaceTensorOf<Number> root_of_unit_plus(const SpaceTensorOf<Number>& B) {
 
 /// I/(2n + 1) + Z²/(2n + 3) + …, up to the power 16 of Z if n = 0
 template <int n, class Tensor>
-Tensor artanh_series(const Tensor& unit, const Tensor& Z2) {
+[[gnu::always_inline]] inline Tensor artanh_series(const Tensor& unit, const Tensor& Z2) {
   if constexpr (n == 8) {
     return (1.0 / (2 * n + 1)) * unit;
   } else {
@@ -104,7 +104,7 @@ Tensor artanh_series(const Tensor& unit, const Tensor& Z2) {
 ///
 ///   ln(I + B) = 2⁴ · 2 artanh Z,   Z = X (2 I + X)⁻¹,   X = (I + B)^(1/16) − I,   artanh Z = Z + Z³/3 + Z⁵/5 + …
 template <class Number>
-SpaceTensorOf<Number> log_of_unit_plus(const SpaceTensorOf<Number>& B) {
+[[gnu::always_inline]] inline SpaceTensorOf<Number> log_of_unit_plus(const SpaceTensorOf<Number>& B) {
   const SpaceTensorOf<Number> unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
   const SpaceTensorOf<Number> X = root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(B))));
   const SpaceTensorOf<Number> Z = X * inverse(unit + unit + X);
