@@ -101,7 +101,7 @@ class DruckerPrager {
 
   /// The strength of a step is that at its start, which softening takes from the stress at its end.
   bool stress_stays() const { return softening_rate_ == 0; }
-  Stress<S> cauchy(const History& now) const {
+  static Stress<S> cauchy(const History& now) {
     Stress<S> sigma;
     for (int a = 0; a < stresses; ++a) sigma[a] = now[a];
     return sigma;
@@ -255,16 +255,11 @@ class DruckerPrager {
 
   struct ElasticTrial {
     ElasticTrial(const Gradient<S>& H, const History& now)
-        : f(deformation_gradient<S>(H)), sigma(stress_of(now)), J(determinant(f)), tau(J * sigma) {}
+        : f(deformation_gradient<S>(H)), sigma(stress_tensor<S>(cauchy(now))), J(determinant(f)), tau(J * sigma) {}
     Tensor f, sigma;
     double J;
     Tensor tau;
   };
-  static Tensor stress_of(const History& now) {
-    Stress<S> sigma;
-    for (int a = 0; a < stresses; ++a) sigma[a] = now[a];
-    return stress_tensor<S>(sigma);
-  }
   auto rate_at(const ElasticTrial& at) const {
     return [this, at](const Tensor& l) {
       const Tensor d = 0.5 * (l + transpose(l)), w = l - d;

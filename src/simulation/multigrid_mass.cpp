@@ -67,27 +67,33 @@ std::shared_ptr<MultigridMass> mass_of(std::shared_ptr<const Multigrid> cycle, s
   return made;
 }
 
-MultigridAttempt make_anew(const LagrangianPhase& phase, const SparseMatrix& K, const LinearMap& apply_K, ConstVec u,
-                           bool only_omega_max) {
+std::shared_ptr<MultigridMass> mass_with_cycle_of(const SparseMatrix& K, const LagrangianPhase& phase) {
   NodalLayout layout = phase.layout();
-  const auto made = mass_of(make_multigrid(K, layout), phase.size());
+  auto made = mass_of(make_multigrid(K, layout), phase.size());
   made->layout = std::move(layout);
-  if (!find_frequencies(apply_K, out_of_balance(phase, u), only_omega_max, *made)) {
-    return {nullptr,
-            "the elastic stiffness is not positive definite at the start: multigrid needs a body that is held, in a "
-            "stable state; expected supports, or mass.kind = \"lumped\""};
-  }
-  return {made, ""};
+  return made;
+}
+
+MultigridAttempt with_frequencies(std::shared_ptr<MultigridMass> made, const LinearMap& apply_K,
+                                  const LagrangianPhase& phase, ConstVec u, bool only_omega_max) {
+  if (find_frequencies(apply_K, out_of_balance(phase, u), only_omega_max, *made)) return {std::move(made), ""};
+  return {nullptr,
+          "the elastic stiffness is not positive definite at the start: multigrid needs a body that is held, in a "
+          "stable state; expected supports, or mass.kind = \"lumped\""};
 }
 
 }  // namespace
 
 MultigridAttempt make_multigrid_mass(const LagrangianPhase& phase, ConstVec u, bool only_omega_max) {
   if (std::string missing = multigrid_is_missing(); !missing.empty()) return {nullptr, std::move(missing)};
-  SparseMatrix K = phase.tangents().matrix(Tangent::elastic, 0, u);
-  if (std::string why = why_no_cycle(phase, K); !why.empty()) return {nullptr, std::move(why)};
+  std::shared_ptr<MultigridMass> made;
+  {  // K is given back as soon as there is a cycle
+    const SparseMatrix K = phase.tangents().matrix(Tangent::elastic, 0, u);
+    if (std::string why = why_no_cycle(phase, K); !why.empty()) return {nullptr, std::move(why)};
+    made = mass_with_cycle_of(K, phase);
+  }
   const LinearMap apply_K = [&](ConstVec x, Vec Kx) { phase.tangents().apply(Tangent::elastic, 0, u, x, Kx); };
-  return make_anew(phase, K, apply_K, u, only_omega_max);
+  return with_frequencies(std::move(made), apply_K, phase, u, only_omega_max);
 }
 
 // Of what the stresses on the way make unstable the inertia should know nothing: it has to be positive definite.
@@ -97,11 +103,12 @@ MultigridAttempt next_multigrid_mass(const LagrangianPhase& phase, const Multigr
   const SparseMatrix K = phase.tangents().matrix(Tangent::stable, 0, u);
   if (std::string why = why_no_cycle(phase, K); !why.empty()) return {nullptr, std::move(why)};
   const LinearMap apply_K = row_product(K);
-  if (!last) return make_anew(phase, K, apply_K, u, /*only_omega_max=*/true);
+  const auto anew = [&] { return with_frequencies(mass_with_cycle_of(K, phase), apply_K, phase, u, true); };
+  if (!last) return anew();
   const auto carried = mass_of(carry(last->cycle, last->layout, phase.layout(), K), phase.size());
   const bool serves = find_frequencies(apply_K, out_of_balance(phase, u), /*only_omega_max=*/true, *carried) &&
                       carried->spread <= worse * last->spread;
-  if (!serves) return make_anew(phase, K, apply_K, u, /*only_omega_max=*/true);
+  if (!serves) return anew();
   carried->cycle = last->cycle;
   carried->layout = last->layout;
   carried->spread = last->spread;

@@ -79,7 +79,9 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
   tables.add({"solve", "how equilibrium is found"}, &Scene::solve)
       .key("method", &SolveSpec::method, "relaxation in time, or a static solver", {.words = methods, .hint = strategy})
       .key("load_steps", &SolveSpec::load_steps,
-           "of a static solver: shares of the load, each committed to what points remember; halved where one fails",
+           "of a static solver: shares of the load, each committed to what points remember; one that fails is halved, "
+           "by cg and "
+           "lbfgs only where points remember",
            {.range = from(1, 100000)});
 
   const auto solver = [&catalogue](const std::string& word) {

@@ -43,7 +43,6 @@ void StaticIteration::begin(double t, const Vector& y) {
   forget();
   load_.start_over();
   steps_of_first_ = 0;
-  std::ranges::fill(Q_begin_.span(), 0.0);
   admissible_ = system().out_of_balance(t, u, Q_begin_.span());
   if (!admissible_) return;
   std::ranges::fill(Q_.span(), 0.0);

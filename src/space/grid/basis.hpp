@@ -259,41 +259,28 @@ struct TensorBasis {
     if constexpr (Dim == 1) {
       std::copy(N[0].begin(), N[0].end(), product);
       std::copy(dN[0].begin(), dN[0].end(), gradients);
-    } else if constexpr (Dim == 3) {
+    } else if constexpr (Dim == 2 && B::per_cell <= 4) {
       constexpr int n = B::per_cell;
-      for (int c = 0; c < n; ++c) {
-        for (int b = 0; b < n; ++b) {
-          const double both = N[1][b] * N[2][c], along_y = dN[1][b] * N[2][c], along_z = N[1][b] * dN[2][c];
-          for (int a = 0; a < n; ++a) {
-            const int at = n * (n * c + b) + a;
-            product[at] = N[0][a] * both;
-            gradients[at] = dN[0][a] * both;
-            gradients[per_cell + at] = N[0][a] * along_y;
-            gradients[2 * per_cell + at] = N[0][a] * along_z;
-          }
-        }
-      }
+      // Rows of functions along x at once; what one writes past its end the next one writes again.
+      const auto padded = [](const auto& of_axis) {
+        return Lanes<4>{{of_axis[0], of_axis[n > 1 ? 1 : 0], of_axis[n > 2 ? 2 : 0], of_axis[n > 3 ? 3 : 0]}};
+      };
+      const Lanes<4> N_x = padded(N[0]), dN_x = padded(dN[0]);
+      unroll<n>([&](auto b) __attribute__((always_inline)) {
+        constexpr std::size_t room = b + 1 < n ? 4 : n;
+        N_x.times(N[1][b]).store_first(product + n * b, room);
+        dN_x.times(N[1][b]).store_first(gradients + n * b, room);
+        N_x.times(dN[1][b]).store_first(gradients + per_cell + n * b, room);
+      });
     } else {
-      static_assert(Dim == 2);
-      constexpr int n = B::per_cell;
-      if constexpr (n <= 4) {
-        // Rows of functions along x at once; what one writes past its end the next one writes again.
-        const auto padded = [](const auto& of_axis) {
-          return Lanes<4>{{of_axis[0], of_axis[n > 1 ? 1 : 0], of_axis[n > 2 ? 2 : 0], of_axis[n > 3 ? 3 : 0]}};
+      for (int a = 0; a < per_cell; ++a) {
+        const auto along = [&](int slope) {
+          double factor = 1;
+          for (int d = 0; d < Dim; ++d) factor *= (d == slope ? dN : N)[d][axis_index(a, d)];
+          return factor;
         };
-        const Lanes<4> N_x = padded(N[0]), dN_x = padded(dN[0]);
-        unroll<n>([&](auto b) __attribute__((always_inline)) {
-          constexpr std::size_t room = b + 1 < n ? 4 : n;
-          N_x.times(N[1][b]).store_first(product + n * b, room);
-          dN_x.times(N[1][b]).store_first(gradients + n * b, room);
-          N_x.times(dN[1][b]).store_first(gradients + per_cell + n * b, room);
-        });
-      } else {
-        for (int a = 0; a < per_cell; ++a) {
-          product[a] = N[0][axis_index(a, 0)] * N[1][axis_index(a, 1)];
-          gradients[a] = dN[0][axis_index(a, 0)] * N[1][axis_index(a, 1)];
-          gradients[per_cell + a] = N[0][axis_index(a, 0)] * dN[1][axis_index(a, 1)];
-        }
+        product[a] = along(-1);
+        for (int e = 0; e < Dim; ++e) gradients[per_cell * e + a] = along(e);
       }
     }
   }
