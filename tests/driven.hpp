@@ -32,12 +32,14 @@ class Motion {
   stillpoint::WallReaction wall(std::size_t number = 0) { return phase().wall_reactions(t()).at(number); }
 
   /// Mean over the points, which are of equal mass in these scenes.
-  double mean_velocity(std::size_t component) {
+  std::vector<double> mean_velocity() {
+    const auto dim = static_cast<std::size_t>(phase().dim());
     const stillpoint::ConstVec v_p = simulation_.field("v");
-    double sum = 0;
-    for (std::size_t p = component; p < v_p.size(); p += 2) sum += v_p[p];
-    return sum / static_cast<double>(simulation_.points());
+    std::vector<double> mean(dim, 0);
+    for (std::size_t k = 0; k < v_p.size(); ++k) mean[k % dim] += v_p[k] / static_cast<double>(simulation_.points());
+    return mean;
   }
+  double mean_velocity(std::size_t component) { return mean_velocity()[component]; }
 
  private:
   stillpoint::Simulation simulation_;

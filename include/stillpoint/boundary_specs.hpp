@@ -11,17 +11,17 @@
 
 namespace stillpoint {
 
-struct SupportSpec {                   // [[support]]: u = motion(X, t) at a position, or on a face of the grid
-  std::string name{};                  // for its reaction in history.csv and summary.json; empty: not reported
-  std::vector<double> at{};            // [m]; empty: on the face
-  std::optional<Face> face{};          // of the grid
-  std::optional<double> from{}, to{};  // the part of the face that is held, along it [m]; empty: to its ends
-  bool roller = false;                 // on a face: only `component` is held, otherwise the other one too (at 0)
-  int component = 0;                   // that moves; on a face its normal, unless another is named
-  Expression motion{};                 // of the position before the motion and of t [m]; 0: fixed
-  std::optional<double> stiffness{};   // of a spring that holds: at a position [N/m], on a face per area [N/m³]
+struct SupportSpec {                  // [[support]]: u = motion(X, t) at a position, or on a face of the grid
+  std::string name{};                 // for its reaction in history.csv and summary.json; empty: not reported
+  std::vector<double> at{};           // [m]; empty: on the face
+  std::optional<Face> face{};         // of the grid
+  std::vector<double> from{}, to{};   // the part of the face that is held, along its axes [m]; empty: to its ends
+  bool roller = false;                // on a face: only `component` is held, otherwise the others too (at 0)
+  int component = 0;                  // that moves; on a face its normal, unless another is named
+  Expression motion{};                // of the position before the motion and of t [m]; 0: fixed
+  std::optional<double> stiffness{};  // of a spring that holds: at a position [N/m], on a face per area [N/m³]
 
-  bool on_part() const { return from || to; }
+  bool on_part() const { return !from.empty() || !to.empty(); }
 };
 
 struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, that pushes and never pulls
@@ -38,6 +38,7 @@ struct PointForceSpec {           // [[force]]
 
 struct TractionSpec {                          // [[traction]]: a load on the border of a body
   std::optional<Face> face;                    // of the one body, a box
+  std::vector<double> from = {}, to = {};      // in space the part of the face, along its axes [m]; empty: to its ends
   std::vector<std::vector<double>> line = {};  // or on a straight side that holds both ends, (2 × 2) [m]
   // Of the position before the motion and of t:
   std::vector<Expression> value;       // per undeformed area [Pa]; it keeps its direction

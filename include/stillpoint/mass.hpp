@@ -19,8 +19,8 @@ struct RelativeInertia {
   int dof = 0;
   double inertia = 0;  // [kg]
   int masters = 0;     // 0: against any motion
-  std::array<int, 4> master{};
-  std::array<double, 4> weight{};
+  std::array<int, 8> master{};
+  std::array<double, 8> weight{};
 };
 
 /// M (n × n), symmetric positive definite, constant for a phase. Units: kg.

@@ -31,16 +31,17 @@ enum class Quadrature {
   points,  // itself: N_ip = N_i(x_p)
   domains  // its part of the body: N_ip is the mean over that
 };
-/// Whose change of volume a material point in two dimensions answers to.
+/// Whose change of volume a material point in two or three dimensions answers to.
 enum class Dilatation {
   points,  // its own
   cells,   // the mean of its cell's points: F-bar, or B-bar at small strain
   splines  // likewise a mean over splines of one degree less than the basis; of a linear one its cells
 };
-/// A face of a box, named for a picture with x to the right and y upwards.
-enum class Face { left, right, bottom, top };
-constexpr int axis_of(Face face) { return face == Face::left || face == Face::right ? 0 : 1; }
-constexpr bool is_upper(Face face) { return face == Face::right || face == Face::top; }
+/// A face of a box, named for a picture with x to the right, y upwards and z towards who looks at it: along each axis
+/// the lower one and the upper one.
+enum class Face { left, right, bottom, top, back, front };
+constexpr int axis_of(Face face) { return static_cast<int>(face) / 2; }
+constexpr bool is_upper(Face face) { return static_cast<int>(face) % 2 == 1; }
 
 /// Where kinetic damping takes the peak of the kinetic energy to lie, which it sees at half steps only.
 enum class Peak {

@@ -85,9 +85,11 @@ struct Lanes {
 /// The lanes of a, then those of b.
 template <int N>
 [[gnu::always_inline]] inline Lanes<2 * N> joined(const Lanes<N>& a, const Lanes<N>& b) {
-  static_assert(N <= 2);
+  static_assert(N <= 4);
   if constexpr (N == 1) {
     return {__builtin_shufflevector(a.lanes, b.lanes, 0, 1)};
+  } else if constexpr (N == 4) {
+    return {__builtin_shufflevector(a.lanes, b.lanes, 0, 1, 2, 3, 4, 5, 6, 7)};
   } else {
     return {__builtin_shufflevector(a.lanes, b.lanes, 0, 1, 2, 3)};
   }

@@ -12,7 +12,7 @@ target_compile_options(stillpoint_flags INTERFACE
   # asan build, at -O1, keeps those that it does not check as it runs.
   "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"
   "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:\
--Wno-maybe-uninitialized;-Wno-restrict>"
+-Wno-uninitialized;-Wno-maybe-uninitialized;-Wno-restrict>"
   # The loops over a block of points are asked to be vectorised, which gcc does and clang 14 cannot: slower, not wrong.
   $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>
   # Files that are compiled as one look like headers, in which nothing nameless should stand.

@@ -55,12 +55,15 @@ constexpr std::array<ColumnLaw, 3> kColumnLaws = {{
      }},
 }};
 
+/// x in one dimension, y in the others.
+std::size_t vertical_axis(const Scene& scene) { return scene.dim == 1 ? 0 : 1; }
+
 class Column final : public ExactSolution {
  public:
   explicit Column(const Scene& scene)
       : of_(elastic_constants(scene)),
         law_(*std::ranges::find(kColumnLaws, material_of(scene).law, &ColumnLaw::name)),
-        vertical_(static_cast<std::size_t>(scene.dim) - 1),
+        vertical_(vertical_axis(scene)),
         base_(parameter(scene, "base")),
         height_(parameter(scene, "height")),
         weight_(of_.rho * parameter(scene, "g")) {
@@ -82,7 +85,7 @@ class Column final : public ExactSolution {
     const double e = law_.strain(of_, p);
     sigma[0] = sigma[2] = of_.lambda * (law_.finite_strain ? e * std::exp(-e) : e);  // λ ln J/J
     sigma[1] = -p;
-    sigma[3] = 0;
+    std::fill(sigma.begin() + 3, sigma.end(), 0.0);
   }
 
  private:
@@ -105,7 +108,7 @@ class Column final : public ExactSolution {
 // It has to be the column that it is said to be: boxes and polygons from its base to its top.
 std::optional<SolutionFault> fault_of_height(const Scene& scene) {
   constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
-  const auto vertical = static_cast<std::size_t>(scene.dim) - 1;
+  const std::size_t vertical = vertical_axis(scene);
   const double base = parameter(scene, "base"), height = parameter(scene, "height");
   double low = infinity, high = -infinity;
   for (const BodySpec& body : scene.bodies) {
@@ -138,7 +141,7 @@ KnownSolution column_solution() {
                     .description = "a confined column under its own weight, fixed at its base and free at its top: "
                                    "along x in one dimension, otherwise along y",
                     .source = "P(F) = -rho g (h - s); by Lambert's W for Hencky's law",
-                    .states = {uniaxial_stress, uniaxial_strain, plane_strain, axisymmetric},
+                    .states = {uniaxial_stress, uniaxial_strain, plane_strain, axisymmetric, space},
                     .parameters = {positive_parameter("height", "m", "of the column before it settles"),
                                    positive_parameter("g", "m/s2", "weight per mass, towards the base"),
                                    any_parameter("base", "m", "position of the base along the column")},

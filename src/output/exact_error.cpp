@@ -29,11 +29,11 @@ struct Norms {
   double rel_l2() const { return std::sqrt(difference / exact); }
 };
 
-// σ:σ from xx, or xx, yy, zz, xy.
+// σ:σ from xx; or xx, yy, zz, xy; or those and yz, zx.
 double contracted(std::span<const double> sigma) {
   double sum = 0;
-  for (const double component : sigma) sum += component * component;
-  return sigma.size() == 1 ? sum : sum + sigma[3] * sigma[3];
+  for (std::size_t k = 0; k < sigma.size(); ++k) sum += (k < 3 ? 1 : 2) * sigma[k] * sigma[k];
+  return sum;
 }
 
 /// visit(p, σ_h − σ, σ) for every material point.
@@ -51,8 +51,8 @@ void for_stresses(const ExactSolution& solution, const LagrangianPhase& phase, c
   }
 }
 
-// σ:C⁻¹:σ = [(1 + ν) σ:σ − ν (tr σ)²]/E in the plane, whose σ_zz does no work there; on a line σ²/E if the section is
-// free to contract, or else σ²/(λ + 2μ).
+// σ:C⁻¹:σ = [(1 + ν) σ:σ − ν (tr σ)²]/E in space, and in the plane, whose σ_zz does no work there; on a line σ²/E if
+// the section is free to contract, or else σ²/(λ + 2μ).
 double energy(const MaterialSpec& material, StressState state, std::span<const double> sigma) {
   const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
   if (state == StressState::uniaxial_stress) return contracted(sigma) / E;

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array plane_tensor = {"xx", "yy", "zz", "xy"};
+constexpr std::array of_stress = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("a frame of fields: " + what); }
 
@@ -44,8 +44,8 @@ void validate(const FieldFrame& frame) {
   for (const PointField& field : frame.fields) {
     if (!is_word(field.name)) refuse(fmt::format("'{}' is no name of a field", field.name));
     if (!names.insert(field.name).second) refuse(fmt::format("there is more than one '{}'", field.name));
-    if (field.components < 1 || field.components > 4) {
-      refuse(fmt::format("{} has {} components, expected 1 to 4", field.name, field.components));
+    if (field.components < 1 || field.components > static_cast<int>(of_stress.size())) {
+      refuse(fmt::format("{} has {} components, expected 1 to {}", field.name, field.components, of_stress.size()));
     }
     expect(field.name, field.values.size(), frame.points * static_cast<std::size_t>(field.components));
   }
@@ -122,7 +122,7 @@ void write(const PointField& field, const std::string& group, Hdf5File& file, Gr
     grid.add_vector(field.name);
   } else {
     for (std::size_t k = 0; k < width; ++k) {
-      const std::string name = fmt::format("{}_{}", field.name, plane_tensor[k]);
+      const std::string name = fmt::format("{}_{}", field.name, of_stress[k]);
       file.write(in_group(name), field.values, {width, k, 1, 1});
       grid.add_scalar(name);
     }

@@ -9,9 +9,16 @@ namespace {
 
 std::vector<std::string> suffixes(const LagrangianPhase& phase, const std::string& name) {
   if (phase.dim() == 1) return {""};
-  if (name == "u" || name == "v") return {"x", "y"};
-  if (name == "stress") return {"xx", "yy", "zz", "xy"};
+  const bool in_space = phase.dim() == 3;
+  if (name == "u" || name == "v")
+    return in_space ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"};
+  if (name == "stress") {
+    std::vector<std::string> components = {"xx", "yy", "zz", "xy"};
+    if (in_space) components.insert(components.end(), {"yz", "zx"});
+    return components;
+  }
   if (name == "strain") {
+    if (in_space) return {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
     std::vector<std::string> components = {"xx", "xy", "yx", "yy"};
     if (phase.info().gradient_components == 5) components.emplace_back("zz");
     return components;

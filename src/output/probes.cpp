@@ -56,6 +56,15 @@ std::unique_ptr<Probe> make_probe(const LagrangianPhase& phase, const PointData&
   return std::make_unique<FixedPlace>(phase, spec);
 }
 
+/// ".shear"; in space ".shear.y" and ".shear.z" of a wall across x.
+std::vector<std::string> shear_components(const WallReaction& wall, int dim) {
+  if (dim < 3) return {".shear"};
+  std::vector<std::string> names;
+  for (int axis = 0; axis < dim; ++axis)
+    if (axis != wall.axis) names.push_back(std::string(".shear.") + "xyz"[axis]);
+  return names;
+}
+
 /// A field that some law has to remember.
 void require_fields(const Scene& scene, const LagrangianPhase& phase, std::size_t number) {
   const ProbeSpec& probe = scene.probes[number];
@@ -97,7 +106,7 @@ Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene)
   }
   for (const WallReaction& wall : phase.wall_reactions(0)) {
     columns_.push_back(wall.name + ".normal");
-    columns_.push_back(wall.name + ".shear");
+    for (const std::string& component : shear_components(wall, phase.dim())) columns_.push_back(wall.name + component);
   }
 }
 
@@ -115,7 +124,8 @@ std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
   for (const auto& probe : probes_) probe->read(moment, values);
   for (const WallReaction& wall : phase_.wall_reactions(t)) {
     values.push_back(wall.normal);
-    values.push_back(wall.shear);
+    const std::size_t components = shear_components(wall, phase_.dim()).size();
+    values.insert(values.end(), wall.shear.begin(), wall.shear.begin() + static_cast<std::ptrdiff_t>(components));
   }
   return values;
 }

@@ -42,13 +42,14 @@ double BodySums::value(const std::string& name, ProbedMoment& moment) const {
   }
   const std::vector<double>& v = moment.field("v");
   const std::size_t dim = v.size() / mass_.size();
-  if (name == "angular_momentum") {
+  const std::size_t axis = name.ends_with(".z") ? 2 : name.ends_with(".y") ? 1 : 0;
+  if (name.starts_with("angular_momentum")) {
+    const std::size_t i = dim == 2 ? 0 : (axis + 1) % 3, j = dim == 2 ? 1 : (axis + 2) % 3;
     const std::vector<double>& x = moment.field("position");
     for (std::size_t p = 0; p < mass_.size(); ++p)
-      sum += mass_[p] * (x[2 * p] * v[2 * p + 1] - x[2 * p + 1] * v[2 * p]);
+      sum += mass_[p] * (x[dim * p + i] * v[dim * p + j] - x[dim * p + j] * v[dim * p + i]);
     return sum;
   }
-  const std::size_t axis = name.ends_with(".y") ? 1 : 0;
   for (std::size_t p = 0; p < mass_.size(); ++p) sum += mass_[p] * v[dim * p + axis];
   return sum;
 }

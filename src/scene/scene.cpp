@@ -60,13 +60,25 @@ bool loads_vary(const Scene& scene) {
 
 std::vector<std::string> probe_fields(int dim) {
   if (dim == 1) return {"u", "v", "strain", "stress"};
+  if (dim == 3) {
+    return {"u.x",       "u.y",       "u.z",       "v.x",       "v.y",       "v.z",           "stress.xx", "stress.yy",
+            "stress.zz", "stress.xy", "stress.yz", "stress.zx", "strain.xx", "strain.xy",     "strain.xz", "strain.yx",
+            "strain.yy", "strain.yz", "strain.zx", "strain.zy", "strain.zz", "plastic_strain"};
+  }
   return {"u.x",       "u.y",       "v.x",       "v.y",       "stress.xx", "stress.yy",     "stress.zz",
           "stress.xy", "strain.xx", "strain.xy", "strain.yx", "strain.yy", "plastic_strain"};
 }
 
 std::vector<std::string> body_fields(int dim) {
   if (dim == 1) return {"volume", "momentum"};
-  return {"volume", "momentum.x", "momentum.y", "angular_momentum"};
+  if (dim == 2) return {"volume", "momentum.x", "momentum.y", "angular_momentum"};
+  return {"volume",
+          "momentum.x",
+          "momentum.y",
+          "momentum.z",
+          "angular_momentum.x",
+          "angular_momentum.y",
+          "angular_momentum.z"};
 }
 
 }  // namespace stillpoint

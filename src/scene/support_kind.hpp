@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace stillpoint {
 
@@ -40,15 +41,26 @@ inline bool holds_by_springs(const GridSpec& grid, const SupportSpec& support) {
   return false;
 }
 
-/// The held part of a face, along it [m].
-struct FacePart {
+/// How far a part of a face reaches along one of its axes [m].
+struct FaceInterval {
   std::size_t along = 0;  // the axis
   double from = 0, to = 0;
 };
-/// Of a support on a face of a plane grid.
-inline FacePart held_part(const GridSpec& grid, const SupportSpec& support) {
-  const auto along = static_cast<std::size_t>(1 - axis_of(*support.face));
-  return {along, support.from.value_or(grid.min[along]), support.to.value_or(grid.max[along])};
+/// Of the face of a box from min to max: an interval along each axis but the normal's, in order; to the face's ends
+/// where from or to is empty.
+inline std::vector<FaceInterval> part_of_face(Face face, const std::vector<double>& from, const std::vector<double>& to,
+                                              const std::vector<double>& min, const std::vector<double>& max) {
+  std::vector<FaceInterval> part;
+  for (std::size_t axis = 0; axis < min.size(); ++axis) {
+    if (axis == static_cast<std::size_t>(axis_of(face))) continue;
+    const std::size_t k = part.size();
+    part.push_back({axis, from.empty() ? min[axis] : from[k], to.empty() ? max[axis] : to[k]});
+  }
+  return part;
+}
+/// What a support holds of a face of the grid.
+inline std::vector<FaceInterval> held_part(const GridSpec& grid, const SupportSpec& support) {
+  return part_of_face(*support.face, support.from, support.to, grid.min, grid.max);
 }
 
 }  // namespace stillpoint

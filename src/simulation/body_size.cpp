@@ -68,18 +68,18 @@ BodySize body_size(const Scene& scene) {
     const char* key = body.file.empty() ? "points_per_cell" : "file";
     size.most_points = scene.bodies.size() > 1 ? fmt::format("body[{}].{}", k, key) : fmt::format("body.{}", key);
   }
-  double in_box = 1, functions = 1, narrowest = std::numeric_limits<double>::infinity();
+  double in_box = 1, functions = 1, widest = 1;
   size.grid_functions = 1;
   for (std::size_t d = 0; d < dim; ++d) {
     in_box *= box[d].length();
     const double along = functions_along(scene.grid.basis, box[d].length());
     functions *= along;
-    narrowest = std::min(narrowest, along);
+    widest = std::max(widest, along);
     size.grid_functions *= functions_along(scene.grid.basis, scene.grid.cells[d]);
   }
   const auto components = static_cast<double>(dim);
   size.unknowns = components * functions * std::min(1.0, size.cells / std::max(1.0, in_box));
-  size.width = dim == 1 ? 1 : components * narrowest;
+  size.width = components * functions / widest;
   return size;
 }
 

@@ -141,7 +141,9 @@ void write_mode(const EquilibriumStability& stability, const LagrangianPhase& ph
                 const std::filesystem::path& folder) {
   const auto dim = static_cast<std::size_t>(phase.dim());
   const std::vector<double> position = current_positions(phase, t, u);
-  std::string text = dim == 1 ? "point,x,mode\n" : "point,x,y,mode.x,mode.y\n";
+  std::string text = dim == 1   ? "point,x,mode\n"
+                     : dim == 2 ? "point,x,y,mode.x,mode.y\n"
+                                : "point,x,y,z,mode.x,mode.y,mode.z\n";
   for (std::size_t p = 0; p < phase.points(); ++p) {
     const auto row = [&](const std::vector<double>& values) { return ConstVec(values).subspan(dim * p, dim); };
     text +=

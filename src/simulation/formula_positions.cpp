@@ -28,6 +28,20 @@ std::vector<double> along(const std::array<double, 2>& from, const std::array<do
   return positions;
 }
 
+// Over a part of a face in space, which lies across axis `normal` at `face`.
+std::vector<double> over(const std::vector<FaceInterval>& part, std::size_t normal, double face) {
+  constexpr int along_axis = 32;  // about fewest_of_all together
+  std::vector<double> positions;
+  for (int k = 0; k < along_axis * along_axis; ++k) {
+    std::array<double, 3> x{};
+    x[normal] = face;
+    x[part[0].along] = part[0].from + (k % along_axis + 0.5) / along_axis * (part[0].to - part[0].from);
+    x[part[1].along] = part[1].from + (k / along_axis + 0.5) / along_axis * (part[1].to - part[1].from);
+    positions.insert(positions.end(), x.begin(), x.end());
+  }
+  return positions;
+}
+
 }  // namespace
 
 std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase& phase, const std::string& key) {
@@ -45,7 +59,10 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
       return positions;
     }
     const BodySpec& body = scene.bodies.front();
-    return is_upper(*traction.face) ? body.max : body.min;
+    const std::vector<double>& corner = is_upper(*traction.face) ? body.max : body.min;
+    if (scene.dim == 1) return corner;
+    const auto normal = static_cast<std::size_t>(axis_of(*traction.face));
+    return over(part_of_face(*traction.face, traction.from, traction.to, body.min, body.max), normal, corner[normal]);
   }
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     if (!key.starts_with(fmt::format("support[{}]", k))) continue;
@@ -54,10 +71,11 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
     const auto axis = static_cast<std::size_t>(axis_of(*support.face));
     const double face = (is_upper(*support.face) ? scene.grid.max : scene.grid.min)[axis];
     if (scene.dim == 1) return {face};
-    const FacePart part = held_part(scene.grid, support);
+    const std::vector<FaceInterval> part = held_part(scene.grid, support);
+    if (scene.dim == 3) return over(part, axis, face);
     std::array<double, 2> from{face, face}, to{face, face};
-    from[part.along] = part.from;
-    to[part.along] = part.to;
+    from[part.front().along] = part.front().from;
+    to[part.front().along] = part.front().to;
     return along(from, to, scene.grid);
   }
   return phase.positions();

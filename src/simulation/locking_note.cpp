@@ -22,11 +22,12 @@ bool dilates(const MaterialSpec& material) {
   return psi != material.parameters.end() && psi->second > 0;
 }
 
-// p² Gauss points of a cell under-integrate just enough; a file's points are as they are.
+// p² Gauss points of a cell, in space p³, under-integrate just enough; a file's points are as they are.
 bool has_many_points(const BodySpec& body, BasisKind basis) {
   const int p = degree_of(basis);
-  return !body.file.empty() || body.points_per_cell.size() < 2 ||
-         body.points_per_cell[0] * body.points_per_cell[1] > p * p;
+  double points = 1, just_enough = 1;
+  for (const int along : body.points_per_cell) points *= along, just_enough *= p;
+  return !body.file.empty() || points > just_enough;
 }
 
 bool flows(const MaterialSpec& material) {
@@ -38,7 +39,8 @@ bool flows(const MaterialSpec& material) {
 }  // namespace
 
 std::optional<std::string> locking_note(const Scene& scene) {
-  const bool volume_is_kept = scene.state == StressState::plane_strain || scene.state == StressState::axisymmetric;
+  const bool volume_is_kept = scene.state == StressState::plane_strain || scene.state == StressState::axisymmetric ||
+                              scene.state == StressState::space;
   if (!volume_is_kept) return std::nullopt;
   const bool shares = scene.phase.dilatation != Dilatation::points;
   for (const BodySpec& body : scene.bodies) {

@@ -55,30 +55,60 @@ double extent_of(const PointMotion& motion) {
   return extent;
 }
 
-// "turns about (0, 0)" or "moves along (0, 1)" if it is  a + ω (−y, x)  at all points, by least squares; else empty.
-std::string rigid_motion(const PointMotion& motion) {
-  const auto points = static_cast<Eigen::Index>(motion.position.size() / motion.dim);
-  const auto dim = static_cast<Eigen::Index>(motion.dim);
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(dim * points, dim == 1 ? 1 : 3);
-  for (Eigen::Index p = 0; p < points; ++p) {
-    A(dim * p, 0) = 1;
-    if (dim == 1) continue;
-    A(2 * p + 1, 1) = 1;
-    A(2 * p, 2) = -motion.position[static_cast<std::size_t>(2 * p + 1)];
-    A(2 * p + 1, 2) = motion.position[static_cast<std::size_t>(2 * p)];
+// a + ω × x at all points; on a line and in the plane the components out of them are 0.
+struct RigidMotion {
+  Eigen::Vector3d a = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
+};
+
+// By least squares; none if the points move otherwise.
+std::optional<RigidMotion> fit_rigid_motion(const PointMotion& motion) {
+  const std::size_t dim = motion.dim, points = motion.position.size() / dim;
+  const auto rows = static_cast<Eigen::Index>(dim * points), translations = static_cast<Eigen::Index>(dim);
+  const std::size_t first_turn = dim == 3 ? 0 : 2, turns = dim == 1 ? 0 : dim == 2 ? 1 : 3;  // in the plane about z
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, translations + static_cast<Eigen::Index>(turns));
+  for (std::size_t p = 0; p < points; ++p) {
+    const auto row = static_cast<Eigen::Index>(dim * p);
+    for (Eigen::Index i = 0; i < translations; ++i) A(row + i, i) = 1;
+    for (std::size_t k = 0; k < turns; ++k) {  // e_m × x: from axis i to axis j
+      const std::size_t m = first_turn + k, i = (m + 1) % 3, j = (m + 2) % 3;
+      const auto column = translations + static_cast<Eigen::Index>(k);
+      A(row + static_cast<Eigen::Index>(j), column) = motion.position[dim * p + i];
+      A(row + static_cast<Eigen::Index>(i), column) = -motion.position[dim * p + j];
+    }
   }
-  const Eigen::Map<const Eigen::VectorXd> u(motion.displacement.data(), dim * points);
+  const Eigen::Map<const Eigen::VectorXd> u(motion.displacement.data(), rows);
   const Eigen::VectorXd fit = A.colPivHouseholderQr().solve(u);
-  if ((A * fit - u).cwiseAbs().maxCoeff() > alike) return "";
-  if (dim == 1) return "moves along x";
-  const double omega = fit[2], extent = extent_of(motion);
-  const double x = -fit[1] / omega, y = fit[0] / omega;  // where a + ω (−y, x) = 0
-  // A turn about a point far away is a translation.
-  if (std::max(std::abs(fit[0]), std::abs(fit[1])) < std::abs(omega) * extent / alike) {
-    const auto clean = [&](double value) { return std::abs(value) < alike * extent ? 0 : value; };
-    return fmt::format("turns about ({:.3g}, {:.3g})", clean(x), clean(y));
-  }
-  return fmt::format("moves along ({:.3g}, {:.3g})", fit[0], fit[1]);
+  if (!((A * fit - u).cwiseAbs().maxCoeff() <= alike)) return std::nullopt;
+  RigidMotion rigid;
+  rigid.a.head(translations) = fit.head(translations);
+  for (std::size_t k = 0; k < turns; ++k)
+    rigid.omega[static_cast<Eigen::Index>(first_turn + k)] = fit[translations + static_cast<Eigen::Index>(k)];
+  return rigid;
+}
+
+// "turns about (0, 0)", "turns about the axis through (0, 0, 0) along (0, 1, 0)" or "moves along (0, 1)"; empty if the
+// body does not stay as it is.
+std::string rigid_motion(const PointMotion& motion) {
+  const std::optional<RigidMotion> rigid = fit_rigid_motion(motion);
+  if (!rigid) return "";
+  if (motion.dim == 1) return "moves along x";
+  const auto told = [&](const Eigen::Vector3d& x) {
+    return fmt::format("({:.3g})", fmt::join(x.data(), x.data() + motion.dim, ", "));
+  };
+  const auto& [a, omega] = *rigid;
+  const double extent = extent_of(motion);
+  // A turn about an axis far away is a translation.
+  if (!(a.cwiseAbs().maxCoeff() < omega.norm() * extent / alike)) return "moves along " + told(a);
+  const auto clean = [](Eigen::Vector3d x, double size) {
+    for (double& value : x) value = std::abs(value) < alike * size ? 0 : value;
+    return x;
+  };
+  const Eigen::Vector3d through = clean(omega.cross(a) / omega.squaredNorm(), extent);  // the nearest to the origin
+  if (motion.dim == 2) return "turns about " + told(through);
+  std::string text =
+      fmt::format("turns about the axis through {} along {}", told(through), told(clean(omega.normalized(), 1)));
+  if (std::abs(a.dot(omega)) > alike * extent * omega.squaredNorm()) text += " and moves along it";
+  return text;
 }
 
 std::string furthest_point(const LagrangianPhase& phase, const PointMotion& motion) {

@@ -25,7 +25,7 @@ namespace {
 constexpr double real = sizeof(double);
 constexpr double of_entry = sizeof(double) + sizeof(int);  // of a sparse matrix
 
-bool averages_dilatation(const Scene& scene) { return scene.dim == 2 && scene.phase.dilatation != Dilatation::points; }
+bool averages_dilatation(const Scene& scene) { return scene.dim > 1 && scene.phase.dilatation != Dilatation::points; }
 // Splines whose means points share are those of degree p − 1, see SplineMeans.
 bool means_over_splines(const Scene& scene) {
   return averages_dilatation(scene) && scene.phase.dilatation == Dilatation::splines && degree_of(scene.grid.basis) > 1;
@@ -51,14 +51,17 @@ double of_law(const Scene& scene, const MaterialSpec& material) {
       return bytes(make_point_material<Kinematics::line>(material, scene.state, 0, 1, moves_on(scene)));
     case Kinematics::plane:
       return bytes(make_point_material<Kinematics::plane>(material, scene.state, 0, 1, moves_on(scene)));
-    default:
+    case Kinematics::axisymmetric:
       return bytes(make_point_material<Kinematics::axisymmetric>(material, scene.state, 0, 1, moves_on(scene)));
+    case Kinematics::space:
+      break;
   }
+  return bytes(make_point_material<Kinematics::space>(material, scene.state, 0, 1, moves_on(scene)));
 }
 
 double of_weights(const Scene& scene) {
   const bool of_domains = scene.phase.quadrature == Quadrature::domains;
-  if (scene.dim == 2 && scene.grid.basis == BasisKind::linear && !of_domains) return scene.dim * real;
+  if (scene.dim > 1 && scene.grid.basis == BasisKind::linear && !of_domains) return scene.dim * real;
   const double functions = std::pow(degree_of(scene.grid.basis) + (of_domains ? 2 : 1), scene.dim);
   return functions * (1 + scene.dim + (scene.state == StressState::axisymmetric ? 1 : 0)) * real;
 }
@@ -156,10 +159,13 @@ MemoryNeed::Part springs(const Scene& scene) {
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     const SupportSpec& support = scene.supports[k];
     if (!support.face || !holds_by_springs(scene.grid, support)) continue;
-    const auto [along, from, to] = held_part(scene.grid, support);
-    int to_a_cell = 3;
-    for (const BodySpec& body : scene.bodies) to_a_cell = std::max(to_a_cell, body.points_per_cell[along]);
-    part.bytes += (to - from) / scene.grid.cell_length(along) * to_a_cell * (support.roller ? 1 : 2) * of_one;
+    double springs = support.roller ? 1 : scene.dim;
+    for (const FaceInterval& held : held_part(scene.grid, support)) {
+      int to_a_cell = 3;
+      for (const BodySpec& body : scene.bodies) to_a_cell = std::max(to_a_cell, body.points_per_cell[held.along]);
+      springs *= (held.to - held.from) / scene.grid.cell_length(held.along) * to_a_cell;
+    }
+    part.bytes += springs * of_one;
     if (part.key.empty()) part.key = fmt::format("support[{}]", k);
   }
   return part;

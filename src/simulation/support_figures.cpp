@@ -48,7 +48,7 @@ std::vector<std::string> reaction_columns(const Scene& scene) {
     if (support.name.empty()) continue;
     if (scene.dim == 1) columns.push_back(support.name + ".reaction");
     for (int i = 0; i < scene.dim && scene.dim > 1; ++i)
-      columns.push_back(fmt::format("{}.reaction_{}", support.name, "xy"[i]));
+      columns.push_back(fmt::format("{}.reaction_{}", support.name, "xyz"[i]));
   }
   return columns;
 }

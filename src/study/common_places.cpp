@@ -28,7 +28,9 @@ CommonPlaces places_on(const Scene& scene) {
 
 }  // namespace
 
-CommonPlaces common_places(const Scene& scene) { return scene.dim == 1 ? places_on<1>(scene) : places_on<2>(scene); }
+CommonPlaces common_places(const Scene& scene) {
+  return scene.dim == 1 ? places_on<1>(scene) : scene.dim == 2 ? places_on<2>(scene) : places_on<3>(scene);
+}
 
 double count_of_places(const Scene& scene) {
   double count = 1;

@@ -32,7 +32,7 @@ TEST_CASE("a wall bears the weight of what rests on it") {
   driven::Motion motion(block({"constants.theta=0"}));
   motion.run_to(0.5);
   CHECK_THAT(motion.wall().normal, WithinRel(weight, 1e-9));
-  CHECK_THAT(motion.wall().shear, WithinAbs(0, 1e-9 * weight));
+  CHECK_THAT(motion.wall().shear[0], WithinAbs(0, 1e-9 * weight));
 }
 
 TEST_CASE("a wall never pulls: a block that is drawn away from it falls freely, and the wall feels exactly nothing") {
@@ -42,7 +42,7 @@ TEST_CASE("a wall never pulls: a block that is drawn away from it falls freely, 
   motion.run_to(0.1, [&] {
     if (++steps == 1) return;
     largest.take_magnitude(motion.wall().normal);
-    largest.take_magnitude(motion.wall().shear);
+    largest.take_magnitude(motion.wall().shear[0]);
   });
   CHECK(largest.value() == 0);
   CAPTURE(motion.mean_velocity(1) / (g * 0.1) - 1);
@@ -56,7 +56,7 @@ TEST_CASE("a block stays on a slope that is flatter than its friction, which bea
     driven::Motion motion(block({"wall[0].friction=" + friction}));
     motion.run_to(0.5);
     CHECK_THAT(motion.wall().normal, WithinRel(weight * std::cos(0.4), 1e-9));
-    CHECK_THAT(motion.wall().shear, WithinRel(weight * std::sin(0.4), 1e-9));
+    CHECK_THAT(motion.wall().shear[0], WithinRel(weight * std::sin(0.4), 1e-9));
     CHECK(largest_magnitude(motion.v()) < 1e-9);
     CHECK(largest_magnitude(motion.u()) < 0.01);
   }

@@ -32,8 +32,11 @@ std::string example_of(const KeyInfo& key, int dim) {
                                                                                    : 1.0);
   if (key.kind == Kind::whole && !key.words.empty()) one = "0";
   if (key.kind == Kind::text) one = key.words.empty() ? "\"a\"" : '"' + key.words_in(dim).front() + '"';
-  if (key.shape == Shape::axes) return dim == 1 ? one : fmt::format("[{}, {}]", one, one);
-  if (key.shape == Shape::components) return dim == 1 ? one : fmt::format("[{0}, {0}, {0}, {0}]", one);
+  const auto times = [&](int count) {
+    return count == 1 ? one : fmt::format("[{}]", fmt::join(std::vector(static_cast<std::size_t>(count), one), ", "));
+  };
+  if (key.shape == Shape::axes) return times(key.on_face ? dim - 1 : dim);
+  if (key.shape == Shape::components) return times(dim == 1 ? 1 : dim == 2 ? 4 : 6);
   if (key.shape == Shape::list) return fmt::format("[{}]", one);
   if (key.shape == Shape::positions) return "[[0, 0], [1, 0], [0, 1]]";
   return one;
@@ -94,7 +97,7 @@ TEST_CASE("the reader takes every key of the table, with an example and with its
   int keys = 0;
   for (const TableInfo& table : scene_tables(catalogue())) {
     for (const KeyInfo& key : table.keys) {
-      for (const int dim : {1, 2}) {
+      for (const int dim : {1, 2, 3}) {
         if (!key.is_in(dim) || key.name == "law" || key.name.starts_with('<')) continue;
         if (!table.choice.empty() && key.name == table.choice_key) continue;
         std::vector<std::string> values = {example_of(key, dim)};

@@ -50,7 +50,11 @@ TEST_CASE("every problem has the same history and the same frequencies for 1, 2,
       {"level_ground", {"stop.steps=20"}},
       {"mms_bar", {"stop.steps=200"}},
       {"neo_hookean_bar", {"stop.steps=200"}},
-      {"slope", {"grid.cells=[80, 32]", "stop.steps=20"}},  // 9600 points: loops are threaded
+      {"oedometer", {"grid.cells=[12, 12, 12]"}},  // 13 824 points, 9600 below: loops are threaded
+      {"oedometer", {"grid.cells=[12, 12, 12]", "exact={solution='column', height=1, g=9.81}", "damping.strategy=viscous",
+                     "material.soil.law=neo-hookean", "material.soil.E=1e5", "phase.max_motion=0.05",
+                     "exact.solution='column'", "stop.steps=50"}},
+      {"slope", {"grid.cells=[80, 32]", "stop.steps=20"}},
       {"slope", {"grid.cells=[80, 32]", "stop.steps=20", "grid.basis=quadratic", "phase.dilatation=splines"}},
   };
   for (const Case& one : cases) check_threads(one, {2, 3, 8});

@@ -7,16 +7,18 @@
 namespace stillpoint {
 
 void add_boundary(Tables& tables) {
-  const std::vector<Word> faces = {"left", "right", {"bottom", kPlane}, {"top", kPlane}};
+  const std::vector<Word> faces = {"left",           "right",          {"bottom", kNotLine}, {"top", kNotLine},
+                                   {"back", kSpace}, {"front", kSpace}};
   tables.add({"support", "a prescribed displacement", Repeat::array}, &Scene::supports)
       .key("name", &SupportSpec::name, "for its reaction in history.csv and summary.json")
       .key("at", &SupportSpec::at, "position; or face", {.unit = "m"})
       .key("face", &SupportSpec::face, "of the grid; or at", {.words = faces})
       .key("from", &SupportSpec::from, "where the held part of the face begins, along it",
-           {.unit = "m", .fallback = "the face's lower end", .dims = kPlane})
-      .key("to", &SupportSpec::to, "where it ends", {.unit = "m", .fallback = "the face's upper end", .dims = kPlane})
+           {.unit = "m", .fallback = "the face's lower end", .on_face = true, .dims = kNotLine})
+      .key("to", &SupportSpec::to, "where it ends",
+           {.unit = "m", .fallback = "the face's upper end", .on_face = true, .dims = kNotLine})
       .key("component", &SupportSpec::component, "what is held and moves; r and z if there is an axis of symmetry",
-           {.words = {"x", {"y", kPlane}, {"r", kPlane, false}, {"z", kPlane, false}},
+           {.words = {"x", {"y", kNotLine}, {"z", kSpace}, {"r", kPlane, false}, {"z", kPlane, false}},
             .fallback = "0; on a face by kind"})
       .key("kind", &SupportSpec::roller, "on a face: a roller holds the normal component only",
            {.words = {"fixed", "roller"}})
@@ -44,6 +46,10 @@ void add_boundary(Tables& tables) {
            "[from, to], positions on one straight side of a box or of a polygon, or on the outline of a file's points; "
            "or face",
            {.unit = "m", .list = true, .dims = kPlane})
+      .key("from", &TractionSpec::from, "where the loaded part of the face begins, along it",
+           {.unit = "m", .fallback = "the face's lower end", .on_face = true, .dims = kSpace})
+      .key("to", &TractionSpec::to, "where it ends",
+           {.unit = "m", .fallback = "the face's upper end", .on_face = true, .dims = kSpace})
       .key("value", &TractionSpec::value,
            "per undeformed area; keeps its direction. x, y: where the material was before the motion",
            {.unit = "Pa", .variables = "xt"})

@@ -24,7 +24,7 @@ std::vector<TableInfo> exact_tables(const Catalogue& catalogue) {
       key_of<ExactSpec>("u", &ExactSpec::u, "displacement", {.unit = "m", .variables = "xt"}),
       key_of<ExactSpec>("stress", &ExactSpec::stress,
                         "Cauchy's, beside u; with dim = 2 the components [xx, yy, zz, xy], axisymmetric [rr, zz, "
-                        "theta-theta, rz]",
+                        "theta-theta, rz], with dim = 3 [xx, yy, zz, xy, yz, zx]",
                         {.unit = "Pa", .variables = "xt", .of_stress = true})};
   const std::vector<Key> keys_of_all = joined(formulas, {solution});
   std::map<std::string, std::vector<Key>> keys;

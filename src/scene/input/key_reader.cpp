@@ -16,9 +16,10 @@ void report_unknown_word(const Value& value, const KeyInfo& key, const std::stri
 
 /// A word's number among all words of the key; empty if it is none of those in a scene of this dimension.
 std::optional<std::int64_t> number_of(const std::string& word, const KeyInfo& key, int dim) {
-  const auto known = key.words_in(dim);
-  if (std::ranges::find(known, word) == known.end()) return std::nullopt;
-  return std::ranges::find(key.words, word, &Word::name) - key.words.begin();
+  const auto found = std::ranges::find_if(
+      key.words, [&](const Word& known) { return known.name == word && (known.dims & dims_of(dim)) != 0; });
+  if (found == key.words.end()) return std::nullopt;
+  return found - key.words.begin();
 }
 
 /// The table or array of tables that a dotted path leads to; null if there is none.
@@ -37,7 +38,7 @@ const toml::node* node_at(const toml::table& root, std::string_view path) {
 std::vector<std::string> KeyInfo::words_in(int dim) const {
   std::vector<std::string> names;
   for (const Word& word : words)
-    if ((word.dims & (dim == 1 ? kLine : kPlane)) != 0) names.emplace_back(word.name);
+    if ((word.dims & dims_of(dim)) != 0) names.emplace_back(word.name);
   return names;
 }
 
@@ -53,7 +54,7 @@ std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key) {
     if (const auto number = text ? number_of(text->get(), key, dim) : std::nullopt) return number;
     if (text && names_in(text->get()) == std::vector{text->get()} && !value.reading.constants.contains(text->get()))
       return report_unknown_word(value, key, text->get()), std::nullopt;
-    return read_whole(value, key.numbers_in(dim == 1 ? kLine : kPlane));
+    return read_whole(value, key.numbers_in(dims_of(dim)));
   }
   const auto word = read_text(value);
   const auto number = word ? number_of(*word, key, dim) : std::nullopt;
@@ -84,8 +85,10 @@ std::optional<std::string> read_string(const Value& value, const KeyInfo& key) {
 std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested) {
   const toml::array* const array = value.node.as_array();
   const std::size_t found = array ? array->size() : 1;
-  const bool of_plane_stress = key.of_stress && value.reading.dim == 2;
-  const std::size_t count = list ? found : of_plane_stress ? 4 : static_cast<std::size_t>(value.reading.dim);
+  const int dim = value.reading.dim;
+  const bool of_tensor = key.of_stress && dim > 1;
+  const std::size_t coordinates = static_cast<std::size_t>(key.on_face ? dim - 1 : dim);
+  const std::size_t count = list ? found : !of_tensor ? coordinates : dim == 2 ? 4 : 6;
   if (!array && (list || nested)) {
     const char* const of = nested                          ? "coordinates"
                            : key.shape == Shape::positions ? "positions"
@@ -96,7 +99,12 @@ std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& 
   }
   if (found != count) {
     value.problem(fmt::format("expected {} {}{}{}, found {}", count, nested ? "coordinate" : "value",
-                              count == 1 ? "" : "s", of_plane_stress ? " (xx, yy, zz, xy)" : "", found));
+                              count == 1 ? "" : "s",
+                              key.on_face  ? " (along the face, in the order of the axes)"
+                              : !of_tensor ? ""
+                              : dim == 2   ? " (xx, yy, zz, xy)"
+                                           : " (xx, yy, zz, xy, yz, zx)",
+                              found));
     return std::nullopt;
   }
   if (!array) return std::vector<Value>{value};

@@ -1,5 +1,6 @@
 #include "scene/input/key_reference.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -24,6 +25,14 @@ std::string told(const char* kind, const Range& range) {
   return kind;
 }
 
+/// In which scenes there is a key or a word, if not in all: " (dim = 1)".
+std::string told_dims(Dims dims) {
+  std::vector<int> in;
+  for (int dim = 1; dim <= 3; ++dim)
+    if ((dims & dims_of(dim)) != 0) in.push_back(dim);
+  return dims == kAnyDim ? "" : fmt::format(" (dim = {})", fmt::join(in, " or "));
+}
+
 /// What a key takes: "number > 0 | "critical"".
 std::string told_type(const KeyInfo& key) {
   std::vector<std::string> kinds;
@@ -38,11 +47,11 @@ std::string told_type(const KeyInfo& key) {
                                 key.variables.ends_with('t') ? "t" : ""));
   }
   if (key.listed_by.empty()) {
-    for (const Word& word : key.words)
-      kinds.push_back(fmt::format("\"{}\"{}", word.name,
-                                  word.dims == kAnyDim || key.kind == Kind::whole ? ""
-                                  : word.dims == kLine                            ? " (dim = 1)"
-                                                                                  : " (dim = 2)"));
+    for (auto word = key.words.begin(); word != key.words.end(); ++word) {
+      if (std::find_if(key.words.begin(), word, [&](const Word& other) { return other.name == word->name; }) != word)
+        continue;  // in scenes of other dimensions another option
+      kinds.push_back(fmt::format("\"{}\"{}", word->name, key.kind == Kind::whole ? "" : told_dims(word->dims)));
+    }
   } else {
     kinds.push_back(fmt::format("a name of `{}`", key.listed_by));
   }
@@ -51,7 +60,7 @@ std::string told_type(const KeyInfo& key) {
     case Shape::one:
       return one;
     case Shape::axes:
-      return one + ", for each coordinate";
+      return one + (key.on_face ? ", for each coordinate along the face" : ", for each coordinate");
     case Shape::components:
       return one + ", for each component";
     case Shape::list:
@@ -64,9 +73,7 @@ std::string told_type(const KeyInfo& key) {
 
 std::string told_default(const KeyInfo& key) { return key.required ? "required" : key.fallback; }
 
-std::string told_help(const KeyInfo& key) {
-  return fmt::format("{}{}", key.help, key.dims == kAnyDim ? "" : key.dims == kLine ? " (dim = 1)" : " (dim = 2)");
-}
+std::string told_help(const KeyInfo& key) { return fmt::format("{}{}", key.help, told_dims(key.dims)); }
 
 /// "[stop]", or "[material.<name>] with law = "hencky"".
 std::string told_heading(const TableInfo& table) {

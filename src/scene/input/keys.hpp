@@ -16,7 +16,8 @@
 namespace stillpoint {
 
 /// The dimensions of the scenes in which there is a key or a word.
-enum Dims : unsigned { kLine = 1, kPlane = 2, kAnyDim = 3 };
+enum Dims : unsigned { kLine = 1, kPlane = 2, kSpace = 4, kNotLine = 6, kAnyDim = 7 };
+constexpr Dims dims_of(int dim) { return static_cast<Dims>(1U << static_cast<unsigned>(dim - 1)); }
 
 /// A word that a key takes; an option is its word's number in the list.
 struct Word {
@@ -47,7 +48,8 @@ struct KeyInfo {
   std::string fallback{};        // the default in words; empty: that of the member of Scene
   bool required = false;
   bool list = false;       // any number of values, not one for each coordinate
-  bool of_stress = false;  // one value for each component of a stress: xx, or xx, yy, zz, xy
+  bool of_stress = false;  // one value for each component of a stress: xx; xx, yy, zz, xy; in space yz, zx besides
+  bool on_face = false;    // one value for each axis but that of a face's normal
   bool may_be_empty = false;
   Dims dims = kAnyDim;
   std::string_view listed_by{};  // the command that lists the words, if they are many
@@ -58,7 +60,7 @@ struct KeyInfo {
   Kind kind = Kind::text;
   Shape shape = Shape::one;
 
-  bool is_in(int dim) const { return (dims & (dim == 1 ? kLine : kPlane)) != 0; }
+  bool is_in(int dim) const { return (dims & dims_of(dim)) != 0; }
   std::vector<std::string> words_in(int dim) const;
   /// The numbers that may be written in the place of words, in scenes of any dimension of these.
   Range numbers_in(Dims dims) const;

@@ -15,8 +15,13 @@ constexpr Range kShare{0, 1, true, false};
 
 std::vector<Word> states() {
   std::vector<Word> words;
-  for (int k = 0; k <= static_cast<int>(StressState::axisymmetric); ++k)
-    words.emplace_back(to_string(static_cast<StressState>(k)), k < 2 ? kLine : kPlane);
+  for (int k = 0; k <= static_cast<int>(StressState::space); ++k) {
+    const auto state = static_cast<StressState>(k);
+    const Dims dims = state == StressState::space               ? kSpace
+                      : state >= StressState::plane_strain ? kPlane
+                                                           : kLine;
+    words.emplace_back(to_string(state), dims);
+  }
   return words;
 }
 
@@ -30,8 +35,8 @@ TableInfo constants() {
   return info;
 }
 
-/// Points along each coordinate of a cell: an array, or a plain number, which in two dimensions counts the cell's
-/// points.
+/// Points along each coordinate of a cell: an array, or a plain number, which in two and three dimensions counts the
+/// cell's points.
 void read_points_per_cell(BodySpec& body, const Value& value, const KeyInfo& key) {
   const int dim = value.reading.dim;
   KeyInfo along_axis = key;
@@ -40,14 +45,16 @@ void read_points_per_cell(BodySpec& body, const Value& value, const KeyInfo& key
     if (auto points = read_value<std::vector<int>>(value, along_axis)) body.points_per_cell = std::move(*points);
     return;
   }
-  const auto count = read_whole(value, from(1, along_axis.range.upper * along_axis.range.upper));
+  const auto count = read_whole(value, from(1, std::pow(along_axis.range.upper, dim)));
   if (!count) return;
-  const int along = static_cast<int>(std::lround(std::sqrt(static_cast<double>(*count))));
-  if (std::int64_t{along} * along == *count) {
-    body.points_per_cell.assign(static_cast<std::size_t>(dim), along);
+  const double along = std::round(std::pow(static_cast<double>(*count), 1.0 / dim));
+  if (std::pow(along, dim) == static_cast<double>(*count)) {
+    body.points_per_cell.assign(static_cast<std::size_t>(dim), static_cast<int>(along));
   } else {
     value.problem(
-        fmt::format("must be a square (4 is 2 × 2 points in a cell), or an array [along x, along y]; not {}", *count));
+        fmt::format("must be a {}, or an array {}; not {}",
+                    dim == 2 ? "square (4 is 2 × 2 points in a cell)" : "cube (8 is 2 × 2 × 2 points in a cell)",
+                    dim == 2 ? "[along x, along y]" : "[along x, along y, along z]", *count));
   }
 }
 
@@ -165,8 +172,9 @@ void add_output(Tables& tables) {
            {.unit = "m"})
       .key("max", &ProbeSpec::max, "upper corner", {.unit = "m"})
       .key("fields", &ProbeSpec::fields,
-           "u, v, strain, stress; with dim = 2 their components, as u.x and stress.yy, and plastic_strain; of the body "
-           "volume, momentum, with dim = 2 momentum.x, momentum.y and angular_momentum about the origin",
+           "u, v, strain, stress; with dim > 1 their components, as u.x and stress.yy, and plastic_strain; of the body "
+           "volume, momentum, with dim = 2 momentum.x, momentum.y and angular_momentum about the origin, with dim = 3 "
+           "momentum.x and angular_momentum.x to z",
            {.list = true});
 
   tables.add({"variant", "the same scene with other values, drawn beside it", Repeat::array}, &Scene::variants)
@@ -180,7 +188,7 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
   Tables tables;
   tables.add({"", "at the top of the file"}, std::identity())
       .key("title", &Scene::title, "of the scene", {.may_be_empty = true})
-      .key("dim", &Scene::dim, "1 or 2 dimensions", {.range = from(1, 3)});
+      .key("dim", &Scene::dim, "1, 2 or 3 dimensions", {.range = from(1, 3)});
   tables.all.push_back(constants());
   constexpr double most = 1e7;  // a larger count is a slip, not a grid
 
@@ -200,10 +208,10 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("min", &BodySpec::min, "lower corner of a box", {.unit = "m", .fallback = "that of the grid"})
       .key("max", &BodySpec::max, "upper corner of a box", {.unit = "m", .fallback = "that of the grid"})
       .key("polygon", &BodySpec::polygon, "corners in order, not a box", {.unit = "m", .list = true, .dims = kPlane})
-      .key("file", &BodySpec::file, "CSV of points, not a box: columns x, y, volume")
+      .key("file", &BodySpec::file, "CSV of points, not a box: columns x, y, z as there are, volume")
       .key("material", &BodySpec::material, "the name of a [material.<name>]", {.required = true})
       .key("state", &BodySpec::state, "of stress and strain, the same in all bodies",
-           {.words = states(), .fallback = "uniaxial-stress or plane-strain"})
+           {.words = states(), .fallback = "uniaxial-stress, plane-strain or space, by dim"})
       .key("area", &BodySpec::area, "cross-section", {.range = kPositive, .unit = "m2", .dims = kLine})
       .key("thickness", &BodySpec::area, "not of axisymmetric bodies",
            {.range = kPositive, .unit = "m", .dims = kPlane})
@@ -222,7 +230,7 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
   for (TableInfo& material : material_tables(catalogue)) tables.all.push_back(std::move(material));
   tables.add({"mass", "the mass matrix"}, &Scene::mass)
       .key("kind", &MassSpec::kind,
-           "of the mass matrix; lumped by default if dim = 2; multigrid, towards equilibrium only: fictitious, with "
+           "of the mass matrix; lumped by default if dim > 1; multigrid, towards equilibrium only: fictitious, with "
            "M⁻¹ a cycle of multigrid on the elastic stiffness, so that steps do not grow with the body",
            {.words = {"consistent", "lumped", "multigrid"}})
       .key("scaling", &MassSpec::factor,
@@ -253,7 +261,7 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
            "the change of volume that a law answers to: that of each point, or so that nearly incompressible material "
            "does not lock (F-bar, B-bar) the mean of a cell's points, or a mean over splines of one degree less than "
            "the basis, which keeps the order of cubic ones",
-           {.words = {"points", "cells", "splines"}, .dims = kPlane});
+           {.words = {"points", "cells", "splines"}, .dims = kNotLine});
   add_boundary(tables);
   add_initial(tables);
   for (TableInfo& exact : exact_tables(catalogue)) tables.all.push_back(std::move(exact));
@@ -281,8 +289,6 @@ bool read_tables(const std::vector<TableInfo>& tables, const toml::table& root, 
     if (info.read) info.read(info, root, scene, reading);
     if (!info.path.empty()) continue;
     reading.dim = scene.dim;
-    if (scene.dim == 3)
-      Value{*root.get("dim"), "dim", reading}.problem("this version computes in 1 or 2 dimensions, not in 3");
     if (reading.wrong.contains("dim")) return false;
     if (scene.dim > 1) scene.mass.kind = MassKind::lumped;
   }

@@ -24,14 +24,16 @@ void complete(SceneCheck& check) {
   const auto state = std::ranges::find_if(scene.bodies, [](const BodySpec& body) { return body.state.has_value(); });
   scene.state = state != scene.bodies.end() ? *state->state
                 : scene.dim == 1            ? StressState::uniaxial_stress
-                                            : StressState::plane_strain;
+                : scene.dim == 2            ? StressState::plane_strain
+                                            : StressState::space;
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     SupportSpec& support = scene.supports[k];
     const std::string component = fmt::format("support[{}].component", k);
-    if (support.component >= scene.dim) {  // named r or z
+    constexpr int r = 3;  // after x, y, z
+    if (support.component >= r) {
       if (scene.state != StressState::axisymmetric)
         check.add(component, "r and z are the axes of an axisymmetric scene; expected x or y");
-      support.component -= scene.dim;
+      support.component -= r;
     }
     if (!support.face) continue;
     if (check.written(component)) {
@@ -183,6 +185,8 @@ void check_stop(SceneCheck& check) {
 
 bool check_grid(SceneCheck& check) {
   const GridSpec& grid = check.scene().grid;
+  if (check.scene().dim == 3 && grid.basis != BasisKind::linear)
+    check.add("grid.basis", "this version has a linear basis alone in space");
   if (grid.min.empty() || grid.max.empty()) return false;
   for (std::size_t axis = 0; axis < grid.min.size(); ++axis) {
     const double length = grid.max[axis] - grid.min[axis];

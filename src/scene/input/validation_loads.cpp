@@ -20,12 +20,14 @@ namespace {
 struct FaceOwner {
   std::string name;
   Face face;
-  int component;    // −1: all
-  double from, to;  // along the face [m]
+  int component;  // −1: all
+  std::vector<FaceInterval> part;
 
   bool meets(const FaceOwner& other) const {
-    const bool alike = component < 0 || other.component < 0 || component == other.component;
-    return face == other.face && alike && from < other.to && other.from < to;
+    bool meet = face == other.face && (component < 0 || other.component < 0 || component == other.component);
+    for (std::size_t k = 0; k < std::min(part.size(), other.part.size()); ++k)
+      meet = meet && part[k].from < other.part[k].to && other.part[k].from < part[k].to;
+    return meet;
   }
 };
 
@@ -43,40 +45,51 @@ void check_faces(SceneCheck& check) {
     const SupportSpec& support = scene.supports[k];
     const std::string name = fmt::format("support[{}]", k);
     if (!support.face) continue;
+    const std::vector<double> least(static_cast<std::size_t>(scene.dim), -kInfinity), most(least.size(), kInfinity);
     take({name, *support.face, check.written(name + ".component") ? support.component : -1,
-          support.from.value_or(-kInfinity), support.to.value_or(kInfinity)});
+          part_of_face(*support.face, support.from, support.to, least, most)});
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k)
     if (const std::string wall = fmt::format("wall[{}]", k);
         check.written(wall + ".face") && check.sound(wall + ".face"))
-      take({wall, scene.walls[k].face, -1, -kInfinity, kInfinity});
+      take({wall, scene.walls[k].face, -1, {}});
 }
 
-/// The ends of a part of a face: in order, on the grid, and on nodes if these are what is held.
-void check_part(SceneCheck& check, const std::string& name, const SupportSpec& support) {
-  const GridSpec& grid = check.scene().grid;
-  const auto [along, from, to] = held_part(grid, support);
+/// Of part k of a face along one of its axes: "support[0].from", in space "support[0].from[1]".
+std::string end_key(const SceneCheck& check, const std::string& name, const char* end, std::size_t k) {
+  return check.scene().dim == 2 ? name + end : fmt::format("{}{}[{}]", name, end, k);
+}
+
+/// The ends of a part of the face of a box from min to max: in order, and on it. True if they are.
+bool check_interval(SceneCheck& check, const std::string& name, const FaceInterval& part, std::size_t k, double min,
+                    double max, const char* box) {
   bool inside = true;
   for (const char* key : {".from", ".to"}) {
-    const double end = key[1] == 'f' ? from : to;
-    if (!check.written(name + key) || (end >= grid.min[along] && end <= grid.max[along])) continue;
-    check.add(name + key, fmt::format("{:g} lies outside the grid, whose face reaches from {:g} to {:g}", end,
-                                      grid.min[along], grid.max[along]));
+    const double end = key[1] == 'f' ? part.from : part.to;
+    if (!check.written(name + key) || (end >= min && end <= max)) continue;
+    check.add(end_key(check, name, key, k),
+              fmt::format("{:g} lies outside the {}, whose face reaches from {:g} to {:g}", end, box, min, max));
     inside = false;
   }
-  if (!inside) return;
-  if (!(from < to)) {
-    check.add(name + (check.written(name + ".to") ? ".to" : ".from"),
-              fmt::format("the part from {:g} to {:g} is empty; expected from < to", from, to));
-    return;
-  }
+  if (!inside || part.from < part.to) return inside;
+  check.add(end_key(check, name, check.written(name + ".to") ? ".to" : ".from", k),
+            fmt::format("the part from {:g} to {:g} is empty; expected from < to", part.from, part.to));
+  return false;
+}
+
+/// The same of a support, and on nodes if these are what is held.
+void check_part(SceneCheck& check, const std::string& name, const SupportSpec& support, const FaceInterval& part,
+                std::size_t k) {
+  const GridSpec& grid = check.scene().grid;
+  const std::size_t along = part.along;
+  if (!check_interval(check, name, part, k, grid.min[along], grid.max[along], "grid")) return;
   if (holds_by_springs(grid, support)) return;
   for (const char* key : {".from", ".to"}) {
-    const double end = key[1] == 'f' ? from : to;
+    const double end = key[1] == 'f' ? part.from : part.to;
     if (is_on_line(grid, along, end)) continue;
     const double cells = (end - grid.min[along]) / grid.cell_length(along);
     const int below = std::clamp(static_cast<int>(std::floor(cells)), 0, grid.cells[along] - 1);
-    check.add(name + key,
+    check.add(end_key(check, name, key, k),
               fmt::format("{:g} is no node of the grid, whose nodes are what is held; expected {:g} or {:g}, a "
                           "quadratic or cubic basis, or a stiffness, by which springs hold any part",
                           end, line_position(grid, along, below), line_position(grid, along, below + 1)));
@@ -112,8 +125,10 @@ void check_supports(SceneCheck& check, bool grid) {
     if (scene.dim == 1 && support.face)
       check.refuse(name, {"stiffness"}, "goes with a position in one dimension: give at in place of face");
     if (grid && !scene.grid.cells.empty() && scene.dim > 1 && support.face && support.on_part() &&
-        check.sound(name + ".from") && check.sound(name + ".to"))
-      check_part(check, name, support);
+        check.sound(name + ".from") && check.sound(name + ".to")) {
+      const std::vector<FaceInterval> part = held_part(scene.grid, support);
+      for (std::size_t axis = 0; axis < part.size(); ++axis) check_part(check, name, support, part[axis], axis);
+    }
     check_varying_motion(check, name, support);
     if (!grid || support.at.empty()) continue;
     check.inside(support.at, scene.grid.min, scene.grid.max, "grid", name + ".at");
@@ -163,18 +178,26 @@ void check_tractions(SceneCheck& check, bool bodies) {
                  "give either value, which keeps its direction, or pressure, which follows the face",
                  "give value, which keeps its direction, or pressure, which follows the face");
     check.one_of(name, "face", "line", "give either face or line, not both",
-                 scene.dim == 1 ? "give face, an end of the body"
-                                : "give face, a side of the body's box, or line, a part of its border");
+                 scene.dim == 2   ? "give face, a side of the body's box, or line, a part of its border"
+                 : scene.dim == 1 ? "give face, an end of the body"
+                                  : "give face, a side of the body's box");
+    if (!scene.tractions[k].face) check.refuse(name, {"from", "to"}, "goes with a face, of which it loads a part");
     if (!bodies) continue;
+    if (box && scene.tractions[k].face && check.sound(name + ".from") && check.sound(name + ".to")) {
+      const BodySpec& body = scene.bodies[0];
+      const auto part =
+          part_of_face(*scene.tractions[k].face, scene.tractions[k].from, scene.tractions[k].to, body.min, body.max);
+      for (std::size_t axis = 0; axis < part.size(); ++axis)
+        check_interval(check, name, part[axis], axis, body.min[part[axis].along], body.max[part[axis].along], "body");
+    }
     if (check.written(name + ".line") && check.sound(name + ".line"))
       check_line(check, name + ".line", scene.tractions[k].line);
     if (!check.written(name + ".face") || box) continue;
     const std::string what = scene.bodies.size() > 1        ? fmt::format("are {} bodies", scene.bodies.size())
                              : scene.bodies[0].file.empty() ? "is a polygon"
                                                             : "are points from a file";
-    check.add(name, fmt::format("needs a scene with one body that is a box, which has faces; there {}; give line = "
-                                "[from, to]",
-                                what));
+    check.add(name, fmt::format("needs a scene with one body that is a box, which has faces; there {}{}", what,
+                                scene.dim == 2 ? "; give line = [from, to]" : ""));
   }
 }
 
@@ -219,14 +242,16 @@ void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
   const Scene& scene = check.scene();
   if (!scene.geostatic) return;
   const std::string key = "initial.geostatic";
-  if (scene.dim != 2) return check.add(key, "a level surface needs two dimensions");
+  if (scene.dim == 1) return check.add(key, "a level surface needs two dimensions");
   if (!scene.initial_u.empty())
     check.add("initial.u", "does not go with initial.geostatic, which is the stress of the undeformed body");
   const auto& b = scene.body_force;
-  if (b.size() != 2) {
+  if (b.size() != static_cast<std::size_t>(scene.dim)) {
     if (!check.written("body_force")) check.add(key, "needs a [body_force]: the weight that the stress bears");
-  } else if (!b[0].constant() || !b[1].constant() || b[0]({}, 0) != 0) {
-    check.add("body_force.value", "must be constant and vertical, [0, b], if initial.geostatic is asked for");
+  } else if (!std::ranges::all_of(b, &Expression::constant) || b[0]({}, 0) != 0 ||
+             (scene.dim == 3 && b[2]({}, 0) != 0)) {
+    check.add("body_force.value", fmt::format("must be constant and vertical, {}, if initial.geostatic is asked for",
+                                              scene.dim == 2 ? "[0, b]" : "[0, b, 0]"));
   }
   for (const BodySpec& spec : scene.bodies) {
     const auto material = scene.materials.find(spec.material);

@@ -83,7 +83,7 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
   const char* const of_point = "goes with a point only";
   switch (probe.kind) {
     case ProbeKind::slope_angle:
-      if (check.scene().dim == 1) check.add(key + ".kind", "a slope has an angle in two dimensions only");
+      if (check.scene().dim != 2) check.add(key + ".kind", "a slope has an angle in two dimensions only");
       return check.refuse(key, {"point", "at", "frame", "min", "max", "fields"},
                           "goes with a point only; the angle of a slope has nothing but a name");
     case ProbeKind::point:

@@ -55,7 +55,7 @@ class OverlapCheck {
   /// The part of a that lies in b, or of b in a, in words; empty: none.
   std::string what_overlaps(const BodySpec& a, const BodySpec& b) const {
     if (!a.file.empty() || !b.file.empty()) return points_that_overlap(a, b);
-    if (check_.scene().dim == 1) return "a part";
+    if (check_.scene().dim != 2) return "a part";  // boxes that meet
     const Polygon of_a = outline_of(a), of_b = outline_of(b);
     // Borders that should be one may lie apart, or over each other, by rounding all along.
     const double of_rounding = rounding_ * std::min(perimeter(of_a), perimeter(of_b)) / 2;

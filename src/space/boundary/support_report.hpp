@@ -12,7 +12,7 @@ namespace stillpoint {
 /// motion, the support bears M a more.
 struct SupportReaction {
   std::string name;
-  std::array<double, 2> force{};
+  std::array<double, 3> force{};  // its first components are those of the scene [N]
 };
 
 /// How far a support that holds by springs gives way.

@@ -92,10 +92,12 @@ class Supports final : public BoundaryCondition<B, K> {
   bool is_in_part(const SupportSpec& support, const GridOf& grid, int function) const {
     if (dim == 1 || !support.on_part()) return true;
     constexpr double rounding = 1e-9;  // of a cell
-    const auto [along, from, to] = held_part(scene_.grid, support);
-    const double x = B::centre(grid.axes[along], Basis::index_along(grid, function, static_cast<int>(along)));
-    const double slack = rounding * scene_.grid.cell_length(along);
-    return x >= from - slack && x <= to + slack;
+    return std::ranges::all_of(held_part(scene_.grid, support), [&](const FaceInterval& part) {
+      const auto along = part.along;
+      const double x = B::centre(grid.axes[along], Basis::index_along(grid, function, static_cast<int>(along)));
+      const double slack = rounding * scene_.grid.cell_length(along);
+      return x >= part.from - slack && x <= part.to + slack;
+    });
   }
 
   const Scene& scene_;

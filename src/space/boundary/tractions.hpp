@@ -16,15 +16,16 @@
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
-#include "space/boundary/face_rule.hpp"
+#include "space/boundary/face_pieces.hpp"
 #include "space/boundary/grid_crossings.hpp"
+#include "space/kernels/change_of_volume.hpp"
 
 namespace stillpoint {
 
 /// Dead ones, t(X, t) dA per undeformed area, and pressures that follow the deformed surface, −p(X, t) n da =
 /// −p cof(f) N dA. X: the undeformed position.
-/// A straight part of a body's border is cut into pieces, some to a cell; they carry the undeformed area, 2 π r ds if
-/// axisymmetric.
+/// A straight part of a body's border, in space a part of a face, is cut into pieces, some to a cell; they carry the
+/// undeformed area, 2 π r ds if axisymmetric.
 template <AxisBasis B, Kinematics K>
 class Tractions final : public BoundaryCondition<B, K> {
   static constexpr int dim = dimensions(K);
@@ -122,18 +123,35 @@ class Tractions final : public BoundaryCondition<B, K> {
       const BodySpec& body = scene_.bodies.front();
       const bool upper = is_upper(traction.face.value());
       add_piece(traction, {(upper ? body.max : body.min)[0]}, body.area, {upper ? 1.0 : -1.0});
-    } else {
+    } else if constexpr (dim == 2) {
       for (const BorderLine& line : border_lines(scene_, traction)) cut_line(traction, line, grid);
+    } else {
+      cut_face(traction, grid);
     }
+  }
+  std::vector<FacePoint> rule_along(const TractionSpec& traction, const BodySpec& body, std::size_t along) const {
+    const bool carried = has_phases(scene_);
+    const bool varies = std::ranges::any_of(traction.formulas(), &Expression::uses_position);
+    return varies ? varying_face_rule(body, along, carried)
+                  : face_rule(body, along, carried, scene_.phase.quadrature == Quadrature::domains);
+  }
+  void cut_face(const TractionSpec& traction, const GridOf& grid) {
+    const BodySpec& body = scene_.bodies.front();
+    const Face face = traction.face.value();
+    const auto normal = static_cast<std::size_t>(axis_of(face));
+    Point<dim> outwards{};
+    outwards[normal] = is_upper(face) ? 1 : -1;
+    for_face_pieces<dim>(
+        grid, normal, (is_upper(face) ? body.max : body.min)[normal],
+        part_of_face(face, traction.from, traction.to, body.min, body.max),
+        [&](std::size_t along) { return rule_along(traction, body, along); },
+        [&](const Point<dim>& x, double area, double) { add_piece(traction, x, area, outwards); });
   }
   // Into pieces of each cell's part.
   void cut_line(const TractionSpec& traction, const BorderLine& line, const GridOf& grid) {
     const BodySpec& body = scene_.bodies[line.body];
     const std::size_t across = std::abs(line.normal[0]) > std::abs(line.normal[1]) ? 0 : 1;
-    const bool carried = has_phases(scene_);
-    const bool varies = std::ranges::any_of(traction.formulas(), &Expression::uses_position);
-    const auto rule = varies ? varying_face_rule(body, 1 - across, carried)
-                             : face_rule(body, 1 - across, carried, scene_.phase.quadrature == Quadrature::domains);
+    const std::vector<FacePoint> rule = rule_along(traction, body, 1 - across);
     const std::vector<Point<dim>> ends = grid_crossings(line, grid);
     for (std::size_t c = 0; c + 1 < ends.size(); ++c) {
       const Point<dim>&from = ends[c], &to = ends[c + 1];
@@ -172,9 +190,7 @@ class Tractions final : public BoundaryCondition<B, K> {
     if constexpr (dim == 1) {
       return piece.vector;
     } else {
-      const Deformation f = deformation(piece, u);
-      const auto area = plane_area(piece, f.plane);
-      return {f.hoop * area[0], f.hoop * area[1]};
+      return times_normal(ChangeOfVolume<K>::cofactor(deformation(piece, u)), piece);
     }
   }
   // Of that by component j of local function b.
@@ -182,40 +198,36 @@ class Tractions final : public BoundaryCondition<B, K> {
     if constexpr (dim == 1) {
       return {};
     } else {
-      const Deformation f = deformation(piece, u);
-      std::array<double, 4> df{};
-      for (int i = 0; i < 2; ++i) df[2 * j + i] = piece.at.dN[i][b];
-      const auto area = plane_area(piece, f.plane), change = plane_area(piece, df);
-      const double dhoop = j == 0 && has_hoop(piece) ? piece.at.w[b] / piece.at.x[0] : 0;
-      return {f.hoop * change[0] + dhoop * area[0], f.hoop * change[1] + dhoop * area[1]};
+      TensorOf<K> df{};
+      for (int i = 0; i < dim; ++i) df[dim * j + i] = piece.at.dN[i][b];
+      if (j == 0 && has_hoop(piece)) df[hoop] = piece.at.w[b] / piece.at.x[0];
+      return times_normal(ChangeOfVolume<K>::cofactor_rate(deformation(piece, u), df), piece);
     }
   }
 
-  struct Deformation {
-    std::array<double, 4> plane;  // f_xx, f_xy, f_yx, f_yy
-    double hoop;
-  };
+  static constexpr std::size_t hoop = gradient_components(K) - 1;  // if axisymmetric
   static bool has_hoop(const Piece& piece) { return K == Kinematics::axisymmetric && piece.at.x[0] > 0; }
-  static std::array<double, dim> plane_area(const Piece& piece, const std::array<double, 4>& f) {
-    const auto& n = piece.vector;
-    return {f[3] * n[0] - f[2] * n[1], -f[1] * n[0] + f[0] * n[1]};
-  }
-  static Deformation deformation(const Piece& piece, const double* u) {
-    if constexpr (dim == 1) {
-      return {};
-    } else {
-      std::array<double, 4> f{1, 0, 0, 1};
-      double u_r = 0;
-      for (int a = 0; a < piece.at.entries; ++a) {
-        if (piece.at.function[a] < 0) continue;
-        const double* of_function = u + dim * piece.at.function[a];
-        u_r += piece.at.w[a] * of_function[0];
-        for (int i = 0; i < 2; ++i) {
-          for (int j = 0; j < 2; ++j) f[2 * i + j] += of_function[i] * piece.at.dN[j][a];
-        }
-      }
-      return {f, has_hoop(piece) ? 1 + u_r / piece.at.x[0] : 1};
+  static std::array<double, dim> times_normal(const TensorOf<K>& cofactor, const Piece& piece) {
+    std::array<double, dim> area{};
+    for (int i = 0; i < dim; ++i) {
+      for (int j = 0; j < dim; ++j) area[i] += cofactor[dim * i + j] * piece.vector[j];
     }
+    return area;
+  }
+  // f, with f_θθ = 1 on the axis
+  static TensorOf<K> deformation(const Piece& piece, const double* u) {
+    TensorOf<K> f = plus_identity<K>({});
+    double u_r = 0;
+    for (int a = 0; a < piece.at.entries; ++a) {
+      if (piece.at.function[a] < 0) continue;
+      const double* of_function = u + dim * piece.at.function[a];
+      u_r += piece.at.w[a] * of_function[0];
+      for (int i = 0; i < dim; ++i) {
+        for (int j = 0; j < dim; ++j) f[dim * i + j] += of_function[i] * piece.at.dN[j][a];
+      }
+    }
+    if (has_hoop(piece)) f[hoop] += u_r / piece.at.x[0];
+    return f;
   }
 
   // The values of all pieces at t: of formulas of t alone once for all pieces of a traction, of formulas of the

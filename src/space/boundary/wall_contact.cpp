@@ -6,6 +6,27 @@
 #include <fmt/format.h>
 
 namespace stillpoint {
+namespace {
+
+/// x/|x|, or 0 if that is 0.
+std::array<double, 2> direction(const std::array<double, 2>& x) {
+  const double length = std::hypot(x[0], x[1]);
+  return length > 0 ? std::array{x[0] / length, x[1] / length} : std::array{0.0, 0.0};
+}
+
+std::vector<double> components_of(const std::vector<std::array<double, 2>>& of_nodes) {
+  std::vector<double> components;
+  for (const auto& node : of_nodes) components.insert(components.end(), node.begin(), node.end());
+  return components;
+}
+
+std::vector<std::array<double, 2>> in_nodes(const std::vector<double>& components) {
+  std::vector<std::array<double, 2>> of_nodes(components.size() / 2);
+  for (std::size_t k = 0; k < of_nodes.size(); ++k) of_nodes[k] = {components[2 * k], components[2 * k + 1]};
+  return of_nodes;
+}
+
+}  // namespace
 
 WallContact::WallContact(std::string name, bool upper, double friction, PrescribedMotion motion)
     : name_(std::move(name)), outward_(upper ? 1 : -1), friction_(friction), motion_(std::move(motion)) {}
@@ -14,9 +35,9 @@ void WallContact::begin_phase(double t, ConstVec mass, std::vector<Node> nodes, 
   mass_ = mass;
   nodes_ = std::move(nodes);
   closed_.resize(nodes_.size(), 0);
-  tangential_.resize(nodes_.size(), Tangential::stick);
+  slip_.resize(nodes_.size(), Along{});
   normal_force_.assign(nodes_.size(), 0);
-  shear_force_.assign(nodes_.size(), 0);
+  shear_force_.assign(nodes_.size(), Along{});
   held_.assign(nodes_.size(), 0);
   start_ = motion_.displacement(t);
   accepted_t_ = t;
@@ -38,21 +59,42 @@ bool WallContact::approaches(std::size_t k, double velocity, ConstVec v) const {
   return outward_ * (v[static_cast<std::size_t>(nodes_[k].normal)] - velocity) >= 0;
 }
 
+WallContact::Along WallContact::along(std::size_t k, ConstVec values) const {
+  Along out{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (nodes_[k].along[i] >= 0) out[i] = values[static_cast<std::size_t>(nodes_[k].along[i])];
+  }
+  return out;
+}
+
+// v_t = 0. True if it was not.
+bool WallContact::stop_along(std::size_t k, Vec v) {
+  const bool moved = along(k, v) != Along{};
+  for (const int dof : nodes_[k].along) {
+    if (dof >= 0) v[static_cast<std::size_t>(dof)] = 0;
+  }
+  slip_[k] = {};
+  return moved;
+}
+
+// Of a node that slips, after a step: it sticks once its velocity has turned round. True if v was changed.
+bool WallContact::slide(std::size_t k, Vec v) {
+  const Along v_t = along(k, v);
+  const double forwards = v_t[0] * slip_[k][0] + v_t[1] * slip_[k][1];
+  if (forwards < 0) return stop_along(k, v);
+  if (forwards > 0) slip_[k] = direction(v_t);
+  return false;
+}
+
 bool WallContact::close(std::size_t k, double velocity, Vec v) {
   const auto normal = static_cast<std::size_t>(nodes_[k].normal);
   bool changed = v[normal] != velocity;
   v[normal] = velocity;
   const bool was_closed = closed_[k] != 0;
   closed_[k] = 1;
-  if (nodes_[k].tangential < 0 || friction_ == 0) return changed;
-  double& v_t = v[static_cast<std::size_t>(nodes_[k].tangential)];
-  if (std::isinf(friction_) || (was_closed && tangential_[k] == Tangential::stick)) {
-    changed = changed || v_t != 0;
-    v_t = 0;
-    tangential_[k] = Tangential::stick;
-  } else {
-    tangential_[k] = v_t > 0 ? Tangential::slip_up : v_t < 0 ? Tangential::slip_down : Tangential::stick;
-  }
+  if (friction_ == 0) return changed;
+  if (std::isinf(friction_) || (was_closed && sticks(slip_[k]))) return stop_along(k, v) || changed;
+  slip_[k] = direction(along(k, v));
   return changed;
 }
 
@@ -61,21 +103,22 @@ void WallContact::add_force(double t, const LinearDamping& C, Vec Q) const {
   const double a = step_ > 0 ? motion_.acceleration_over(t, step_) : motion_.acceleration(t);
   const ConstVec m = mass_;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    normal_force_[k] = shear_force_[k] = 0;
+    normal_force_[k] = 0;
+    shear_force_[k] = {};
     if (!closed_[k]) continue;
     const auto n = static_cast<std::size_t>(nodes_[k].normal);
     held_[k] = m[n] * a + (C.mass * m[n] + C.identity) * w;
     normal_force_[k] = held_[k] - Q[n];
     Q[n] = held_[k];
-    if (nodes_[k].tangential < 0 || friction_ == 0) continue;
-    double& Q_t = Q[static_cast<std::size_t>(nodes_[k].tangential)];
-    if (tangential_[k] == Tangential::stick) {
-      shear_force_[k] = -Q_t;
-    } else {
-      const double limit = friction_ * std::max(0.0, -outward_ * normal_force_[k]);
-      shear_force_[k] = -limit * static_cast<double>(tangential_[k]);
+    if (friction_ == 0) continue;
+    const bool stays = sticks(slip_[k]);
+    const Along Q_t = along(k, Q);
+    const double limit = stays ? 0 : friction_ * std::max(0.0, -outward_ * normal_force_[k]);
+    for (std::size_t i = 0; i < Q_t.size(); ++i) {
+      if (nodes_[k].along[i] < 0) continue;
+      shear_force_[k][i] = stays ? -Q_t[i] : -limit * slip_[k][i];
+      Q[static_cast<std::size_t>(nodes_[k].along[i])] += shear_force_[k][i];
     }
-    Q_t += shear_force_[k];
   }
 }
 
@@ -110,18 +153,14 @@ bool WallContact::update(double t, ConstVec u, Vec v) {
       closed_[k] = 0;
       continue;
     }
-    if (nodes_[k].tangential < 0 || std::isinf(friction_) || friction_ == 0) continue;
-    double& v_t = v[static_cast<std::size_t>(nodes_[k].tangential)];
-    if (tangential_[k] == Tangential::stick) {
-      // F_t = −Q_t holds it; what exceeds the limit makes it slip the way of Q_t.
-      if (std::abs(shear_force_[k]) > friction_ * std::abs(normal_force_[k])) {
-        tangential_[k] = shear_force_[k] < 0 ? Tangential::slip_up : Tangential::slip_down;
-      }
-    } else if (v_t * static_cast<double>(tangential_[k]) < 0) {
-      tangential_[k] = Tangential::stick;
-      v_t = 0;
-      changed = true;
+    if (std::isinf(friction_) || friction_ == 0) continue;
+    if (!sticks(slip_[k])) {
+      changed = slide(k, v) || changed;
+      continue;
     }
+    // F_t = −Q_t holds it; what exceeds the limit makes it slip the way of Q_t.
+    const Along& F_t = shear_force_[k];
+    if (std::hypot(F_t[0], F_t[1]) > friction_ * std::abs(normal_force_[k])) slip_[k] = direction({-F_t[0], -F_t[1]});
   }
   return changed;
 }
@@ -132,7 +171,7 @@ WallReaction WallContact::reaction(double t) const {
   double force = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     sum.normal -= outward_ * normal_force_[k];
-    sum.shear -= shear_force_[k];
+    for (std::size_t i = 0; i < sum.shear.size(); ++i) sum.shear[i] -= shear_force_[k][i];
     force += normal_force_[k];
   }
   sum.power = force * motion_.velocity(t);
@@ -141,22 +180,25 @@ WallReaction WallContact::reaction(double t) const {
 
 void WallContact::archive(const StateArchive& state) {
   state("closed", closed_);
-  state("tangential", tangential_);
+  std::vector<double> slip = components_of(slip_), shear_force = components_of(shear_force_);
+  state("slip", slip);
   state("started", started_);
   state("displacement_at_start", start_);
   state("accepted_t", accepted_t_);
   state("step", step_);
   state("held", held_);
   state("normal_force", normal_force_);
-  state("shear_force", shear_force_);
+  state("shear_force", shear_force);
   if (!state.restores()) return;
+  slip_ = in_nodes(slip);
+  shear_force_ = in_nodes(shear_force);
   const std::size_t saved = closed_.size();
-  for (const std::size_t size : {tangential_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
+  for (const std::size_t size : {slip_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
     if (size != saved) throw StateError(fmt::format("of the wall '{}' the numbers of nodes differ", name_));
   // The nodes are those of the phase that is restored, or before it begins some others.
   closed_.resize(nodes_.size(), 0);
-  tangential_.resize(nodes_.size(), Tangential::stick);
-  for (auto* const forces : {&held_, &normal_force_, &shear_force_}) forces->resize(nodes_.size(), 0);
+  for (auto* const components : {&slip_, &shear_force_}) components->resize(nodes_.size(), Along{});
+  for (auto* const forces : {&held_, &normal_force_}) forces->resize(nodes_.size(), 0);
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (nodes_[k].normal < 0) closed_[k] = 0;
 }
@@ -164,7 +206,8 @@ void WallContact::archive(const StateArchive& state) {
 double WallContact::square_of_forces() const {
   double sum = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    sum += normal_force_[k] * normal_force_[k] + shear_force_[k] * shear_force_[k];
+    sum += normal_force_[k] * normal_force_[k];
+    for (const double F_t : shear_force_[k]) sum += F_t * F_t;
   }
   return sum;
 }

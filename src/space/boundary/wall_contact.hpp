@@ -7,9 +7,10 @@
 //   closed   a_n = w',  contact force  F_n = m (w' + c w) − Q_n          opens if s F_n > 0, tension
 //   open     F_n = 0                                                     closes when it touches: s (u_n − u_w) ≥ 0 and
 //                                                                        s (v_n − w) > 0; then v_n = w
-//   stick    a_t = 0,   F_t = −Q_t                                       slips when |F_t| > μ |F_n|
+//   stick    a_t = 0,   F_t = −Q_t                                       slips when |F_t| > μ |F_n|, along Q_t
 //   slip     F_t = −μ |F_n| d, d the direction of v_t                    sticks when v_t turns round; then v_t = 0
 //
+// t: along the face, one component in the plane and two in space, where d turns with v_t from step to step.
 // w and w' of a closed node are differences over the last step's length: a wall that stops or starts at once does so
 // within a step, wherever in it that falls.
 #pragma once
@@ -18,6 +19,7 @@
 #include <stillpoint/state_archive.hpp>
 #include <stillpoint/types.hpp>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -34,7 +36,8 @@ class WallContact {
   /// A phase begins at t: the nodes in order along the face, by the free degrees of freedom of their components, −1
   /// if it is not free. What was closed and sticking stays so.
   struct Node {
-    int normal = -1, tangential = -1;
+    int normal = -1;
+    std::array<int, 2> along{-1, -1};
   };
   /// mass: diagonal of the lumped M, which outlives the phase, (n).
   void begin_phase(double t, ConstVec mass, std::vector<Node> nodes, Vec v);
@@ -53,8 +56,13 @@ class WallContact {
   double square_of_forces() const;
 
  private:
-  enum class Tangential { slip_down = -1, stick = 0, slip_up = 1 };
+  using Along = std::array<double, 2>;  // of each component along the face
 
+  static bool sticks(const Along& slip) { return slip == Along{}; }
+  /// Of v or Q at a node; 0 where it is not free.
+  Along along(std::size_t k, ConstVec values) const;
+  bool stop_along(std::size_t k, Vec v);
+  bool slide(std::size_t k, Vec v);
   bool approaches(std::size_t k, double velocity, ConstVec v) const;
   bool close(std::size_t k, double velocity, Vec v);
 
@@ -64,14 +72,15 @@ class WallContact {
   ConstVec mass_;
   std::vector<Node> nodes_;
   std::vector<int> closed_;  // 1 or 0
-  std::vector<Tangential> tangential_;
+  std::vector<Along> slip_;  // d; 0 if it sticks
   // When the run begins, every node is taken for closed until the first forces show which ones the wall would have to
   // pull: a body that leans on a wall does so from the start, also on one that begins to give way.
   bool started_ = false;
-  double start_ = 0;                                        // the wall's displacement when the phase began [m]
-  double accepted_t_ = 0, step_ = 0;                        // end and length of the last step; 0: none yet [s]
-  mutable std::vector<double> held_;                        // m (w' + c w) of closed nodes at the last add_force()
-  mutable std::vector<double> normal_force_, shear_force_;  // F_n, F_t on the body's nodes at the last add_force()
+  double start_ = 0;                          // the wall's displacement when the phase began [m]
+  double accepted_t_ = 0, step_ = 0;          // end and length of the last step; 0: none yet [s]
+  mutable std::vector<double> held_;          // m (w' + c w) of closed nodes at the last add_force()
+  mutable std::vector<double> normal_force_;  // F_n and F_t on the body's nodes, likewise
+  mutable std::vector<Along> shear_force_;
 };
 
 }  // namespace stillpoint

@@ -1,14 +1,18 @@
 // What walls report.
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace stillpoint {
 
-/// What a rigid wall feels from the body: along its outward normal, and along the face's coordinate [N].
+/// What a rigid wall feels from the body: along its outward normal, and along the other axes in their order, of which
+/// there is one in the plane and there are two in space [N].
 struct WallReaction {
   std::string name;
-  double normal = 0, shear = 0;
+  int axis = 0;  // of the normal
+  double normal = 0;
+  std::array<double, 2> shear{};
   double power = 0;         // of the wall on the body [W]
   double displacement = 0;  // of the wall [m]
 };

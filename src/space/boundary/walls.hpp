@@ -43,9 +43,13 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
       const int normal = axis_of(wall.face);
       std::vector<WallContact::Node> nodes;
       for (const int function : wall.functions) {
-        const int along = dim * function + 1 - normal;
-        nodes.push_back(
-            {free_dof(dim * function + normal), dim == 1 || phase.held.is_guided(along) ? -1 : free_dof(along)});
+        WallContact::Node node{.normal = free_dof(dim * function + normal)};
+        for (int axis = 0, k = 0; axis < dim; ++axis) {
+          if (axis == normal) continue;
+          const int along = dim * function + axis;
+          node.along[static_cast<std::size_t>(k++)] = phase.held.is_guided(along) ? -1 : free_dof(along);
+        }
+        nodes.push_back(node);
       }
       wall.contact.begin_phase(t, phase.mass.diagonal(), std::move(nodes), v);
     }
@@ -60,7 +64,10 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
 
   Contact* contact() override { return this; }
   void report(double t, std::vector<WallReaction>& to) const override {
-    for (const Wall& wall : walls_) to.push_back(wall.contact.reaction(t));
+    for (const Wall& wall : walls_) {
+      to.push_back(wall.contact.reaction(t));
+      to.back().axis = axis_of(wall.face);
+    }
   }
 
  private:

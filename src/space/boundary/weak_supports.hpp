@@ -31,7 +31,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
-#include "space/boundary/face_rule.hpp"
+#include "space/boundary/face_pieces.hpp"
 #include "space/boundary/springs.hpp"
 #include "space/boundary/support_report.hpp"
 
@@ -147,35 +147,29 @@ class WeakSupports {
   }
   // Where bodies are, some pieces to a cell.
   void cut_face([[maybe_unused]] std::size_t s, [[maybe_unused]] const GridOf& grid) {
-    if constexpr (dim == 2) {
+    if constexpr (dim > 1) {
       const SupportSpec& support = scene_.supports[s];
-      const auto [along, from, to] = held_part(scene_.grid, support);
-      const int axis = axis_of(*support.face);
-      const Axis& across = grid.axes[static_cast<std::size_t>(axis)];
+      const auto normal = static_cast<std::size_t>(axis_of(*support.face));
+      const Axis& across = grid.axes[normal];
       const double face = is_upper(*support.face) ? across.max() : across.min();
-      const auto& nodes = grid.axes[along].nodes;
       for (const BodySpec& body : scene_.bodies) {
-        const auto normal = static_cast<std::size_t>(axis);
         const bool is_there = is_upper(*support.face) ? body.max[normal] > across.nodes[across.nodes.size() - 2]
                                                       : body.min[normal] < across.nodes[1];
         if (!is_there) continue;
-        const auto rule = face_rule(body, along, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
-        for (std::size_t c = 0; c + 1 < nodes.size(); ++c) {
-          const double begin = std::max({from, body.min[along], nodes[c]});
-          const double end = std::min({to, body.max[along], nodes[c + 1]});
-          if (!(end > begin)) continue;
-          for (const auto& [xi, weight] : rule) {
-            Point<dim> x;
-            x[normal] = face;
-            x[along] = (begin + end) / 2 + (end - begin) / 2 * xi;
-            const double length = (end - begin) / 2 * weight;
-            const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
-            for (int i = 0; i < dim; ++i) {
-              if (i == support.component || !support.roller)
-                add(s, i, x, length * depth, length / (nodes[c + 1] - nodes[c]));
-            }
-          }
+        std::vector<FaceInterval> part = held_part(scene_.grid, support);
+        for (FaceInterval& interval : part) {
+          interval.from = std::max(interval.from, body.min[interval.along]);
+          interval.to = std::min(interval.to, body.max[interval.along]);
         }
+        const auto rule = [&](std::size_t along) {
+          return face_rule(body, along, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
+        };
+        for_face_pieces<dim>(grid, normal, face, part, rule, [&](const Point<dim>& x, double size, double share) {
+          const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
+          for (int i = 0; i < dim; ++i) {
+            if (i == support.component || !support.roller) add(s, i, x, size * depth, share);
+          }
+        });
       }
     }
   }

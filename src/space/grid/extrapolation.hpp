@@ -15,8 +15,8 @@ namespace stillpoint {
 /// Σ weight_k x_k = x_i, x the centres of the functions: so does a rotation.
 struct Extrapolation {
   int functions = 0;
-  std::array<int, 4> function{};
-  std::array<double, 4> weight{};
+  std::array<int, 8> function{};
+  std::array<double, 8> weight{};
 };
 
 template <AxisBasis B, int Dim>
@@ -35,16 +35,19 @@ requires(B::partition_of_unity) class Extrapolator {
     }
   }
 
-  /// From the nearest pair along an axis; at a corner of the body from the nearest four that make a rectangle; where
-  /// the body is too thin for either from the nearest one that shares a cell, or if none has its share from the one
-  /// that has most of it. None if that is the function itself.
+  /// From the nearest pair along an axis; at a corner of the body, in space at an edge, from the nearest four that make
+  /// a rectangle; at a corner in space from the nearest eight; where the body is too thin for these from the nearest
+  /// one that shares a cell, or if none has its share from the one that has most of it. None if that is the function
+  /// itself.
   std::optional<Extrapolation> operator()(int function) const {
     std::optional<Extrapolation> nearest;
     int distance = 2 * reach + 1;
     for (int d = 0; d < Dim; ++d) {
       for (const int sign : {-1, 1}) {
         for (int far = 2; far <= reach && far < distance; ++far) {
-          const auto found = from_box(function, d, sign * (far - 1), 0, 0);
+          Offset near{};
+          near[static_cast<std::size_t>(d)] = sign * (far - 1);
+          const auto found = from_box(function, near);
           if (!found) continue;
           nearest = found;
           distance = far;
@@ -52,7 +55,7 @@ requires(B::partition_of_unity) class Extrapolator {
       }
     }
     if (nearest) return nearest;
-    if constexpr (Dim == 2) nearest = from_rectangle(function);
+    for (int axes = 2; axes <= Dim && !nearest; ++axes) nearest = from_nearest_box(function, axes);
     return nearest ? nearest : from_neighbour(function, share_[static_cast<std::size_t>(function)]);
   }
 
@@ -62,20 +65,30 @@ requires(B::partition_of_unity) class Extrapolator {
 
  private:
   static constexpr int reach = B::degree + 1;
+  using Offset = std::array<int, Dim>;  // in functions along each axis
 
-  std::optional<Extrapolation> from_rectangle(int function) const {
+  // Along so many axes.
+  std::optional<Extrapolation> from_nearest_box(int function, int axes) const {
     std::optional<Extrapolation> nearest;
-    int distance = 2 * reach;
-    for (const int sign_x : {-1, 1}) {
-      for (const int sign_y : {-1, 1}) {
-        for (int x = 1; x < reach; ++x) {
-          for (int y = 1; y < reach && x + y < distance; ++y) {
-            const auto found = from_box(function, 0, sign_x * x, 1, sign_y * y);
-            if (!found) continue;
-            nearest = found;
-            distance = x + y;
-          }
+    int distance = Dim * reach;
+    for (int signs = 0; signs < 1 << Dim; ++signs) {
+      for (int k = 0; k < power(reach, Dim); ++k) {
+        Offset near{};
+        int along = 0, away = 0;
+        bool twice = false;  // of an offset of 0 either sign
+        for (int d = 0; d < Dim; ++d) {
+          const int steps = k / power(reach, Dim - 1 - d) % reach;
+          const bool upwards = (signs >> (Dim - 1 - d) & 1) != 0;
+          twice = twice || (steps == 0 && upwards);
+          near[static_cast<std::size_t>(d)] = upwards ? steps : -steps;
+          along += steps > 0 ? 1 : 0;
+          away += steps;
         }
+        if (along != axes || twice || away >= distance) continue;
+        const auto found = from_box(function, near);
+        if (!found) continue;
+        nearest = found;
+        distance = away;
       }
     }
     return nearest;
@@ -105,10 +118,13 @@ requires(B::partition_of_unity) class Extrapolator {
     return nearest;
   }
 
-  // Of the functions `near` and one more away along axis d, and likewise along e if near_e is not 0.
-  std::optional<Extrapolation> from_box(int function, int d, int near_d, int e, int near_e) const {
+  // Of the functions so far away and one more along each axis where that is not 0.
+  std::optional<Extrapolation> from_box(int function, const Offset& near) const {
     Extrapolation box{.functions = 1, .function = {function}, .weight = {1}};
-    if (!extend(box, function, d, near_d) || (near_e != 0 && !extend(box, function, e, near_e))) return std::nullopt;
+    for (int d = 0; d < Dim; ++d) {
+      const int along = near[static_cast<std::size_t>(d)];
+      if (along != 0 && !extend(box, function, d, along)) return std::nullopt;
+    }
     for (int k = 0; k < box.functions; ++k) {
       if (!(share_[static_cast<std::size_t>(box.function[k])] >= 1)) return std::nullopt;
     }

@@ -12,6 +12,7 @@
 #include <array>
 
 #include "space/kernels/point_weights.hpp"
+#include "space/materials/deformation.hpp"
 
 namespace stillpoint {
 
@@ -100,13 +101,8 @@ struct AffineVelocity {
   // H (I + G)⁻¹
   static Gradient times_inverse(const Gradient& H, Gradient G) {
     for (int i = 0; i < dim; ++i) G[dim * i + i] += 1;
-    if constexpr (dim == 1) {
-      return {H[0] / G[0]};
-    } else {
-      const double det = G[0] * G[3] - G[1] * G[2];
-      return {(H[0] * G[3] - H[1] * G[2]) / det, (H[1] * G[0] - H[0] * G[1]) / det, (H[2] * G[3] - H[3] * G[2]) / det,
-              (H[3] * G[0] - H[2] * G[1]) / det};
-    }
+    constexpr Kinematics without_hoop = dim == 1 ? Kinematics::line : dim == 2 ? Kinematics::plane : Kinematics::space;
+    return product<without_hoop>(H, inverse<without_hoop>(G));
   }
   static Gradient B_of(const Points& points, std::size_t p) {
     Gradient B_p{};

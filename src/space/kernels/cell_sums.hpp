@@ -23,13 +23,14 @@ class CellSums {
   static constexpr std::size_t slack = 3;  // entries after the last share, for who reads four at a time
 
   /// V_p/W of points from … to − 1, W the sum of theirs.
-  static void take_shares(const MaterialPoints<2>& points, std::size_t from, std::size_t to, double* shares) {
+  static void take_shares(const MaterialPoints<dimensions(K)>& points, std::size_t from, std::size_t to,
+                          double* shares) {
     double volume = 0;
     for (std::size_t p = from; p < to; ++p) volume += points.volume[p];
     for (std::size_t p = from; p < to; ++p) shares[p - from] = points.volume[p] / volume;
   }
   /// Of all points in their cells, (P + slack), for a phase; of a cell in parts of each by itself.
-  static std::vector<double> volume_shares(const MaterialPoints<2>& points) {
+  static std::vector<double> volume_shares(const MaterialPoints<dimensions(K)>& points) {
     std::vector<double> shares(points.size() + slack, 0.0);
     for (std::size_t k = 0; k < points.cells(); ++k) {
       for (std::size_t from = points.begin(k); from < points.end(k); from += Block::size)
@@ -39,7 +40,7 @@ class CellSums {
   }
 
   /// volume_share: of the block's points, with slack. Both outlive this.
-  CellSums(const MaterialPoints<2>& points, const double* volume_share)
+  CellSums(const MaterialPoints<dimensions(K)>& points, const double* volume_share)
       : points_(points), volume_share_(volume_share) {}
 
   // Four at a time: what is written past a cell's end the next one writes again.
@@ -91,7 +92,7 @@ class CellSums {
     return {lanes};
   }
 
-  const MaterialPoints<2>& points_;
+  const MaterialPoints<dimensions(K)>& points_;
   const double* volume_share_;
 };
 

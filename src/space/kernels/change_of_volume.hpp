@@ -9,14 +9,15 @@
 
 namespace stillpoint {
 
-/// In plane strain, or axisymmetric with components rr, rz, zr, zz, θθ.
+/// In plane strain, axisymmetric with components rr, rz, zr, zz, θθ, or in space.
 template <Kinematics K>
-requires(dimensions(K) == 2) struct ChangeOfVolume {
+requires(dimensions(K) > 1) struct ChangeOfVolume {
   static constexpr int components = gradient_components(K);
-  static constexpr bool has_hoop = K == Kinematics::axisymmetric;
+  static constexpr bool has_hoop = K == Kinematics::axisymmetric, in_space = K == Kinematics::space;
+  static constexpr int second = in_space ? 4 : 3;  // of the diagonal's components, after 0 and before the last
   static constexpr std::array<bool, components> on_diagonal = [] {
     std::array<bool, components> diagonal{};
-    diagonal[0] = diagonal[3] = diagonal[components - 1] = true;
+    diagonal[0] = diagonal[second] = diagonal[components - 1] = true;
     return diagonal;
   }();
   using Block = PointBlock<K>;
@@ -31,11 +32,13 @@ requires(dimensions(K) == 2) struct ChangeOfVolume {
   [[gnu::always_inline]] static void of_block_as(const Block& block, Row& J) {
 #pragma omp simd
     for (std::size_t q = 0; q < block.count; ++q) {
-      if constexpr (Finite) {
+      if constexpr (Finite && in_space) {
+        J[q] = determinant<K>(plus_identity<K>(block.H_at(q)));
+      } else if constexpr (Finite) {
         const double in_plane = (1 + block.H[0][q]) * (1 + block.H[3][q]) - block.H[1][q] * block.H[2][q];
         J[q] = has_hoop ? in_plane * (1 + block.H[components - 1][q]) : in_plane;
       } else {
-        J[q] = block.H[0][q] + block.H[3][q] + (has_hoop ? block.H[components - 1][q] : 0);
+        J[q] = block.H[0][q] + block.H[second][q] + (has_hoop || in_space ? block.H[components - 1][q] : 0);
       }
     }
   }
@@ -57,7 +60,9 @@ requires(dimensions(K) == 2) struct ChangeOfVolume {
   }
   /// ∂J/∂f = J f⁻ᵀ
   [[gnu::always_inline]] static Tensor cofactor(const Tensor& f) {
-    if constexpr (has_hoop) {
+    if constexpr (in_space) {
+      return cofactor_of(f, f, 0.5);
+    } else if constexpr (has_hoop) {
       const double hoop = f[4];
       return {hoop * f[3], -hoop * f[2], -hoop * f[1], hoop * f[0], f[0] * f[3] - f[1] * f[2]};
     } else {
@@ -65,6 +70,7 @@ requires(dimensions(K) == 2) struct ChangeOfVolume {
     }
   }
   static Tensor cofactor_rate(const Tensor& f, const Tensor& df) {
+    if constexpr (in_space) return cofactor_of(f, df, 1);
     Tensor rate{df[3], -df[2], -df[1], df[0]};
     if constexpr (has_hoop) {
       const Tensor in_plane{f[3], -f[2], -f[1], f[0], 0};
@@ -95,6 +101,19 @@ requires(dimensions(K) == 2) struct ChangeOfVolume {
     unroll<components>([&](auto c) __attribute__((always_inline)) {
       if constexpr (on_diagonal[c]) block.VP[c][q] += push;
     });
+  }
+
+ private:
+  // share (a_jk b_lm + b_jk a_lm − a_jm b_lk − b_jm a_lk) with i, j, l and n, k, m in cyclic order, at [3 i + n]: half
+  // of it is cof f of a = b = f.
+  [[gnu::always_inline]] static Tensor cofactor_of(const Tensor& a, const Tensor& b, double share) {
+    Tensor cof;
+    unroll<components>([&](auto in) __attribute__((always_inline)) {
+      constexpr int i = in / 3, n = in % 3, j = 3 * ((i + 1) % 3), l = 3 * ((i + 2) % 3), k = (n + 1) % 3,
+                    m = (n + 2) % 3;
+      cof[in] = share * (a[j + k] * b[l + m] + b[j + k] * a[l + m] - a[j + m] * b[l + k] - b[j + m] * a[l + k]);
+    });
+    return cof;
   }
 };
 

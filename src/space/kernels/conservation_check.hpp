@@ -57,7 +57,10 @@ class ConservationCheck {
         momentum_ = std::max(momentum_, std::abs(now.sum[i] - start_->momentum.sum[i]) / start_->momentum.scale);
     }
     if (start_->turn_scale > 0) {
-      angular_momentum_ = std::max(angular_momentum_.value_or(0), std::abs(turn - start_->turn) / start_->turn_scale);
+      for (std::size_t k = 0; k < turn.size(); ++k) {
+        const double change = std::abs(turn[k] - start_->turn[k]) / start_->turn_scale;
+        angular_momentum_ = std::max(angular_momentum_.value_or(0), change);
+      }
     }
   }
   void archive(const StateArchive& state) {
@@ -80,28 +83,40 @@ class ConservationCheck {
   std::optional<double> angular_momentum() const { return angular_momentum_; }
 
  private:
+  using Turn = std::array<double, Dim == 3 ? 3 : 1>;  // about x, y, z, or z alone [kg m²/s]
   struct Start {
     Momentum momentum;
-    double turn = 0, turn_scale = 0;
+    Turn turn{};
+    double turn_scale = 0;
   };
-  // Σ_p m_p (x_p × v_p + B_p,yx − B_p,xy), and Σ_p m_p |x_p − x_c| |v_p| about the centre x_c of the masses.
-  static std::pair<double, double> angular_momentum(const MaterialPoints<Dim>& points) {
+  // Σ_p m_p (x_p × v_p + B_p,yx − B_p,xy) about z, and Σ_p m_p |x_p − x_c| |v_p| about the centre x_c of the masses.
+  static std::pair<Turn, double> angular_momentum(const MaterialPoints<Dim>& points) {
     if constexpr (Dim == 1) {
-      return {0, 0};
+      return {{0}, 0};
     } else {
       const auto mean = [&](const std::vector<double>& x) {
         return sum_over(points.size(), [&](std::size_t p) { return points.mass[p] * x[p]; }) /
                sum_over(points.size(), [&](std::size_t p) { return points.mass[p]; });
       };
-      const double x_c = mean(points.x[0]), y_c = mean(points.x[1]);
+      Point<Dim> centre;
+      for (std::size_t d = 0; d < Dim; ++d) centre[d] = mean(points.x[d]);
       const auto& v = points.v;
       const bool affine = !points.B_apic[0].empty();
-      const double turn = sum_over(points.size(), [&](std::size_t p) {
-        const double spin = affine ? points.B_apic[Dim][p] - points.B_apic[1][p] : 0;
-        return points.mass[p] * (points.x[0][p] * v[1][p] - points.x[1][p] * v[0][p] + spin);
-      });
+      Turn turn;
+      for (std::size_t k = 0; k < turn.size(); ++k) {
+        const std::size_t i = Dim == 2 ? 0 : (k + 1) % 3, j = Dim == 2 ? 1 : (k + 2) % 3;
+        turn[k] = sum_over(points.size(), [&](std::size_t p) {
+          const double spin = affine ? points.B_apic[Dim * j + i][p] - points.B_apic[Dim * i + j][p] : 0;
+          return points.mass[p] * (points.x[i][p] * v[j][p] - points.x[j][p] * v[i][p] + spin);
+        });
+      }
       const double scale = sum_over(points.size(), [&](std::size_t p) {
-        return points.mass[p] * std::hypot(points.x[0][p] - x_c, points.x[1][p] - y_c) * std::hypot(v[0][p], v[1][p]);
+        double distance = 0, speed = 0;
+        for (std::size_t d = 0; d < Dim; ++d) {
+          distance = std::hypot(distance, points.x[d][p] - centre[d]);
+          speed = std::hypot(speed, v[d][p]);
+        }
+        return points.mass[p] * distance * speed;
       });
       return {turn, scale};
     }

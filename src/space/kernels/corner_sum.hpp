@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <vector>
 
@@ -38,7 +39,7 @@ class CornerSum {
     const auto values_of = [&](int c) {
       return values + Components * static_cast<std::ptrdiff_t>(corner_[static_cast<std::size_t>(c)]);
     };
-    if constexpr (Components == 3) {
+    if constexpr (!std::has_single_bit(static_cast<unsigned>(Components))) {
       std::array<double, Components> total{};
       for (int c = begin_[function]; c < begin_[function + 1]; ++c) {
         for (int i = 0; i < Components; ++i) total[i] += values_of(c)[i];

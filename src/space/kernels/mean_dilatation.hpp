@@ -4,7 +4,8 @@
 // two unknowns a cell in the plane, whatever their degree: a mean that is linear in each cell would be three
 // constraints.
 //
-// At finite strain, with f = I + H since the phase began, J = det f, and d = 2 in plane strain or 3 if axisymmetric,
+// At finite strain, with f = I + H since the phase began, J = det f, and d = 2 in plane strain, 3 if axisymmetric or in
+// space,
 //
 //   f̄_p = s_p f_p,   s_p = (J̄/J_p)^(1/d),   J̄ = Σ V_p J_p/W,   W = Σ V_p over the cell
 //                                         [de Souza Neto, Perić, Dutko and Owen 1996; in MPM Coombs et al. 2018].
@@ -37,11 +38,11 @@ namespace stillpoint {
 ///   rates_of_means(block, x, mean),    the same of their derivatives.
 ///   rates_of_shares(block, y, share)
 template <Kinematics K, class Means>
-requires(dimensions(K) == 2) class MeanDilatation {
+requires(dimensions(K) > 1) class MeanDilatation {
   using Volume = ChangeOfVolume<K>;
   static constexpr int components = Volume::components;
   static constexpr auto on_diagonal = Volume::on_diagonal;
-  static constexpr int d = K == Kinematics::axisymmetric ? 3 : 2;
+  static constexpr int d = K == Kinematics::plane ? 2 : 3;
   using Block = PointBlock<K>;
   using Row = typename Block::Row;
   using Rows = typename Block::Rows;

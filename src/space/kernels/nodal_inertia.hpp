@@ -35,11 +35,13 @@ struct AddedInertia {
 };
 
 /// x_i − Σ_k w_k x_k of values over the grid's functions, (functions × 2).
-inline std::array<double, 2> deviation(const std::vector<double>& x, const AddedInertia& added) {
-  const auto at = [&](int function, std::size_t i) { return x[2 * static_cast<std::size_t>(function) + i]; };
-  std::array<double, 2> d{at(added.function, 0), at(added.function, 1)};
+template <int Dim>
+Point<Dim> deviation(const std::vector<double>& x, const AddedInertia& added) {
+  const auto at = [&](int function, std::size_t i) { return x[Dim * static_cast<std::size_t>(function) + i]; };
+  Point<Dim> d;
+  for (std::size_t i = 0; i < Dim; ++i) d[i] = at(added.function, i);
   for (std::size_t k = 0; k < static_cast<std::size_t>(added.relative_to.functions); ++k) {
-    for (std::size_t i = 0; i < 2; ++i) d[i] -= added.relative_to.weight[k] * at(added.relative_to.function[k], i);
+    for (std::size_t i = 0; i < Dim; ++i) d[i] -= added.relative_to.weight[k] * at(added.relative_to.function[k], i);
   }
   return d;
 }

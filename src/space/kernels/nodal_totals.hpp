@@ -75,7 +75,7 @@ class NodalTotals {
   };
   [[gnu::always_inline]] static Functions functions(const Weights& weights, std::size_t k, std::size_t p) {
     Functions at;
-    if constexpr (Weights::from_positions) {
+    if constexpr (Weights::from_positions && dim == 2) {
       // N = (1 − ξ, ξ, 1 − ξ, ξ) (1 − η, 1 − η, η, η), and the gradients have one factor less
       const auto& cell = weights.cell(k);
       const double xi = weights.position_in_cell(0)[p], eta = weights.position_in_cell(1)[p];
@@ -89,13 +89,13 @@ class NodalTotals {
         at.square[0] = at.square[0].plus_product(hoop, hoop);
       }
     } else {
-      const double* N = weights.N(k, p);
-      const double* dN = weights.dN(k, p);
+      const auto N = weights.N(k, p);
+      const auto dN = weights.dN(k, p);
       unroll<chunks>([&](auto c) __attribute__((always_inline)) {
-        at.N[c] = load<c>(N);
+        at.N[c] = load<c>(&N[0]);
         at.square[c] = Some{};
         unroll<rows>([&](auto j) __attribute__((always_inline)) {
-          const Some along = load<c>(dN + per_cell * j);
+          const Some along = load<c>(&dN[per_cell * j]);
           at.square[c] = at.square[c].plus_product(along, along);
         });
       });

@@ -21,7 +21,7 @@ class PointMotion {
   using Weights = PointWeights<B, K>;
   static constexpr int dim = Weights::dim;
   static constexpr int per_cell = Weights::per_cell;
-  static constexpr int width = 2 * dim;  // u, and w behind it
+  static constexpr int lanes = dim == 3 ? 4 : dim, width = 2 * lanes;  // u, and w behind it
   using Points = MaterialPoints<dim>;
   using Corners = std::array<Lanes<width>, per_cell>;
 
@@ -39,7 +39,7 @@ class PointMotion {
       Corners corners;
       unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
         const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
-        corners[a] = joined(Lanes<dim>::load(u + at), Lanes<dim>::load(w + at));
+        corners[a] = joined(Lanes<lanes>::load_first(u + at, dim), Lanes<lanes>::load_first(w + at, dim));
       });
       find_in_cell(points, points.begin(k), points.end(k), field(weights, k, corners), s);
       after(k);
@@ -51,7 +51,7 @@ class PointMotion {
  private:
   // The point's (Σ N u_i, Σ N w_i) as a function of its number, in occupied cell k.
   [[gnu::always_inline]] static auto field(const Weights& weights, std::size_t k, const Corners& corners) {
-    if constexpr (Weights::from_positions) {
+    if constexpr (Weights::from_positions && dim == 2) {
       // Σ_a N_a c_a = c_00 + (c_10 − c_00) ξ + [c_01 − c_00 + (c_11 − c_01 − c_10 + c_00) ξ] η
       const Lanes<width> lower = corners[1].minus(corners[0]), left = corners[2].minus(corners[0]);
       const Lanes<width> twist = corners[3].minus(corners[2]).minus(lower);
@@ -82,7 +82,7 @@ class PointMotion {
         const auto rows = transposed({field(p), field(p + 1), field(p + 2), field(p + 3)});
         unroll<dim>([&](auto d) __attribute__((always_inline)) {
           Lanes<4>::load(points.x[d].data() + p).plus(rows[d]).store(x[d].data() + p);
-          rows[dim + d]
+          rows[lanes + d]
               .plus_product(Lanes<4>{{s, s, s, s}}, Lanes<4>::load(points.v[d].data() + p))
               .store(v[d].data() + p);
         });
@@ -92,7 +92,7 @@ class PointMotion {
       const Lanes<width> sum = field(p);
       unroll<dim>([&](auto d) __attribute__((always_inline)) {
         x[d][p] = points.x[d][p] + sum[d];
-        v[d][p] = s * points.v[d][p] + sum[dim + d];
+        v[d][p] = s * points.v[d][p] + sum[lanes + d];
       });
     }
   }

@@ -38,8 +38,8 @@ std::vector<std::string_view> cone_names() {
 
 const std::vector<LawInfo>& material_laws() {
   using enum StressState;
-  static const std::vector<StressState> all = {uniaxial_stress, uniaxial_strain, plane_strain, plane_stress,
-                                               axisymmetric};
+  static const std::vector<StressState> all = {uniaxial_stress, uniaxial_strain, plane_strain,
+                                               plane_stress,    axisymmetric,    space};
   static const std::vector<LawInfo> laws = {
       {"linear-elastic",
        "sigma = lambda tr(eps) I + 2 mu eps, small strain",
@@ -64,7 +64,7 @@ const std::vector<LawInfo>& material_laws() {
       {"drucker-prager",
        "sqrt(J2) + eta p - xi c <= 0, flow by sqrt(J2) + eta_bar p, tension cut-off with a gap, finite strain",
        "de Souza Neto, Peric and Owen 2008, section 8.3",
-       {plane_strain, axisymmetric},
+       {plane_strain, axisymmetric, space},
        {youngs_modulus, poissons_ratio, density, optional("phi", "degrees", "angle of internal friction", 90, 0),
         optional("psi", "degrees", "angle of dilatancy", 90, 0), optional("c", "Pa", "cohesion", infinity, 0),
         optional("fluidity", "1/(Pa s)", "Perzyna's beta; 0: rate-independent", infinity, 0),

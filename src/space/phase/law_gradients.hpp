@@ -36,7 +36,7 @@ class LawGradients {
 
   /// Of point p in occupied cell k.
   TensorOf<K> at(std::size_t k, std::size_t p) {
-    if constexpr (dimensions(K) == 2) {
+    if constexpr (dimensions(K) > 1) {
       if (shared_.over_cells || shared_.splines) {
         if (p < block_.first || p >= block_.first + block_.count) average(k, p);
         return block_.H_at(p - block_.first);

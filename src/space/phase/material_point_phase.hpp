@@ -129,10 +129,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   }
 
   // --- the law of a block of points, phase_dilatation.hpp ------------------------------------------
-  bool averages_dilatation() const { return Dim == 2 && scene_.phase.dilatation != Dilatation::points; }
-  bool means_over_splines() const {
-    return Dim == 2 && scene_.phase.dilatation == Dilatation::splines && B::degree > 1;
-  }
+  bool averages_dilatation() const { return Dim > 1 && scene_.phase.dilatation != Dilatation::points; }
+  bool means_over_splines() const { return Dim > 1 && scene_.phase.dilatation == Dilatation::splines && B::degree > 1; }
   template <class Use>
   auto with_means(std::size_t m, const Block& block, const typename SplinePass<B, K>::Known& known,
                   const Use& use) const;

@@ -171,7 +171,7 @@ double MaterialPointPhase<B, K>::time_scale() const {
 // σ_yy = −ρ b_y (surface − y)  from  ∂σ_yy/∂y + ρ b_y = 0,  σ_xx = σ_zz = K0 σ_yy
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::set_geostatic_stress() {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     const double b_y = scene_.body_force.at(1)({}, 0);
     for (std::size_t m = 0; m < body_.materials.size(); ++m) {
       const double rho = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
@@ -179,7 +179,7 @@ void MaterialPointPhase<B, K>::set_geostatic_stress() {
       for (int p = body_.points.material_begin[m]; p < body_.points.material_begin[m + 1]; ++p) {
         const double depth = scene_.geostatic->surface - body_.points.x[1][static_cast<std::size_t>(p)];
         const double vertical = rho * b_y * std::max(0.0, depth), side = scene_.geostatic->K0 * vertical;
-        stress.push_back({side, vertical, side, 0});
+        stress.push_back({side, vertical, side});
       }
       body_.materials[m]->set_stress(stress);
     }

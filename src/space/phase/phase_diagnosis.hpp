@@ -65,11 +65,18 @@ std::string MaterialPointPhase<B, K>::refusal_of_motion(ConstVec u) const {
       to_string(of_unknown(furthest)), u[furthest]);
 }
 
+/// Of a component of P: "P.xy".
+template <Kinematics K>
+std::string name_of_stress(int component) {
+  constexpr int dim = dimensions(K);
+  constexpr const char* axes = K == Kinematics::axisymmetric ? "rz" : "xyz";
+  if (component == dim * dim) return "P.tt";
+  return std::string("P.") + axes[component / dim] + axes[component % dim];
+}
+
 // The point with the smallest det f among those that answer no stress; of several the first by number.
 template <AxisBasis B, Kinematics K>
 std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
-  constexpr std::array names = K == Kinematics::axisymmetric ? std::array{"P.rr", "P.rz", "P.zr", "P.zz", "P.tt"}
-                                                             : std::array{"P.xx", "P.xy", "P.yx", "P.yy", ""};
   struct Bad {
     double det_f = 0, stress = 0;
     int component = 0;
@@ -116,7 +123,7 @@ std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
   return fmt::format(
       "the stress {} of the law is not finite ({}) at {}{}, where det f = {:.3g}; expected smaller loads, a smaller "
       "integrator.step_fraction, or other parameters of material.{}",
-      names[static_cast<std::size_t>(worst.component)], worst.stress, at, others, worst.det_f,
+      name_of_stress<K>(worst.component), worst.stress, at, others, worst.det_f,
       body_.material_names[static_cast<std::size_t>(points.material_of_cell(k))]);
 }
 

@@ -33,7 +33,7 @@ auto MaterialPointPhase<B, K>::with_means(std::size_t m, [[maybe_unused]] const 
 // block.H as the law of material m sees it; where means are over splines after take_means().
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m, [[maybe_unused]] Block& block) const {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (averages_dilatation()) with_means(m, block, {.means = &means_}, [&](auto& mean) { mean.average(block); });
   }
 }
@@ -41,7 +41,7 @@ void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m
 // Of the displacement u over the grid's functions.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_means([[maybe_unused]] const double* u) const {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (!means_over_splines()) return;
     nodal_force_.visit(u, [this](std::size_t m, Block& block) {
       typename Block::Row J;
@@ -56,7 +56,7 @@ void MaterialPointPhase<B, K>::take_means([[maybe_unused]] const double* u) cons
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_rates_of_means([[maybe_unused]] const double* u,
                                                    [[maybe_unused]] const double* du) const {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (!means_over_splines()) return;
     const auto add_rates = [this](std::size_t m, Block& block) {
       typename Block::Row dJ;
@@ -78,7 +78,7 @@ void MaterialPointPhase<B, K>::add_means_of(const Block& block, typename Block::
 // What derivatives at finite strain need of the state u: the laws' a/J̄.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_shares([[maybe_unused]] const double* u, [[maybe_unused]] double dt) const {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     const auto finite = [](const auto& material) { return material->info().finite_strain; };
     if (!means_over_splines() || std::ranges::none_of(body_.materials, finite)) return;
     const auto add_shares = [&](std::size_t m, Block& block) {
@@ -98,7 +98,7 @@ void MaterialPointPhase<B, K>::take_shares([[maybe_unused]] const double* u, [[m
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::add_shared_forces([[maybe_unused]] const double* u, [[maybe_unused]] Vec R,
                                                  [[maybe_unused]] Vec reactions) const {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (!means_over_splines()) return true;
     splines_.coefficients(rates_of_shares_);
     const SplinePass<B, K> pass(splines_, body_.points.volume.data(), {});
@@ -120,7 +120,7 @@ bool MaterialPointPhase<B, K>::add_shared_forces([[maybe_unused]] const double* 
 // As a phase begins, and what averaging does to the committed state.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::begin_means() {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (!averages_dilatation()) return;
     if (means_over_splines()) {
       splines_.rebuild(grid_, body_.points);
@@ -159,7 +159,7 @@ double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, 
                                         [[maybe_unused]] double* averages) const {
   const PointMaterial<K>& law = *body_.materials[m];
   const double* V = body_.points.volume.data();
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (averages_dilatation()) {
       return with_means(m, block, {.means = &means_}, [&](auto& mean) {
         if constexpr (Increments) {
@@ -181,7 +181,7 @@ template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block, double dt) const {
   const PointMaterial<K>& law = *body_.materials[m];
   const double* V = body_.points.volume.data();
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (averages_dilatation()) {
       return with_means(m, block, {.means = &means_, .shares = &shares_, .rates_of_means = &rates_of_means_},
                         [&](auto& mean) {

@@ -104,7 +104,7 @@ void MaterialPointPhase<B, K>::answer_columns(Tangent kind, double dt, std::size
 // Column by column: the points of a cell answer together.
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix_of_means(Tangent kind, double dt) const {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (means_over_splines()) return matrix_of_spline_means(kind, dt);
     Block block;
     const auto add_cell = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {

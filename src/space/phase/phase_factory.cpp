@@ -15,6 +15,7 @@ std::unique_ptr<LagrangianPhase> make_phase(const Scene& scene) {
     case Kinematics::axisymmetric:
       return make_phase_of<Kinematics::axisymmetric>(scene);
     case Kinematics::space:
+      if (!domains) return make_phase_of<Kinematics::space>(scene);
       break;
   }
   throw std::logic_error("a kinematics without an instantiation");

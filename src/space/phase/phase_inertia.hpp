@@ -145,24 +145,32 @@ std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>&
 // take that over as spin, so that none of the angular momentum is lost. Points that carry a gradient cannot take it.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim > 1) {
     if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
     if (AffineVelocity<B, K>::carries_gradient) return;
-    std::vector<double> spin(inertia_.mass().size());  // δ_i (d_i × ḋ_i)/m_i
+    constexpr std::size_t turns = Dim == 2 ? 1 : 3;  // about z, or x, y and z: from axis first to second
+    constexpr std::array<std::size_t, 3> first{Dim == 2 ? 0 : 1, 2, 0}, second{Dim == 2 ? 1 : 2, 0, 1};
+    std::vector<double> spin(turns * inertia_.mass().size());  // δ_i (d_i × ḋ_i)/m_i
     for (const AddedInertia& added : inertia_.added()) {
       const auto i = static_cast<std::size_t>(added.function);
       if (added.relative_to.functions == 0 || !(inertia_.mass()[i] > 0)) continue;
-      const auto d = deviation(grid_u_, added), d_dot = deviation(grid_v, added);
+      const auto d = deviation<Dim>(grid_u_, added), d_dot = deviation<Dim>(grid_v, added);
       const double delta = added.inertia / scene_.mass.factor;
-      spin[i] = delta * (d[0] * d_dot[1] - d[1] * d_dot[0]) / inertia_.mass()[i];
+      for (std::size_t r = 0; r < turns; ++r) {
+        const double turn = d[first[r]] * d_dot[second[r]] - d[second[r]] * d_dot[first[r]];
+        spin[turns * i + r] = delta * turn / inertia_.mass()[i];
+      }
     }
     for_each_block(body_.points.cells(), [&](std::size_t k) {
       for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
         const auto N = weights_.N(k, p);
-        double of_point = 0;
-        for (int a = 0; a < per_cell; ++a) of_point += N[a] * spin[static_cast<std::size_t>(weights_.function(k, a))];
-        body_.points.B_apic[Dim][p] += of_point / 2;
-        body_.points.B_apic[1][p] -= of_point / 2;
+        for (std::size_t r = 0; r < turns; ++r) {
+          double of_point = 0;
+          for (int a = 0; a < per_cell; ++a)
+            of_point += N[a] * spin[turns * static_cast<std::size_t>(weights_.function(k, a)) + r];
+          body_.points.B_apic[Dim * second[r] + first[r]][p] += of_point / 2;
+          body_.points.B_apic[Dim * first[r] + second[r]][p] -= of_point / 2;
+        }
       }
     });
   }

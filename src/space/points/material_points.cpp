@@ -273,5 +273,6 @@ PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double d
 
 template PlacedBody<1> place_body<1>(const BodySpec&, const Grid<1>&, double, StressState, bool);
 template PlacedBody<2> place_body<2>(const BodySpec&, const Grid<2>&, double, StressState, bool);
+template PlacedBody<3> place_body<3>(const BodySpec&, const Grid<3>&, double, StressState, bool);
 
 }  // namespace stillpoint

@@ -98,16 +98,16 @@ class PointsAround {
   }
   // Those of the cell of x and of all that touch it.
   std::vector<PointInCell> points_around(const Cell& here) const {
-    return points_.has_domains() ? listed_around(here) : sorted_around(here);
+    return points_.has_domains() || Dim == 3 ? listed_around(here) : sorted_around(here);
   }
-  // Where the points are sorted by the cells that they are in, which those of domains need not be.
+  // On a line or in the plane, where the points are sorted by the cells that they are in, which those of domains need
+  // not be.
   std::vector<PointInCell> sorted_around(const Cell& here) const {
     Cell from, to;
     for (int d = 0; d < Dim; ++d) {
       from[d] = std::max(here[d] - 1, 0);
       to[d] = std::min(here[d] + 1, grid_.axes[d].cells() - 1);
     }
-    static_assert(Dim <= 2);
     const int rows = Dim == 1 ? 1 : to[Dim - 1] - from[Dim - 1] + 1, across = grid_.axes[0].cells();
     std::vector<PointInCell> found;
     for (std::size_t k = 0; k < points_.cells(); ++k) {

@@ -41,5 +41,6 @@ std::string disorder_of(const MaterialPoints<Dim>& points, long cells, std::size
 
 template std::string disorder_of(const MaterialPoints<1>&, long, std::size_t);
 template std::string disorder_of(const MaterialPoints<2>&, long, std::size_t);
+template std::string disorder_of(const MaterialPoints<3>&, long, std::size_t);
 
 }  // namespace stillpoint

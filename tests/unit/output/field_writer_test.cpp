@@ -265,7 +265,7 @@ TEST_CASE("a frame whose parts do not fit is refused, and nothing of it is writt
   refuses("dimension 4", [](FieldFrame& frame) { frame.dim = 4; });
   refuses("u has 5 values, expected 6", [](FieldFrame& frame) { frame.fields[0].values.pop_back(); });
   refuses("material has 2 values, expected 3", [](FieldFrame& frame) { frame.material.pop_back(); });
-  refuses("u has 5 components", [](FieldFrame& frame) { frame.fields[0].components = 5; });
+  refuses("u has 7 components", [](FieldFrame& frame) { frame.fields[0].components = 7; });
   refuses("u has 0 components", [](FieldFrame& frame) { frame.fields[0].components = 0; });
   refuses("'v/x' is no name", [](FieldFrame& frame) { frame.fields[0].name = "v/x"; });
   refuses("'' is no name", [](FieldFrame& frame) { frame.fields[0].name = ""; });

@@ -257,7 +257,7 @@ TEST_CASE("Drucker-Prager takes exactly the parameters that are on offer") {
   const auto& laws = material_laws();
   const auto law = std::find_if(laws.begin(), laws.end(), [](const auto& one) { return one.name == "drucker-prager"; });
   REQUIRE(law != laws.end());
-  CHECK(law->states == std::vector{plane_strain, axisymmetric});
+  CHECK(law->states == std::vector{plane_strain, axisymmetric, space});
   MaterialSpec spec;
   double value = 10;
   for (const ParameterInfo& p : law->parameters) spec.parameters[std::string(p.name)] = value++;
