@@ -17,9 +17,7 @@ std::vector<Word> states() {
   std::vector<Word> words;
   for (int k = 0; k <= static_cast<int>(StressState::space); ++k) {
     const auto state = static_cast<StressState>(k);
-    const Dims dims = state == StressState::space               ? kSpace
-                      : state >= StressState::plane_strain ? kPlane
-                                                           : kLine;
+    const Dims dims = state == StressState::space ? kSpace : state >= StressState::plane_strain ? kPlane : kLine;
     words.emplace_back(to_string(state), dims);
   }
   return words;
