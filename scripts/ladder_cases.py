@@ -24,7 +24,7 @@ and [[case.quantity]] tables:
   target     the largest relative error, or the least order; or [low, high] of what is computed
   theory     of an order, if the study does not know it
   where      a pattern of the values of vary for which this row is there; all if not given
-  order_remark  why the interval of an order leaves the theory's out; without one that is a MISS
+  order_remark  why the interval of an order leaves the theory's out by more than 0.05; without one that is a MISS
   known_miss    why the row misses its target, which is known; once it does not, the mark has to go. No excuse for a run that
                 fails or a quantity that is not there
 """

@@ -17,8 +17,9 @@ of it, `scripts/ladder --quick` the part that continuous integration runs. `ladd
 targets; closed forms are in `scripts/closed_answers.py`.
 
 A value is ok if its relative error (absolute where the answer is 0) is at most the target; an order if it is at least the
-target and its interval (95 %) has the theory's order in it, or a remark says why not. What misses its target and is known
-to is listed with its reason below: once it does not miss any more, the ladder fails until the mark is gone.
+target and its interval (95 %) has the theory's order in it or within 0.05, or a remark says why not. What misses its
+target and is known to is listed with its reason below: once it does not miss any more, the ladder fails until the mark
+is gone.
 
 The exact value of an order is the theory's. Wall times are those of one thread on a machine with others at work, of all
 runs of a case together.
