@@ -44,13 +44,14 @@ MaterialPoints<3> points_in_cells(const Grid<3>& grid, const Count& count, const
 }
 
 /// Of one material on a grid of n × n × n cells, eight points in each, nothing held.
+template <AxisBasis B = BSpline<1>>
 struct CubeOfCells {
-  using Basis = TensorBasis<BSpline<1>, 3>;
+  using Basis = TensorBasis<B, 3>;
   Grid<3> grid;
   MaterialPoints<3> points;
-  PointWeights<BSpline<1>, Kinematics::space> weights;
+  PointWeights<B, Kinematics::space> weights;
   DegreesOfFreedom dofs;
-  NodalForce<BSpline<1>, Kinematics::space> force;
+  NodalForce<B, Kinematics::space> force;
 
   explicit CubeOfCells(int n)
       : grid{{Axis::uniform(0, 1, n), Axis::uniform(0, 1, n), Axis::uniform(0, 1, n)}},

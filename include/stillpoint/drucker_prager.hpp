@@ -179,8 +179,7 @@ class DruckerPrager {
     using std::sqrt;
     using T = SpaceTensorOf<Number>;
     const auto [s_xx, s_yy, s_zz, s_xy, s_yz, s_zx, gap, plastic_strain] = next;
-    const Number one = 1, zero = 0;
-    const T unit{one, zero, zero, zero, one, zero, zero, zero, one};
+    const Number one = 1;
     const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
     const T df{dH[0], dH[1], dH[2], dH[3], dH[4], dH[5], dH[6], dH[7], dH[8]};
 
@@ -191,20 +190,22 @@ class DruckerPrager {
     const Number tr_d = trace(l), third = tr_d * (1.0 / 3);
 
     // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
-    // of a/(1 + √(1 + a²)).
+    // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
     const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
     const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
-    const T A{zero, -az, ay, az, zero, -ax, -ay, ax, zero};
-    const T A_half = by_half * A;
-    const T R = unit + (2 / (1 + a2)) * (A + A * A);
-    const T R_half = unit + (2 / (1 + a2 * by_half * by_half)) * (A_half + A_half * A_half);
+    const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
+    const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
+    const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
+    const T R_half{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
+                   c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
 
-    // s = R s_n Rᵀ + R½ 2 G dev d R½ᵀ
+    // s = R½ (R½ s_n R½ᵀ + 2 G dev d) R½ᵀ
     const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
     const Number xy_n = s_xy, yz_n = s_yz, zx_n = s_zx;
     const T s_n{s_xx - p_n, xy_n, zx_n, xy_n, s_yy - p_n, yz_n, zx_n, yz_n, s_zz - p_n};
-    const T dev_d = G_ * (l + transpose(l)) - (2 * G_ * third) * unit;
-    const T s = R * s_n * transpose(R) + R_half * dev_d * transpose(R_half);
+    const Number mean = 2 * G_ * third, xy_d = G_ * (l.xy + l.yx), yz_d = G_ * (l.yz + l.zy), zx_d = G_ * (l.zx + l.xz);
+    const T dev_d{2 * G_ * l.xx - mean, xy_d, zx_d, xy_d, 2 * G_ * l.yy - mean, yz_d, zx_d, yz_d, 2 * G_ * l.zz - mean};
+    const T s = turned(R_half, turned(R_half, s_n) + dev_d);
     const Number root_J2 =
         sqrt((s.xx * s.xx + s.yy * s.yy + s.zz * s.zz) / 2 + (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx) + tiny);
 

@@ -39,6 +39,15 @@ template <class N>
 constexpr N trace(const SpaceTensorOf<N>& A) {
   return A.xx + A.yy + A.zz;
 }
+/// A S Aᵀ of a symmetric S, itself symmetric
+template <class N>
+constexpr SpaceTensorOf<N> turned(const SpaceTensorOf<N>& A, const SpaceTensorOf<N>& S) {
+  const SpaceTensorOf<N> B = A * S;
+  const N xy = B.xx * A.yx + B.xy * A.yy + B.xz * A.yz, yz = B.yx * A.zx + B.yy * A.zy + B.yz * A.zz,
+          zx = B.zx * A.xx + B.zy * A.xy + B.zz * A.xz;
+  return {B.xx * A.xx + B.xy * A.xy + B.xz * A.xz, xy, zx, xy, B.yx * A.yx + B.yy * A.yy + B.yz * A.yz, yz, zx, yz,
+          B.zx * A.zx + B.zy * A.zy + B.zz * A.zz};
+}
 /// cof A = det A A⁻ᵀ
 template <class N>
 constexpr SpaceTensorOf<N> cofactor(const SpaceTensorOf<N>& A) {

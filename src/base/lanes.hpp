@@ -101,6 +101,13 @@ template <int N>
 [[gnu::always_inline]] inline Lanes<2> upper_half(const Lanes<4>& a) {
   return {__builtin_shufflevector(a.lanes, a.lanes, 2, 3)};
 }
+[[gnu::always_inline]] inline Lanes<4> lower_half(const Lanes<8>& a) {
+  return {__builtin_shufflevector(a.lanes, a.lanes, 0, 1, 2, 3)};
+}
+[[gnu::always_inline]] inline Lanes<4> upper_half(const Lanes<8>& a) {
+  return {__builtin_shufflevector(a.lanes, a.lanes, 4, 5, 6, 7)};
+}
+[[gnu::always_inline]] inline Lanes<4> halves_added(const Lanes<8>& a) { return lower_half(a).plus(upper_half(a)); }
 [[gnu::always_inline]] inline Lanes<4> halves_swapped(const Lanes<4>& a) {
   return {__builtin_shufflevector(a.lanes, a.lanes, 2, 3, 0, 1)};
 }

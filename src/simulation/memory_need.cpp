@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "simulation/omega_1_needs.hpp"
 #include "solvers/relaxation/conjugate_descent.hpp"
 #include "solvers/statics/static_methods.hpp"
+#include "space/kernels/elastic_cells.hpp"
 #include "space/materials/point_material.hpp"
 
 namespace stillpoint {
@@ -61,7 +63,10 @@ double of_law(const Scene& scene, const MaterialSpec& material) {
 
 double of_weights(const Scene& scene) {
   const bool of_domains = scene.phase.quadrature == Quadrature::domains;
-  if (scene.dim > 1 && scene.grid.basis == BasisKind::linear && !of_domains) return scene.dim * real;
+  const bool is_linear = scene.grid.basis == BasisKind::linear;
+  if (scene.dim == 2 && is_linear && !of_domains) return scene.dim * real;
+  if (scene.dim == 3)
+    return is_linear ? 0.0 : 2 * scene.dim * (degree_of(scene.grid.basis) + 1) * real;  // factors, see PointWeights
   const double functions = std::pow(degree_of(scene.grid.basis) + (of_domains ? 2 : 1), scene.dim);
   return functions * (1 + scene.dim + (scene.state == StressState::axisymmetric ? 1 : 0)) * real;
 }
@@ -85,12 +90,14 @@ bool is_nonlinear(const Scene& scene) {
          std::ranges::any_of(scene.bodies, [&](const BodySpec& one) { return law_of(scene, one).finite_strain; });
 }
 
-// Of linear bilinear cells six moments of their points, and their sides, see ElasticCells.
+// Of linear elastic cells of a linear basis.
 double of_moments(const Scene& scene, const BodySize& size) {
-  const bool takes_moments = scene.dim == 2 && scene.state != StressState::axisymmetric &&
+  const bool takes_moments = scene.dim > 1 && scene.state != StressState::axisymmetric &&
                              scene.grid.basis == BasisKind::linear && scene.phase.quadrature == Quadrature::points &&
                              !is_nonlinear(scene) && !moves_on(scene) && !scene.geostatic;
-  return takes_moments ? 8 * real * size.cells / size.points : 0;
+  if (!takes_moments) return 0;
+  const double of_cell = scene.dim == 2 ? ElasticCells<2>::bytes_per_cell : ElasticCells<3>::bytes_per_cell;
+  return of_cell * size.cells / size.points;
 }
 
 double bytes_per_point(const Scene& scene, const BodySize& size) {
@@ -115,14 +122,17 @@ double neighbours_along(const Scene& scene) {
 }
 double neighbours(const Scene& scene) { return std::pow(neighbours_along(scene), scene.dim); }
 
-// Entries of a column of L. In the plane nested dissection gives a number that grows with log n; no more than the band.
+// Entries of a column of L. With nested dissection their number grows with log n in the plane, and in space as the
+// surface of what divides the body, n^(1/3); no more than the band.
 double entries_of_factor(const Scene& scene, const BodySize& size) {
   if (scene.dim == 1) return scene.dim * neighbours(scene);
   constexpr double measured_at = 1e5, by_octave = 0.03;
-  const double of_basis[] = {125, 340, 620, 760};
+  constexpr double in_the_plane[] = {125, 340, 620, 760}, in_space[] = {27, 68, 110};
+  const auto basis = static_cast<std::size_t>(scene.grid.basis);
   const double growth = 1 + by_octave * std::log2(std::max(size.unknowns, 1.0) / measured_at);
   const double by_means = neighbours_along(scene) / own_neighbours_along(scene);  // what separates parts is wider
-  const double entries = std::max(0.5, growth) * of_basis[static_cast<std::size_t>(scene.grid.basis)] * by_means;
+  const double entries = by_means * (scene.dim == 2 ? std::max(0.5, growth) * in_the_plane[basis]
+                                                    : std::cbrt(size.unknowns) * in_space[basis]);
   return std::min(entries, 2 * by_means * size.width);
 }
 
@@ -224,7 +234,7 @@ MemoryNeed memory_need(const Scene& scene) {
   const StaticMethodInfo* const solver = catalogue().static_method(scene.solve.method);
   const bool multiplies = multigrid && solver && solver->is_newton;
   if (multiplies) add("stiffness matrix by columns and by rows", 2 * of_matrix(scene, size), "grid.cells");
-  if (factor || consistent || chooses_mass || multiplies)
+  if (factor || consistent || multiplies || (multigrid && chooses_mass))
     add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
   if (consistent)
     // As it was assembled, and as it is factorised.
@@ -238,7 +248,9 @@ MemoryNeed memory_need(const Scene& scene) {
 }
 
 bool has_room_for_factor(const Scene& scene) {
+  constexpr double most_entries = std::numeric_limits<int>::max();  // that CHOLMOD numbers
   const BodySize size = body_size(scene);
+  if (entries_of_factor(scene, size) * size.unknowns > most_entries) return false;
   return of_assembly(scene, size) + 2 * of_matrix(scene, size) + of_factor(scene, size) <= memory_room().bytes;
 }
 

@@ -100,6 +100,13 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   model.learns_omega_1 = !model.omega_1 && is_auto && wants_equilibrium_only(scene) &&
                          (model.multigrid || mass_measures_volume(scene, has_scaled_mass)) &&
                          !model.phase->info().updated_lagrangian && model.linear;
+  if (scene.stop.distance > 0 && !model.omega_1 && !model.learns_omega_1) {
+    throw_scene_error(
+        scene, "stop.distance",
+        "a distance is bounded by omega_1, but a factor of the stiffness, which tells it, has no room, and "
+        "only linear bodies of one density under steady loads tell it on their way; expected stop.residual, "
+        "or fewer cells");
+  }
   if (model.omega_1 && !model.multigrid && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian) {
     model.volume_norm =
         set_up.shared("norm", model.mass, [&] { return volume_norm(scene, *model.phase, has_scaled_mass, model.u); });

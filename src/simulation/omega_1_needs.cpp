@@ -3,6 +3,7 @@
 #include <stillpoint/relaxation.hpp>
 
 #include "simulation/catalogue.hpp"
+#include "simulation/memory_need.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
@@ -13,12 +14,14 @@ Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns) {
   const RelaxationInfo* relaxation = is_static ? nullptr : find_relaxation(strategy.name);
   const bool finds_its_own = relaxation && relaxation->chooses_mass;
   // auto works without, and of a large body the factor alone would cost more than the way to rest.
-  const bool cheap = !finds_its_own || unknowns <= direct_solver_limit;
+  const bool large = finds_its_own && unknowns > direct_solver_limit;
+  // Where a factor is asked for by a distance, but has no room, the steps of auto may tell omega_1: see make_model().
+  const bool distance = scene.stop.distance > 0 && !(large && !has_room_for_factor(scene));
   return {.critical_damping = !is_static && strategy.uses("c") && !scene.damping.c,
           .tolerances = !is_static && scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v),
           .relaxation = relaxation && relaxation->needs_omega_1,
-          .distance = scene.stop.distance > 0,
-          .useful = scene.stop.wants_equilibrium() && (cheap || scene.stop.distance > 0)};
+          .distance = distance,
+          .useful = scene.stop.wants_equilibrium() && (!large || distance)};
 }
 
 }  // namespace stillpoint

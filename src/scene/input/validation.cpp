@@ -185,8 +185,8 @@ void check_stop(SceneCheck& check) {
 
 bool check_grid(SceneCheck& check) {
   const GridSpec& grid = check.scene().grid;
-  if (check.scene().dim == 3 && grid.basis != BasisKind::linear)
-    check.add("grid.basis", "this version has a linear basis alone in space");
+  if (check.scene().dim == 3 && grid.basis == BasisKind::hermite)
+    check.add("grid.basis", "'hermite' is a basis of the line and the plane; in space take \"cubic\"");
   if (grid.min.empty() || grid.max.empty()) return false;
   for (std::size_t axis = 0; axis < grid.min.size(); ++axis) {
     const double length = grid.max[axis] - grid.min[axis];

@@ -142,6 +142,8 @@ template <AxisBasis B, int Dim>
 struct TensorBasis {
   static constexpr int per_cell = power(B::per_cell, Dim);
 
+  using OfAxes = std::array<std::array<double, B::per_cell>, Dim>;
+
   /// N[a] and dN[d][a] = ∂N_a/∂x_d at a point.
   struct Values {
     std::array<double, per_cell> N;
@@ -194,10 +196,14 @@ struct TensorBasis {
     }
     /// N: (per_cell), dN: (Dim × per_cell).
     void evaluate(const std::array<int, Dim>& cell, const Point<Dim>& x, double* N, double* dN) const {
-      std::array<std::array<double, B::per_cell>, Dim> of_axis, slope;
-      for (int d = 0; d < Dim; ++d)
-        axes_[d][static_cast<std::size_t>(cell[d])].evaluate(x[d], of_axis[d].data(), slope[d].data());
+      OfAxes of_axis, slope;
+      evaluate_factors(cell, x, of_axis, slope);
       multiply(of_axis, slope, N, dN);
+    }
+    /// The functions along each axis, and their derivatives.
+    void evaluate_factors(const std::array<int, Dim>& cell, const Point<Dim>& x, OfAxes& N, OfAxes& dN) const {
+      for (int d = 0; d < Dim; ++d)
+        axes_[d][static_cast<std::size_t>(cell[d])].evaluate(x[d], N[d].data(), dN[d].data());
     }
 
    private:
@@ -250,9 +256,6 @@ struct TensorBasis {
     }
     return found;
   }
-
- private:
-  using OfAxes = std::array<std::array<double, B::per_cell>, Dim>;
 
   // N_a = Π_d N_a(d), ∂N_a/∂x_e = dN_a(e) Π_{d≠e} N_a(d)
   static void multiply(const OfAxes& N, const OfAxes& dN, double* product, double* gradients) {

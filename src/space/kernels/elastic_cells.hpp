@@ -1,21 +1,26 @@
-// Internal forces of linear elastic material in bilinear cells, from moments of their points.
+// Internal forces of linear elastic material in bilinear and trilinear cells, from moments of their points.
 //
-// In a cell with sides a and b and positions ξ, η from 0 to 1 in it,
+// With positions ξ from 0 to 1 in a cell whose sides are 1/q_j, and products of different coordinates x_m = Π_{d ∈ m}
+// ξ_d, m a set of axes, the displacement of a cell, of which corner a is at 1 along the axes in a, is
 //
-//   H_i1 = (l_i + t_i η)/a,   H_i2 = (r_i + t_i ξ)/b        l, r, t: differences of the corners' displacements
+//   u = Σ_m c_m x_m,   c_m = Σ_{a ⊆ m} (−1)^{|m| − |a|} u_a,      H_ij = q_j Σ_{n ∌ j} c_{n ∪ j, i} x_n
 //
 // so that with constant moduli A and small strain the sums that the corners' forces are made of,
 //
-//   Σ V_p P_p (1, ξ, η) = A : Σ V_p H_p (1, ξ, η),
+//   T_ij[m] = Σ_p V_p P_ij x_m = A : Σ_p V_p H x_m,    G_ij[m] = Σ_p V_p H_ij x_m = Σ_n q_j c_{n ∪ j, i} Σ_p V_p x_n
+//   x_m,
 //
-// take of the points no more than Σ V_p (1, ξ, η, ξ², ξη, η²). A cell costs the same however many points it has.
+// take of the points no more than the moments Σ_p V_p x_n x_m: 6 numbers in the plane, 23 in space. A cell costs the
+// same however many points it has. The force that belongs to c_m, f_m = Σ_{j ∈ m} q_j T_ij[m \ j], goes to the corners
+// by the transposed of the sum that makes c_m of them.
 //
-// In the plane an isotropic law has P_xx, P_yy = κ tr H ± μ (H_xx − H_yy). If the points of a cell share their change
-// of volume, see MeanDilatation, t̄ = Σ V_p tr H_p/Σ V_p stands for tr H, and that is all: a_p = κ V_p t̄, so that the
-// law's V P̄ is V P.
+// An isotropic law has P_ii = (A_n − A_c) H_ii + A_c tr H and P_ij = A_s (H_ij + H_ji). If the points of a cell share
+// their change of volume, see MeanDilatation, t̄ = Σ V_p tr H_p/Σ V_p stands for tr H, and that is all: a_p = κ V_p t̄,
+// so that the law's V P̄ is V P.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <vector>
 
@@ -25,17 +30,21 @@
 
 namespace stillpoint {
 
+template <int Dim>
 class ElasticCells {
+  static_assert(Dim == 2 || Dim == 3);
+  static constexpr Kinematics K = Dim == 2 ? Kinematics::plane : Kinematics::space;
+
  public:
-  using Weights = PointWeights<BSpline<1>, Kinematics::plane>;
-  /// Of an isotropic law: P_xx = normal H_xx + cross H_yy, P_xy = P_yx = shear (H_xy + H_yx) [Pa].
+  using Weights = PointWeights<BSpline<1>, K>;
+  /// Of an isotropic law: P_xx = normal H_xx + cross (H_yy + …), P_xy = P_yx = shear (H_xy + H_yx) [Pa].
   struct Moduli {
     double normal, cross, shear;
   };
 
   /// For a phase of these points and weights, which outlive it. moduli: of each material. shares_dilatation: whether
   /// the points of a cell share their change of volume.
-  void rebuild(const MaterialPoints<2>& points, const Weights& weights, std::vector<Moduli> moduli,
+  void rebuild(const MaterialPoints<Dim>& points, const Weights& weights, std::vector<Moduli> moduli,
                bool shares_dilatation) {
     points_ = &points;
     weights_ = &weights;
@@ -44,30 +53,71 @@ class ElasticCells {
     for (auto& moment : moments_) moment.resize(points.cells() + slack);
     for (auto& per_side : inverse_side_) per_side.resize(points.cells() + slack);
     for_each_block(points.cells(), [&](std::size_t k) {
-      std::array<double, 6> sum{};
-      const double *xi = weights.position_in_cell(0), *eta = weights.position_in_cell(1);
+      std::array<double, kMoments> sum{};
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        const std::array terms{1.0, xi[p], eta[p], xi[p] * xi[p], xi[p] * eta[p], eta[p] * eta[p]};
-        for (std::size_t m = 0; m < terms.size(); ++m) sum[m] += points.volume[p] * terms[m];
+        std::array<std::array<double, 3>, Dim> power;  // 1, ξ, ξ²
+        for (int d = 0; d < Dim; ++d) {
+          const double xi = weights.position_in_cell(static_cast<std::size_t>(d), k, p);
+          power[d] = {1, xi, xi * xi};
+        }
+        for (int e = 0; e < kExponents; ++e) {
+          if (kMomentOf[e] < 0) continue;
+          double product = points.volume[p];
+          for (int d = 0; d < Dim; ++d) product *= power[d][exponent(e, d)];
+          sum[static_cast<std::size_t>(kMomentOf[e])] += product;
+        }
       }
       for (std::size_t m = 0; m < sum.size(); ++m) moments_[m][k] = sum[m];
-      for (std::size_t d = 0; d < 2; ++d) inverse_side_[d][k] = weights.cell(k).inverse_side[d];
+      for (std::size_t d = 0; d < Dim; ++d) inverse_side_[d][k] = weights.cell(k).inverse_side[d];
     });
   }
   bool empty() const { return moduli_.empty(); }
-  double bytes() const { return 8.0 * sizeof(double) * static_cast<double>(points_->cells()); }
+  double bytes() const { return bytes_per_cell * static_cast<double>(points_->cells()); }
 
-  /// corner[8 k + 2 a + i]: the force of cell k at its corner a, for the cells begin … end − 1. u: over the grid's
-  /// functions. Returns 0, or NaN if a force is not finite.
+  /// corner[kCorners Dim k + Dim a + i]: the force of cell k at its corner a, for the cells begin … end − 1. u: over
+  /// the grid's functions. Returns 0, or NaN if a force is not finite.
   double forces(const double* u, std::size_t begin, std::size_t end, double* corner) const {
     return shares_dilatation_ ? forces_of_cells<true>(u, begin, end, corner)
                               : forces_of_cells<false>(u, begin, end, corner);
   }
 
  private:
-  static constexpr std::size_t lanes = 4;  // cells at a time
+  static constexpr int kCorners = 1 << Dim;             // and sets of axes, as bits
+  static constexpr int kExponents = Dim == 2 ? 9 : 27;  // of ξ_d, 0 to 2 each, as digits to the base of 3
+  static constexpr int exponent(int e, int d) { return e / power(3, d) % 3; }
+  static constexpr bool has(int set, int axis) { return (set >> axis & 1) != 0; }
+  static constexpr int exponents_of(int m, int n) {  // of x_m x_n
+    int e = 0;
+    for (int d = Dim - 1; d >= 0; --d) e = 3 * e + has(m, d) + has(n, d);
+    return e;
+  }
+  // Which moments there are: of x_n x_m where n lacks an axis, and m does. −1: not needed.
+  static constexpr auto kMomentOf = [] {
+    std::array<int, kExponents> number{};
+    for (int& of : number) of = -1;
+    for (int m = 0; m < kCorners - 1; ++m) {
+      for (int n = 0; n < kCorners - 1; ++n) number[exponents_of(m, n)] = 0;
+    }
+    int next = 0;
+    for (int& of : number) {
+      if (of == 0) of = next++;
+    }
+    return number;
+  }();
+  static constexpr std::size_t kMoments = [] {
+    std::size_t count = 0;
+    for (const int of : kMomentOf) count += of >= 0;
+    return count;
+  }();
+
+ public:
+  static constexpr double bytes_per_cell = (kMoments + Dim) * sizeof(double);
+
+ private:
+  static constexpr int lanes = Dim == 2 ? 4 : 8;  // cells at a time
   static constexpr std::size_t slack = lanes - 1;
-  using Four = Lanes<4>;
+  using Lane = Lanes<lanes>;
+  using PerCorner = std::array<std::array<Lane, Dim>, kCorners>;
 
   template <bool Shared>
   double forces_of_cells(const double* u, std::size_t begin, std::size_t end, double* corner) const {
@@ -77,85 +127,169 @@ class ElasticCells {
       const int material = points_->material_of_cell(first);
       while (last < end && last - first < lanes && points_->material_of_cell(last) == material) ++last;
       const Moduli& moduli = moduli_[static_cast<std::size_t>(material)];
-      bad += forces_of<Shared>(moduli, u, first, last - first, corner + 8 * first);
+      PerCorner c = displacements(u, first, last - first);
+      forces_of<Shared>(moduli, first, c);
+      bad += store(c, last - first, corner + kCorners * Dim * first);
       first = last;
     }
     return bad;
   }
 
-  // Of `count` cells, at most as many as there are lanes.
+  /// c: the displacements of the corners of cells from the first on; on return their forces.
   template <bool Shared>
-  [[gnu::always_inline]] double forces_of(const Moduli& A, const double* u, std::size_t first, std::size_t count,
-                                          double* corner) const {
-    // Displacements x and y of two neighbouring corners lie side by side.
-    std::array<Four, 4> lower_corners, upper_corners;
-    unroll<lanes>([&](auto lane) __attribute__((always_inline)) {
-      constexpr std::size_t q = lane;
-      const std::size_t k = first + (q < count ? q : 0);
-      lower_corners[q] = Four::load(u + 2 * static_cast<std::ptrdiff_t>(weights_->function(k, 0)));
-      upper_corners[q] = Four::load(u + 2 * static_cast<std::ptrdiff_t>(weights_->function(k, 2)));
-    });
-    const auto u_below = transposed(lower_corners), u_above = transposed(upper_corners);  // x, y; x, y
-    const auto moment = [&](std::size_t m) __attribute__((always_inline)) { return Four::load(&moments_[m][first]); };
-    const Four M = moment(0), M_x = moment(1), M_y = moment(2), M_xx = moment(3), M_xy = moment(4), M_yy = moment(5);
-    const Four per_x = Four::load(&inverse_side_[0][first]), per_y = Four::load(&inverse_side_[1][first]);
-    // Σ V H_ij (1, ξ, η)
-    struct Sums {
-      Four of_1, of_xi, of_eta;
+  [[gnu::always_inline]] void forces_of(const Moduli& A, std::size_t first, PerCorner& c) const {
+    std::array<Lane, Dim> q;
+    unroll<Dim>([&](auto d) __attribute__((always_inline)) { q[d] = Lane::load(&inverse_side_[d][first]); });
+    const auto moment = [&](auto m, auto n) __attribute__((always_inline)) {
+      return Lane::load(&moments_[kMomentOf[exponents_of(m, n)]][first]);
     };
-    std::array<Sums, 2> H_x, H_y;
-    unroll<2>([&](auto i) __attribute__((always_inline)) {
-      const Four lower = u_below[2 + i].minus(u_below[i]), left = u_above[i].minus(u_below[i]);
-      const Four twist = u_above[2 + i].minus(u_above[i]).minus(lower);
-      const Four l = lower.times(per_x), t_x = twist.times(per_x), r = left.times(per_y), t_y = twist.times(per_y);
-      H_x[i] = {l.times(M).plus_product(t_x, M_y), l.times(M_x).plus_product(t_x, M_xy),
-                l.times(M_y).plus_product(t_x, M_yy)};
-      H_y[i] = {r.times(M).plus_product(t_y, M_x), r.times(M_x).plus_product(t_y, M_xx),
-                r.times(M_y).plus_product(t_y, M_xy)};
+    // c_m of the corners
+    unroll<Dim>([&](auto d) __attribute__((always_inline)) {
+      unroll<kCorners>([&](auto m) __attribute__((always_inline)) {
+        if constexpr (has(m, d)) subtract(c[m ^ (1 << d)], c[m]);
+      });
     });
-    // κ t̄
-    const Four pressure = Shared ? H_x[0].of_1.plus(H_y[1].of_1).over(M).times((A.normal + A.cross) / 2) : Four{};
-    // Σ V P_xx, times 1, ξ or η as H_xx, H_yy and `volume`, Σ V, are; of H_yy and H_xx it is P_yy.
-    const auto normal_stress = [&](const Four& along, const Four& across, const Four& volume)
-        __attribute__((always_inline)) {
-      if constexpr (Shared) return along.minus(across).times(A.shear).plus_product(pressure, volume);
-      return along.times(A.normal).plus(across.times(A.cross));
+    std::array<std::array<std::array<Lane, kCorners>, Dim>, Dim> H;  // of x_n at [i][j][n], without j
+    unroll<Dim * Dim>([&](auto ij) __attribute__((always_inline)) {
+      constexpr int i = ij / Dim, j = ij % Dim;
+      unroll<kCorners>([&](auto n) __attribute__((always_inline)) {
+        if constexpr (!has(n, j)) H[i][j][n] = c[n | (1 << j)][i].times(q[j]);
+      });
+    });
+    const auto G = [&](auto i, auto j, auto m) __attribute__((always_inline)) {
+      Lane sum{};
+      unroll<kCorners>([&](auto n) __attribute__((always_inline)) {
+        if constexpr (!has(n, j)) sum = sum.plus_product(H[i][j][n], moment(m, n));
+      });
+      return sum;
     };
-    // The far side of a cell takes Σ V P_i1 η or Σ V P_i2 ξ, the near side what is left of Σ V P.
-    const Four shear = H_y[0].of_1.plus(H_x[1].of_1).times(A.shear);
-    const std::array far_x = {normal_stress(H_x[0].of_eta, H_y[1].of_eta, M_y).times(per_x),
-                              H_y[0].of_eta.plus(H_x[1].of_eta).times(A.shear).times(per_x)};
-    const std::array far_y = {H_y[0].of_xi.plus(H_x[1].of_xi).times(A.shear).times(per_y),
-                              normal_stress(H_y[1].of_xi, H_x[0].of_xi, M_x).times(per_y)};
-    const std::array near_x = {normal_stress(H_x[0].of_1, H_y[1].of_1, M).times(per_x).minus(far_x[0]),
-                               shear.times(per_x).minus(far_x[1])};
-    const std::array near_y = {shear.times(per_y).minus(far_y[0]),
-                               normal_stress(H_y[1].of_1, H_x[0].of_1, M).times(per_y).minus(far_y[1])};
-    std::array<Four, 4> below, above;  // of both corners, x and y
-    unroll<2>([&](auto i) __attribute__((always_inline)) {
-      below[i] = near_x[i].plus(near_y[i]).times(-1);
-      below[2 + i] = near_x[i].minus(far_y[i]);
-      above[i] = near_y[i].minus(far_x[i]);
-      above[2 + i] = far_x[i].plus(far_y[i]);
+    PerCorner f{};
+    const auto add = [&](auto i, auto j, auto m, const Lane& T) __attribute__((always_inline)) {
+      f[m | (1 << j)][i] = f[m | (1 << j)][i].plus_product(q[j], T);
+    };
+    Lane pressure{};  // κ t̄
+    unroll<kCorners - 1>([&](auto m) __attribute__((always_inline)) {
+      std::array<Lane, Dim> of_axis;
+      Lane trace{};
+      unroll<Dim>([&](auto k) __attribute__((always_inline)) { trace = trace.plus(of_axis[k] = G(k, k, m)); });
+      const double spherical = Shared ? -(A.normal - A.cross) / Dim : A.cross;
+      Lane of_all = trace.times(spherical);
+      if constexpr (Shared) {
+        const Lane volume = moment(std::integral_constant<int, 0>{}, m);
+        if constexpr (m == 0) pressure = trace.over(volume).times((A.normal + (Dim - 1) * A.cross) / Dim);
+        of_all = of_all.plus_product(pressure, volume);
+      }
+      unroll<Dim>([&](auto i) __attribute__((always_inline)) {
+        if constexpr (!has(m, i)) add(i, i, m, of_all.plus(of_axis[i].times(A.normal - A.cross)));
+      });
     });
-    const auto of_below = transposed(below), of_above = transposed(above);
-    Four bad{};
-    unroll<lanes>([&](auto lane) __attribute__((always_inline)) {
-      constexpr std::size_t q = lane;
-      if (q >= count) return;
-      of_below[q].store(corner + 8 * q);
-      of_above[q].store(corner + 8 * q + 4);
-      bad = bad.plus(of_below[q].plus(of_above[q]).times(0));
+    unroll<Dim * Dim>([&](auto ij) __attribute__((always_inline)) {
+      constexpr int i = ij / Dim, j = ij % Dim;
+      if constexpr (i < j) {
+        using I = std::integral_constant<int, i>;
+        using J = std::integral_constant<int, j>;
+        unroll<kCorners>([&](auto m) __attribute__((always_inline)) {
+          if constexpr (has(m, i) && has(m, j)) return;
+          const Lane T = G(I{}, J{}, m).plus(G(J{}, I{}, m)).times(A.shear);
+          if constexpr (!has(m, j)) add(I{}, J{}, m, T);
+          if constexpr (!has(m, i)) add(J{}, I{}, m, T);
+        });
+      }
+    });
+    // To the corners.
+    unroll<Dim>([&](auto d) __attribute__((always_inline)) {
+      unroll<kCorners>([&](auto m) __attribute__((always_inline)) {
+        if constexpr (has(m, d)) subtract(f[m], f[m ^ (1 << d)]);
+      });
+    });
+    c = f;
+  }
+  [[gnu::always_inline]] static void subtract(const std::array<Lane, Dim>& what, std::array<Lane, Dim>& from) {
+    unroll<Dim>([&](auto i) __attribute__((always_inline)) { from[i] = from[i].minus(what[i]); });
+  }
+
+  // The components of two corners that are neighbours along x lie side by side: four numbers in the plane, and in space
+  // six, of which two are taken twice.
+  static constexpr int kFours = Dim - 1, kStep = 2;
+
+  // Lanes past the last cell have those of the first.
+  [[gnu::always_inline]] PerCorner displacements(const double* u, std::size_t first, std::size_t count) const {
+    PerCorner at;
+    unroll<kCorners / 2>([&](auto pair) __attribute__((always_inline)) {
+      std::array<const double*, lanes> of_cell;
+      unroll<lanes>([&](auto lane) __attribute__((always_inline)) {
+        constexpr std::size_t q = lane;
+        const std::size_t k = first + (q < count ? q : 0);
+        of_cell[q] = u + Dim * static_cast<std::ptrdiff_t>(weights_->function(k, 2 * pair));
+      });
+      unroll<kFours>([&](auto four) __attribute__((always_inline)) {
+        const auto columns = transposed_rows([&](auto lane) __attribute__((always_inline)) {
+          return Lanes<4>::load(of_cell[lane] + kStep * four);
+        });
+        unroll<4>([&](auto s) __attribute__((always_inline)) {
+          constexpr int component = kStep * four + s;
+          at[2 * pair + component / Dim][component % Dim] = columns[s];
+        });
+      });
+    });
+    return at;
+  }
+  template <class Row>
+  [[gnu::always_inline]] static std::array<Lane, 4> transposed_rows(const Row& row) {
+    const auto four = [&](auto half) __attribute__((always_inline)) {
+      return transposed({row(std::integral_constant<int, 4 * half>{}), row(std::integral_constant<int, 4 * half + 1>{}),
+                         row(std::integral_constant<int, 4 * half + 2>{}),
+                         row(std::integral_constant<int, 4 * half + 3>{})});
+    };
+    const auto lower = four(std::integral_constant<int, 0>{});
+    if constexpr (lanes == 4) {
+      return lower;
+    } else {
+      const auto upper = four(std::integral_constant<int, 1>{});
+      return {joined(lower[0], upper[0]), joined(lower[1], upper[1]), joined(lower[2], upper[2]),
+              joined(lower[3], upper[3])};
+    }
+  }
+  // Returns 0, or NaN if a force is not finite.
+  [[gnu::always_inline]] static double store(const PerCorner& force, std::size_t count, double* corner) {
+    Lanes<4> bad{};
+    unroll<kCorners * Dim / 4>([&](auto four) __attribute__((always_inline)) {
+      std::array<Lane, 4> column;
+      unroll<4>([&](auto s) __attribute__((always_inline)) {
+        constexpr int entry = 4 * four + s;
+        column[s] = force[entry / Dim][entry % Dim];
+      });
+      unroll<lanes / 4>([&](auto half) __attribute__((always_inline)) {
+        std::array<Lanes<4>, 4> of_half;
+        unroll<4>([&](auto s) __attribute__((always_inline)) { of_half[s] = quarter<half()>(column[s]); });
+        const auto rows = transposed(of_half);
+        unroll<4>([&](auto r) __attribute__((always_inline)) {
+          constexpr std::size_t lane = 4 * half + r;
+          if (lane >= count) return;
+          rows[r].store(corner + kCorners * Dim * lane + 4 * four);
+          bad = bad.plus(rows[r].times(0));
+        });
+      });
     });
     return bad[0] + bad[1] + bad[2] + bad[3];
   }
+  template <int Half>
+  [[gnu::always_inline]] static Lanes<4> quarter(const Lane& all) {
+    if constexpr (lanes == 4) {
+      return all;
+    } else if constexpr (Half == 0) {
+      return lower_half(all);
+    } else {
+      return upper_half(all);
+    }
+  }
 
-  const MaterialPoints<2>* points_ = nullptr;
+  const MaterialPoints<Dim>* points_ = nullptr;
   const Weights* weights_ = nullptr;
   std::vector<Moduli> moduli_;
   bool shares_dilatation_ = false;
-  std::array<std::vector<double>, 6> moments_;  // Σ V (1, ξ, η, ξ², ξη, η²) of each cell, with slack [m³]
-  std::array<std::vector<double>, 2> inverse_side_;  // [1/m]
+  std::array<std::vector<double>, kMoments> moments_;  // of each cell, with slack [m³]
+  std::array<std::vector<double>, Dim> inverse_side_;  // [1/m]
 };
 
 }  // namespace stillpoint

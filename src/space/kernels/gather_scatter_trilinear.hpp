@@ -45,12 +45,12 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
     const Eight::Register to_x = 1 - 2 * near_x, to_y = 1 - 2 * near_y, to_z = 1 - 2 * near_z;
     const auto [per_x, per_y, per_z] = weights.cell(k).inverse_side;
     const Eight::Register slope_x = to_x * per_x, slope_y = to_y * per_y, slope_z = to_z * per_z;
-    const double *xi = weights.position_in_cell(0), *eta = weights.position_in_cell(1),
-                 *zeta = weights.position_in_cell(2);
     std::array<Eight::Register, dim> force{};
     for (std::size_t p = begin; p < end; ++p) {
       const std::size_t q = p - block.first;
-      const Eight::Register X = near_x + to_x * xi[p], Y = near_y + to_y * eta[p], Z = near_z + to_z * zeta[p];
+      const Eight::Register X = near_x + to_x * weights.position_in_cell(0, k, p),
+                            Y = near_y + to_y * weights.position_in_cell(1, k, p),
+                            Z = near_z + to_z * weights.position_in_cell(2, k, p);
       const Eight::Register dN_x = slope_x * Y * Z, XZ = X * Z, dN_y = slope_y * XZ, dN_z = slope_z * X * Y;
       unroll<dim>([&](auto i) __attribute__((always_inline)) {
         force[i] += block.VP[dim * i][q] * dN_x + block.VP[dim * i + 1][q] * dN_y + block.VP[dim * i + 2][q] * dN_z;
@@ -84,8 +84,8 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
     // What lies past the end belongs to the next cell, which writes it again, or to nobody.
     for (std::size_t p = begin; p < end; p += lanes) {
       const std::size_t q = p - first;
-      const auto xi = Eight::load(weights.position_in_cell(0) + p), eta = Eight::load(weights.position_in_cell(1) + p),
-                 zeta = Eight::load(weights.position_in_cell(2) + p);
+      const auto xi = weights.eight_in_cell(0, k, p), eta = weights.eight_in_cell(1, k, p),
+                 zeta = weights.eight_in_cell(2, k, p);
       const auto along = [&](const Coefficients& of, int i, const Eight& s, const Eight& t, const Eight& st)
           __attribute__((always_inline)) {
         return Eight{of[0][i] + of[1][i] * s.lanes + of[2][i] * t.lanes + of[3][i] * st.lanes};

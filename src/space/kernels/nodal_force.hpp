@@ -17,6 +17,7 @@
 #include "space/kernels/corner_sum.hpp"
 #include "space/kernels/gather_scatter.hpp"
 #include "space/kernels/gather_scatter_bilinear.hpp"
+#include "space/kernels/gather_scatter_factored.hpp"
 #include "space/kernels/gather_scatter_trilinear.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/materials/point_material.hpp"

@@ -23,7 +23,10 @@ namespace stillpoint {
 /// at a time. A row of gradients is ∂N_a/∂x_j for one j, and if axisymmetric the last row is N_a/r.
 ///
 /// Linear functions in the plane and in space are made anew where they are needed, from the position of a point in its
-/// cell: that is less work than to read them from memory, and an eighth of the bytes or less.
+/// cell: that is less work than to read them from memory, and an eighth of the bytes or less. In space not even that is
+/// kept, but found from the point's position by one product: the points do not move before the next rebuild(). Of other
+/// functions in space the factors along each axis are kept, 18 numbers for 27 functions and their gradients, of which
+/// they are products.
 template <AxisBasis B, Kinematics K>
 class PointWeights {
  public:
@@ -33,6 +36,8 @@ class PointWeights {
   static constexpr int slack = 8;  // entries after the last, for who reads a few at a time
   static constexpr int rows = K == Kinematics::axisymmetric ? dim + 1 : dim;
   static constexpr bool from_positions = dim > 1 && std::same_as<B, BSpline<1>>;
+  static constexpr bool from_factors = dim == 3 && !from_positions;
+  static constexpr bool keeps_positions = from_positions && dim < 3;
 
   /// A cell's corner and sides, from which its linear functions are made.
   struct Cell {
@@ -45,12 +50,15 @@ class PointWeights {
   /// after(k): follows upon the weights of occupied cell k, while they are near; several cells at a time.
   template <class After>
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points, const After& after) {
+    points_ = &points;
     offset_ = Basis::offsets(grid);
     first_.resize(points.cells());
     at_.resize(points.cells());
     if constexpr (from_positions) {
       cell_.resize(points.cells());
-      for (auto& along : position_) along.resize(points.size() + slack);
+      for (auto& along : position_) along.resize(keeps_positions ? points.size() + slack : 0);
+    } else if constexpr (from_factors) {
+      for (auto& factor : factor_) factor.resize(points.size() + slack);
     } else {
       N_.resize(per_cell * points.size());
       dN_.resize(rows * per_cell * points.size() + slack);
@@ -67,6 +75,8 @@ class PointWeights {
       first_[k] = Basis::first(grid, cell);
       if constexpr (from_positions) {
         locate_in_cell(grid, cell, points, k);
+      } else if constexpr (from_factors) {
+        find_factors(functions, cell, points, k);
       } else {
         evaluate_in_cell(grid, functions, cell, points, k);
       }
@@ -81,7 +91,9 @@ class PointWeights {
   /// N_a, [a] (per_cell), of point p in occupied cell k.
   auto N([[maybe_unused]] std::size_t k, std::size_t p) const {
     if constexpr (from_positions && dim == 3) {
-      return trilinear(p).N;
+      return trilinear(k, p).N;
+    } else if constexpr (from_factors) {
+      return products(p).N;
     } else if constexpr (from_positions) {
       const double x = position_[0][p], y = position_[1][p];
       return std::array{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
@@ -93,11 +105,16 @@ class PointWeights {
   auto dN([[maybe_unused]] std::size_t k, std::size_t p) const {
     if constexpr (from_positions && dim == 3) {
       std::array<double, rows * per_cell> of_point;
-      const auto values = trilinear(p);
+      const auto values = trilinear(k, p);
       for (int j = 0; j < dim; ++j) {
         for (int a = 0; a < per_cell; ++a)
           of_point[per_cell * j + a] = values.dN[j][a] * cell_[k].inverse_side[static_cast<std::size_t>(j)];
       }
+      return of_point;
+    } else if constexpr (from_factors) {
+      const auto values = products(p);
+      std::array<double, rows * per_cell> of_point;
+      for (int j = 0; j < dim; ++j) std::ranges::copy(values.dN[j], of_point.begin() + per_cell * j);
       return of_point;
     } else if constexpr (from_positions) {
       const double x = position_[0][p], y = position_[1][p];
@@ -117,12 +134,27 @@ class PointWeights {
   /// What is kept for each point.
   static std::vector<PointArray> arrays() {
     constexpr double real = sizeof(double);
-    if constexpr (from_positions) return {{"position in the cell", dim * real}};
+    if constexpr (keeps_positions) return {{"position in the cell", dim * real}};
+    if constexpr (from_positions) return {};
+    if constexpr (from_factors) return {{"factors of N and its slopes", 2 * dim * B::per_cell * real}};
     return {{"weights N", per_cell * real}, {"gradients of N", rows * per_cell * real}};
   }
-  /// Where the points lie in their cells, 0 to 1 along an axis, (P + slack); from_positions alone.
+  /// Where point p of occupied cell k lies in it along an axis, 0 to 1; from_positions alone.
+  double position_in_cell(std::size_t axis, std::size_t k, std::size_t p) const {
+    if constexpr (keeps_positions) return position_[axis][p];
+    return (points_->x[axis][p] - cell_[k].left[axis]) * cell_[k].inverse_side[axis];
+  }
+  /// The same of eight points from p on, of which those past the end of the cell have any numbers.
+  [[gnu::always_inline]] Lanes<8> eight_in_cell(std::size_t axis, std::size_t k, std::size_t p) const {
+    const auto x = Lanes<8>::load_first(points_->x[axis].data() + p, points_->size() - p);
+    return x.plus(-cell_[k].left[axis]).times(cell_[k].inverse_side[axis]);
+  }
+  /// Of all points, (P + slack); keeps_positions alone.
   const double* position_in_cell(int axis) const { return position_[static_cast<std::size_t>(axis)].data(); }
   const Cell& cell(std::size_t k) const { return cell_[k]; }
+  /// Of functions of an axis the a-th of the cell and its derivative at each point, (P + slack); from_factors alone.
+  const double* factor(int axis, int a) const { return factor_[number_of_factor(axis, a)].data(); }
+  const double* slope(int axis, int a) const { return factor_[number_of_factor(axis, B::per_cell + a)].data(); }
 
   /// F_a += N_ap value, in one component, at the free degrees of freedom; F: (n).
   void add_at_functions(std::size_t k, std::size_t p, int component, double value, const DegreesOfFreedom& dofs,
@@ -159,13 +191,15 @@ class PointWeights {
 
  private:
   // Of eight corners, in a cell of unit sides.
-  auto trilinear(std::size_t p) const {
+  auto trilinear(std::size_t k, std::size_t p) const {
+    Point<dim> position;
+    for (std::size_t d = 0; d < dim; ++d) position[d] = position_in_cell(d, k, p);
     typename Basis::Values values;
     for (int a = 0; a < per_cell; ++a) {
       Point<dim> factor, sign;
       for (std::size_t d = 0; d < dim; ++d) {
         const bool far = Basis::axis_index(a, static_cast<int>(d)) == 1;
-        factor[d] = far ? position_[d][p] : 1 - position_[d][p];
+        factor[d] = far ? position[d] : 1 - position[d];
         sign[d] = far ? 1 : -1;
       }
       values.N[a] = factor[0] * factor[1] * factor[2];
@@ -174,6 +208,35 @@ class PointWeights {
       values.dN[2][a] = factor[0] * factor[1] * sign[2];
     }
     return values;
+  }
+
+  static constexpr std::size_t number_of_factor(int axis, int k) {
+    return static_cast<std::size_t>(2 * B::per_cell * axis + k);
+  }
+  auto products(std::size_t p) const {
+    typename Basis::OfAxes N, dN;
+    for (int d = 0; d < dim; ++d) {
+      for (int a = 0; a < B::per_cell; ++a) {
+        N[d][a] = factor(d, a)[p];
+        dN[d][a] = slope(d, a)[p];
+      }
+    }
+    typename Basis::Values values;
+    Basis::multiply(N, dN, values.N.data(), values.dN[0].data());
+    return values;
+  }
+  void find_factors(const typename Basis::OnCells& functions, const std::array<int, dim>& cell,
+                    const MaterialPoints<dim>& points, std::size_t k) {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      typename Basis::OfAxes N, dN;
+      functions.evaluate_factors(cell, points.position(p), N, dN);
+      for (int d = 0; d < dim; ++d) {
+        for (int a = 0; a < B::per_cell; ++a) {
+          factor_[number_of_factor(d, a)][p] = N[d][a];
+          factor_[number_of_factor(d, B::per_cell + a)][p] = dN[d][a];
+        }
+      }
+    }
   }
 
   // functions: of all cells of the grid, if those of a domain are not means over it.
@@ -218,6 +281,7 @@ class PointWeights {
       cell.left[d] = lines[line];
       cell.side[d] = lines[line + 1] - lines[line];
       cell.inverse_side[d] = 1 / cell.side[d];
+      if constexpr (!keeps_positions) continue;
       constexpr int lanes = 4;
       const std::size_t end = points.end(k);
       for (std::size_t p = points.begin(k); p < end; p += lanes) {
@@ -227,13 +291,15 @@ class PointWeights {
     }
   }
 
+  const MaterialPoints<dim>* points_ = nullptr;
   std::array<int, per_cell> offset_;
   std::vector<std::array<int, dim>> at_;  // (occupied cells)
   std::vector<int> first_;                // (occupied cells)
   // Either the functions,
   std::vector<double> N_;   // (P × per_cell)
   std::vector<double> dN_;  // (P × rows × per_cell) [1/m]
-  // or what they are made from.
+  // or what they are made from: factors and slopes of each axis in turn, or positions.
+  std::array<std::vector<double>, from_factors ? 2 * dim * B::per_cell : 0> factor_;
   std::array<std::vector<double>, dim> position_;
   std::vector<Cell> cell_;  // (occupied cells)
 };

@@ -47,6 +47,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   static constexpr int components = stillpoint::gradient_components(K);
   using Basis = TensorBasis<B, Dim>;
   using Block = PointBlock<K>;
+  static constexpr bool has_elastic_cells =
+      (K == Kinematics::plane || K == Kinematics::space) && std::same_as<B, BSpline<1>>;
 
  public:
   explicit MaterialPointPhase(const Scene& scene)
@@ -308,8 +310,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   // Of the present phase:
   long phase_ = 0;
   PointWeights<B, K> weights_;
-  NodalTotals<B, K> totals_;    // of the points as the phase begins
-  ElasticCells elastic_cells_;  // of a linear body in bilinear cells
+  NodalTotals<B, K> totals_;                                 // of the points as the phase begins
+  ElasticCells<has_elastic_cells ? Dim : 2> elastic_cells_;  // of a linear body in bilinear or trilinear cells
   HeldUnknowns held_;
   std::vector<char> reached_, untouched_;  // by a point, and by neither support nor wall, (functions)
   std::optional<DegreesOfFreedom> dofs_;

@@ -56,13 +56,13 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
 // Where R(u) = K u in cells whose functions are bilinear their points are needed no more than by moments.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_elastic_moments() {
-  if constexpr (K == Kinematics::plane && std::same_as<B, BSpline<1>>) {
+  if constexpr (has_elastic_cells) {
     if (info_.nonlinear || updated_lagrangian() || scene_.geostatic) return;
-    std::vector<ElasticCells::Moduli> moduli;
+    std::vector<typename ElasticCells<Dim>::Moduli> moduli;
     for (std::size_t m = 0; m < body_.materials.size(); ++m) {
       const auto p = static_cast<std::size_t>(body_.points.material_begin[m]);
-      const auto A = body_.materials[m]->moduli(Tangent::elastic, {}, {}, 0, p);  // of xx, xy, yx, yy
-      moduli.push_back({.normal = A[0], .cross = A[3], .shear = A[5]});
+      const auto A = body_.materials[m]->moduli(Tangent::elastic, {}, {}, 0, p);  // of xx, xy, …, row by row
+      moduli.push_back({.normal = A[0], .cross = A[Dim + 1], .shear = A[components + 1]});
     }
     elastic_cells_.rebuild(body_.points, weights_, std::move(moduli), averages_dilatation());
   }

@@ -1,4 +1,4 @@
-// Gather and scatter in trilinear cells, against the basis itself, and forces of a block of points.
+// Gather and scatter in cells of space, against the basis itself, and forces of a block of points.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -14,9 +14,6 @@ using namespace stillpoint;
 namespace {
 
 constexpr Kinematics K = Kinematics::space;
-using Weights = PointWeights<BSpline<1>, K>;
-using Basis = TensorBasis<BSpline<1>, 3>;
-using Cells = GatherScatter<BSpline<1>, K>;
 using Block = PointBlock<K>;
 
 std::vector<double> random_vector(std::size_t n, unsigned seed) {
@@ -28,7 +25,10 @@ std::vector<double> random_vector(std::size_t n, unsigned seed) {
 }
 
 /// Uneven sides; from no point to eleven in a cell, anywhere in it.
+template <AxisBasis B>
 struct Scattered {
+  using Weights = PointWeights<B, K>;
+  using Basis = TensorBasis<B, 3>;
   Grid<3> grid{{Axis{{0, 0.5, 2}}, Axis{{-1, 0, 0.25, 1}}, Axis{{0, 3, 4}}}};
   MaterialPoints<3> points;
   Weights weights;
@@ -50,31 +50,35 @@ struct Scattered {
 
 }  // namespace
 
-TEST_CASE("trilinear weights and gradients made from positions are those of the basis") {
-  const Scattered s;
+TEMPLATE_TEST_CASE("weights in space, made from positions or from factors, are those of the basis", "", BSpline<1>,
+                   BSpline<2>, BSpline<3>) {
+  const Scattered<TestType> s;
   REQUIRE(s.points.size() > 50);
   for (std::size_t k = 0; k < s.points.cells(); ++k) {
     for (std::size_t p = s.points.begin(k); p < s.points.end(k); ++p) {
       const auto values = s.values(k, p);
       const auto N = s.weights.N(k, p);
       const auto dN = s.weights.dN(k, p);
-      for (int a = 0; a < 8; ++a) {
+      constexpr int n = Scattered<TestType>::Basis::per_cell;
+      for (int a = 0; a < n; ++a) {
         CHECK(std::abs(N[a] - values.N[a]) <= 1e-15);
-        for (int j = 0; j < 3; ++j) CHECK(std::abs(dN[8 * j + a] - values.dN[j][a]) <= 1e-14);
+        for (int j = 0; j < 3; ++j) CHECK(std::abs(dN[n * j + a] - values.dN[j][a]) <= 1e-14);
       }
     }
   }
 }
 
-TEST_CASE("gathering in trilinear cells gives the gradients of the displacement and of its increment, cell by cell") {
-  const Scattered s;
+TEMPLATE_TEST_CASE("gathering in space gives the gradients of the displacement and of its increment, cell by cell", "",
+                   BSpline<1>, BSpline<2>, BSpline<3>) {
+  using Cells = GatherScatter<TestType, K>;
+  const Scattered<TestType> s;
   Block block;
   std::vector<double> increment = s.u;
   for (std::size_t i = 0; i < increment.size(); ++i) increment[i] -= s.before[i];
   for (std::size_t k = 0; k < s.points.cells(); ++k) {
     block.first = s.points.begin(k);
-    Cells::gather<true>(s.weights, k, s.points.begin(k), s.points.end(k), s.u.data(), s.before.data(), block.first,
-                        block.H, block.dH);
+    Cells::template gather<true>(s.weights, k, s.points.begin(k), s.points.end(k), s.u.data(), s.before.data(),
+                                 block.first, block.H, block.dH);
     for (std::size_t p = s.points.begin(k); p < s.points.end(k); ++p) {
       CHECK(largest_difference(block.H_at(p - block.first), s.weights.gradient(s.u.data(), k, p)) <= 1e-13);
       CHECK(largest_difference(block.dH_at(p - block.first), s.weights.gradient(increment.data(), k, p)) <= 1e-13);
@@ -82,17 +86,20 @@ TEST_CASE("gathering in trilinear cells gives the gradients of the displacement 
   }
 }
 
-TEST_CASE("scattering in trilinear cells gives each corner the stresses of the points times the gradients there") {
-  const Scattered s;
+TEMPLATE_TEST_CASE("scattering in space gives each function the stresses of the points times the gradients there", "",
+                   BSpline<1>, BSpline<2>, BSpline<3>) {
+  using Cells = GatherScatter<TestType, K>;
+  constexpr std::size_t functions = Scattered<TestType>::Basis::per_cell;
+  const Scattered<TestType> s;
   Block block;
   for (std::size_t k = 0; k < s.points.cells(); ++k) {
     block.first = s.points.begin(k);
     const auto P = random_vector(9 * (s.points.end(k) - s.points.begin(k)), static_cast<unsigned>(k));
     for (std::size_t i = 0; i < P.size(); ++i) block.VP[i % 9][i / 9] = P[i];
-    std::array<double, 24> corner, expected{};
+    std::array<double, 3 * functions> corner, expected{};
     for (std::size_t p = s.points.begin(k); p < s.points.end(k); ++p) {
       const auto values = s.values(k, p);
-      for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t a = 0; a < functions; ++a)
         for (std::size_t ij = 0; ij < 9; ++ij)
           expected[3 * a + ij / 3] += block.VP[ij][p - block.first] * values.dN[ij % 3][a];
     }
@@ -102,7 +109,7 @@ TEST_CASE("scattering in trilinear cells gives each corner the stresses of the p
 }
 
 TEST_CASE("a block of points under one stress pushes on its border alone, with the stress times the area") {
-  test::CubeOfCells cube(6);
+  test::CubeOfCells<> cube(6);
   const auto answer = [&](std::size_t, Block& block) {
     double bad = 0;
     for (std::size_t q = 0; q < block.count; ++q)
@@ -114,15 +121,15 @@ TEST_CASE("a block of points under one stress pushes on its border alone, with t
   REQUIRE(cube.force.evaluate<false>(u.data(), nullptr, answer, cube.dofs, R, {}));
   for (int face = 0; face < 3; ++face) {
     double sum = 0;
-    for (const int function : test::CubeOfCells::Basis::face_functions(cube.grid, face, true))
+    for (const int function : test::CubeOfCells<>::Basis::face_functions(cube.grid, face, true))
       sum += R[static_cast<std::size_t>(3 * function + face)];
     CHECK(sum == Approx(face == 0 ? 2 : face == 1 ? 3 : 5).epsilon(1e-13));
   }
   double inside = 0;
-  for (int number = 0; number < test::CubeOfCells::Basis::count(cube.grid); ++number) {
+  for (int number = 0; number < test::CubeOfCells<>::Basis::count(cube.grid); ++number) {
     bool border = false;
     for (int d = 0; d < 3; ++d) {
-      const int along = test::CubeOfCells::Basis::index_along(cube.grid, number, d);
+      const int along = test::CubeOfCells<>::Basis::index_along(cube.grid, number, d);
       border = border || along == 0 || along == 6;
     }
     for (int i = 0; i < 3 && !border; ++i)
@@ -132,7 +139,7 @@ TEST_CASE("a block of points under one stress pushes on its border alone, with t
 }
 
 TEST_CASE("forces of trilinear cells are the same bits for 1, 2 and 3 threads") {
-  test::CubeOfCells cube(12);  // more points than one thread takes
+  test::CubeOfCells<> cube(12);  // more points than one thread takes
   const auto answer = [&](std::size_t, Block& block) {
     double bad = 0;
     for (std::size_t q = 0; q < block.count; ++q)

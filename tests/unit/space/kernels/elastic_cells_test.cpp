@@ -45,6 +45,12 @@ TEST_CASE("forces of linear elastic cells from moments are those of the stiffnes
       check_force("inclusion", {linear, dilatation, "body[0].points_per_cell=" + points,
                                 "body[1].points_per_cell=" + points, "material.plate.nu=0.4999"});
     }
+    for (const std::string points : {"1", "8", "27"}) {
+      for (const std::string placement : {"uniform", "random"}) {
+        check_force("oedometer", {dilatation, "grid.cells=[5, 3, 4]", "body.points_per_cell=" + points,
+                                  "body.placement=" + placement, "body.volumes=equal"});
+      }
+    }
     // cut cells, and functions that follow others
     check_force("ladder/kirsch", {linear, dilatation, "grid.cells=[11, 13]"});
   }
@@ -57,20 +63,23 @@ TEST_CASE("a cell of so many points that parts of it share their change of volum
 }
 
 TEST_CASE("forces of linear elastic cells are the same bits for 1 and 2 threads") {
-  for (const std::string dilatation : {"phase.dilatation=points", "phase.dilatation=cells"}) {
-    CAPTURE(dilatation);
-    const auto phase =
-        make_phase(scenes::load("inclusion", {"grid.basis=linear", dilatation, "grid.cells=[100, 100]"}));
-    REQUIRE(phase->points() > 8192);  // fewer are left to one thread
-    const std::vector<double> u = random_vector(phase->size());
-    const int before = omp_get_max_threads();
-    omp_set_num_threads(1);
-    const std::vector<double> one = statics::internal_force(*phase, u);
-    omp_set_num_threads(2);
-    const std::vector<double> two = statics::internal_force(*phase, u);
-    omp_set_num_threads(before);
-    CHECK(largest_magnitude(one) > 0);
-    CHECK(one == two);
+  const std::pair<std::string, std::string> scenes_and_cells[] = {{"inclusion", "grid.cells=[100, 100]"},
+                                                                  {"oedometer", "grid.cells=[13, 11, 12]"}};
+  for (const auto& [scene, cells] : scenes_and_cells) {
+    for (const std::string dilatation : {"phase.dilatation=points", "phase.dilatation=cells"}) {
+      CAPTURE(scene, dilatation);
+      const auto phase = make_phase(scenes::load(scene, {"grid.basis=linear", dilatation, cells}));
+      REQUIRE(phase->points() > 8192);  // fewer are left to one thread
+      const std::vector<double> u = random_vector(phase->size());
+      const int before = omp_get_max_threads();
+      omp_set_num_threads(1);
+      const std::vector<double> one = statics::internal_force(*phase, u);
+      omp_set_num_threads(2);
+      const std::vector<double> two = statics::internal_force(*phase, u);
+      omp_set_num_threads(before);
+      CHECK(largest_magnitude(one) > 0);
+      CHECK(one == two);
+    }
   }
 }
 

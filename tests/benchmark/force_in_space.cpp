@@ -1,4 +1,4 @@
-// Internal forces in space: ns per point of gather, law and scatter in trilinear cells with eight points each.
+// Internal forces in space: ns per point of gather, law and scatter in cells with eight points each.
 #include <cmath>
 #include <string>
 
@@ -15,8 +15,9 @@ using namespace stillpoint;
 const char* const laws[] = {"linear-elastic", "neo-hookean", "hencky", "drucker-prager"};
 
 // range(0): law, range(1): cells along a side, range(2): threads.
-void trilinear_force(benchmark::State& state) {
-  test::CubeOfCells cube(static_cast<int>(state.range(1)));
+template <AxisBasis B>
+void force_in_space(benchmark::State& state) {
+  test::CubeOfCells<B> cube(static_cast<int>(state.range(1)));
   const MaterialSpec spec{.name = "soil",
                           .law = laws[state.range(0)],
                           .parameters = {{"E", 1e7},
@@ -43,9 +44,9 @@ void trilinear_force(benchmark::State& state) {
   bool good = true;
   for (auto _ : state) {
     if (material->info().history_dependent)
-      good = cube.force.evaluate<true>(u.data(), before.data(), answer, cube.dofs, R, {}) && good;
+      good = cube.force.template evaluate<true>(u.data(), before.data(), answer, cube.dofs, R, {}) && good;
     else
-      good = cube.force.evaluate<false>(u.data(), nullptr, answer, cube.dofs, R, {}) && good;
+      good = cube.force.template evaluate<false>(u.data(), nullptr, answer, cube.dofs, R, {}) && good;
   }
   if (!good) state.SkipWithError("a force is not finite");
   state.SetLabel(laws[state.range(0)]);
@@ -54,10 +55,14 @@ void trilinear_force(benchmark::State& state) {
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK(trilinear_force)
-    ->ArgsProduct({{0, 1, 2, 3}, {12, 50}, {1, 2}})
-    ->ArgNames({"law", "cells", "threads"})
-    ->UseRealTime()
-    ->Unit(benchmark::kMicrosecond);
+void settings(benchmark::internal::Benchmark* of) {
+  of->ArgsProduct({{0, 1, 2, 3}, {12, 50}, {1, 2}})
+      ->ArgNames({"law", "cells", "threads"})
+      ->UseRealTime()
+      ->Unit(benchmark::kMicrosecond);
+}
+BENCHMARK_TEMPLATE(force_in_space, BSpline<1>)->Apply(settings);
+BENCHMARK_TEMPLATE(force_in_space, BSpline<2>)->Apply(settings);
+BENCHMARK_TEMPLATE(force_in_space, BSpline<3>)->Apply(settings);
 
 }  // namespace
