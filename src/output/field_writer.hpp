@@ -10,7 +10,7 @@
 namespace stillpoint {
 
 /// A field at the points, (points × components) row by row. ParaView sees 1 component as a scalar, 2 or 3 as a vector,
-/// and the 4 of a stress in the plane, xx, yy, zz, xy, as scalars NAME_xx, NAME_yy, NAME_zz, NAME_xy.
+/// and the 4 of a stress in the plane or the 6 of one in space, xx, yy, zz, xy, yz, zx, as scalars NAME_xx, NAME_yy, ….
 struct PointField {
   std::string name;  // letters, digits and _
   int components;

@@ -11,6 +11,7 @@ from claims import call, check_the_claim, claim
 POINTS = [5, 40000, 5]  # of the frames of `write_fields plane`
 COMPONENTS = {"u": 2, "v": 2, "stress": 4, "plastic_strain": 1, "n": 3}
 TENSOR = ["stress_xx", "stress_yy", "stress_zz", "stress_xy"]
+TENSOR_IN_SPACE = [*TENSOR, "stress_yz", "stress_zx"]
 VECTORS, SCALARS = ["u", "v", "n"], [*TENSOR, "plastic_strain", "material"]
 
 
@@ -74,6 +75,17 @@ def _(folder):
         assert same(frame["stress"], known(0, 3, 4, 1)[:, 0])
 
 
+@claim("a body in space has vectors of three components and the six of its stress by their names")
+def _(folder):
+    with h5py.File(write("space", folder)) as fields:
+        frame = fields["frame_0000"]
+        assert frame.attrs["dim"] == 3 and set(frame) == {"place", "u", "v", "plastic_strain", *TENSOR_IN_SPACE}
+        for seed, name in enumerate(["place", "u", "v"]):
+            assert same(frame[name], known(0, seed, 60, 3)), name
+        stress = known(0, 3, 60, 6)
+        assert all(same(frame[name], stress[:, k].copy()) for k, name in enumerate(TENSOR_IN_SPACE))
+
+
 @claim("a killed process leaves the frames that it wrote, a file each")
 def _(folder):
     write("killed", folder)
@@ -110,7 +122,8 @@ def check_item(item, folder):
 
 @claim("fields.xdmf names each dataset of fields.h5 once, with its shape and type of numbers")
 def _(folder):
-    for what, vectors, scalars, frames in (("plane", VECTORS, SCALARS, 3), ("bar", [], ["u", "v", "stress"], 1)):
+    in_space = ("space", ["u", "v"], [*TENSOR_IN_SPACE, "plastic_strain"], 1)
+    for what, vectors, scalars, frames in (("plane", VECTORS, SCALARS, 3), ("bar", [], ["u", "v", "stress"], 1), in_space):
         write(what, folder)
         grids = ElementTree.parse(folder / "fields.xdmf").findall("Domain/Grid/Grid")
         assert len(grids) == frames

@@ -4,9 +4,9 @@
 import json
 import sys
 
-import h5py
 import numpy as np
-from claims import ROOT, call, check_the_claim, claim, script_module
+from claims import ROOT, call, check_the_claim, claim
+from field_pictures import figure_of, is_refused, write
 
 SIDE = 0.1  # between the points of a_body
 
@@ -20,41 +20,14 @@ def sheared(place, by):
     return place + by * np.stack([place[:, 1], 0 * place[:, 0], 0 * place[:, 0]], axis=1)
 
 
-def write(folder, frames, dim=2):
-    """frames: [{"t": …, "place": …, field: …}…]"""
-    folder.mkdir(exist_ok=True)
-    with h5py.File(folder / "fields.h5", "w") as file:
-        for number, frame in enumerate(frames):
-            group = file.create_group(f"frame_{number:04d}")
-            group.attrs.update({"t": frame["t"], "dim": dim})
-            for name, values in frame.items():
-                if name != "t":
-                    group[name] = values
-    return folder
-
-
 def a_shear(folder, count=2):
     place = a_body()
     steps = [(float(k), sheared(place, 0.3 * k)) for k in range(count)]
     return write(folder, [{"t": t, "place": at, "u": at - place, "plastic_strain": t * at[:, 1]} for t, at in steps])
 
 
-def figure_of(folders, field=None, wanted=6):
-    plot_fields = script_module("plot_fields")
-    runs, field = plot_fields.read_runs(folders, field, wanted)
-    return (plot_fields.draw_bars if runs[0].dim == 1 else plot_fields.draw_plane)(runs, field)
-
-
 def panels_of(figure):
     return [axis for axis in figure.axes if axis.get_xlabel() != "plastic strain"]
-
-
-def is_refused(words, *arguments):
-    """plot_fields.py ends with status 2, says these words in one line, and draws nothing."""
-    result = call(ROOT / "scripts/plot_fields.py", *arguments)
-    assert result.returncode == 2 and all(word in result.stderr for word in words), result
-    assert result.stderr.count("\n") == 1, result.stderr
-    assert not list(arguments[0].glob("*.png"))
 
 
 @claim("fields that are not there or cannot be drawn are refused with status 2, with those on offer")
@@ -69,9 +42,9 @@ def _(folder):
     is_refused(["'place'"], write(folder, [{"t": 0.0, "w": np.ones(4)}]))
     is_refused(["no field 'heat'; there are plastic_strain, u, u_x, u_y, layers\n"], a_shear(folder), "--field", "heat")
     is_refused(["no field 'u_z'"], folder, "--field", "u_z")
-    is_refused(["ParaView"], write(folder, [{"t": 0.0, "place": a_body()}], dim=3))
     bar = write(folder / "bar", [{"t": 0.0, "place": a_body(rows=1), "u": np.ones(40)}], dim=1)
     is_refused(["no field 'layers'"], bar, "--field", "layers")
+    is_refused(["--cut x=1", "only a body in space"], bar, "--cut", "x=1")
     is_refused(["one picture"], a_shear(folder), bar, "--field", "u")
     (folder / "summary.json").write_text('{"stages": [{"t": 0}]}')
     is_refused(["summary.json", "slope_angle"], folder)
@@ -83,7 +56,7 @@ def _(folder):
 
 @claim("the fields that a run wrote are drawn into fields.png, or elsewhere")
 def _(folder):
-    for what in ("plane", "bar"):
+    for what in ("plane", "bar", "space"):
         call(sys.argv[3], what, folder / what)
         result = call(ROOT / "scripts/plot_fields.py", folder / what)
         assert result.returncode == 0 and result.stdout == f"Picture: {folder / what / 'fields.png'}\n", result

@@ -1,4 +1,4 @@
-// write_fields plane|bar|killed FOLDER: leaves fields whose every number is known to fields_test.py, to the bit.
+// write_fields plane|space|bar|killed FOLDER: leaves fields whose every number is known to fields_test.py, to the bit.
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -31,6 +31,8 @@ void write(std::string_view what, const char* folder) {
   FieldWriter writer(folder);
   if (what == "bar") {
     writer.add(a_frame(0, 1, 4, {{"u", 1, {}}, {"v", 1, {}}, {"stress", 1, {}}}));
+  } else if (what == "space") {
+    writer.add(a_frame(0, 3, 60, {{"u", 3, {}}, {"v", 3, {}}, {"stress", 6, {}}, {"plastic_strain", 1, {}}}));
   } else {
     std::size_t number = 0;
     for (const std::size_t points : {5u, 40000u, 5u}) {  // the second takes more than one chunk, and an odd part of one

@@ -1,0 +1,149 @@
+"""What pictures of fields have in common: names, colours, headings, the sheet and its panels."""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from pictures import COLOURS, STYLE, plain  # before pyplot: sets the backend
+import matplotlib.pyplot as plt  # noqa: E402
+from field_stages import Run, Stage, body  # noqa: E402
+from matplotlib.cm import ScalarMappable  # noqa: E402
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize  # noqa: E402
+from matplotlib.ticker import MaxNLocator  # noqa: E402
+
+DPI = 150
+SYMBOLS = {"u": ("displacement", "u"), "v": ("velocity", "v"), "stress": ("stress", r"\sigma")}
+MARGIN = 0.04  # around the points, as a share of the larger side
+
+
+def name_of(field, dim):
+    """plastic_strain → plastic strain, u → displacement |u|, stress_xy → stress σ with its indices."""
+    name, _, index = field.partition("_")
+    if name in SYMBOLS and re.fullmatch("[xyz]{0,2}", index):
+        word, symbol = SYMBOLS[name]
+        if index:
+            return f"{word} ${symbol}_{{{index}}}$"
+        return f"{word} ${symbol}$" if dim == 1 else f"{word} $|{symbol}|$"
+    return plain(field.replace("_", " "))
+
+
+def colours_of(stages):
+    """(colour map, its range, on which side values lie outside of it). A few extreme points do not set the range."""
+    values = np.concatenate([stage.values for stage in stages])
+    if values.dtype.kind in "iu":  # a material: a colour a number
+        numbers = np.unique(values)
+        edges = np.append(numbers - 0.5, numbers[-1] + 0.5)
+        colours = [COLOURS[k % len(COLOURS)] for k in range(len(numbers))]
+        return ListedColormap(colours), BoundaryNorm(edges, len(numbers)), "neither"
+    values = values[np.isfinite(values)]
+    if len(values) == 0:
+        return plt.get_cmap("viridis"), Normalize(0, 1), "neither"
+    low, high = np.percentile(values, [0.2, 99.8])
+    if low == high or np.ptp(values) <= 10 * (high - low):  # nothing that is extreme
+        low, high = values.min(), values.max()
+    cmap = "viridis"
+    if low < 0 < high and min(-low, high) > 0.2 * max(-low, high):
+        cmap, high = "coolwarm", max(-low, high)
+        low = -high
+    elif 0 < low < 0.5 * high:
+        low = 0
+    if low == high:
+        low, high = (0, 1) if low == 0 else (low - abs(low) / 2, low + abs(low) / 2)
+    below, above = values.min() < low, values.max() > high
+    extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[int(below), int(above)]
+    return plt.get_cmap(cmap), Normalize(low, high), extend
+
+
+def heading(run, stage, many_runs):
+    parts = [plain(run.label)] * many_runs + [f"$t$ = {stage.t:.4g}"]
+    if stage.slope_angle is not None:
+        parts.append(f"slope {stage.slope_angle:.1f}°")
+    if stage.factor is not None:
+        parts.append(rf"limit load $\lambda$ = {stage.factor:.4g}")
+    return ",  ".join(parts)
+
+
+@dataclass
+class Panel:
+    axis: plt.Axes
+    run: Run
+    stage: Stage
+    first: bool  # of its row
+    lowest: bool  # of its column
+
+
+class Sheet:
+    """The figure, and where its panels are in it, all in inches. 7 wide: legible at half a page's width, too."""
+
+    LEFT, RIGHT, GAP, LARGEST = 0.78, 0.15, 0.2, 6
+    BELOW = 2.4  # lines of text below the lowest panels
+
+    def __init__(self, runs, shape, bar):
+        """shape: height/width of a panel."""
+        count = max(len(run.stages) for run in runs)
+        columns = count if len(runs) > 1 else min(count, 2 if shape < 1 or count == 4 else 3)
+        self.cells = [divmod(k, columns) for k in range(count)]
+        if len(runs) > 1:  # a row each
+            self.cells = [(row, column) for row, run in enumerate(runs) for column in range(len(run.stages))]
+        self.runs, rows, title = runs, self.cells[-1][0] + 1, plain(runs[0].title)
+        self.small = columns > 2
+        plt.rcParams.update(STYLE | {"font.size": 9.5 if self.small else 13})
+        self.line = 0.22 if self.small else 0.28  # the height of a line of text
+        self.panel_width = min((7 - self.LEFT - self.RIGHT - (columns - 1) * self.GAP) / columns, self.LARGEST / shape)
+        self.panel_height = self.panel_width * shape
+        self.top = self.line * (2.4 if title else 1.3)
+        self.pitch = self.panel_height + 1.6 * self.line  # from row to row
+        bottom = self.line * (self.BELOW + 2.9 * bar)
+        self.width = self.LEFT + columns * self.panel_width + (columns - 1) * self.GAP + self.RIGHT
+        self.height = self.top + (rows - 1) * self.pitch + self.panel_height + bottom
+        self.figure = plt.figure(figsize=(self.width, self.height))
+        if title:
+            self.figure.suptitle(title, y=1 - 0.4 * self.line / self.height, va="top", fontsize="medium")
+
+    def panels(self):
+        """One a stage, with its heading."""
+        stages = [(run, stage) for run in self.runs for stage in run.stages]
+        for (row, column), (run, stage) in zip(self.cells, stages):
+            x = self.LEFT + column * (self.panel_width + self.GAP)
+            y = self.height - self.top - row * self.pitch - self.panel_height
+            axis = self.axes(x, y, self.panel_width, self.panel_height)
+            axis.set_title(heading(run, stage, len(self.runs) > 1), fontsize="medium", pad=3)
+            yield Panel(axis, run, stage, column == 0, (row + 1, column) not in self.cells)
+
+    def bar(self):
+        length = min(4, 0.7 * self.width)
+        middle = (self.LEFT + self.width - self.RIGHT) / 2
+        return self.axes(middle - length / 2, 2 * self.line, length, 0.5 * self.line)
+
+    def axes(self, x, y, width, height):
+        return self.figure.add_axes((x / self.width, y / self.height, width / self.width, height / self.height))
+
+
+def draw_arrows(axis, place, vectors):
+    """The mean vector of each square of about 18 to the longer side; what hardly moves has none."""
+    length = np.ptp(body(place), axis=0).max() / 18 or 1.0
+    _, square = np.unique(np.floor(place / length), axis=0, return_inverse=True)
+    count = np.bincount(square)
+    mean = [np.bincount(square, values) / count for values in (*place.T, *vectors.T)]
+    size = np.hypot(mean[2], mean[3])
+    if not size.max() > 0:
+        return
+    x, y, along_x, along_y = (values[size > 0.05 * size.max()] for values in mean)
+    scale = size.max() / (1.3 * length)
+    axis.quiver(x, y, along_x, along_y, angles="xy", scale_units="xy", scale=scale, width=0.004, color="white",
+                edgecolor="black", linewidth=0.5, zorder=3)  # fmt: skip
+
+
+def add_colour_bar(figure, axis, cmap, norm, extend, label):
+    bar = figure.colorbar(ScalarMappable(norm, cmap), cax=axis, orientation="horizontal", extend=extend)
+    bar.outline.set_visible(False)
+    if isinstance(norm, BoundaryNorm):
+        bar.set_ticks([(a + b) / 2 for a, b in zip(norm.boundaries, norm.boundaries[1:])])
+        bar.set_ticklabels([f"{edge + 0.5:.0f}" for edge in norm.boundaries[:-1]])
+        bar.ax.tick_params(length=0)
+    else:
+        bar.locator = MaxNLocator(5, steps=[1, 2, 5, 10])
+        bar.formatter.set_powerlimits((-2, 4))
+        bar.formatter.set_useMathText(True)
+        bar.update_ticks()
+    bar.set_label(label)
