@@ -184,7 +184,10 @@ MemoryNeed::Part springs(const Scene& scene) {
 bool factorises(const Scene& scene, const BodySize& size) {
   const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
   const bool solves = method && method->is_newton && linear_solver_of(scene.solve.method) != LinearSolver::iterative;
-  return solves || omega_1_needs(scene, static_cast<std::size_t>(size.unknowns)).any();
+  const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
+  const bool steps_tell = relaxation && relaxation->chooses_mass && wants_equilibrium_only(scene) &&
+                          !is_nonlinear(scene) && !moves_on(scene);
+  return solves || omega_1_needs(scene, static_cast<std::size_t>(size.unknowns), steps_tell).any();
 }
 
 // As asked for, or as auto may choose.

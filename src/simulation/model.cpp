@@ -92,14 +92,15 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
     model.omega_max =
         set_up.shared("omega_max", model.mass, [&] { return highest_frequency(scene, *model.phase, model.u); });
   }
-  const Omega1Needs needs = omega_1_needs(scene, model.phase->size());
+  const bool has_scaled_mass = scaled || scene.mass.scaling != MassScaling::uniform;
+  const bool steps_tell = is_auto && wants_equilibrium_only(scene) &&
+                          (model.multigrid || mass_measures_volume(scene, has_scaled_mass)) &&
+                          !model.phase->info().updated_lagrangian && model.linear;
+  const Omega1Needs needs = omega_1_needs(scene, model.phase->size(), steps_tell);
   begin("the lowest frequency, with a factor of the stiffness");
   if (needs.any() && !model.multigrid) find_omega_1(scene, needs, set_up, model);
   begin("the norm of errors");
-  const bool has_scaled_mass = scaled || scene.mass.scaling != MassScaling::uniform;
-  model.learns_omega_1 = !model.omega_1 && is_auto && wants_equilibrium_only(scene) &&
-                         (model.multigrid || mass_measures_volume(scene, has_scaled_mass)) &&
-                         !model.phase->info().updated_lagrangian && model.linear;
+  model.learns_omega_1 = !model.omega_1 && steps_tell;
   if (scene.stop.distance > 0 && !model.omega_1 && !model.learns_omega_1) {
     throw_scene_error(
         scene, "stop.distance",

@@ -8,15 +8,14 @@
 
 namespace stillpoint {
 
-Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns) {
+Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns, bool steps_tell) {
   const bool is_static = scene.solve.is_static();
   const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
   const RelaxationInfo* relaxation = is_static ? nullptr : find_relaxation(strategy.name);
   const bool finds_its_own = relaxation && relaxation->chooses_mass;
   // auto works without, and of a large body the factor alone would cost more than the way to rest.
   const bool large = finds_its_own && unknowns > direct_solver_limit;
-  // Where a factor is asked for by a distance, but has no room, the steps of auto may tell omega_1: see make_model().
-  const bool distance = scene.stop.distance > 0 && !(large && !has_room_for_factor(scene));
+  const bool distance = scene.stop.distance > 0 && !(large && (steps_tell || !has_room_for_factor(scene)));
   return {.critical_damping = !is_static && strategy.uses("c") && !scene.damping.c,
           .tolerances = !is_static && scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v),
           .relaxation = relaxation && relaxation->needs_omega_1,

@@ -124,6 +124,26 @@ TEST_CASE("a run that needs more memory than the process may take is refused wit
   CHECK_FALSE(fs::exists(out));
 }
 
+TEST_CASE("a distance that is asked of a body whose factor has no room is told by auto's steps, or refused by name") {
+  const TemporaryFolder folder;
+  const fs::path messages = folder.path() / "messages", out = folder.path() / "out";
+  const auto status = [&](const char* law) {
+    const std::vector<std::string> set = {"grid.cells=[28, 28, 28]", "mass.kind=lumped", "stop.distance=1e-6",
+                                          std::string("material.soil.law=") + law};
+    const auto limits = [] {  // the factor alone takes 0.7 GB
+      const rlimit limit{rlim_t{700} << 20, rlim_t{700} << 20};
+      setrlimit(RLIMIT_AS, &limit);
+    };
+    return Child(run_of("oedometer", set, out), {}, messages.string(), limits).wait();
+  };
+  CHECK(status("neo-hookean") == 2);
+  CHECK_THAT(contents(messages), Catch::Contains("--set stop.distance=1e-6: ") && Catch::Contains("has no room"));
+  CHECK_FALSE(fs::exists(out));
+  CHECK(status("linear-elastic") == 0);
+  const auto summary = contents(out / "summary.json");
+  CHECK_THAT(summary, Catch::Contains("\"omega_1\": null") && !Catch::Contains("\"distance\": null"));
+}
+
 TEST_CASE("a run whose memory ends at any large object says so in a line, with status 4, and keeps what it had") {
   struct Case {
     const char* scene;
