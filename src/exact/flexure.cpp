@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "exact/bar_in_space.hpp"
 #include "exact/hyperbolic_ratios.hpp"
 #include "exact/known_solutions.hpp"
 #include "exact/of_scene.hpp"
@@ -85,6 +86,11 @@ class Flexure final : public ExactSolution {
   std::array<double, 3> start_;  // of the axis [m]
 };
 
+std::optional<SolutionFault> flexure_fault(const Scene& scene) {
+  if (auto fault = fault_of_section(scene)) return fault;
+  return fault_of_extent(scene, "length", 0, parameter(scene, "x0"), parameter(scene, "length"));
+}
+
 }  // namespace
 
 KnownSolution flexure_solution() {
@@ -100,7 +106,8 @@ KnownSolution flexure_solution() {
                                positive_parameter("depth", "m", "of its section, along y"),
                                positive_parameter("width", "m", "along z"), load,
                                any_parameter("x0", "m", "of the root"), any_parameter("y0", "m", "of the axis"),
-                               any_parameter("z0", "m", "likewise")}},
+                               any_parameter("z0", "m", "likewise")},
+                .fault = flexure_fault},
       .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Flexure>(scene); }};
 }
 

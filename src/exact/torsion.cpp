@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "exact/bar_in_space.hpp"
 #include "exact/hyperbolic_ratios.hpp"
 #include "exact/known_solutions.hpp"
 #include "exact/of_scene.hpp"
@@ -88,7 +89,8 @@ KnownSolution torsion_solution() {
                 .parameters = {positive_parameter("depth", "m", "of the section, along y"),
                                positive_parameter("width", "m", "along z"), twist,
                                any_parameter("x0", "m", "of the section that does not turn"),
-                               any_parameter("y0", "m", "of the axis"), any_parameter("z0", "m", "likewise")}},
+                               any_parameter("y0", "m", "of the axis"), any_parameter("z0", "m", "likewise")},
+                .fault = fault_of_section},
       .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Torsion>(scene); }};
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "largest.hpp"
+#include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
@@ -24,15 +25,15 @@ constexpr double E = 2, nu = 0.3, mu = E / (2 * (1 + nu)), lambda = E * nu / ((1
 constexpr double a = 0.3, b = 0.2;  // halves of the sides along y and z
 
 /// Of a scene with that E and ν, and the solution with these keys.
-Scene scene(const std::string& solution, double half_depth = a, double half_width = b) {
+Scene scene(const std::string& solution, double half_depth = a, double half_width = b, double length = 1.2) {
   const TemporaryFolder folder;
   const std::string exact = fmt::format("exact={{{}, depth={}, width={}, x0=0.1, y0=0.2, z0=-0.1}}", solution,
                                         2 * half_depth, 2 * half_width);
   return load_scene(folder.write("bar.toml", fmt::format(R"(
 dim = 3
 [grid]
-min = [0, 0, 0]
-max = [1, 1, 1]
+min = [0.1, {}, {}]
+max = [{}, {}, {}]
 cells = [1, 1, 1]
 [body]
 material = "stuff"
@@ -42,7 +43,8 @@ E = {}
 nu = {}
 rho = 1
 )",
-                                                         E, nu)),
+                                                         0.2 - half_depth, -0.1 - half_width, 0.1 + length,
+                                                         0.2 + half_depth, -0.1 + half_width, E, nu)),
                     {exact});
 }
 
@@ -167,4 +169,12 @@ TEST_CASE("a cantilever bears its load, and bends and shears as Timoshenko's bea
   const double I = 4 * a * a * a * b / 3, G = mu, A = 4 * a * b, k = 10 * (1 + nu) / (12 + 11 * nu);
   const auto mean = [&](double x) { return over_section([&](double y, double z) { return bar.u({x, y, z})[1]; }) / A; };
   CHECK(mean(l) - mean(0) == Approx(W * l * l * l / (3 * E * I) + W * l / (k * G * A)).epsilon(1e-4));
+}
+
+TEST_CASE("a bar of another section or length than its body is refused at its key") {
+  const auto refusal = [](const std::string& set) { return scenes::refusal("flexure", {set}); };
+  CHECK(refusal("exact.depth=2*a").empty());
+  CHECK_THAT(refusal("exact.depth=a"), Catch::Contains("exact.depth") && Catch::Contains("from -0.1 to 0.1 along y"));
+  CHECK_THAT(refusal("exact.z0=a"), Catch::Contains("exact.width") && Catch::Contains("the bar from 0 to 0.2"));
+  CHECK_THAT(refusal("exact.length=1"), Catch::Contains("exact.length") && Catch::Contains("along x"));
 }
