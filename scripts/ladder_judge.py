@@ -174,6 +174,9 @@ def value_and_exact(case, quantity, read, outcome, number=-1):
     names = names_of(constants)
     if first in ("error", "load"):
         computed = run.summary[first][rest]
+    elif first == "reactions":
+        support, _, axis = rest.rpartition(".")
+        computed = run.summary["reactions"][support][axis]
     elif first == "heap":
         computed = of_heap(run, rest, constants)
     elif first == "history":

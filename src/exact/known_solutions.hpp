@@ -25,5 +25,7 @@ KnownSolution strip_load_solution();
 KnownSolution elastica_solution();
 KnownSolution vortex_solution();
 KnownSolution radial_mode_solution();
+KnownSolution torsion_solution();
+KnownSolution flexure_solution();
 
 }  // namespace stillpoint

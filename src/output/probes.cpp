@@ -40,9 +40,35 @@ class SlopeAngle final : public Probe {
   void read(ProbedMoment& moment, std::vector<double>& values) override { values.push_back(moment.slope_angle()); }
 };
 
-std::unique_ptr<Probe> make_probe(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec) {
+/// In space, of the points that lie in a box, seen along z.
+class SlopeAngleInBox final : public Probe {
+ public:
+  SlopeAngleInBox(const Scene& scene, const ProbeSpec& spec) : scene_(scene), spec_(spec) {}
+  void read(ProbedMoment& moment, std::vector<double>& values) override {
+    const std::vector<double>& x = moment.field("position");
+    std::vector<double> section;
+    for (std::size_t p = 0; p < x.size(); p += 3) {
+      if (is_inside(x.data() + p)) section.insert(section.end(), {x[p], x[p + 1]});
+    }
+    values.push_back(slope_angle_of(scene_, section));
+  }
+
+ private:
+  bool is_inside(const double* x) const {
+    for (std::size_t d = 0; d < 3; ++d)
+      if (!(x[d] >= spec_.min[d] && x[d] <= spec_.max[d])) return false;
+    return true;
+  }
+
+  const Scene& scene_;
+  const ProbeSpec& spec_;
+};
+
+std::unique_ptr<Probe> make_probe(const Scene& scene, const LagrangianPhase& phase, const PointData& data,
+                                  const ProbeSpec& spec) {
   switch (spec.kind) {
     case ProbeKind::slope_angle:
+      if (scene.dim == 3) return std::make_unique<SlopeAngleInBox>(scene, spec);
       return std::make_unique<SlopeAngle>();
     case ProbeKind::mean:
       return std::make_unique<MeanInBox>(phase, data, spec);
@@ -100,7 +126,7 @@ Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene)
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
     const ProbeSpec& spec = scene.probes[k];
     require_fields(scene, phase, k);
-    probes_.push_back(make_probe(phase, data, spec));
+    probes_.push_back(make_probe(scene, phase, data, spec));
     if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
     for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
   }

@@ -8,12 +8,16 @@
 
 namespace stillpoint {
 
-double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
-  if (phase.dim() != 2) return std::numeric_limits<double>::quiet_NaN();
+double slope_angle_of(const Scene& scene, ConstVec position) {
   const double column = (scene.grid.max[0] - scene.grid.min[0]) / scene.grid.cells[0];
   double base = std::numeric_limits<double>::infinity();
   for (const BodySpec& body : scene.bodies) base = std::min(base, body.min.empty() ? scene.grid.min[1] : body.min[1]);
-  return slope_angle(free_surface(current_positions(phase, t, u), column), base);
+  return slope_angle(free_surface(position, column), base);
+}
+
+double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
+  if (phase.dim() != 2) return std::numeric_limits<double>::quiet_NaN();
+  return slope_angle_of(scene, current_positions(phase, t, u));
 }
 
 Snapshots::Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder,

@@ -48,5 +48,7 @@ class Snapshots {
 /// The angle of the free surface of the points as they are at (t, u), in a scene of the plane [degrees]; NaN if
 /// there is no slope.
 double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
+/// Of points at these places along x and y, in columns as wide as a cell; position: (points × 2) [m].
+double slope_angle_of(const Scene& scene, ConstVec position);
 
 }  // namespace stillpoint

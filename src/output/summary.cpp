@@ -53,7 +53,7 @@ std::string to_json(const Summary& s) {
   }
   Json reactions = Json::object(), weak_supports = Json::array();
   for (const auto& [name, force] : s.reactions) {
-    for (std::size_t i = 0; i < force.size(); ++i) reactions[name][i == 0 ? "x" : "y"] = number(force[i]);
+    for (std::size_t i = 0; i < force.size(); ++i) reactions[name][std::string(1, "xyz"[i])] = number(force[i]);
   }
   for (const SupportGap& weak : s.weak_supports)
     weak_supports.push_back({{"support", weak.support},

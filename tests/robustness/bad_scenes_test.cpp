@@ -173,7 +173,7 @@ const std::vector<BadScene> kBadScenes = {
     {"a wall and a full mass", "[damping]", "[[wall]]\nname = \"w\"\nface = \"left\"\n[damping]", "20:1",
      "a wall stops node by node, which needs mass.kind = \"lumped\""},
     {"a slope on a line", "point = 12\nfields = [\"u\"]", "kind = \"slope_angle\"", "31:8",
-     "a slope has an angle in two dimensions only"},
+     "a slope has no angle in one dimension"},
     {"phases of hooke", "[damping]", "[mass]\nkind = \"lumped\"\n[phase]\nmax_strain = 0.1\n[damping]", "23:14",
      "phase.max_strain: 'linear-elastic' is a law of small strain"},
     {"force that is a pair", "[damping]", "[body_force]\nvalue = [1, 2]\n[damping]", "21:9",

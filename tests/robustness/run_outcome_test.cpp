@@ -118,6 +118,15 @@ TEST_CASE("a figure that was not computed is null") {
   CHECK(json["error"].is_null());
 }
 
+TEST_CASE("the reaction of a support in space is in the summary with all of its components") {
+  const auto json = test::parsed(to_json(run(scenes::load("oedometer", {"support[0].name=base"}))));
+  const auto& base = json["reactions"]["base"];
+  REQUIRE(base.size() == 3);
+  CHECK(base["y"].get<double>() == Approx(2000 * 9.81).epsilon(1e-6));
+  CHECK(std::abs(base["x"].get<double>()) < 1);
+  CHECK(std::abs(base["z"].get<double>()) < 1);
+}
+
 TEST_CASE("limits that come before equilibrium end the run with status 3 and keep the history") {
   const TemporaryFolder folder;
   const auto ends = [&](const std::vector<std::string>& overrides, RunStatus expected) {

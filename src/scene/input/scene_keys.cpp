@@ -166,7 +166,9 @@ void add_output(Tables& tables) {
       .key("frame", &ProbeSpec::frame,
            "of the place: it moves with the material, or stays where it is in space and reads what passes there",
            {.words = {"material", "space"}})
-      .key("min", &ProbeSpec::min, "of a mean: lower corner of the box where its points are at the start",
+      .key("min", &ProbeSpec::min,
+           "lower corner of a box: of a mean, where its points are at the start; in space of a slope, where they are "
+           "now",
            {.unit = "m"})
       .key("max", &ProbeSpec::max, "upper corner", {.unit = "m"})
       .key("fields", &ProbeSpec::fields,

@@ -60,7 +60,8 @@ void check_fixed_place(SceneCheck& check, const ProbeSpec& probe, const std::str
 void check_box(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
   for (const char* corner : {"min", "max"}) {
     if (!check.written(fmt::format("{}.{}", key, corner)))
-      check.add(key, fmt::format("the key '{}' is missing: a mean is over the material points in a box", corner));
+      check.add(key, fmt::format("the key '{}' is missing: {} the material points in a box", corner,
+                                 probe.kind == ProbeKind::mean ? "a mean is over" : "in space a slope is that of"));
   }
   for (std::size_t d = 0; d < std::min(probe.min.size(), probe.max.size()); ++d) {
     if (!(probe.min[d] <= probe.max[d]))
@@ -83,8 +84,13 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
   const char* const of_point = "goes with a point only";
   switch (probe.kind) {
     case ProbeKind::slope_angle:
-      if (check.scene().dim != 2) check.add(key + ".kind", "a slope has an angle in two dimensions only");
-      return check.refuse(key, {"point", "at", "frame", "min", "max", "fields"},
+      if (check.scene().dim == 1) check.add(key + ".kind", "a slope has no angle in one dimension");
+      if (check.scene().dim == 3) {
+        check_box(check, probe, key);
+      } else {
+        check.refuse(key, {"min", "max"}, "goes with kind = \"mean\", in space with the angle of a slope too");
+      }
+      return check.refuse(key, {"point", "at", "frame", "fields"},
                           "goes with a point only; the angle of a slope has nothing but a name");
     case ProbeKind::point:
       check.one_of(key, "point", "at", "give either point or at, not both",
