@@ -40,6 +40,7 @@ struct TractionSpec {                          // [[traction]]: a load on the bo
   std::optional<Face> face;                    // of the one body, a box
   std::vector<double> from = {}, to = {};      // in space the part of the face, along its axes [m]; empty: to its ends
   std::vector<std::vector<double>> line = {};  // or on a straight side that holds both ends, (2 × 2) [m]
+  std::optional<BodySurface> surface = {};     // or of the one body in space, if that is no box
   // Of the position before the motion and of t:
   std::vector<Expression> value;       // per undeformed area [Pa]; it keeps its direction
   std::optional<Expression> pressure;  // per deformed area [Pa], instead of value: it follows the face's normal

@@ -35,19 +35,28 @@ struct PointOutline {                                     // of points in the pl
   double spacing = 0;                                     // of the points, the widest [m]
 };
 
-struct BodySpec {                // [body], or several [[body]]: material points in a box, in a polygon or from a file
-  std::vector<double> min, max;  // the box [m], inside the grid; of a polygon, its bounding box
-  std::vector<std::vector<double>> polygon;  // corners in order, (corners × 2) [m]; empty: the whole box
-  std::filesystem::path file;                // CSV of points: x, y, volume (with thickness); empty: filled with points
-  PointOutline outline;                      // of these points, if a load acts on it
-  std::string material;                      // a [material.<name>]
-  std::optional<StressState> state;          // as written; Scene::state holds for all bodies
-  double area = 1;                           // cross-section in one dimension [m²], thickness in two [m]
+struct BodySpec {                // [body], or several [[body]]: material points in a shape or from a file
+  std::vector<double> min, max;  // the box [m], inside the grid; of another shape what of it is in there, and its box
+  // Another shape:
+  std::vector<std::vector<double>> polygon;   // corners in order, (corners × 2) [m]; in space a prism:
+  int axis = 2;                               // along which it is drawn out, from min to max
+  std::vector<double> sphere;                 // its centre [m]
+  std::vector<std::vector<double>> cylinder;  // the centres of its ends, (2 × 3) [m]
+  double radius = 0, inner_radius = 0;        // of these two [m]; inner: 0 if it is solid
+  std::filesystem::path stl;                  // a closed surface of triangles
+  std::filesystem::path file;                 // CSV of points: x, y, volume (with thickness); empty: filled with points
+  PointOutline outline;                       // of these points, if a load acts on it
+  std::string material;                       // a [material.<name>]
+  std::optional<StressState> state;           // as written; Scene::state holds for all bodies
+  double area = 1;                            // cross-section in one dimension [m²], thickness in two [m]
   Placement placement = Placement::uniform;
   std::vector<int> points_per_cell = {2};  // along each coordinate
   double jitter = 0;                       // each point is moved by up to this share of half its spacing, seeded
   VolumeRule volumes = VolumeRule::consistent;
   unsigned long seed = 1;  // of placement = "random" and of jitter
+
+  bool has_shape() const { return !polygon.empty() || !sphere.empty() || !cylinder.empty() || !stl.empty(); }
+  bool is_box() const { return file.empty() && !has_shape(); }
 };
 
 struct MaterialSpec {  // [material.<name>]

@@ -43,6 +43,14 @@ enum class Face { left, right, bottom, top, back, front };
 constexpr int axis_of(Face face) { return static_cast<int>(face) / 2; }
 constexpr bool is_upper(Face face) { return static_cast<int>(face) % 2 == 1; }
 
+/// A part of the surface of a body in space that is no box.
+enum class BodySurface {
+  inner,  // of a hollow sphere or cylinder
+  outer,  // of any: of a cylinder and of a prism all around
+  start,  // the end of a cylinder or of a prism where its axis begins
+  end     // and where it ends
+};
+
 /// Where kinetic damping takes the peak of the kinetic energy to lie, which it sees at half steps only.
 enum class Peak {
   half_step,  // at the last half step before the fall

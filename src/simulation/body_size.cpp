@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/outline.hpp"
+#include "scene/body_solid.hpp"
 
 namespace stillpoint {
 namespace {
@@ -29,14 +29,6 @@ Range cells_between(const GridSpec& grid, std::size_t axis, double low, double h
 double lines_in(const std::filesystem::path& file) {
   std::ifstream text(file, std::ios::binary);
   return static_cast<double>(std::count(std::istreambuf_iterator<char>(text), {}, '\n'));
-}
-
-// Of a polygon's box, the share that it covers.
-double share_of_box(const BodySpec& body) {
-  if (body.polygon.empty()) return 1;
-  double box = 1;
-  for (std::size_t d = 0; d < body.min.size(); ++d) box *= body.max[d] - body.min[d];
-  return std::abs(signed_area(outline_of(body))) / box;
 }
 
 double functions_along(BasisKind basis, double cells) {

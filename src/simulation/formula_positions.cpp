@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/body_surface.hpp"
 #include "scene/border_line.hpp"
 #include "scene/support_kind.hpp"
 
@@ -56,6 +57,16 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
         const std::vector<double> of_line = along(line.from, line.to, scene.grid, fewest);
         positions.insert(positions.end(), of_line.begin(), of_line.end());
       }
+      return positions;
+    }
+    if (traction.surface) {
+      const BodySpec& shape = scene.bodies[body_with_surface(scene).value()];
+      double length = 0;
+      constexpr int along_box = 16;
+      for (std::size_t d = 0; d < 3; ++d) length = std::max(length, (shape.max[d] - shape.min[d]) / along_box);
+      std::vector<double> positions;
+      for (const SurfacePiece& piece : surface_pieces(shape, *traction.surface, length))
+        positions.insert(positions.end(), piece.x.begin(), piece.x.end());
       return positions;
     }
     const BodySpec& body = scene.bodies.front();

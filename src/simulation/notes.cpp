@@ -54,7 +54,7 @@ double fewest_domains_across(const Scene& scene) {
 }
 
 // A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 in each coordinate [Strang
-// and Fix 1973, 4.3]. In a cell that a polygon's border cuts they integrate a total degree m, and gradients of products
+// and Fix 1973, 4.3]. In a cell that a body's border cuts they integrate a total degree m, and gradients of products
 // of p have the total degree 2p − 1: what is missed of their work with a stress is of order m + 1 − (2p − 1) in h,
 // which is p for m = 3p − 2.
 std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
@@ -103,9 +103,9 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
     int along = 1;  // fewest for as many points as a polynomial of this degree has coefficients
     while (2 * along * along < (needed_at_border + 1) * (needed_at_border + 2)) ++along;
     const bool equal = std::ranges::any_of(
-        scene.bodies, [](const BodySpec& body) { return !body.polygon.empty() && body.volumes == VolumeRule::equal; });
+        scene.bodies, [](const BodySpec& body) { return body.has_shape() && body.volumes == VolumeRule::equal; });
     notes.push_back(fmt::format(
-        "in {} of the {} cells that a polygon's border cuts the points integrate less than degree {}, which this basis "
+        "in {} of the {} cells that a body's border cuts the points integrate less than degree {}, which this basis "
         "needs for its full order: take {}body.placement = \"gauss\" with {} points per cell",
         below, quadrature.border_cells_below(highest_cut_cell_degree + 1), needed_at_border,
         equal ? "consistent volumes and " : "", along * along));

@@ -41,11 +41,17 @@ void add_boundary(Tables& tables) {
       .key("value", &PointForceSpec::value, "components", {.unit = "N", .variables = "t", .required = true});
 
   tables.add({"traction", "a load on the border of a body, with which it moves", Repeat::array}, &Scene::tractions)
-      .key("face", &TractionSpec::face, "of the body, if it is the only one and a box; or line", {.words = faces})
+      .key("face", &TractionSpec::face, "of the body, if it is the only one and a box; or line, or surface",
+           {.words = faces})
       .key("line", &TractionSpec::line,
            "[from, to], positions on one straight side of a box or of a polygon, or on the outline of a file's points; "
            "or face",
            {.unit = "m", .list = true, .dims = kPlane})
+      .key(
+          "surface", &TractionSpec::surface,
+          "in space, of the only body that is no box: inside a hollow one; outside, of a cylinder or prism all around; "
+          "the end where its axis begins; where it ends",
+          {.words = {"inner", "outer", "start", "end"}, .dims = kSpace})
       .key("from", &TractionSpec::from, "where the loaded part of the face begins, along it",
            {.unit = "m", .fallback = "the face's lower end", .on_face = true, .dims = kSpace})
       .key("to", &TractionSpec::to, "where it ends",

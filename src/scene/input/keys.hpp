@@ -50,6 +50,7 @@ struct KeyInfo {
   bool list = false;       // any number of values, not one for each coordinate
   bool of_stress = false;  // one value for each component of a stress: xx; xx, yy, zz, xy; in space yz, zx besides
   bool on_face = false;    // one value for each axis but that of a face's normal
+  bool in_plane = false;   // positions of two coordinates
   bool may_be_empty = false;
   Dims dims = kAnyDim;
   std::string_view listed_by{};  // the command that lists the words, if they are many

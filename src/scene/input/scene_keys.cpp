@@ -202,12 +202,25 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("follow", &GridSpec::follow, "the wall with which its face of the grid moves from phase to phase");
 
   tables
-      .add({"body", "material points in a box, in a polygon or from a file; [body], or several [[body]]",
+      .add({"body", "material points in a box, in another shape or from a file; [body], or several [[body]]",
             Repeat::once_or_array, "a scene has a body with a material"},
            &Scene::bodies)
-      .key("min", &BodySpec::min, "lower corner of a box", {.unit = "m", .fallback = "that of the grid"})
-      .key("max", &BodySpec::max, "upper corner of a box", {.unit = "m", .fallback = "that of the grid"})
-      .key("polygon", &BodySpec::polygon, "corners in order, not a box", {.unit = "m", .list = true, .dims = kPlane})
+      .key("min", &BodySpec::min, "lower corner of a box, or in space of that in which another shape is cut off",
+           {.unit = "m", .fallback = "that of the grid"})
+      .key("max", &BodySpec::max, "upper corner, likewise", {.unit = "m", .fallback = "that of the grid"})
+      .key("polygon", &BodySpec::polygon,
+           "corners in order, not a box; in space [x, y] each, or what axis leaves, drawn out from min to max",
+           {.unit = "m", .list = true, .in_plane = true, .dims = kNotLine})
+      .key("axis", &BodySpec::axis, "along which a polygon is drawn out",
+           {.words = {"x", "y", "z"}, .fallback = "z", .dims = kSpace})
+      .key("sphere", &BodySpec::sphere, "the centre of a sphere, not a box", {.unit = "m", .dims = kSpace})
+      .key("cylinder", &BodySpec::cylinder, "[from, to], the centres of a cylinder's ends, not a box",
+           {.unit = "m", .list = true, .dims = kSpace})
+      .key("radius", &BodySpec::radius, "of a sphere or a cylinder",
+           {.range = kPositive, .unit = "m", .fallback = "needed by both", .dims = kSpace})
+      .key("inner_radius", &BodySpec::inner_radius, "of a hollow one",
+           {.range = kPositive, .unit = "m", .fallback = "none: it is solid", .dims = kSpace})
+      .key("stl", &BodySpec::stl, "STL file of a closed surface of triangles, in metres, not a box", {.dims = kSpace})
       .key("file", &BodySpec::file, "CSV of points, not a box: columns x, y, z as there are, volume")
       .key("material", &BodySpec::material, "the name of a [material.<name>]", {.required = true})
       .key("state", &BodySpec::state, "of stress and strain, the same in all bodies",
@@ -218,13 +231,14 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
       .key("points_per_cell", &BodySpec::points_per_cell, "along each coordinate; a plain number counts all in a cell",
            {.range = from(1, 10'000), .fallback = "2"})
       .read_by(read_points_per_cell)
-      .key("placement", &BodySpec::placement,
-           "of the points in a cell; gauss: of one that a polygon's border cuts, in the part inside",
-           {.words = {"uniform", "gauss", "random"}})
+      .key(
+          "placement", &BodySpec::placement,
+          "of the points in a cell; gauss: of one that the border of another shape than a box cuts, in the part inside",
+          {.words = {"uniform", "gauss", "random"}})
       .key("jitter", &BodySpec::jitter, "each point is moved by up to this share of half its spacing",
            {.range = kShare})
       .key("volumes", &BodySpec::volumes,
-           "equal, or fitted to the moments of each cell or of its part inside a polygon",
+           "equal, or fitted to the moments of each cell or of its part inside the shape",
            {.words = {"equal", "consistent"}})
       .key("seed", &BodySpec::seed, "of random points and of jitter", {.range = kNotNegative});
   for (TableInfo& material : material_tables(catalogue)) tables.all.push_back(std::move(material));

@@ -20,6 +20,7 @@ void complete(SceneCheck& check) {
     if (!check.written(check.body_key(k, "max"))) body.max = scene.grid.max;
     body.points_per_cell.resize(static_cast<std::size_t>(scene.dim), body.points_per_cell[0]);
     if (!body.file.empty()) body.file = scene.file.parent_path() / body.file;
+    if (!body.stl.empty()) body.stl = scene.file.parent_path() / body.stl;
   }
   const auto state = std::ranges::find_if(scene.bodies, [](const BodySpec& body) { return body.state.has_value(); });
   scene.state = state != scene.bodies.end() ? *state->state

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/body_solid.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/input/validation_solids.hpp"
 #include "scene/outline.hpp"
 #include "scene/point_file.hpp"
 #include "scene/point_outline.hpp"
@@ -50,29 +52,14 @@ bool check_polygon(SceneCheck& check, std::size_t k) {
   const GridSpec& grid = check.scene().grid;
   BodySpec& body = check.scene().bodies[k];
   const std::string key = check.body_key(k, "polygon");
-  const auto wrong = [&](const std::string& message) { return check.add(key, message), false; };
-  const std::size_t n = body.polygon.size();
-  if (n == 0 && !check.sound(key)) return false;
-  constexpr std::size_t most = 1000;  // that can be compared two by two
-  if (n < 3 || n > most) return wrong(fmt::format("needs from 3 to {} corners, not {}", most, n));
+  if (body.polygon.empty()) return check.sound(key) && check_corners(check, k);
   bool inside = true;
-  for (std::size_t c = 0; c < n; ++c)
+  for (std::size_t c = 0; c < body.polygon.size(); ++c)
     inside = check.inside(body.polygon[c], grid.min, grid.max, "grid", fmt::format("{}[{}]", key, c)) && inside;
   if (!inside) return false;
   for (auto& corner : body.polygon) check.snap_to_grid(corner);
   set_bounding_box(body, body.polygon);
-  if (body.polygon.front() == body.polygon.back())
-    return wrong("the last corner repeats the first; a polygon closes by itself");
-  const Polygon polygon = outline_of(body);
-  const double box = (body.max[0] - body.min[0]) * (body.max[1] - body.min[1]);
-  constexpr double rounding = 1e-12;
-  if (std::abs(signed_area(polygon)) <= rounding * box) return wrong("has no area");
-  if (const auto edges = crossing_edges(polygon)) {
-    const auto [a, b] = *edges;
-    return wrong(fmt::format("must not cross or touch itself, as the edges from corner {} to {} and from {} to {} do",
-                             a, (a + 1) % n, b, (b + 1) % n));
-  }
-  return true;
+  return check_corners(check, k);
 }
 
 /// Of points from a file, if a load acts on it. Axisymmetric ones have their volume all the way round.
@@ -129,7 +116,7 @@ void check_number_of_points(SceneCheck& check, const std::vector<bool>& in_order
   for (std::size_t k = 0; k < scene.bodies.size() && !scene.grid.cells.empty(); ++k) {
     const BodySpec& body = scene.bodies[k];
     if (!body.file.empty()) continue;
-    double points = 1;
+    double points = in_order[k] ? share_of_box(body) : 1;
     for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis)
       points *= cells_along(check, body, axis, in_order[k]) * body.points_per_cell[axis];
     all += points;
@@ -176,13 +163,14 @@ void check_keys(SceneCheck& check, std::size_t k) {
   std::string table = check.body_key(k, "");
   table.pop_back();
   if (check.written(table + ".file")) {
-    check.refuse(
-        table,
-        {"min", "max", "polygon", "area", "thickness", "points_per_cell", "placement", "jitter", "volumes", "seed"},
-        "does not go with file, which holds the points and their volumes");
-  } else if (check.written(table + ".polygon")) {
+    check.refuse(table,
+                 {"min", "max", "polygon", "sphere", "cylinder", "stl", "area", "thickness", "points_per_cell",
+                  "placement", "jitter", "volumes", "seed"},
+                 "does not go with file, which holds the points and their volumes");
+  } else if (check.written(table + ".polygon") && check.scene().dim == 2) {
     check.refuse(table, {"min", "max"}, "does not go with polygon; give one of them");
   }
+  check_shape_keys(check, table);
   if (body.jitter > 0 && body.placement == Placement::random)
     check.add(table + ".jitter", "does not go with placement = \"random\": random points have no spacing");
   if (body.state && *body.state != check.scene().state) check.add(table + ".state", "must be the same in all bodies");
@@ -206,6 +194,8 @@ std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
       in_order[k] = check_file(check, k, grid);
     } else if (scene.dim == 2 && check.written(check.body_key(k, "polygon"))) {
       in_order[k] = grid && check_polygon(check, k);
+    } else if (scene.dim == 3 && has_shape_key(check, k)) {
+      in_order[k] = grid && check_box(check, k) && check_solid(check, k);
     } else {
       in_order[k] = grid && check_box(check, k);
     }
@@ -231,7 +221,7 @@ long known_points(SceneCheck& check) {
   const Scene& scene = check.scene();
   long all = 0;
   for (const BodySpec& body : scene.bodies) {
-    if (!body.polygon.empty() || !body.file.empty()) return 0;
+    if (!body.is_box()) return 0;
     long points = scene.grid.cells.empty() ? 0 : 1;
     for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis) {
       const double before = (body.min[axis] - scene.grid.min[axis]) / check.cell_length(axis);

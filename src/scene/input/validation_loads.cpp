@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/body_surface.hpp"
 #include "scene/border_line.hpp"
 #include "scene/controlled_loads.hpp"
 #include "scene/input/scene_check.hpp"
@@ -169,18 +170,34 @@ void check_line(SceneCheck& check, const std::string& key, const std::vector<std
                                sides.front().body + 1, sides.back().body + 1));
 }
 
+/// The body that a surface belongs to.
+void check_surface(SceneCheck& check, const std::string& key, BodySurface surface) {
+  const Scene& scene = check.scene();
+  const std::optional<std::size_t> number = body_with_surface(scene);
+  if (!number) return check.add(key, "needs a scene with one body that is no box but another shape");
+  const BodySpec& body = scene.bodies[*number];
+  if (const std::string why = why_no_surface(body, surface); !why.empty()) return check.add(key, why);
+  double length = 0;
+  for (std::size_t d = 0; d < 3; ++d) length = std::max(length, (body.max[d] - body.min[d]) / 8);
+  if (surface_pieces(body, surface, length).empty()) check.add(key, "all of it is cut off by the body's min and max");
+}
+
 void check_tractions(SceneCheck& check, bool bodies) {
   const Scene& scene = check.scene();
-  const bool box = scene.bodies.size() == 1 && scene.bodies[0].polygon.empty() && scene.bodies[0].file.empty();
+  const bool box = scene.bodies.size() == 1 && scene.bodies[0].is_box();
   for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
     const std::string name = fmt::format("traction[{}]", k);
     check.one_of(name, "value", "pressure",
                  "give either value, which keeps its direction, or pressure, which follows the face",
                  "give value, which keeps its direction, or pressure, which follows the face");
-    check.one_of(name, "face", "line", "give either face or line, not both",
-                 scene.dim == 2   ? "give face, a side of the body's box, or line, a part of its border"
-                 : scene.dim == 1 ? "give face, an end of the body"
-                                  : "give face, a side of the body's box");
+    if (scene.dim == 3) {
+      check.one_of(name, "face", "surface", "give either face or surface, not both",
+                   "give face, a side of the body's box, or surface, of a body that is no box");
+    } else {
+      check.one_of(name, "face", "line", "give either face or line, not both",
+                   scene.dim == 2 ? "give face, a side of the body's box, or line, a part of its border"
+                                  : "give face, an end of the body");
+    }
     if (!scene.tractions[k].face) check.refuse(name, {"from", "to"}, "goes with a face, of which it loads a part");
     if (!bodies) continue;
     if (box && scene.tractions[k].face && check.sound(name + ".from") && check.sound(name + ".to")) {
@@ -192,12 +209,16 @@ void check_tractions(SceneCheck& check, bool bodies) {
     }
     if (check.written(name + ".line") && check.sound(name + ".line"))
       check_line(check, name + ".line", scene.tractions[k].line);
-    if (!check.written(name + ".face") || box) continue;
-    const std::string what = scene.bodies.size() > 1        ? fmt::format("are {} bodies", scene.bodies.size())
-                             : scene.bodies[0].file.empty() ? "is a polygon"
-                                                            : "are points from a file";
+    if (scene.tractions[k].surface) check_surface(check, name + ".surface", *scene.tractions[k].surface);
+    if (!check.written(name + ".face") || scene.tractions[k].surface || box) continue;
+    const std::string what = scene.bodies.size() > 1         ? fmt::format("are {} bodies", scene.bodies.size())
+                             : !scene.bodies[0].file.empty() ? "are points from a file"
+                             : scene.dim == 2                ? "is a polygon"
+                                                             : "is another shape";
     check.add(name, fmt::format("needs a scene with one body that is a box, which has faces; there {}{}", what,
-                                scene.dim == 2 ? "; give line = [from, to]" : ""));
+                                scene.dim == 2                ? "; give line = [from, to]"
+                                : scene.bodies[0].has_shape() ? "; give surface"
+                                                              : ""));
   }
 }
 

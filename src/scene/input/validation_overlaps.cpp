@@ -1,9 +1,12 @@
 // Two bodies cannot be in the same place.
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "scene/body_solid.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/outline.hpp"
 #include "scene/point_file.hpp"
@@ -55,12 +58,26 @@ class OverlapCheck {
   /// The part of a that lies in b, or of b in a, in words; empty: none.
   std::string what_overlaps(const BodySpec& a, const BodySpec& b) const {
     if (!a.file.empty() || !b.file.empty()) return points_that_overlap(a, b);
-    if (check_.scene().dim != 2) return "a part";  // boxes that meet
+    if (check_.scene().dim != 2) return (a.is_box() && b.is_box()) || solids_meet(a, b) ? "a part" : "";
     const Polygon of_a = outline_of(a), of_b = outline_of(b);
     // Borders that should be one may lie apart, or over each other, by rounding all along.
     const double of_rounding = rounding_ * std::min(perimeter(of_a), perimeter(of_b)) / 2;
     const double area = overlap_area(of_a, of_b);
     return area > of_rounding ? fmt::format("an area of {:.4g} m2", area) : "";
+  }
+
+  /// Looked for at a lattice of positions in what their boxes have in common, an odd number along each axis, so that
+  /// one lies in the middle.
+  bool solids_meet(const BodySpec& a, const BodySpec& b) const {
+    constexpr int n = 21;
+    const SpaceBox common = in_common(box_of(a), box_of(b));
+    for (int k = 0; k < n * n * n; ++k) {
+      std::vector<double> x(3);
+      for (std::size_t d = 0, number = static_cast<std::size_t>(k); d < 3; ++d, number /= n)
+        x[d] = common.low[d] + (common.high[d] - common.low[d]) * (static_cast<double>(number % n) + 0.5) / n;
+      if (is_inside(a, x) && is_inside(b, x)) return true;
+    }
+    return false;
   }
 
   std::string points_that_overlap(const BodySpec& a, const BodySpec& b) const {
@@ -86,9 +103,25 @@ class OverlapCheck {
   bool is_inside(const BodySpec& shape, const std::vector<double>& x) const {
     for (std::size_t axis = 0; axis < x.size(); ++axis)
       if (x[axis] <= shape.min[axis] + rounding_ || x[axis] >= shape.max[axis] - rounding_) return false;
-    if (shape.polygon.empty()) return true;
+    if (shape.is_box()) return true;
+    if (x.size() == 3) return is_inside_solid(shape, {x[0], x[1], x[2]});
     const Polygon outline = outline_of(shape);
     return contains(outline, {x[0], x[1]}) && distance_to_border(outline, {x[0], x[1]}) > rounding_;
+  }
+
+  /// And so is what lies next to it along each axis.
+  bool is_inside_solid(const BodySpec& shape, const SpacePoint& x) const {
+    std::unique_ptr<const Solid>& solid = solids_[&shape];
+    if (!solid) solid = solid_of(shape);
+    if (!solid->contains(x)) return false;
+    for (std::size_t d = 0; d < 3; ++d) {
+      for (const double aside : {-rounding_, rounding_}) {
+        SpacePoint next = x;
+        next[d] += aside;
+        if (!solid->contains(next)) return false;
+      }
+    }
+    return true;
   }
 
   std::vector<std::vector<double>> positions_of(const BodySpec& body) const {
@@ -105,6 +138,7 @@ class OverlapCheck {
   SceneCheck& check_;
   const std::vector<BodySpec>& bodies_;
   double rounding_ = 0;  // [m]
+  mutable std::map<const BodySpec*, std::unique_ptr<const Solid>> solids_;
 };
 
 }  // namespace

@@ -68,7 +68,7 @@ std::string why_no_domains(const Scene& scene) {
   if (scene.state == StressState::axisymmetric) return "an axisymmetric scene has rings";
   if (scene.state == StressState::space) return "in space points stand for themselves";
   for (const BodySpec& body : scene.bodies) {
-    if (!body.file.empty() || !body.polygon.empty()) return "a body of a file or a polygon is no box";
+    if (!body.is_box()) return "a body of a file or a polygon is no box";
     if (body.placement != Placement::uniform || body.jitter > 0) return "points that are not uniform share no faces";
   }
   return "";

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/body_surface.hpp"
 #include "scene/border_line.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
@@ -24,8 +25,8 @@ namespace stillpoint {
 
 /// Dead ones, t(X, t) dA per undeformed area, and pressures that follow the deformed surface, −p(X, t) n da =
 /// −p cof(f) N dA. X: the undeformed position.
-/// A straight part of a body's border, in space a part of a face, is cut into pieces, some to a cell; they carry the
-/// undeformed area, 2 π r ds if axisymmetric.
+/// A straight part of a body's border, in space a part of a face or a curved surface, is cut into pieces, some to a
+/// cell; they carry the undeformed area, 2 π r ds if axisymmetric.
 template <AxisBasis B, Kinematics K>
 class Tractions final : public BoundaryCondition<B, K> {
   static constexpr int dim = dimensions(K);
@@ -125,6 +126,8 @@ class Tractions final : public BoundaryCondition<B, K> {
       add_piece(traction, {(upper ? body.max : body.min)[0]}, body.area, {upper ? 1.0 : -1.0});
     } else if constexpr (dim == 2) {
       for (const BorderLine& line : border_lines(scene_, traction)) cut_line(traction, line, grid);
+    } else if (traction.surface) {
+      cut_surface(traction);
     } else {
       cut_face(traction, grid);
     }
@@ -146,6 +149,18 @@ class Tractions final : public BoundaryCondition<B, K> {
         part_of_face(face, traction.from, traction.to, body.min, body.max),
         [&](std::size_t along) { return rule_along(traction, body, along); },
         [&](const Point<dim>& x, double area, double) { add_piece(traction, x, area, outwards); });
+  }
+  // Into pieces of half a cell, which are not cut at its border: a function that has a kink there is integrated to
+  // second order.
+  void cut_surface(const TractionSpec& traction) {
+    double length = std::numeric_limits<double>::infinity();
+    for (std::size_t d = 0; d < dim; ++d) length = std::min(length, scene_.grid.cell_length(d) / 2);
+    const BodySpec& body = scene_.bodies[body_with_surface(scene_).value()];
+    for (const SurfacePiece& piece : surface_pieces(body, *traction.surface, length)) {
+      const auto& [x, y, z] = piece.vector;
+      const double area = std::hypot(x, y, z);
+      add_piece(traction, piece.x, area, {x / area, y / area, z / area});
+    }
   }
   // Into pieces of each cell's part.
   void cut_line(const TractionSpec& traction, const BorderLine& line, const GridOf& grid) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/polygon.hpp"
-#include "space/points/polygon_rule.hpp"
+#include "base/polygon_rule.hpp"
 
 namespace stillpoint {
 

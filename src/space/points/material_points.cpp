@@ -3,61 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 #include "base/polygon.hpp"
 #include "base/stop_request.hpp"
+#include "scene/body_solid.hpp"
 #include "scene/point_file.hpp"
 #include "space/points/cell_positions.hpp"
 #include "space/points/cut_cell_rule.hpp"
 #include "space/points/moment_fit.hpp"
+#include "space/points/point_collector.hpp"
+#include "space/points/solid_cell_rule.hpp"
 
 namespace stillpoint {
 namespace {
 
 constexpr double kRounding = 1e-12;  // a share of a cell's length or area that is none
-constexpr double kSliver = 1e-6;     // a share of a cell's area that is not worth a point
-
-/// Takes the points of a body in the order of their cells.
-template <int Dim>
-class PointCollector {
- public:
-  PointCollector(double thickness, double density, StressState state)
-      : thickness_(thickness), density_(density), axisymmetric_(state == StressState::axisymmetric) {}
-
-  void begin_cell(int number) {
-    points_.cell.push_back(number);
-    points_.cell_begin.push_back(static_cast<int>(points_.size()));
-  }
-  /// V = area · thickness, or area · 2π r; area: a length in one dimension [m].
-  void add(const Point<Dim>& x, double area) {
-    add_volume(x, area * (axisymmetric_ ? 2 * std::numbers::pi * x[0] : thickness_));
-  }
-  void add_volume(const Point<Dim>& x, double volume) {
-    for (int d = 0; d < Dim; ++d) points_.x[d].push_back(x[d]);
-    points_.volume.push_back(volume);
-    points_.mass.push_back(volume * density_);
-  }
-  /// Of the last point: a box about it with half sides r.
-  void add_domain(const Point<Dim>& r) {
-    for (int d = 0; d < Dim; ++d) {
-      const double x = points_.x[d].back();
-      points_.half[d].push_back(r[d]);
-      points_.rest[d].push_back(x);
-      for (int c = 0; c < 1 << Dim; ++c) points_.corner[Dim * c + d].push_back(c >> d & 1 ? x + r[d] : x - r[d]);
-    }
-  }
-  MaterialPoints<Dim> finish() {
-    points_.cell_begin.push_back(static_cast<int>(points_.size()));
-    return std::move(points_);
-  }
-
- private:
-  double thickness_, density_;
-  bool axisymmetric_;
-  MaterialPoints<Dim> points_;
-};
+constexpr double kSliver = 1e-6;     // a share of a cell's area, or volume, that is not worth a point
 
 /// An interval along each coordinate.
 template <int Dim>
@@ -82,12 +46,14 @@ struct Box {
   }
 };
 
-/// Fills a box or a polygon.
+/// Fills a box or another shape.
 template <int Dim>
 class Filling {
  public:
   Filling(const BodySpec& body, const Grid<Dim>& grid, PointCollector<Dim>& points, CellShares& covered, bool domains)
-      : body_(body), grid_(grid), points_(points), covered_(covered), domains_(domains), positions_(body) {}
+      : body_(body), grid_(grid), points_(points), covered_(covered), domains_(domains), positions_(body) {
+    if (Dim == 3 && body.has_shape()) solid_ = solid_of(body);
+  }
 
   QuadratureReport run() {
     for (int number = 0; number < grid_.cells(); ++number) {
@@ -99,10 +65,12 @@ class Filling {
         part.high[d] = std::min(cell.high[d], body_.max[d]);
       }
       if (smallest_share(part, cell) <= kRounding) continue;
-      if (body_.polygon.empty()) {
+      if (body_.is_box()) {
         fill(number, part, cell);
       } else if constexpr (Dim == 2) {
         fill_polygon(number, cell);
+      } else if constexpr (Dim == 3) {
+        fill_solid(number, part, cell);
       }
     }
     return quadrature_;
@@ -175,6 +143,44 @@ class Filling {
     }
   }
 
+  /// The part of the solid in a part of a cell that is a box.
+  void fill_solid(int number, const Box<Dim>& part, const Box<Dim>& cell) {
+    const SpaceBox box{part.low, part.high};
+    const Solid::Part known = solid_->part_of(box);
+    if (known == Solid::Part::none) return;
+    if (known == Solid::Part::all) return fill(number, part, cell);
+    const Eigen::MatrixXd& xi = positions_.next();
+    const CellPart inside(*solid_, box, static_cast<std::size_t>(xi.cols()));
+    if (!(inside.volume() > kSliver * cell.size())) return;
+    if (!positions_.vary() && inside.volume() > (1 - kRounding) * part.size()) return fill(number, part, cell);
+
+    const SolidCellRule cut = rule_of_cut_cell(inside, part, xi);
+    QuadratureReport of_cell{.degree = {}, .smallest_share = 1};
+    for (std::size_t d = 0; d < 3; ++d)
+      of_cell.smallest_share = std::min(of_cell.smallest_share, inside.extent(d) / (cell.high[d] - cell.low[d]));
+    of_cell.border_cells[static_cast<std::size_t>(cut.degree)] = 1;
+    quadrature_.add(of_cell);
+    covered_.emplace_back(number, inside.volume() / cell.size());
+    points_.begin_cell(number);
+    for (std::size_t p = 0; p < cut.x.size(); ++p) {
+      Point<Dim> x;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double rounding = kRounding * (cell.high[d] - cell.low[d]);
+        x[d] = std::clamp(cut.x[p][d], cell.low[d] + rounding, cell.high[d] - rounding);
+      }
+      points_.add(x, cut.share[p] * inside.volume());
+    }
+  }
+
+  SolidCellRule rule_of_cut_cell(const CellPart& inside, const Box<Dim>& part, const Eigen::MatrixXd& xi) const {
+    const bool fitted = body_.volumes == VolumeRule::consistent;
+    if (fitted && body_.placement == Placement::gauss && !positions_.vary()) return inside.gauss_points();
+    std::vector<SpacePoint> x;
+    for (Eigen::Index p = 0; p < xi.cols(); ++p)
+      if (const auto position = part.position(xi, p); solid_->contains(position)) x.push_back(position);
+    return fitted ? inside.fitted_shares(std::move(x)) : inside.equal_shares(std::move(x));
+  }
+
   /// polygon and part: in a cell that is the unit square.
   CutCellRule rule_of_cut_cell(const Polygon& polygon, const Polygon& part) {
     const Eigen::MatrixXd& xi = positions_.next();
@@ -206,6 +212,7 @@ class Filling {
   CellShares& covered_;
   bool domains_;
   CellPositions<Dim> positions_;
+  std::unique_ptr<const Solid> solid_;  // of a body in space that is no box
   MomentFit fit_;
   QuadratureReport quadrature_;
 };

@@ -59,8 +59,8 @@ struct QuadratureReport {
   /// pattern of points; empty: no cell has one, or it is not known, as of points from a file.
   std::optional<int> degree;
   bool equal_volumes = false;  // whether the body that has this degree takes equal volumes
-  /// Cells that a polygon's border cuts, border_cells[d] of them such that polynomials up to total degree d are
-  /// integrated exactly over the area inside.
+  /// Cells that the border of a polygon or a solid cuts, border_cells[d] of them such that polynomials up to total
+  /// degree d are integrated exactly over what is inside.
   std::array<int, highest_cut_cell_degree + 1> border_cells{};
   double smallest_share = 1;      // of a cell's length that the body covers, over the cells with material
   int cells_limited_by_sign = 0;  // cells in which a higher degree would need a negative volume
@@ -87,6 +87,7 @@ struct PlacedBody {
 ///   points that lie inside, or else has one at the centroid of the part inside; their volumes share its area equally
 ///   or are fitted to its moments. With Gauss points and fitted volumes it has Gauss points of the part inside, no more
 ///   than a whole cell has. Parts below 1e-6 of a cell are left out.
+/// - A solid in space: likewise, by the part of each cell in the solid and in the box of the body.
 /// - A file: its points with their volumes, in the file's order within a cell. Throws SceneError if it is wrong.
 /// A volume is an area times the thickness, in an axisymmetric body times 2π r, all the way round. density [kg/m³].
 /// domains: whether points stand for domains, which uniform ones in a box have side by side; with equal volumes, which

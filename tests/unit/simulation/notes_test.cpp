@@ -86,7 +86,7 @@ TEST_CASE("what the points of a polygon integrate is said by where its border cu
     return notes_of(scenes::load("column", set));
   };
   const auto slanted = of_polygon("[[0, 0], [3, 0], [2, 2], [0, 2]]", {});
-  CHECK(says(slanted, "that a polygon's border cuts"));
+  CHECK(says(slanted, "that a body's border cuts"));
   CHECK_FALSE(says(slanted, "take consistent volumes"));
   CHECK_FALSE(says(slanted, "the points integrate degree"));
   const auto on_lines = of_polygon("[[0, 0], [3, 0], [3, 2], [0, 2]]", {});

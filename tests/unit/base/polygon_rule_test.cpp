@@ -1,4 +1,4 @@
-#include "space/points/polygon_rule.hpp"
+#include "base/polygon_rule.hpp"
 
 #include <cmath>
 #include <numbers>

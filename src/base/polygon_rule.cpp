@@ -1,24 +1,13 @@
-#include "space/points/polygon_rule.hpp"
+#include "base/polygon_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 
-#include <gsl/gsl_integration.h>
+#include "base/gauss_rule.hpp"
 
 namespace stillpoint {
 namespace {
-
-/// Gauss-Legendre's positions in [0, 1] and their weights, exact up to a degree.
-struct UnitRule {
-  explicit UnitRule(int degree) : at(static_cast<std::size_t>(degree / 2 + 1)), weight(at.size()) {
-    const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)> table(
-        gsl_integration_glfixed_table_alloc(at.size()), gsl_integration_glfixed_table_free);
-    for (std::size_t k = 0; k < at.size(); ++k) gsl_integration_glfixed_point(0, 1, k, &at[k], &weight[k], table.get());
-  }
-  std::vector<double> at, weight;
-};
 
 /// The part of an edge between two verticals.
 struct Chord {

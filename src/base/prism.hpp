@@ -1,0 +1,33 @@
+// A polygon drawn out along an axis.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "base/polygon.hpp"
+#include "base/solid.hpp"
+
+namespace stillpoint {
+
+/// A rule is that of the polygon's part in the box times an interval: exact but for rounding.
+class Prism final : public Solid {
+ public:
+  /// Corners in the other two coordinates, in their order.
+  Prism(Polygon polygon, std::size_t axis, double from, double to);
+
+  SpaceBox bounds() const override { return bounds_; }
+  bool contains(const SpacePoint& x) const override;
+  Part part_of(const SpaceBox& box) const override;
+  SpaceRule rule(const SpaceBox& box, int degree) const override;
+
+ private:
+  Polygon polygon_;
+  std::size_t axis_;
+  std::array<std::size_t, 2> across_;
+  SpaceBox bounds_;
+};
+
+/// The coordinates across an axis.
+constexpr std::array<std::size_t, 2> across(std::size_t axis) { return {axis == 0 ? 1UL : 0UL, axis == 2 ? 1UL : 2UL}; }
+
+}  // namespace stillpoint

@@ -1,0 +1,181 @@
+#include "space/points/solid_cell_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "base/gauss_rule.hpp"
+#include "space/points/cut_cell_rule.hpp"
+#include "space/points/moment_fit.hpp"
+
+namespace stillpoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRoundingOfMoments = 1e-11;  // of order one
+constexpr double kNoShare = 1e-12;
+
+/// Of polynomials in space up to a total degree.
+std::size_t count_of(int degree) { return static_cast<std::size_t>((degree + 1) * (degree + 2) * (degree + 3)) / 6; }
+
+Eigen::Map<const Eigen::Matrix3Xd> columns(const std::vector<SpacePoint>& x) {
+  return {x.front().data(), 3, static_cast<Index>(x.size())};
+}
+Eigen::Map<const VectorXd> vector_of_values(const std::vector<double>& values) {
+  return {values.data(), static_cast<Index>(values.size())};
+}
+VectorXd equal(std::size_t n) { return VectorXd::Constant(static_cast<Index>(n), 1.0 / static_cast<double>(n)); }
+
+int degree_for(std::size_t points) {
+  int degree = 1;
+  while (degree < highest_cut_cell_degree && count_of(degree + 1) <= points) ++degree;
+  return degree;
+}
+
+}  // namespace
+
+CellPart::CellPart(const Solid& solid, const SpaceBox& box, std::size_t most_points)
+    : solid_(solid),
+      box_(box),
+      most_points_(most_points),
+      degree_(degree_for(most_points)),
+      rule_(solid.rule(box, std::max(2, degree_))) {
+  const auto weight = vector_of_values(rule_.weight);
+  volume_ = weight.size() == 0 ? 0 : weight.sum();
+  if (empty()) return;
+  Eigen::Matrix3Xd x = columns(rule_.x);
+  const Eigen::Vector3d middle(box.middle().data());
+  x.colwise() -= middle;
+  centroid_ = x * weight / volume_;
+  x.colwise() -= centroid_;
+  centroid_ += middle;
+  const Eigen::Matrix3d spread = x * weight.asDiagonal() * x.transpose() / volume_;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(spread);
+  axes_ = principal.eigenvectors().transpose();
+  const double least = 1e-12 * spread.trace();
+  extent_ = (12 * spread.diagonal().cwiseMax(least)).cwiseSqrt();
+  half_ = (3 * principal.eigenvalues().cwiseMax(least)).cwiseSqrt();
+  moments_ = products(seen_from_part(rule_.x), degree_) * weight / volume_;
+}
+
+Eigen::Matrix3Xd CellPart::seen_from_part(const std::vector<SpacePoint>& x) const {
+  return half_.cwiseInverse().asDiagonal() * (axes_ * (columns(x).colwise() - centroid_));
+}
+
+MatrixXd CellPart::products(const Eigen::Matrix3Xd& xi, int degree) {
+  // (k + 1) P_{k+1} = (2 k + 1) ξ P_k − k P_{k−1}
+  std::vector<Eigen::Array3Xd> P{Eigen::Array3Xd::Ones(3, xi.cols()), xi.array()};
+  for (int k = 1; k < degree; ++k) {
+    const auto last = static_cast<std::size_t>(k);
+    P.emplace_back(((2 * k + 1) * xi.array() * P[last] - k * P[last - 1]) / (k + 1));
+  }
+  const auto of = [&](int power) -> const Eigen::Array3Xd& { return P[static_cast<std::size_t>(power)]; };
+  MatrixXd rows(static_cast<Index>(count_of(degree)), xi.cols());
+  Index row = 0;
+  for (int total = 0; total <= degree; ++total)
+    for (int i = 0; i <= total; ++i)
+      for (int j = 0; i + j <= total; ++j) rows.row(row++) = of(i).row(0) * of(j).row(1) * of(total - i - j).row(2);
+  return rows;
+}
+
+// yz, zx, xy and xyz along the axes of the grid
+MatrixXd CellPart::products_of_axes(const std::vector<SpacePoint>& x) const {
+  const Eigen::Array3Xd xi = ((2 * extent_.cwiseInverse()).asDiagonal() * (columns(x).colwise() - centroid_)).array();
+  MatrixXd rows(4, xi.cols());
+  rows << xi.row(1) * xi.row(2), xi.row(2) * xi.row(0), xi.row(0) * xi.row(1), xi.row(0) * xi.row(1) * xi.row(2);
+  return rows;
+}
+
+// A lattice of Gauss and Legendre's positions, the coarsest that has some inside.
+std::vector<SpacePoint> CellPart::lattice_inside() const {
+  std::vector<SpacePoint> inside;
+  for (int n = 2 + degree_; inside.size() < count_of(degree_) && n <= 32; n *= 2) {
+    inside.clear();
+    const UnitRule along(2 * n - 1);
+    for (const double c : along.at) {
+      for (const double b : along.at) {
+        for (const double a : along.at) {
+          const SpacePoint x{std::lerp(box_.low[0], box_.high[0], a), std::lerp(box_.low[1], box_.high[1], b),
+                             std::lerp(box_.low[2], box_.high[2], c)};
+          if (solid_.contains(x)) inside.push_back(x);
+        }
+      }
+    }
+  }
+  return inside;
+}
+
+std::vector<SpacePoint> CellPart::or_one(std::vector<SpacePoint> inside) const {
+  if (!inside.empty()) return inside;
+  const SpacePoint middle{centroid_[0], centroid_[1], centroid_[2]};
+  if (solid_.contains(middle)) return {middle};
+  const auto distance = [&](const SpacePoint& x) { return (Eigen::Vector3d(x.data()) - centroid_).squaredNorm(); };
+  const std::vector<SpacePoint> some = solid_.rules_lie_inside() ? rule_.x : lattice_inside();
+  if (some.empty()) return {middle};  // of a sliver: nothing nearer is known
+  return {*std::ranges::min_element(some, {}, distance)};
+}
+
+SolidCellRule CellPart::with_shares(const std::vector<SpacePoint>& x, const VectorXd& share, int degree) const {
+  SolidCellRule rule{{}, {}, degree};
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    const double s = share(static_cast<Index>(p));
+    if (s <= kNoShare) continue;
+    rule.x.push_back(x[p]);
+    rule.share.push_back(s);
+  }
+  return rule;
+}
+
+SolidCellRule CellPart::equal_shares(std::vector<SpacePoint> inside) const {
+  const std::vector<SpacePoint> x = or_one(std::move(inside));
+  const VectorXd share = equal(x.size());
+  const VectorXd off = (products(seen_from_part(x), degree_) * share - moments_).cwiseAbs();
+  int degree = 0;
+  while (degree < degree_ && off.head(static_cast<Index>(count_of(degree + 1))).maxCoeff() <= kRoundingOfMoments)
+    ++degree;
+  return with_shares(x, share, degree);
+}
+
+SolidCellRule CellPart::fitted_shares(std::vector<SpacePoint> inside) const {
+  const std::vector<SpacePoint> x = or_one(std::move(inside));
+  const MatrixXd A = products(seen_from_part(x), degree_);
+  VectorXd share = equal(x.size());
+  int degree = 0;
+  for (; degree < degree_; ++degree) {
+    const auto rows = static_cast<Index>(count_of(degree + 1));
+    const ConstrainedFit fit = nearest_nonnegative(A.topRows(rows), moments_.head(rows), equal(x.size()));
+    if (!fit.weights) break;
+    if ((A.topRows(rows) * *fit.weights - moments_.head(rows)).lpNorm<Eigen::Infinity>() > kRoundingOfMoments) break;
+    share = *fit.weights;
+  }
+  return with_shares(x, share, degree);
+}
+
+SolidCellRule CellPart::gauss_points() const {
+  const std::vector<SpacePoint> from = solid_.rules_lie_inside() ? rule_.x : lattice_inside();
+  for (int degree = degree_; degree > 0 && !from.empty(); --degree) {
+    // Four points cannot feel all of what eight functions do.
+    const bool more = degree == 1 && most_points_ >= 8;
+    const auto rows = static_cast<Index>(count_of(degree)), all = rows + (more ? 4 : 0);
+    MatrixXd A(all, static_cast<Index>(from.size()));
+    VectorXd b(all);
+    A.topRows(rows) = products(seen_from_part(from), degree);
+    b.head(rows) = moments_.head(rows);
+    if (more) {
+      A.bottomRows(4) = products_of_axes(from);
+      b.tail(4) = products_of_axes(rule_.x) * vector_of_values(rule_.weight) / volume_;
+    }
+    const VectorXd share = solve_nnls(A, b);
+    if (!((A * share - b).lpNorm<Eigen::Infinity>() <= kRoundingOfMoments)) continue;
+    return with_shares(from, share, degree);
+  }
+  return fitted_shares({});
+}
+
+}  // namespace stillpoint
