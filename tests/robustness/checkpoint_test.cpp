@@ -147,6 +147,9 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
                     290);
   }
   check_same_bits({"hard/fast_wall", {"stop.steps=400"}}, 290);
+  const std::vector<std::string> slope_in_space = {"constants.W=0.6", "grid.cells=[12, 7, 3]", "stop.steps=150"};
+  for (const char* basis : {"linear", "quadratic"})
+    check_same_bits({"slope_in_space", with(slope_in_space, {std::string("grid.basis=") + basis})}, 110);
   // Places that move, and one in space.
   check_same_bits({"hard/free_flight",
                    {"stop.steps=400", "output.every=0.02",
