@@ -53,6 +53,15 @@ double fewest_domains_across(const Scene& scene) {
   return fewest;
 }
 
+// In a cell, the same number along each axis: as many as a polynomial of a total degree has coefficients.
+int fewest_gauss_points(int dim, int degree) {
+  const int coefficients = (degree + 1) * (degree + 2) * (dim == 3 ? degree + 3 : 3) / 6;
+  const auto all = [dim](int along) { return dim == 3 ? along * along * along : along * along; };
+  int along = 1;
+  while (all(along) < coefficients) ++along;
+  return all(along);
+}
+
 // A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 in each coordinate [Strang
 // and Fix 1973, 4.3]. In a cell that a body's border cuts they integrate a total degree m, and gradients of products
 // of p have the total degree 2p − 1: what is missed of their work with a stress is of order m + 1 − (2p − 1) in h,
@@ -100,15 +109,14 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
   }
   const int needed_at_border = 3 * degree_of(scene.grid.basis) - 2;
   if (const int below = quadrature.border_cells_below(needed_at_border); below > 0) {
-    int along = 1;  // fewest for as many points as a polynomial of this degree has coefficients
-    while (2 * along * along < (needed_at_border + 1) * (needed_at_border + 2)) ++along;
+    const int points = fewest_gauss_points(scene.dim, needed_at_border);
     const bool equal = std::ranges::any_of(
         scene.bodies, [](const BodySpec& body) { return body.has_shape() && body.volumes == VolumeRule::equal; });
     notes.push_back(fmt::format(
         "in {} of the {} cells that a body's border cuts the points integrate less than degree {}, which this basis "
         "needs for its full order: take {}body.placement = \"gauss\" with {} points per cell",
         below, quadrature.border_cells_below(highest_cut_cell_degree + 1), needed_at_border,
-        equal ? "consistent volumes and " : "", along * along));
+        equal ? "consistent volumes and " : "", points));
   }
   return notes;
 }

@@ -73,6 +73,15 @@ TEST_CASE("local damping of a plane body whose consistent mass couples smooth fu
   CHECK_FALSE(warns("linear", "consistent", "cundall"));
 }
 
+TEST_CASE("cut cells of a sphere with too few points are told of, with as many as cells in space need") {
+  const auto sphere = [](const std::string& points) {
+    return notes_of(scenes::load("thick_sphere",
+                                 {"grid.cells=[6, 6, 6]", "body.placement=uniform", "body.points_per_cell=" + points}));
+  };
+  CHECK(says(sphere("1"), "take body.placement = \"gauss\" with 8 points per cell"));
+  CHECK_FALSE(says(notes_of(scenes::load("thick_sphere", {"grid.cells=[6, 6, 6]"})), "border cuts"));
+}
+
 TEST_CASE("what the points of a polygon integrate is said by where its border cuts cells, not by its volumes") {
   const std::vector<std::string> quadratic = {"grid.basis=quadratic", "body.volumes=consistent",
                                               "body.points_per_cell=9"};
