@@ -55,7 +55,8 @@ class Hencky {
       const Tensor F = deformation_gradient<S>(H);
       const LogStrain ln(F);
       // δτ = 2 μ δe + λ tr(δe) I
-      return moduli_of_rate<S>(F, kirchhoff(ln), [&](const Tensor& l) { return stress(ln.rate(l), trace(l)); });
+      const auto rate = ln.rate();
+      return moduli_of_rate<S>(F, kirchhoff(ln), [&](const Tensor& l) { return stress(rate(l), trace(l)); });
     }
   }
 

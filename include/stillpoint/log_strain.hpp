@@ -5,7 +5,9 @@
 #include <stillpoint/logarithm.hpp>
 #include <stillpoint/tensor.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 namespace stillpoint {
@@ -38,6 +40,9 @@ struct PlaneLogStrain {
 
   PlaneTensor strain() const { return PlaneTensor{plane / 2, 0, 0, plane / 2, zz} + a / (2 * m) * dev; }
 
+  auto rate() const {
+    return [this](const PlaneTensor& l) { return rate(l); };
+  }
   // δe for δb = l b + b lᵀ
   PlaneTensor rate(const PlaneTensor& l) const {
     const PlaneTensor db = l * b + b * transpose(l);
@@ -120,21 +125,41 @@ struct SpaceLogStrain {
 
   SpaceTensor strain() const { return 0.5 * log_of_unit_plus(b - identity<SpaceTensor>); }
 
-  // δe for δb = l b + b lᵀ
-  SpaceTensor rate(const SpaceTensor& l) const {
-    using One = Dual<1>;
-    const SpaceTensor B = b - identity<SpaceTensor>, dB = l * b + b * transpose(l);
-    const auto with = [](double value, double change) { return One(value, {change}); };
-    const SpaceTensorOf<One> ln = log_of_unit_plus(SpaceTensorOf<One>{
-        with(B.xx, dB.xx), with(B.xy, dB.xy), with(B.xz, dB.xz), with(B.yx, dB.yx), with(B.yy, dB.yy),
-        with(B.yz, dB.yz), with(B.zx, dB.zx), with(B.zy, dB.zy), with(B.zz, dB.zz)});
-    const auto half = [](const One& x) { return x.derivative[0] / 2; };
-    return {half(ln.xx), half(ln.xy), half(ln.xz), half(ln.yx), half(ln.yy),
-            half(ln.yz), half(ln.zx), half(ln.zy), half(ln.zz)};
-  }
+  /// δe for δb = l b + b lᵀ, of as many l as are asked for: Σ_k ∂e/∂b_k δb_k, b_k = b_xx, b_yy, b_zz, b_xy, b_yz, b_zx,
+  /// by one pass of Duals for all of them.
+  class Rate {
+   public:
+    explicit Rate(const SpaceTensor& b) : b_(b) {
+      using Six = Dual<6>;
+      const SpaceTensor B = b - identity<SpaceTensor>;
+      const auto variable = [](double value, std::size_t k) {
+        Six b_k(value);
+        b_k.derivative[k] = 1;
+        return b_k;
+      };
+      const Six xx = variable(B.xx, 0), yy = variable(B.yy, 1), zz = variable(B.zz, 2), xy = variable(B.xy, 3),
+                yz = variable(B.yz, 4), zx = variable(B.zx, 5);
+      const SpaceTensorOf<Six> ln = log_of_unit_plus(SpaceTensorOf<Six>{xx, xy, zx, xy, yy, yz, zx, yz, zz});
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto half = [k](const Six& x) { return x.derivative[k] / 2; };
+        slopes_[k] = {half(ln.xx), half(ln.xy), half(ln.xz), half(ln.yx), half(ln.yy),
+                      half(ln.yz), half(ln.zx), half(ln.zy), half(ln.zz)};
+      }
+    }
+    SpaceTensor operator()(const SpaceTensor& l) const {
+      const SpaceTensor db = l * b_ + b_ * transpose(l);
+      return db.xx * slopes_[0] + db.yy * slopes_[1] + db.zz * slopes_[2] + db.xy * slopes_[3] + db.yz * slopes_[4] +
+             db.zx * slopes_[5];
+    }
+
+   private:
+    SpaceTensor b_;
+    std::array<SpaceTensor, 6> slopes_;  // ∂e/∂b_k
+  };
+  Rate rate() const { return Rate(b); }
 };
 
-/// Made of F = I + H; strain(), rate(l) for δF = l F, and J = ln det F.
+/// Made of F = I + H; strain(), rate()(l) for δF = l F, and J = ln det F.
 template <StressState S>
 using LogStrainOf = std::conditional_t<S == StressState::space, SpaceLogStrain, PlaneLogStrain<S>>;
 

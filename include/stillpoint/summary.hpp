@@ -97,6 +97,7 @@ struct Summary {
   std::vector<Snapshot> snapshots;
   std::map<std::string, std::vector<double>>
       reactions;  // of named supports, the force that each exerts on the body [N]
+  std::map<std::string, std::vector<double>> reaction_moments;  // in space, of these about the origin [N m]
   std::vector<SupportGap> weak_supports;
   std::optional<LoadFigures> load;
   std::optional<ExactError> error;

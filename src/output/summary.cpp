@@ -51,10 +51,13 @@ std::string to_json(const Summary& s) {
     for (const auto& [field, value] : fields) of_probe[field] = number(value);
     probes.emplace_back(name, std::move(of_probe));
   }
-  Json reactions = Json::object(), weak_supports = Json::array();
-  for (const auto& [name, force] : s.reactions) {
-    for (std::size_t i = 0; i < force.size(); ++i) reactions[name][std::string(1, "xyz"[i])] = number(force[i]);
-  }
+  const auto by_support = [](const std::map<std::string, std::vector<double>>& vectors) {
+    Json all = Json::object();
+    for (const auto& [name, vector] : vectors)
+      for (std::size_t i = 0; i < vector.size(); ++i) all[name][std::string(1, "xyz"[i])] = number(vector[i]);
+    return all;
+  };
+  Json weak_supports = Json::array();
   for (const SupportGap& weak : s.weak_supports)
     weak_supports.push_back({{"support", weak.support},
                              {"stiffness", number(weak.stiffness)},
@@ -114,7 +117,8 @@ std::string to_json(const Summary& s) {
                      {"critical_step", number(s.critical_step)},
                      {"notes", s.notes},
                      {"error", error},
-                     {"reactions", reactions},
+                     {"reactions", by_support(s.reactions)},
+                     {"reaction_moments", by_support(s.reaction_moments)},
                      {"weak_supports", weak_supports},
                      {"load", load},
                      {"probes", probes},

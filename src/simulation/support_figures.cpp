@@ -49,6 +49,8 @@ std::vector<std::string> reaction_columns(const Scene& scene) {
     if (scene.dim == 1) columns.push_back(support.name + ".reaction");
     for (int i = 0; i < scene.dim && scene.dim > 1; ++i)
       columns.push_back(fmt::format("{}.reaction_{}", support.name, "xyz"[i]));
+    for (int i = 0; i < 3 && scene.dim == 3; ++i)
+      columns.push_back(fmt::format("{}.moment_{}", support.name, "xyz"[i]));
   }
   return columns;
 }
@@ -56,16 +58,20 @@ std::vector<std::string> reaction_columns(const Scene& scene) {
 std::vector<double> reaction_values(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion) {
   std::vector<double> values;
   if (!has_named_supports(scene)) return values;
-  for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions()))
+  for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
     values.insert(values.end(), support.force.begin(), support.force.begin() + scene.dim);
+    if (scene.dim == 3) values.insert(values.end(), support.moment.begin(), support.moment.end());
+  }
   return values;
 }
 
 void fill_supports(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion, Summary& summary) {
   if (has_named_supports(scene)) {
     motion.residual(t);
-    for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions()))
+    for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
       summary.reactions[support.name] = {support.force.begin(), support.force.begin() + scene.dim};
+      if (scene.dim == 3) summary.reaction_moments[support.name] = {support.moment.begin(), support.moment.end()};
+    }
   }
   const std::vector<WeakSupport> weak = phase.weak_supports(t, motion.u());
   const double largest = weak.empty() ? 0 : largest_displacement(phase, t, motion.u());

@@ -12,10 +12,10 @@
 
 namespace stillpoint {
 
-/// Columns of history.csv: "<support>.reaction_x", "<support>.reaction_y" of each named support; in one dimension
-/// "<support>.reaction".
+/// Columns of history.csv: "<support>.reaction_x", "<support>.reaction_y" of each named support, in space
+/// "<support>.moment_x" to z too; in one dimension "<support>.reaction".
 std::vector<std::string> reaction_columns(const Scene& scene);
-/// In the order of the columns, at (t, u), where the system was evaluated last [N].
+/// In the order of the columns, at (t, u), where the system was evaluated last [N], [N m].
 std::vector<double> reaction_values(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion);
 /// Reactions and weak supports at (t, u), which is evaluated if there are any, with a note on what gives way too far.
 void fill_supports(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion, Summary& summary);

@@ -62,8 +62,16 @@ TEST_CASE("a square bar bears Saint-Venant's torque, 0.140577 G a^4 per twist, w
   const auto of = [&](int n, double& error) {
     Simulation simulation(scenes::load("torsion", {cells(4, n, n)}));
     REQUIRE(simulation.run() == RunStatus::equilibrium);
-    error = torque(simulation) / T - 1;
-    return simulation.summary();
+    const double of_stress = torque(simulation);
+    error = of_stress / T - 1;
+    const Summary summary = simulation.summary();
+    const auto moment = [&](const std::string& end, std::size_t axis) {
+      return summary.reaction_moments.at(end + "_y")[axis] + summary.reaction_moments.at(end + "_z")[axis];
+    };
+    CHECK(moment("end", 0) == Approx(of_stress).epsilon(1e-6));
+    CHECK(moment("start", 0) == Approx(-of_stress).epsilon(1e-6));
+    for (const std::size_t axis : {1U, 2U}) CHECK(std::abs(moment("end", axis)) < 1e-6 * of_stress);
+    return summary;
   };
   Errors of_torque{};
   const Summary coarse = of(8, of_torque.coarse), fine = of(16, of_torque.fine);

@@ -12,7 +12,8 @@ namespace stillpoint {
 /// motion, the support bears M a more.
 struct SupportReaction {
   std::string name;
-  std::array<double, 3> force{};  // its first components are those of the scene [N]
+  std::array<double, 3> force{};   // its first components are those of the scene [N]
+  std::array<double, 3> moment{};  // in space, about the origin, where the supported material is now [N m]
 };
 
 /// How far a support that holds by springs gives way.

@@ -68,6 +68,12 @@ class WeakSupports {
   /// The support of spring s, and the component that it holds.
   std::size_t owner(std::size_t s) const { return held_[s].support; }
   int component(std::size_t s) const { return held_[s].component; }
+  /// Where spring s holds the body at u, over the grid's functions [m].
+  Point<dim> place(std::size_t s, const double* u) const {
+    CarriedPoint<B, K> at = held_[s].at;
+    at.move(u);
+    return at.x;
+  }
   /// The largest ratio of a spring's k wᵀM⁻¹w to that of the first phase, at least 1: omega_max² grows by no more.
   double growth() const { return growth_; }
 

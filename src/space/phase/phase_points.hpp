@@ -161,14 +161,31 @@ std::vector<SupportReaction> MaterialPointPhase<B, K>::support_reactions(double 
   std::vector<double> F_s(prescribed, 0);
   for (const auto& condition : boundary_) condition->add_load_on_supports(parts(), t, grid_u_.data(), F_s);
   load_control_.add_load_on_supports(parts(), t, grid_u_.data(), F_s);
+  // f along axis i at x, with its moment x × f e_i.
+  const auto bear = [&](SupportReaction& support, int i, double f, const auto& place_of) {
+    support.force[static_cast<std::size_t>(i)] += f;
+    if constexpr (Dim == 3) {
+      const Point<Dim> x = place_of();
+      const auto next = static_cast<std::size_t>((i + 1) % 3), last = static_cast<std::size_t>((i + 2) % 3);
+      support.moment[next] += x[last] * f;
+      support.moment[last] -= x[next] * f;
+    }
+  };
   for (std::size_t s = 0; s < prescribed; ++s) {
     const auto [function, i] = std::div(held_.prescribed()[s], Dim);
-    if (const std::size_t owner = place[held_.owner(s)]; owner != none && Basis::is_value(grid_, function))
-      named[owner].force[static_cast<std::size_t>(i)] += reactions[s] - F_s[s];
+    const std::size_t owner = place[held_.owner(s)];
+    if (owner == none || !Basis::is_value(grid_, function)) continue;
+    bear(named[owner], i, reactions[s] - F_s[s], [&, number = function] {
+      Point<Dim> x;
+      for (int d = 0; d < Dim; ++d)
+        x[d] = B::centre(grid_.axes[d], Basis::index_along(grid_, number, d)) + grid_u_[Dim * number + d];
+      return x;
+    });
   }
   for (std::size_t s = 0; s < weak_supports_.springs().size(); ++s) {
     if (const std::size_t owner = place[weak_supports_.owner(s)]; owner != none)
-      named[owner].force[static_cast<std::size_t>(weak_supports_.component(s))] += reactions[prescribed + s];
+      bear(named[owner], weak_supports_.component(s), reactions[prescribed + s],
+           [&] { return weak_supports_.place(s, grid_u_.data()); });
   }
   return named;
 }
