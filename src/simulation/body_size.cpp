@@ -1,6 +1,7 @@
 #include "simulation/body_size.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "scene/body_solid.hpp"
+#include "space/points/solid_cell_rule.hpp"
 
 namespace stillpoint {
 namespace {
@@ -35,6 +37,49 @@ double functions_along(BasisKind basis, double cells) {
   return basis == BasisKind::hermite ? 2 * (cells + 1) : cells + degree_of(basis);
 }
 
+/// Cells of a solid in space that hold points, and those points.
+struct Filled {
+  double cells = 0, points = 0;
+};
+
+// Of the cells that its surface may cut so many are looked at.
+Filled filled_by_solid(const GridSpec& grid, const BodySpec& body, double per_cell) {
+  constexpr std::size_t looked_at = 1000;
+  constexpr double sliver = 1e-6;  // which has no points
+  const auto solid = solid_of(body);
+  std::array<std::vector<double>, 3> lines;  // of the cells in the body's box
+  for (std::size_t d = 0; d < 3; ++d) {
+    const Range range = cells_between(grid, d, body.min[d], body.max[d]);
+    for (int c = 0; c <= static_cast<int>(range.length()); ++c)
+      lines[d].push_back(std::clamp(grid.min[d] + (range.first + c) * grid.cell_length(d), body.min[d], body.max[d]));
+  }
+  Filled filled;
+  std::vector<SpaceBox> cut;
+  for (std::size_t k = 0; k + 1 < lines[2].size(); ++k) {
+    for (std::size_t j = 0; j + 1 < lines[1].size(); ++j) {
+      for (std::size_t i = 0; i + 1 < lines[0].size(); ++i) {
+        const SpaceBox cell{{lines[0][i], lines[1][j], lines[2][k]},
+                            {lines[0][i + 1], lines[1][j + 1], lines[2][k + 1]}};
+        const Solid::Part part = solid->part_of(cell);
+        if (part == Solid::Part::some) cut.push_back(cell);
+        if (part == Solid::Part::all) filled.cells += 1;
+      }
+    }
+  }
+  filled.points = filled.cells * per_cell;
+  const bool gauss = body.placement == Placement::gauss && body.volumes == VolumeRule::consistent && body.jitter == 0;
+  const double of_gauss = static_cast<double>(count_of_gauss_points(static_cast<std::size_t>(per_cell)));
+  const std::size_t step = 1 + cut.size() / looked_at;
+  for (std::size_t c = 0; c < cut.size(); c += step) {
+    const double share = volume_in(*solid, cut[c]) / cut[c].volume(),
+                 for_cells = static_cast<double>(std::min(step, cut.size() - c));
+    if (!(share > sliver)) continue;
+    filled.cells += for_cells;
+    filled.points += for_cells * (share > 1 - 1e-9 ? per_cell : gauss ? of_gauss : std::max(1.0, share * per_cell));
+  }
+  return filled;
+}
+
 }  // namespace
 
 BodySize body_size(const Scene& scene) {
@@ -44,14 +89,20 @@ BodySize body_size(const Scene& scene) {
   double most = -1;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     const BodySpec& body = scene.bodies[k];
-    double cells = share_of_box(body), per_cell = 1;
+    const bool is_solid = dim == 3 && body.has_shape();
+    double cells = is_solid ? 1 : share_of_box(body), per_cell = 1;
     for (std::size_t d = 0; d < dim; ++d) {
       const Range range = cells_between(scene.grid, d, body.min[d], body.max[d]);
       cells *= range.length();
       if (body.file.empty()) per_cell *= body.points_per_cell[d];
       box[d] = {std::min(box[d].first, range.first), std::max(box[d].end, range.end)};
     }
-    const double points = body.file.empty() ? cells * per_cell : lines_in(body.file);
+    double points = body.file.empty() ? cells * per_cell : lines_in(body.file);
+    if (is_solid) {
+      const Filled filled = filled_by_solid(scene.grid, body, per_cell);
+      cells = filled.cells;
+      points = filled.points;
+    }
     size.points += points;
     size.body_points.push_back(points);
     size.cells += body.file.empty() ? cells : std::min(cells, points);

@@ -40,6 +40,11 @@ int degree_for(std::size_t points) {
 
 }  // namespace
 
+std::size_t count_of_gauss_points(std::size_t most_points) {
+  const std::size_t moments = count_of(degree_for(most_points));
+  return std::min(most_points, moments < 8 && most_points >= 8 ? 8 : moments);
+}
+
 CellPart::CellPart(const Solid& solid, const SpaceBox& box, std::size_t most_points)
     : solid_(solid),
       box_(box),

@@ -17,6 +17,9 @@ struct SolidCellRule {
   int degree = 0;             // every polynomial of this total degree is integrated exactly
 };
 
+/// Of CellPart::gauss_points(), for so many points at most: as many as there are moments.
+std::size_t count_of_gauss_points(std::size_t most_points);
+
 /// The part of a cell that a solid takes, by its moments.
 class CellPart {
  public:
