@@ -67,10 +67,8 @@ class Filling {
       if (smallest_share(part, cell) <= kRounding) continue;
       if (body_.is_box()) {
         fill(number, part, cell);
-      } else if constexpr (Dim == 2) {
-        fill_polygon(number, cell);
-      } else if constexpr (Dim == 3) {
-        fill_solid(number, part, cell);
+      } else {
+        fill_shape(number, part, cell);
       }
     }
     return quadrature_;
@@ -113,6 +111,11 @@ class Filling {
       points_.add(part.position(xi, p), fit_.weights(p) * part.size());
       if (domains_) points_.add_domain(r);
     }
+  }
+
+  void fill_shape(int number, const Box<Dim>& part, const Box<Dim>& cell) {
+    if constexpr (Dim == 2) fill_polygon(number, cell);
+    if constexpr (Dim == 3) fill_solid(number, part, cell);
   }
 
   /// The part of a cell that lies in the polygon.
