@@ -33,12 +33,17 @@ std::vector<double> along(const std::array<double, 2>& from, const std::array<do
 std::vector<double> over(const std::vector<FaceInterval>& part, std::size_t normal, double face) {
   constexpr int along_axis = 32;  // about fewest_of_all together
   std::vector<double> positions;
-  for (int k = 0; k < along_axis * along_axis; ++k) {
-    std::array<double, 3> x{};
-    x[normal] = face;
-    x[part[0].along] = part[0].from + (k % along_axis + 0.5) / along_axis * (part[0].to - part[0].from);
-    x[part[1].along] = part[1].from + (k / along_axis + 0.5) / along_axis * (part[1].to - part[1].from);
-    positions.insert(positions.end(), x.begin(), x.end());
+  const auto position = [](const FaceInterval& interval, int k) {
+    return interval.from + (k + 0.5) / along_axis * (interval.to - interval.from);
+  };
+  for (int b = 0; b < along_axis; ++b) {
+    for (int a = 0; a < along_axis; ++a) {
+      std::array<double, 3> x{};
+      x[normal] = face;
+      x[part[0].along] = position(part[0], a);
+      x[part[1].along] = position(part[1], b);
+      positions.insert(positions.end(), x.begin(), x.end());
+    }
   }
   return positions;
 }
