@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "output/exact_error.hpp"
 #include "scenes.hpp"
@@ -46,6 +47,28 @@ TEST_CASE("with consistent volumes u converges in L2 with order 2, 3, 4, 4: line
           observed_order({"grid.basis=" + basis, "body.placement=" + placement, "body.points_per_cell=" + points});
       CHECK(observed == Approx(order).margin(0.15));
     }
+  }
+}
+
+TEST_CASE("in space u converges in L2 with order 2, 3, 4: linear, quadratic, cubic, and the stress with one less") {
+  struct Case {
+    const char *basis, *points;
+    double order;
+  };
+  for (const auto& [basis, points, order] :
+       {Case{"linear", "8", 2}, Case{"quadratic", "27", 3}, Case{"cubic", "64", 4}}) {
+    CAPTURE(basis);
+    const auto error = [&, basis = basis, points = points](int cells) {
+      const Summary summary = run(scenes::load(
+          "ladder/mms_cube", {fmt::format("grid.cells=[{0}, {0}, {0}]", cells), std::string("grid.basis=") + basis,
+                              std::string("body.points_per_cell=") + points}));
+      REQUIRE(summary.status == RunStatus::equilibrium);
+      return summary.error.value();
+    };
+    const ExactError coarse = error(4), fine = error(6);
+    const double refined = std::log(1.5);
+    CHECK(std::log(coarse.u_rel_l2 / fine.u_rel_l2) / refined == Approx(order).margin(0.35));  // few cells: above it
+    CHECK(std::log(*coarse.stress_rel_l2 / *fine.stress_rel_l2) / refined == Approx(order - 1).margin(0.2));
   }
 }
 
