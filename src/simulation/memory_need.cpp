@@ -144,6 +144,17 @@ double of_factor(const Scene& scene, const BodySize& size) {
   return real * entries_of_factor(scene, size) * size.unknowns;
 }
 
+// Of a line or plane with what cells have at their corners, as measured.
+double vectors(const Scene& scene) { return scene.dim == 3 ? 11 : 25; }
+
+// In space, where a cell has eight functions or more for the three unknowns that it brings: a force, two numbers of the
+// function, and, as a phase begins, what points give to it (NodalTotals).
+double of_corners(const Scene& scene, const BodySize& size) {
+  if (scene.dim < 3) return 0;
+  const double functions = std::pow(degree_of(scene.grid.basis) + 1, scene.dim);
+  return functions * (scene.dim * real + 2 * sizeof(int) + (2 + scene.dim) * real) * size.cells;
+}
+
 // The block of a column for every neighbour, of all functions of the grid, from which a matrix is made.
 double of_assembly(const Scene& scene, const BodySize& size) {
   const double along = 2 * degree_of(scene.grid.basis) + 1;
@@ -218,8 +229,8 @@ MemoryNeed memory_need(const Scene& scene) {
   if (chooses_mass) add("the same with another mass", size.points * need.bytes_per_point, size.most_points);
   add("points as they are placed", size.points * (while_placed + (moves_on(scene) ? while_moving : 0)),
       size.most_points);
-  constexpr double vectors = 25;
-  add("vectors of unknowns", vectors * real * size.unknowns, "grid.cells");
+  add("vectors of unknowns", vectors(scene) * real * size.unknowns, "grid.cells");
+  add("forces of cells at their corners", of_corners(scene, size), "grid.cells");
   if (chooses_mass && is_nonlinear(scene))
     add("steps that auto remembers", 2 * ConjugateDescent::memory * real * size.unknowns, "grid.cells");
 
