@@ -46,7 +46,12 @@ inline stillpoint::Scene slab(stillpoint::Scene plane, int points_across = 1) {
   add_component(scene.initial_u);
   add_component(scene.initial_v);
   scene.exact = {};
-  for (ProbeSpec& probe : scene.probes) add_z(probe.at, 0.5);
+  for (ProbeSpec& probe : scene.probes) {
+    add_z(probe.at, 0.5);
+    if (probe.kind != ProbeKind::slope_angle) continue;
+    probe.min = scene.grid.min;  // of all points, wherever the grid follows a wall to
+    for (const double upper : scene.grid.max) probe.max.push_back(10 * upper);
+  }
   for (const Face face : {Face::back, Face::front})
     scene.supports.push_back({.face = face, .roller = true, .component = axis_of(face)});
   return scene;
