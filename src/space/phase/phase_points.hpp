@@ -162,7 +162,7 @@ std::vector<SupportReaction> MaterialPointPhase<B, K>::support_reactions(double 
   for (const auto& condition : boundary_) condition->add_load_on_supports(parts(), t, grid_u_.data(), F_s);
   load_control_.add_load_on_supports(parts(), t, grid_u_.data(), F_s);
   // f along axis i at x, with its moment x × f e_i.
-  const auto bear = [&](SupportReaction& support, int i, double f, const auto& place_of) {
+  const auto bear = [&](SupportReaction& support, int i, double f, [[maybe_unused]] const auto& place_of) {
     support.force[static_cast<std::size_t>(i)] += f;
     if constexpr (Dim == 3) {
       const Point<Dim> x = place_of();
