@@ -7,7 +7,7 @@
 
 using namespace stillpoint;
 
-TEST_CASE("a multigrid mass pays in the plane from some hundred cells a side on, in space from two hundred and forty") {
+TEST_CASE("a multigrid mass pays in the plane from some hundred cells a side on, in space from two hundred and sixty") {
   const auto pays = [](const char* scene, const char* cells, double unknowns) {
     return multigrid_pays(scenes::load(scene, {"damping.strategy=auto", "stop.distance=0", "grid.basis=linear",
                                                "body.points_per_cell=1", cells}),
