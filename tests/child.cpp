@@ -57,6 +57,16 @@ bool Child::wait_until(const std::function<bool()>& condition) {
   return false;
 }
 
+// Signals that a run watches for are closed to its first thread, and another waits for them.
+bool Child::heeds(int signal) const {
+  std::ifstream words("/proc/" + std::to_string(process_) + "/status");
+  std::string word;
+  while (words >> word && word != "SigBlk:") continue;
+  unsigned long long blocked = 0;
+  words >> std::hex >> blocked;
+  return ((blocked >> (signal - 1)) & 1U) != 0;
+}
+
 void Child::send(int signal) const {
   if (!status_) kill(process_, signal);
 }

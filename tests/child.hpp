@@ -29,6 +29,8 @@ class Child {
 
   /// Until the condition holds; false if the process has ended before, or after a minute.
   bool wait_until(const std::function<bool()>& condition);
+  /// Whether it watches for signals by now, as a run does from its first moment on: until then one would kill it.
+  bool heeds(int signal) const;
   void send(int signal) const;
   /// Its exit status, once it has ended by itself; empty if a signal ended it.
   std::optional<int> wait();
