@@ -68,8 +68,9 @@ class RelaxationSystem {
   /// The same of the last evaluation, whose ‖F − R‖ is known already [N].
   double relative_to_loads(double unbalanced);
   /// ‖M⁻¹Q‖_M/ω₁ with Q of the last residual() [√J]: in a linear system no less than ‖u − u*‖_K, since u − u* = −K⁻¹Q
-  /// and no eigenvalue of M⁻¹K is below ω₁². M: that of the system, or any other with its own ω₁.
-  double energy_error(const Mass& M, double omega_1);
+  /// and no eigenvalue of M⁻¹K is below ω₁². M: that of the system, or any other with its own ω₁. acceleration: M⁻¹Q,
+  /// (n), if it is known; else empty.
+  double energy_error(const Mass& M, double omega_1, ConstVec acceleration = {});
   /// ‖u‖_M [m √kg]; u: (n).
   double mass_norm(const Mass& M, const Vector& u);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work that is done; u: (n).
@@ -77,13 +78,14 @@ class RelaxationSystem {
   /// R·u of the last evaluation [J]; u: (n).
   double internal_work(const Vector& u) const;
   /// Q·v [W]; v: the second half of y, Q: (n).
-  double power(const Vector& v, const Vector& Q) { return keeps_momentum() ? motion(v, Q).power : dot(Q, v); }
+  double power(const Vector& v, const Vector& Q) { return keeps_momentum() ? motion(v, Q, {}).power : dot(Q, v); }
   struct Motion {
     double power;           // Q·v [W]
     double kinetic_energy;  // ½ vᵀ M v [J], without what was added to light nodes
   };
-  /// With the Q of the last residual(); v: the second half of y, (n). By one M⁻¹ if v is p.
-  Motion motion(const Vector& v) { return motion(v, Q_); }
+  /// With the Q of the last residual(); v: the second half of y, (n). If v is p, by one M⁻¹, or by the velocity M⁻¹p, (n),
+  /// if it is known.
+  Motion motion(const Vector& v, ConstVec velocity = {}) { return motion(v, Q_, velocity); }
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
   double last_t() const { return last_t_; }
@@ -99,7 +101,7 @@ class RelaxationSystem {
   void count_evaluations(long count) { evaluations_ += count; }
 
  private:
-  Motion motion(const Vector& v, const Vector& Q);
+  Motion motion(const Vector& v, const Vector& Q, ConstVec velocity);
   bool evaluate(double t, ConstVec u);
   bool balance(double t, ConstVec u, Vec Q);
   bool is_sum_of_its_own() const;

@@ -11,14 +11,14 @@ namespace stillpoint {
 ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1, std::optional<VolumeNorm> volume)
     : phase_(phase), omega_1_(phase.info().updated_lagrangian ? std::nullopt : omega_1), volume_(std::move(volume)) {}
 
-std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u) {
+std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u, ConstVec acceleration) {
   beside_largest_.reset();
   if (!omega_1_) return std::nullopt;
   const Mass& M = relaxation.mass();
   const Mass& V = volume_ ? volume_->V : M;
   by_strain_ = !V.has_product();
   const double omega_V = this->omega_V();
-  energy_error_ = relaxation.energy_error(M, *omega_1_);
+  energy_error_ = relaxation.energy_error(M, *omega_1_, acceleration);
   if (volume_) energy_error_ = std::min(energy_error_, relaxation.energy_error(V, omega_V));
   const double error = energy_error_ / omega_V;
   size_ = by_strain_ ? strain_norm(relaxation, u) : relaxation.mass_norm(V, u);

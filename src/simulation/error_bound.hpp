@@ -23,8 +23,8 @@ class ErrorBound {
 
   /// ω₁, where none was known at the beginning and V = M: the lowest so far.
   void learn(double omega_1) { omega_1_ = std::min(omega_1, omega_1_.value_or(omega_1)); }
-  /// After an evaluation at u, (n).
-  std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u);
+  /// After an evaluation at u, (n). acceleration: M⁻¹Q there, if it is known; else empty.
+  std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u, ConstVec acceleration = {});
   /// The last one beside the largest ‖u‖_V so far instead, if that is a hundred times as large: unloaded to nothing.
   std::optional<double> beside_largest() const { return beside_largest_; }
   /// Nothing acts on the body from now on but what does now: a linear one, which cannot get any energy beyond what it

@@ -42,9 +42,15 @@ PhaseMotion::PhaseMotion(Model& model, const Scene& scene, const VectorSpace& ve
 ConstVec PhaseMotion::v() const {
   const ConstVec second = second_half(y.span());
   if (!system.keeps_momentum()) return second;
+  if (const ConstVec known = integrator->velocity(); !known.empty()) return known;
   velocity_.assign(second.size(), 0.0);
   if (!integrator->static_iteration()) system.mass().solve(second, velocity_);
   return velocity_;
+}
+
+RelaxationSystem::Motion PhaseMotion::motion() {
+  if (integrator->static_iteration()) return {.power = 0, .kinetic_energy = 0};
+  return system.motion(v_vector, integrator->velocity());
 }
 
 void PhaseMotion::accept(double t) {

@@ -30,6 +30,8 @@ class PhaseMotion {
   void finish(double t);
   /// Saves it, or restores one that begins at the (t, u, v) of then.
   void archive(const StateArchive& state);
+  /// After residual().
+  RelaxationSystem::Motion motion();
   /// ‖F − R‖/‖F‖ at t.
   double residual(double t) {
     return integrator->force_is_current() ? system.last_residual() : system.residual(t, u());

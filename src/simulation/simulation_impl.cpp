@@ -188,9 +188,9 @@ void Simulation::Impl::measure() {
   residual_ = motion_->residual(t_);
   if (const auto omega_1 = model_.learns_omega_1 ? motion_->integrator->lowest_frequency() : std::nullopt)
     error_bound_.learn(*omega_1);
-  distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
+  distance_ = error_bound_.distance(motion_->system, motion_->u_vector, motion_->integrator->acceleration());
   work_scale_ = motion_->system.work_scale(motion_->u_vector);
-  const RelaxationSystem::Motion motion = motion_->system.motion(motion_->v_vector);
+  const RelaxationSystem::Motion motion = motion_->motion();
   power_ = motion.power;
   kinetic_energy_ = motion.kinetic_energy;
   if (schedule_.settled_for_good(t_)) error_bound_.loads_have_settled(kinetic_energy_);
@@ -205,7 +205,7 @@ std::optional<double> Simulation::Impl::distance_to_go() const {
 void Simulation::Impl::refresh_distance() {
   if (error_bound_.refresh(t_, motion_->u(), residual_)) {
     motion_->system.residual(t_, motion_->u());
-    distance_ = error_bound_.distance(motion_->system, motion_->u_vector);
+    distance_ = error_bound_.distance(motion_->system, motion_->u_vector, motion_->integrator->acceleration());
   }
 }
 

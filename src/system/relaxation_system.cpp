@@ -167,9 +167,13 @@ double RelaxationSystem::relative_to_loads(double unbalanced) {
 }
 
 // ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q
-double RelaxationSystem::energy_error(const Mass& M, double omega_1) {
+double RelaxationSystem::energy_error(const Mass& M, double omega_1, ConstVec acceleration) {
   if (!work_) work_ = vectors_.make(size());
-  M.solve(Q_.span(), work_->span());
+  if (acceleration.empty()) {
+    M.solve(Q_.span(), work_->span());
+  } else {
+    std::ranges::copy(acceleration, work_->span().begin());
+  }
   return std::sqrt(dot(Q_, *work_)) / omega_1;
 }
 
@@ -197,10 +201,14 @@ double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u
 double RelaxationSystem::internal_work(const Vector& u) const { return dot(R_, u); }
 
 // Or Q·M⁻¹p and ½ pᵀ M⁻¹ p.
-RelaxationSystem::Motion RelaxationSystem::motion(const Vector& v, const Vector& Q) {
+RelaxationSystem::Motion RelaxationSystem::motion(const Vector& v, const Vector& Q, ConstVec velocity) {
   if (!work_) work_ = vectors_.make(size());
   if (keeps_momentum()) {
-    mass_.solve(v.span(), work_->span());
+    if (velocity.empty()) {
+      mass_.solve(v.span(), work_->span());
+    } else {
+      std::ranges::copy(velocity, work_->span().begin());
+    }
     return {.power = dot(Q, *work_), .kinetic_energy = 0.5 * dot(v, *work_)};
   }
   const double power = dot(Q, v);

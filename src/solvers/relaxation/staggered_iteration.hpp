@@ -25,6 +25,8 @@ namespace stillpoint {
 class StaggeredIteration : public SteppingIntegrator {
  public:
   bool force_is_current() const final { return force_is_current_; }
+  ConstVec velocity() const final { return p_ ? v_->span() : ConstVec(); }
+  ConstVec acceleration() const final { return p_ && force_is_current_ ? a_.span() : ConstVec(); }
   CarriedOver carried_over() const final {
     return {.last_step = last_step_, .rate = damping_rate(), .step_share = step_share()};
   }

@@ -21,6 +21,7 @@ class StaticIteration : public SteppingIntegrator {
  public:
   bool force_is_current() const final { return true; }
   bool static_iteration() const final { return true; }
+  ConstVec acceleration() const final { return admissible_ && load_.to() >= 1 ? z_.span() : ConstVec(); }
 
  protected:
   /// Throws std::invalid_argument if something touches the body.
