@@ -17,9 +17,10 @@ namespace {
 
 // Seconds on a core of 2022, of which only the ratios count, measured by incompressible.toml with 1e4 to 3e5 unknowns
 // and in space by oedometer.toml with 4e4 to 1.5e6: evaluations without multigrid grow with the cells across the body,
-// those with it do not, and both cost as much as there are unknowns. In space a row of K has 81 entries for 18, and a
-// cell of the coarser levels as many more. A body that turns or buckles on its way takes 100 to 1600 with multigrid
-// (cantilever.toml, blocks under their weight), one that hardly does as many as a linear one: 150 stand for both.
+// those with it do not, and both cost as much as there are unknowns. In space a row of K has 81 entries for 18, and the
+// products of K with the prolongation, which make the coarser levels, grow by as much. A body that turns or buckles on
+// its way takes 100 to 1600 with multigrid (cantilever.toml, blocks under their weight), one that hardly does as many
+// as a linear one: 150 stand for both.
 struct Cost {
   double without, with;  // [s]
 };
@@ -27,8 +28,8 @@ Cost cost_of(const Scene& scene, double unknowns, bool linear) {
   constexpr double per_cell = 7.4;       // evaluations to 1e-6, a cell along the longest side
   constexpr double start = 0.12;         // of PETSc
   const bool in_space = scene.dim == 3;  // seconds an unknown:
-  const double evaluation = in_space ? 30e-9 : 12e-9, set_up = in_space ? 21e-6 : 4.0e-6;
-  const double cycle = in_space ? 2.4e-6 : 0.15e-6;
+  const double evaluation = in_space ? 30e-9 : 12e-9, set_up = in_space ? 14e-6 : 4.0e-6;
+  const double cycle = in_space ? 1.2e-6 : 0.15e-6;
   const double cells = *std::ranges::max_element(scene.grid.cells);
   const double cycles = linear ? 15 : 150;
   return {per_cell * cells * evaluation * unknowns, start + (set_up + cycles * cycle) * unknowns};

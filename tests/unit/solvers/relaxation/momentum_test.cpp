@@ -67,3 +67,33 @@ TEST_CASE("a mass that is known by its inverse alone moves a body as the same ma
   M.apply(v, p);
   CHECK(largest_difference(second_half(ConstVec(by_inverse)), p) <= 1e-12 * largest_magnitude(p));
 }
+
+TEST_CASE("after a step an iteration knows its velocity and acceleration: energy and error bound take no further M⁻¹") {
+  const char* strategy = GENERATE("auto", "kinetic", "papadrakakis", "chebyshev");
+  CAPTURE(strategy);
+  Chain chain = uneven_chain(false);
+  const Mass& M = chain.mass();
+  int inverses = 0;
+  const Mass inverse = Mass::by_inverse(M.size(), [&](ConstVec b, Vec x) { ++inverses, M.solve(b, x); });
+  constexpr double h = 0.2, omega_1 = 0.2;
+  const auto damping = damping_of(strategy, 2 * omega_1, 0.1);
+  const VectorSpace vectors;
+  RelaxationSystem system(chain, *damping, vectors, &inverse);
+  Vector y = vectors.make(2 * chain.size());
+  const auto iteration = stepper_of(strategy, {.method = "leapfrog", .max_step = h}, system,
+                                    {.omega_1 = omega_1, .steady = true, .linear = true});
+  iteration->start(0, y);
+  for (int k = 1; k <= 6; ++k) {
+    inverses = 0;
+    const StepReport report = iteration->step(1e6);
+    REQUIRE(report.status == StepReport::Status::ok);
+    const Vector p = vectors.view(second_half(y.span()));
+    const double residual = system.last_residual();
+    const double energy = system.motion(p, iteration->velocity()).kinetic_energy;
+    const double error = system.energy_error(inverse, omega_1, iteration->acceleration());
+    CHECK(inverses == 1);  // of the step
+    CHECK(residual > 0);
+    CHECK_THAT(energy, Catch::WithinRel(system.motion(p).kinetic_energy, 1e-10) || Catch::WithinAbs(0, 1e-30));
+    CHECK_THAT(error, Catch::WithinRel(system.energy_error(inverse, omega_1), 1e-12));
+  }
+}
