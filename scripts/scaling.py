@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""scaling.py [--quick]: how time, evaluations and memory grow with the number of unknowns, by several ways to rest.
+"""scaling.py [--space] [--quick]: how time, evaluations and memory grow with the number of unknowns, by several ways to
+rest.
 
-Takes the block of problems/incompressible.toml, compressible and on linear cells, to a residual of 1e-6 on ever finer
-grids. Runs go one after another, and each repetition begins with another way, so that what the machine does meanwhile
+Takes the block of problems/incompressible.toml, compressible and on linear cells, or with --space that under the square
+footing of problems/square_load.toml, to a residual of 1e-6 on ever finer grids. Runs go one after another, and each repetition begins with another way, so that what the machine does meanwhile
 falls on all of them; of a way's repetitions the fastest counts. Prints a line for each way and size, and writes
-DIR/scaling.csv, DIR/scaling.md (a table with exponents) and DIR/scaling.png. Exit status 1 if a run does not end in
+DIR/scaling.csv, DIR/scaling.md (a table with exponents, and where one way
+overtakes Newton's) and DIR/scaling.png. Exit status 1 if a run does not end in
 equilibrium, which leaves its place empty, 2 for bad input. Needs build/release/stillpoint.
 """
 
@@ -22,9 +24,24 @@ from limited_run import run_in
 from scaling_table import Figure, line, markdown, write_csv
 
 ROOT = Path(__file__).resolve().parent.parent
-SCENE = ROOT / "problems/incompressible.toml"
-SETTINGS = ["constants.nu=0.3", "grid.basis=linear", "stop.residual=1e-6"]
-SIZES = [(28, 22), (88, 70), (280, 224), (480, 384), (708, 566)]  # cells: 1e3 to 6.4e5 unknowns
+
+@dataclass(frozen=True)
+class Body:
+    scene: Path
+    settings: tuple[str, ...]
+    sizes: tuple[tuple[int, ...], ...]  # cells
+
+
+PLANE = Body(
+    ROOT / "problems/incompressible.toml",
+    ("constants.nu=0.3", "grid.basis=linear", "stop.residual=1e-6"),
+    ((28, 22), (88, 70), (280, 224), (480, 384), (708, 566)),  # 1e3 to 6.4e5 unknowns
+)
+SPACE = Body(
+    ROOT / "problems/square_load.toml",
+    ("stop.residual=1e-6",),
+    tuple((cells, cells, cells) for cells in (8, 16, 24, 32, 40)),  # 1.7e3 to 1.9e5 unknowns, where factors take 10 GB
+)
 QUICK_SIZES = 3
 LONG, VERY_LONG = 10, 150  # [s]: runs that are repeated once at most, and not at all
 
@@ -57,20 +74,20 @@ def without_damping(scene):
     return re.sub(r"^\[damping\].*\n(?:(?!\[).*\n)*", "", scene, flags=re.MULTILINE)
 
 
-def command_of(program, scene, way, cells):
-    settings = [*SETTINGS, *way.settings, f"grid.cells=[{cells[0]},{cells[1]}]"]
+def command_of(program, scene, settings, way, cells):
+    settings = [*settings, *way.settings, f"grid.cells=[{','.join(map(str, cells))}]"]
     return [program, "run", scene, *(word for setting in settings for word in ("--set", setting))]
 
 
 def measured(options, way, cells):
     """The figure of one run, in a folder that does not stay."""
     with tempfile.TemporaryDirectory(prefix="stillpoint-") as temporary:
-        folder, scene = Path(temporary), SCENE
+        folder, scene = Path(temporary), options.body.scene
         if way.static:
-            scene = folder / SCENE.name
-            scene.write_text(without_damping(SCENE.read_text(encoding="utf-8")), encoding="utf-8")
+            scene = folder / scene.name
+            scene.write_text(without_damping(options.body.scene.read_text(encoding="utf-8")), encoding="utf-8")
         measuring = [sys.executable, "-I", "-S", ROOT / "scripts/measured_run.py", folder / "usage.json"]
-        command = measuring + command_of(options.program.resolve(), scene, way, cells)
+        command = measuring + command_of(options.program.resolve(), scene, options.body.settings, way, cells)
         run = run_in(folder / "run", command, options.seconds, options.threads)
         return figure_of(way, cells, run, folder / "usage.json")
 
@@ -121,7 +138,7 @@ def measure_size(options, cells, turn):
 
 def measure(options):
     rows, turn = [], 0
-    for cells in SIZES[: QUICK_SIZES if options.quick else None]:
+    for cells in options.body.sizes[: QUICK_SIZES if options.quick else None]:
         figures, turn = measure_size(options, cells, turn)
         for figure in figures:
             print(line(figure), flush=True)
@@ -130,9 +147,9 @@ def measure(options):
 
 
 def about(options, load):
-    settings = ", ".join(f"`{setting}`" for setting in SETTINGS)
+    settings = ", ".join(f"`{setting}`" for setting in options.body.settings)
     return (
-        f"`problems/{SCENE.name}` with {settings}, from the start of the program to its end, and its peak memory; "
+        f"`problems/{options.body.scene.name}` with {settings}, from the start of the program to its end, and its peak memory; "
         f"{os.cpu_count()} cores, the fastest of {options.repeat} runs in turn (of long ones fewer), others' load "
         f"{load:.1f} when they began."
     )
@@ -141,6 +158,7 @@ def about(options, load):
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
+    add("--space", dest="body", action="store_const", const=SPACE, default=PLANE, help="a body in space")
     add("--quick", action="store_true", help="the three smallest sizes, about a minute")
     add("--out", type=Path, default=Path("out/scaling"), metavar="DIR")
     add("--repeat", type=int, default=3, metavar="N",

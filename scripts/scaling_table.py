@@ -69,6 +69,30 @@ def exponent_text(fitted):
     return f"{slope:.2f}" + ("" if low is None else f" ({low:.2f} to {high:.2f})")
 
 
+# --- crossings -----------------------------------------------------------------------------------------
+
+
+def crossings(one, other, quantity):
+    """[(unknowns, quantity)] where the lines of two ways cross, straight between their sizes on logarithmic axes."""
+    sizes = sorted({row.unknowns for row in one if row.found} & {row.unknowns for row in other if row.found})
+    value = [{row.unknowns: math.log(getattr(row, quantity)) for row in rows if row.found} for rows in (one, other)]
+    found = []
+    for low, high in zip(sizes, sizes[1:]):
+        apart = [value[0][size] - value[1][size] for size in (low, high)]
+        if (apart[0] > 0) != (apart[1] > 0):
+            share = apart[0] / (apart[0] - apart[1])
+            between = [a + share * (b - a) for a, b in (map(math.log, (low, high)), (value[0][low], value[0][high]))]
+            found.append(tuple(map(math.exp, between)))
+    return found
+
+
+def overtaken(rows, quantity="seconds", of="Newton, CHOLMOD"):
+    """[(way, unknowns, quantity)] where the line of each other way crosses that of the way `of`."""
+    ways = by_way(rows)
+    others = [(way, of_way) for way, of_way in ways.items() if way != of and of in ways]
+    return [(way, *point) for way, of_way in others for point in crossings(of_way, ways[of], quantity)]
+
+
 # --- text ----------------------------------------------------------------------------------------------
 
 
@@ -113,4 +137,6 @@ def markdown(rows, about):
         exponents = [exponent_text(exponent(of_way, quantity)) for quantity in ("evaluations", "seconds")]
         lines.append("| " + " | ".join([way, *map(figures_text, of_way), *exponents]) + " |")
     fits = f"Evaluations, time, memory; exponents in the unknowns beyond {with_spaces(LEAST)}, with 95 % (Student's t)."
+    crossing = [f"{way} at {with_spaces(round(unknowns))} unknowns" for way, unknowns, _ in overtaken(rows)]
+    lines += ["", "As quick as Newton's method with CHOLMOD: " + ("; ".join(crossing) or "none, at any size") + "."]
     return f"{about}\n{fits}\n\n" + "\n".join(lines) + "\n"

@@ -17,8 +17,8 @@ echo "$words" >>"$here/calls"
 while [[ $1 != --out ]]; do shift; done
 mkdir -p "$2"
 case $words in
-  *cells=?28,*) n=10000 evaluations=300 ;;
-  *cells=?88,*) n=40000 evaluations=600 ;;
+  *cells=?28,* | *cells=?8,*) n=10000 evaluations=300 ;;
+  *cells=?88,* | *cells=?16,*) n=40000 evaluations=600 ;;
   *) n=160000 evaluations=1200 ;;
 esac
 status=equilibrium code=0
@@ -69,6 +69,19 @@ def _(_folder):
     assert all(abs(value - 1) < 1e-9 for value in module.exponent(rows, "evaluations"))
 
 
+@claim("two power laws cross where they are equal, and ways that never do have no crossing")
+def _(_folder):
+    module = script_module("scaling_table")
+    sizes = (10**3, 10**4, 10**5, 10**6)
+    laws = {"Newton, CHOLMOD": lambda n: 1e-6 * n**1.5, "steady": lambda n: 0.01 * n**0.5, "quick": lambda n: 1e-9 * n}
+    rows = [module.Figure(way, "", n, "equilibrium", seconds=law(n)) for way, law in laws.items() for n in sizes]
+    ((way, unknowns, seconds),) = module.overtaken(rows)
+    assert way == "steady" and abs(unknowns / 1e4 - 1) < 1e-9 and abs(seconds - 1) < 1e-9, (way, unknowns, seconds)
+    ((_, unknowns, _),) = module.overtaken([row for row in rows if row.unknowns != 10**4])
+    assert abs(unknowns / 1e4 - 1) < 1e-9, unknowns
+    assert module.overtaken([row for row in rows if row.way == "quick"]) == []
+
+
 @claim("of noise around a power law the interval has the true exponent in it 95 times of 100")
 def _(_folder):
     numpy, fitted_slope = script_module("numpy"), script_module("fitted_line").fitted_slope
@@ -111,6 +124,14 @@ def _(folder):
     assert len(calls) == 2 * 3 * WAYS and all("constants.nu=0.3" in words for words in calls)
     # Static solvers refuse [damping], and the other ways need it.
     assert all(("solve.method" in words) != ("with damping" in words) for words in calls), calls
+
+
+@claim("with --space the study is of a body in space, whose cells have three numbers")
+def _(folder):
+    result, calls = the_study(folder, "--repeat", 1, "--space")
+    assert result.returncode == 0 and "18 figures, 0 missing" in result.stdout, result
+    assert [row["cells"] for row in rows_of(folder)[::WAYS]] == ["8x8x8", "16x16x16", "24x24x24"]
+    assert all("square_load.toml" in words and "constants.nu" not in words for words in calls), calls
 
 
 @claim("each repetition begins with another way")
