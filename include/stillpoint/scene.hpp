@@ -12,6 +12,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -35,6 +36,13 @@ struct PointOutline {                                     // of points in the pl
   double spacing = 0;                                     // of the points, the widest [m]
 };
 
+class TriangleSolid;
+
+struct StlSolid {                              // what was read of an STL file
+  std::filesystem::path file;                  // it
+  std::shared_ptr<const TriangleSolid> solid;  // all bodies and copies of the scene have the same
+};
+
 struct BodySpec {                // [body], or several [[body]]: material points in a shape or from a file
   std::vector<double> min, max;  // the box [m], inside the grid; of another shape what of it is in there, and its box
   // Another shape:
@@ -55,8 +63,18 @@ struct BodySpec {                // [body], or several [[body]]: material points
   VolumeRule volumes = VolumeRule::consistent;
   unsigned long seed = 1;  // of placement = "random" and of jitter
 
-  bool has_shape() const { return !polygon.empty() || !sphere.empty() || !cylinder.empty() || !stl.empty(); }
-  bool is_box() const { return file.empty() && !has_shape(); }
+  StlSolid from_stl{};  // of stl, from when the scene was checked, so that it is read once
+
+  BodyShape shape() const {
+    if (!polygon.empty()) return BodyShape::polygon;
+    if (!sphere.empty()) return BodyShape::sphere;
+    if (!cylinder.empty()) return BodyShape::cylinder;
+    if (!stl.empty()) return BodyShape::triangles;
+    return file.empty() ? BodyShape::box : BodyShape::points;
+  }
+  bool is_box() const { return shape() == BodyShape::box; }
+  /// Another shape than a box, that is filled with points.
+  bool has_shape() const { return !is_box() && shape() != BodyShape::points; }
 };
 
 struct MaterialSpec {  // [material.<name>]

@@ -15,6 +15,8 @@ constexpr int degree_of(BasisKind basis) {
 enum class StressState { uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric, space };
 /// As scenes write it: "plane-strain".
 std::string_view to_string(StressState state);
+/// The shape of a body, by the keys that its table has.
+enum class BodyShape { box, points, polygon, sphere, cylinder, triangles };
 enum class Placement { uniform, gauss, random };
 enum class VolumeRule { equal, consistent };
 /// multigrid: fictitious, M⁻¹ one cycle of multigrid on the elastic stiffness.

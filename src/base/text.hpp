@@ -1,6 +1,7 @@
 // Words in messages: users' own in quotes, and the word that a misspelt one was meant to be.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,9 @@ namespace stillpoint {
 
 /// A text with its control characters escaped: one line, with which no scene can drive a terminal.
 std::string one_line(std::string_view text);
+
+/// "1 spring", "2 springs".
+std::string counted(std::size_t number, std::string_view what);
 
 /// A text whose end is replaced by "…" if it is longer, in bytes.
 std::string shortened(std::string_view text, std::size_t longest);

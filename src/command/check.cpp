@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/memory_room.hpp"
+#include "base/text.hpp"
 #include "command/commands.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/memory_need.hpp"
@@ -49,8 +50,9 @@ int check(const SceneArguments& arguments) {
   const LagrangianPhase& phase = *model.phase;
 
   fmt::print("{}\n", scene.title.empty() ? scene.name : scene.title);
-  fmt::print("  space            {} dimension{}, {}, {} basis, {} cells of which {} hold material\n", scene.dim,
-             scene.dim == 1 ? "" : "s", to_string(scene.state), basis_names[static_cast<std::size_t>(scene.grid.basis)],
+  fmt::print("  space            {}, {}, {} basis, {} cells of which {} hold material\n",
+             counted(static_cast<std::size_t>(scene.dim), "dimension"), to_string(scene.state),
+             basis_names[static_cast<std::size_t>(scene.grid.basis)],
              fmt::join(phase.discretisation().grid_cells, " x "), phase.discretisation().occupied_cells);
   for (const BodySpec& body : scene.bodies) {
     fmt::print("  body             of {}: {}, {} volumes\n", body.material, scene.materials.at(body.material).law,
@@ -68,8 +70,8 @@ int check(const SceneArguments& arguments) {
              : phase.mass().is_lumped() ? "lumped"
                                         : "consistent");
   for (const WeakSupport& weak : phase.weak_supports(0, model.u)) {
-    fmt::print("  weak support     support[{}]: {} spring{} of {:.4g} {}\n", weak.support, weak.springs,
-               weak.springs == 1 ? "" : "s", weak.stiffness, scene.supports[weak.support].face ? "N/m3" : "N/m");
+    fmt::print("  weak support     support[{}]: {} of {:.4g} {}\n", weak.support, counted(weak.springs, "spring"),
+               weak.stiffness, scene.supports[weak.support].face ? "N/m3" : "N/m");
   }
   if (const StaticMethodInfo* method = model.static_method) {
     fmt::print("  static solver    {}: {}\n", method->name, method->equation);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "command/commands.hpp"
 #include "command/study_output.hpp"
 #include "command/terminal.hpp"
@@ -38,8 +39,9 @@ std::vector<const ComparedRun*> ranked(const Comparison& c) {
 
 void print_heading(const Comparison& c) {
   fmt::print("{}\n", c.title.empty() ? c.scene : c.title);
-  fmt::print("  {} degrees of freedom, {} points, {} thread{} for the times{}\n", c.dofs, c.points, c.threads,
-             c.threads == 1 ? "" : "s", c.chooses_threads ? ", or one where that is quicker" : "");
+  fmt::print("  {} degrees of freedom, {} points, {} for the times{}\n", c.dofs, c.points,
+             counted(static_cast<std::size_t>(c.threads), "thread"),
+             c.chooses_threads ? ", or one where that is quicker" : "");
   fmt::print("  reference: {}\n", c.reference);
   if (c.chebyshev_estimate) {
     fmt::print("  kappa {:.4g}; Chebyshev estimate for an error of {:g}: {:.0f} evaluations\n", *c.kappa, c.goal,

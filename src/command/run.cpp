@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "command/commands.hpp"
 #include "command/terminal.hpp"
 #include "output/checkpoint_file.hpp"
@@ -27,8 +28,8 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<18}{}\n", what, value); };
   fmt::print("{}\n", s.title.empty() ? s.scene : s.title);
   row("status", fmt::format("{}: {}", to_string(s.status), s.reason));
-  row("model", fmt::format("{} points, {} degrees of freedom, {} phase{}", s.points, s.dofs, s.phases,
-                           s.phases == 1 ? "" : "s"));
+  row("model", fmt::format("{} points, {} degrees of freedom, {}", s.points, s.dofs,
+                           counted(static_cast<std::size_t>(s.phases), "phase")));
   row("method", fmt::format("{}{}, step {:.4g} s", way_to_rest(s),
                             s.c ? fmt::format(", c = {:.6g}", *s.c) : std::string(), s.dt));
   row("frequencies", fmt::format("omega_1 {}, omega_max {:.6g}",
@@ -41,8 +42,8 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
         fmt::format("u {:.3e} (L2), {:.3e} (max){}", s.error->u_rel_l2, s.error->u_rel_max,
                     s.error->stress_rel_l2 ? fmt::format(", stress {:.3e} (L2)", *s.error->stress_rel_l2) : ""));
   }
-  row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {} thread{}", s.wall_s, s.ns_per_point_step,
-                               s.threads, s.threads == 1 ? "" : "s"));
+  row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {}", s.wall_s, s.ns_per_point_step,
+                               counted(static_cast<std::size_t>(s.threads), "thread")));
   if (s.mass_error && s.momentum_error && s.added_mass) {
     const std::string turn =
         s.angular_momentum_error ? fmt::format(", angular momentum to {:.1e}", *s.angular_momentum_error) : "";

@@ -22,6 +22,7 @@
 #include "base/special_functions.hpp"
 #include "exact/known_solutions.hpp"
 #include "exact/of_scene.hpp"
+#include "scene/dimensions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -55,15 +56,12 @@ constexpr std::array<ColumnLaw, 3> kColumnLaws = {{
      }},
 }};
 
-/// x in one dimension, y in the others.
-std::size_t vertical_axis(const Scene& scene) { return scene.dim == 1 ? 0 : 1; }
-
 class Column final : public ExactSolution {
  public:
   explicit Column(const Scene& scene)
       : of_(elastic_constants(scene)),
         law_(*std::ranges::find(kColumnLaws, material_of(scene).law, &ColumnLaw::name)),
-        vertical_(vertical_axis(scene)),
+        vertical_(dimension_info(scene.dim).vertical),
         base_(parameter(scene, "base")),
         height_(parameter(scene, "height")),
         weight_(of_.rho * parameter(scene, "g")) {
@@ -108,7 +106,7 @@ class Column final : public ExactSolution {
 // It has to be the column that it is said to be: boxes and polygons from its base to its top.
 std::optional<SolutionFault> fault_of_height(const Scene& scene) {
   constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
-  const std::size_t vertical = vertical_axis(scene);
+  const std::size_t vertical = dimension_info(scene.dim).vertical;
   const double base = parameter(scene, "base"), height = parameter(scene, "height");
   double low = infinity, high = -infinity;
   for (const BodySpec& body : scene.bodies) {

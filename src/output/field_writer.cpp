@@ -17,6 +17,7 @@
 
 #include "base/atomic_file.hpp"
 #include "output/hdf5_file.hpp"
+#include "scene/dimensions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -34,7 +35,7 @@ bool is_word(const std::string& name) {
 
 void validate(const FieldFrame& frame) {
   if (frame.points == 0) refuse("no points");
-  if (frame.dim < 1 || frame.dim > 3) refuse(fmt::format("dimension {}", frame.dim));
+  if (!is_dimension(frame.dim)) refuse(fmt::format("dimension {}", frame.dim));
   const auto expect = [](const std::string& name, std::size_t size, std::size_t expected) {
     if (size != expected) refuse(fmt::format("{} has {} values, expected {}", name, size, expected));
   };

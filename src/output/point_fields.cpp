@@ -4,26 +4,20 @@
 #include <array>
 #include <stdexcept>
 
+#include "scene/dimensions.hpp"
+
 namespace stillpoint {
 namespace {
 
+// Of its components; of the only one it is empty.
 std::vector<std::string> suffixes(const LagrangianPhase& phase, const std::string& name) {
-  if (phase.dim() == 1) return {""};
-  const bool in_space = phase.dim() == 3;
-  if (name == "u" || name == "v")
-    return in_space ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"};
-  if (name == "stress") {
-    std::vector<std::string> components = {"xx", "yy", "zz", "xy"};
-    if (in_space) components.insert(components.end(), {"yz", "zx"});
-    return components;
-  }
-  if (name == "strain") {
-    if (in_space) return {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
-    std::vector<std::string> components = {"xx", "xy", "yx", "yy"};
-    if (phase.info().gradient_components == 5) components.emplace_back("zz");
-    return components;
-  }
-  return {""};
+  const PhaseInfo& info = phase.info();
+  std::vector<std::string> components;
+  if (name == "u" || name == "v") components = axis_names(info.dim);
+  if (name == "stress") components = stress_names(info.stress_components);
+  if (name == "strain") components = gradient_names(info.dim, info.gradient_components);
+  if (components.size() < 2) return {""};
+  return components;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "output/point_fields.hpp"
 #include "output/snapshots.hpp"
 #include "output/sum_probes.hpp"
+#include "scene/dimensions.hpp"
 #include "scene/throw_scene_error.hpp"
 
 namespace stillpoint {
@@ -68,7 +69,7 @@ std::unique_ptr<Probe> make_probe(const Scene& scene, const LagrangianPhase& pha
                                   const ProbeSpec& spec) {
   switch (spec.kind) {
     case ProbeKind::slope_angle:
-      if (scene.dim == 3) return std::make_unique<SlopeAngleInBox>(scene, spec);
+      if (!spec.min.empty()) return std::make_unique<SlopeAngleInBox>(scene, spec);
       return std::make_unique<SlopeAngle>();
     case ProbeKind::mean:
       return std::make_unique<MeanInBox>(phase, data, spec);
@@ -84,11 +85,9 @@ std::unique_ptr<Probe> make_probe(const Scene& scene, const LagrangianPhase& pha
 
 /// ".shear"; in space ".shear.y" and ".shear.z" of a wall across x.
 std::vector<std::string> shear_components(const WallReaction& wall, int dim) {
-  if (dim < 3) return {".shear"};
-  std::vector<std::string> names;
-  for (int axis = 0; axis < dim; ++axis)
-    if (axis != wall.axis) names.push_back(std::string(".shear.") + "xyz"[axis]);
-  return names;
+  std::vector<std::string> along = axis_names(dim);
+  if (along.size() > 1) along.erase(along.begin() + wall.axis);  // the end of a line has a shear as well: 0
+  return component_names(".shear", along);
 }
 
 /// A field that some law has to remember.

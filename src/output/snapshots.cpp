@@ -5,6 +5,7 @@
 
 #include "output/free_surface.hpp"
 #include "output/point_fields.hpp"
+#include "scene/dimensions.hpp"
 
 namespace stillpoint {
 
@@ -16,7 +17,7 @@ double slope_angle_of(const Scene& scene, ConstVec position) {
 }
 
 double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
-  if (phase.dim() != 2) return std::numeric_limits<double>::quiet_NaN();
+  if (!dimension_info(phase.dim()).is_section) return std::numeric_limits<double>::quiet_NaN();
   return slope_angle_of(scene, current_positions(phase, t, u));
 }
 

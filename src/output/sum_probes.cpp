@@ -1,6 +1,9 @@
 #include "output/sum_probes.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "scene/dimensions.hpp"
 
 namespace stillpoint {
 
@@ -42,14 +45,20 @@ double BodySums::value(const std::string& name, ProbedMoment& moment) const {
   }
   const std::vector<double>& v = moment.field("v");
   const std::size_t dim = v.size() / mass_.size();
-  const std::size_t axis = name.ends_with(".z") ? 2 : name.ends_with(".y") ? 1 : 0;
-  if (name.starts_with("angular_momentum")) {
-    const std::size_t i = dim == 2 ? 0 : (axis + 1) % 3, j = dim == 2 ? 1 : (axis + 2) % 3;
+  const auto number_among = [&](const std::vector<std::string>& names) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  const std::span<const Turn> turns = dimension_info(static_cast<int>(dim)).turns;
+  const auto turn = number_among(component_names("angular_momentum", turn_names(static_cast<int>(dim))));
+  if (turn < turns.size()) {
+    const std::size_t i = turns[turn].from, j = turns[turn].to;
     const std::vector<double>& x = moment.field("position");
     for (std::size_t p = 0; p < mass_.size(); ++p)
       sum += mass_[p] * (x[dim * p + i] * v[dim * p + j] - x[dim * p + j] * v[dim * p + i]);
     return sum;
   }
+  const std::size_t axis = number_among(component_names("momentum", axis_names(static_cast<int>(dim))));
+  if (axis == dim) throw std::invalid_argument("there is no field " + name);
   for (std::size_t p = 0; p < mass_.size(); ++p) sum += mass_[p] * v[dim * p + axis];
   return sum;
 }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "base/prism.hpp"
 #include "base/quadric_solid.hpp"
-#include "base/triangle_solid.hpp"
 #include "scene/outline.hpp"
 #include "scene/stl_file.hpp"
 
@@ -18,21 +18,42 @@ SpacePoint point_of(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
 
-std::unique_ptr<const Solid> solid_of(const BodySpec& body) {
-  if (!body.sphere.empty())
-    return std::make_unique<QuadricSolid>(QuadricSolid::sphere(point_of(body.sphere), body.radius, body.inner_radius));
-  if (!body.cylinder.empty())
-    return std::make_unique<QuadricSolid>(
-        QuadricSolid::cylinder(point_of(body.cylinder[0]), point_of(body.cylinder[1]), body.radius, body.inner_radius));
-  if (!body.polygon.empty()) {
-    const auto axis = static_cast<std::size_t>(body.axis);
-    return std::make_unique<Prism>(outline_of(body), axis, body.min[axis], body.max[axis]);
+std::shared_ptr<const Solid> solid_of(const BodySpec& body) {
+  const auto axis = static_cast<std::size_t>(body.axis);
+  switch (body.shape()) {
+    case BodyShape::polygon:
+      return std::make_shared<Prism>(outline_of(body), axis, body.min[axis], body.max[axis]);
+    case BodyShape::sphere:
+      return std::make_shared<QuadricSolid>(
+          QuadricSolid::sphere(point_of(body.sphere), body.radius, body.inner_radius));
+    case BodyShape::cylinder:
+      return std::make_shared<QuadricSolid>(QuadricSolid::cylinder(
+          point_of(body.cylinder[0]), point_of(body.cylinder[1]), body.radius, body.inner_radius));
+    case BodyShape::triangles:
+      return stl_solid(body);
+    case BodyShape::box:
+    case BodyShape::points:
+      break;
   }
-  std::vector<Problem> problems;
-  std::vector<Facet> triangles = read_stl_file(body.stl, problems);
-  if (!problems.empty()) throw SceneError(std::move(problems));
-  return std::make_unique<TriangleSolid>(std::move(triangles));
+  throw std::logic_error("a solid of a body that is a box, or points from a file");
 }
+
+std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Problem>& problems) {
+  if (body.from_stl.solid && body.from_stl.file == body.stl) return body.from_stl.solid;
+  const std::size_t before = problems.size();
+  std::vector<Facet> triangles = read_stl_file(body.stl, problems);
+  if (problems.size() > before) return nullptr;
+  return std::make_shared<TriangleSolid>(std::move(triangles));
+}
+
+std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body) {
+  std::vector<Problem> problems;
+  auto solid = read_stl_solid(body, problems);
+  if (!solid) throw SceneError(std::move(problems));
+  return solid;
+}
+
+bool is_solid(const BodySpec& body) { return body.min.size() == 3 && body.has_shape(); }
 
 SpaceBox box_of(const BodySpec& body) { return {point_of(body.min), point_of(body.max)}; }
 
@@ -40,8 +61,7 @@ double share_of_box(const BodySpec& body) {
   if (!body.has_shape()) return 1;
   double box = 1;
   for (std::size_t d = 0; d < body.min.size(); ++d) box *= body.max[d] - body.min[d];
-  const bool in_plane = body.min.size() == 2;
-  return (in_plane ? std::abs(signed_area(outline_of(body))) : volume_in(*solid_of(body), box_of(body))) / box;
+  return (is_solid(body) ? volume_in(*solid_of(body), box_of(body)) : std::abs(signed_area(outline_of(body)))) / box;
 }
 
 double volume_in(const Solid& solid, const SpaceBox& box) {

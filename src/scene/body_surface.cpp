@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -11,7 +12,6 @@
 #include "base/prism.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/outline.hpp"
-#include "scene/stl_file.hpp"
 
 namespace stillpoint {
 namespace {
@@ -181,9 +181,8 @@ void add_end_of_prism(PieceCollector& pieces, bool at_end) {
 
 /// Each triangle in n² alike, with a rule for polynomials of degree 2.
 void add_triangles(PieceCollector& pieces) {
-  std::vector<Problem> problems;
-  const TriangleSolid solid(read_stl_file(pieces.body().stl, problems));
-  for (const Facet& t : solid.triangles()) {
+  const std::shared_ptr<const TriangleSolid> solid = stl_solid(pieces.body());
+  for (const Facet& t : solid->triangles()) {
     const Vector3d a(t[0].data()), b(t[1].data()), c(t[2].data());
     const int n = pieces.parts_of(std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}));
     const Vector3d u = (b - a) / n, v = (c - a) / n, vector = u.cross(v) / 6;
@@ -206,14 +205,22 @@ void add_triangles(PieceCollector& pieces) {
 std::vector<SurfacePiece> surface_pieces(const BodySpec& body, BodySurface surface, double length) {
   PieceCollector pieces(body, length);
   const bool outer = surface == BodySurface::outer;
-  if (!body.sphere.empty()) {
-    add_sphere(pieces, outer ? body.radius : body.inner_radius, outer ? 1 : -1);
-  } else if (!body.cylinder.empty()) {
-    add_cylinder(pieces, surface);
-  } else if (!body.polygon.empty()) {
-    outer ? add_sides_of_prism(pieces) : add_end_of_prism(pieces, surface == BodySurface::end);
-  } else {
-    add_triangles(pieces);
+  switch (body.shape()) {
+    case BodyShape::polygon:
+      outer ? add_sides_of_prism(pieces) : add_end_of_prism(pieces, surface == BodySurface::end);
+      break;
+    case BodyShape::sphere:
+      add_sphere(pieces, outer ? body.radius : body.inner_radius, outer ? 1 : -1);
+      break;
+    case BodyShape::cylinder:
+      add_cylinder(pieces, surface);
+      break;
+    case BodyShape::triangles:
+      add_triangles(pieces);
+      break;
+    case BodyShape::box:
+    case BodyShape::points:
+      break;
   }
   return pieces.take();
 }
@@ -222,7 +229,8 @@ std::string why_no_surface(const BodySpec& body, BodySurface surface) {
   if (surface == BodySurface::outer) return "";
   if (surface == BodySurface::inner)
     return body.inner_radius > 0 ? "" : "a hollow sphere or cylinder has an inner surface, with an inner_radius";
-  return body.cylinder.empty() && body.polygon.empty() ? "a cylinder or a polygon that is drawn out has two ends" : "";
+  const bool has_ends = body.shape() == BodyShape::cylinder || body.shape() == BodyShape::polygon;
+  return has_ends ? "" : "a cylinder or a polygon that is drawn out has two ends";
 }
 
 std::optional<std::size_t> body_with_surface(const Scene& scene) {

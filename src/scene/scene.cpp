@@ -1,8 +1,12 @@
 #include <stillpoint/scene.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "scene/dimensions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -70,15 +74,10 @@ std::vector<std::string> probe_fields(int dim) {
 }
 
 std::vector<std::string> body_fields(int dim) {
-  if (dim == 1) return {"volume", "momentum"};
-  if (dim == 2) return {"volume", "momentum.x", "momentum.y", "angular_momentum"};
-  return {"volume",
-          "momentum.x",
-          "momentum.y",
-          "momentum.z",
-          "angular_momentum.x",
-          "angular_momentum.y",
-          "angular_momentum.z"};
+  std::vector<std::string> fields = {"volume"};
+  std::ranges::move(component_names("momentum", axis_names(dim)), std::back_inserter(fields));
+  std::ranges::move(component_names("angular_momentum", turn_names(dim)), std::back_inserter(fields));
+  return fields;
 }
 
 }  // namespace stillpoint

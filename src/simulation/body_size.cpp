@@ -89,8 +89,7 @@ BodySize body_size(const Scene& scene) {
   double most = -1;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     const BodySpec& body = scene.bodies[k];
-    const bool is_solid = dim == 3 && body.has_shape();
-    double cells = is_solid ? 1 : share_of_box(body), per_cell = 1;
+    double cells = is_solid(body) ? 1 : share_of_box(body), per_cell = 1;
     for (std::size_t d = 0; d < dim; ++d) {
       const Range range = cells_between(scene.grid, d, body.min[d], body.max[d]);
       cells *= range.length();
@@ -98,7 +97,7 @@ BodySize body_size(const Scene& scene) {
       box[d] = {std::min(box[d].first, range.first), std::max(box[d].end, range.end)};
     }
     double points = body.file.empty() ? cells * per_cell : lines_in(body.file);
-    if (is_solid) {
+    if (is_solid(body)) {
       const Filled filled = filled_by_solid(scene.grid, body, per_cell);
       cells = filled.cells;
       points = filled.points;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/dimensions.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
@@ -16,7 +17,8 @@ namespace stillpoint {
 /// R_s · u_s to get there. In one dimension nothing is watched.
 class EnergyBalance {
  public:
-  explicit EnergyBalance(const LagrangianPhase& phase) : phase_(phase), watches_(phase.dim() > 1) {}
+  explicit EnergyBalance(const LagrangianPhase& phase)
+      : phase_(phase), watches_(dimension_info(phase.dim()).watches_work) {}
 
   bool watches() const { return watches_; }
   std::vector<std::string> columns() const;  // "inertia.<figure>"

@@ -10,6 +10,7 @@
 #include "base/atomic_file.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "output/point_fields.hpp"
+#include "scene/dimensions.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/spectrum/lowest_mode.hpp"
 
@@ -141,9 +142,8 @@ void write_mode(const EquilibriumStability& stability, const LagrangianPhase& ph
                 const std::filesystem::path& folder) {
   const auto dim = static_cast<std::size_t>(phase.dim());
   const std::vector<double> position = current_positions(phase, t, u);
-  std::string text = dim == 1   ? "point,x,mode\n"
-                     : dim == 2 ? "point,x,y,mode.x,mode.y\n"
-                                : "point,x,y,z,mode.x,mode.y,mode.z\n";
+  const std::vector<std::string> axes = axis_names(phase.dim());
+  std::string text = fmt::format("point,{},{}\n", fmt::join(axes, ","), fmt::join(component_names("mode", axes), ","));
   for (std::size_t p = 0; p < phase.points(); ++p) {
     const auto row = [&](const std::vector<double>& values) { return ConstVec(values).subspan(dim * p, dim); };
     text +=

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ namespace {
 constexpr int fewest_of_all = 1000;
 
 std::vector<double> along(const std::array<double, 2>& from, const std::array<double, 2>& to, const GridSpec& grid,
-                          int fewest = fewest_of_all) {
+                          int fewest) {
   double cells = 0;
   for (std::size_t d = 0; d < 2; ++d) cells += std::abs(to[d] - from[d]) / grid.cell_length(d);
   const int count = std::max(fewest, static_cast<int>(8 * cells));
@@ -29,23 +30,34 @@ std::vector<double> along(const std::array<double, 2>& from, const std::array<do
   return positions;
 }
 
-// Over a part of a face in space, which lies across axis `normal` at `face`.
-std::vector<double> over(const std::vector<FaceInterval>& part, std::size_t normal, double face) {
-  constexpr int along_axis = 32;  // about fewest_of_all together
-  std::vector<double> positions;
-  const auto position = [](const FaceInterval& interval, int k) {
-    return interval.from + (k + 0.5) / along_axis * (interval.to - interval.from);
-  };
-  for (int b = 0; b < along_axis; ++b) {
-    for (int a = 0; a < along_axis; ++a) {
-      std::array<double, 3> x{};
-      x[normal] = face;
-      x[part[0].along] = position(part[0], a);
-      x[part[1].along] = position(part[1], b);
-      positions.insert(positions.end(), x.begin(), x.end());
+/// Positions along each axis of a part of a face.
+struct Sampling {
+  int fewest, per_cell;
+};
+// By the number of these axes: about fewest_of_all together, and along a line more if its cells are many.
+constexpr std::array<Sampling, 3> samplings{{{1, 0}, {fewest_of_all, 8}, {32, 0}}};
+
+// Over a part of a face, which lies at `face` of the axis across it: the middles of equal parts, by the first axis
+// first.
+std::vector<double> over(const std::vector<FaceInterval>& part, double face, const GridSpec& grid) {
+  const Sampling& sampling = samplings[part.size()];
+  std::vector<std::vector<double>> positions = {std::vector<double>(part.size() + 1, face)};
+  for (std::size_t k = part.size(); k-- > 0;) {
+    const auto& [along, from, to] = part[k];
+    const double cells = std::abs(to - from) / grid.cell_length(along);
+    const int count = std::max(sampling.fewest, static_cast<int>(sampling.per_cell * cells));
+    std::vector<std::vector<double>> finer;
+    for (std::vector<double>& x : positions) {
+      for (int i = 0; i < count; ++i) {
+        x[along] = from + (i + 0.5) / count * (to - from);
+        finer.push_back(x);
+      }
     }
+    positions = std::move(finer);
   }
-  return positions;
+  std::vector<double> flat;
+  for (const std::vector<double>& x : positions) flat.insert(flat.end(), x.begin(), x.end());
+  return flat;
 }
 
 }  // namespace
@@ -54,7 +66,7 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
   for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
     if (!key.starts_with(fmt::format("traction[{}]", k))) continue;
     const TractionSpec& traction = scene.tractions[k];
-    if (scene.dim == 2) {
+    if (!traction.line.empty()) {
       std::vector<double> positions;
       const std::vector<BorderLine> lines = border_lines(scene, traction);
       const int fewest = 1 + (fewest_of_all - 1) / static_cast<int>(lines.size());
@@ -75,10 +87,9 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
       return positions;
     }
     const BodySpec& body = scene.bodies.front();
-    const std::vector<double>& corner = is_upper(*traction.face) ? body.max : body.min;
-    if (scene.dim == 1) return corner;
-    const auto normal = static_cast<std::size_t>(axis_of(*traction.face));
-    return over(part_of_face(*traction.face, traction.from, traction.to, body.min, body.max), normal, corner[normal]);
+    const auto axis = static_cast<std::size_t>(axis_of(*traction.face));
+    const double face = (is_upper(*traction.face) ? body.max : body.min)[axis];
+    return over(part_of_face(*traction.face, traction.from, traction.to, body.min, body.max), face, scene.grid);
   }
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     if (!key.starts_with(fmt::format("support[{}]", k))) continue;
@@ -86,13 +97,7 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
     if (!support.face) return support.at;
     const auto axis = static_cast<std::size_t>(axis_of(*support.face));
     const double face = (is_upper(*support.face) ? scene.grid.max : scene.grid.min)[axis];
-    if (scene.dim == 1) return {face};
-    const std::vector<FaceInterval> part = held_part(scene.grid, support);
-    if (scene.dim == 3) return over(part, axis, face);
-    std::array<double, 2> from{face, face}, to{face, face};
-    from[part.front().along] = part.front().from;
-    to[part.front().along] = part.front().to;
-    return along(from, to, scene.grid);
+    return over(held_part(scene.grid, support), face, scene.grid);
   }
   return phase.positions();
 }

@@ -1,6 +1,7 @@
 #include "simulation/locking_note.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -9,6 +10,9 @@
 
 namespace stillpoint {
 namespace {
+
+// Where an incompressible body can be sheared, and nothing across the coordinates makes up for a change of volume.
+constexpr std::array keeping_volume{StressState::plane_strain, StressState::axisymmetric, StressState::space};
 
 // Linear cells of four points are too stiff by 0.7 % at ν = 0.45, 4 % at 0.49 and 80 % at 0.4999 (Lamé's cylinder,
 // eight across the wall); quadratic ones of nine by 3 % at 0.4999 (Cook's membrane, 32 cells a side).
@@ -39,9 +43,7 @@ bool flows(const MaterialSpec& material) {
 }  // namespace
 
 std::optional<std::string> locking_note(const Scene& scene) {
-  const bool volume_is_kept = scene.state == StressState::plane_strain || scene.state == StressState::axisymmetric ||
-                              scene.state == StressState::space;
-  if (!volume_is_kept) return std::nullopt;
+  if (std::ranges::find(keeping_volume, scene.state) == keeping_volume.end()) return std::nullopt;
   const bool shares = scene.phase.dilatation != Dilatation::points;
   for (const BodySpec& body : scene.bodies) {
     if (!has_many_points(body, scene.grid.basis)) continue;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "output/point_fields.hpp"
+#include "scene/dimensions.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/load_schedule.hpp"
 #include "solvers/spectrum/driven_mode.hpp"
@@ -48,6 +50,8 @@ PointMotion motion_of(const LagrangianPhase& phase, double t, ConstVec u, ConstV
   return motion;
 }
 
+std::span<const Turn> turns_of(const PointMotion& motion) { return dimension_info(static_cast<int>(motion.dim)).turns; }
+
 double extent_of(const PointMotion& motion) {
   double extent = 0;
   for (std::size_t i = 0; i < motion.position.size(); ++i)
@@ -64,16 +68,16 @@ struct RigidMotion {
 std::optional<RigidMotion> fit_rigid_motion(const PointMotion& motion) {
   const std::size_t dim = motion.dim, points = motion.position.size() / dim;
   const auto rows = static_cast<Eigen::Index>(dim * points), translations = static_cast<Eigen::Index>(dim);
-  const std::size_t first_turn = dim == 3 ? 0 : 2, turns = dim == 1 ? 0 : dim == 2 ? 1 : 3;  // in the plane about z
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, translations + static_cast<Eigen::Index>(turns));
+  const std::span<const Turn> turns = turns_of(motion);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, translations + static_cast<Eigen::Index>(turns.size()));
   for (std::size_t p = 0; p < points; ++p) {
     const auto row = static_cast<Eigen::Index>(dim * p);
     for (Eigen::Index i = 0; i < translations; ++i) A(row + i, i) = 1;
-    for (std::size_t k = 0; k < turns; ++k) {  // e_m × x: from axis i to axis j
-      const std::size_t m = first_turn + k, i = (m + 1) % 3, j = (m + 2) % 3;
-      const auto column = translations + static_cast<Eigen::Index>(k);
+    Eigen::Index column = translations;
+    for (const auto& [about, i, j] : turns) {  // e_about × x
       A(row + static_cast<Eigen::Index>(j), column) = motion.position[dim * p + i];
       A(row + static_cast<Eigen::Index>(i), column) = -motion.position[dim * p + j];
+      ++column;
     }
   }
   const Eigen::Map<const Eigen::VectorXd> u(motion.displacement.data(), rows);
@@ -81,8 +85,8 @@ std::optional<RigidMotion> fit_rigid_motion(const PointMotion& motion) {
   if (!((A * fit - u).cwiseAbs().maxCoeff() <= alike)) return std::nullopt;
   RigidMotion rigid;
   rigid.a.head(translations) = fit.head(translations);
-  for (std::size_t k = 0; k < turns; ++k)
-    rigid.omega[static_cast<Eigen::Index>(first_turn + k)] = fit[translations + static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < turns.size(); ++k)
+    rigid.omega[static_cast<Eigen::Index>(turns[k].about)] = fit[translations + static_cast<Eigen::Index>(k)];
   return rigid;
 }
 
@@ -91,7 +95,8 @@ std::optional<RigidMotion> fit_rigid_motion(const PointMotion& motion) {
 std::string rigid_motion(const PointMotion& motion) {
   const std::optional<RigidMotion> rigid = fit_rigid_motion(motion);
   if (!rigid) return "";
-  if (motion.dim == 1) return "moves along x";
+  const std::span<const Turn> turns = turns_of(motion);
+  if (turns.empty()) return "moves along x";
   const auto told = [&](const Eigen::Vector3d& x) {
     return fmt::format("({:.3g})", fmt::join(x.data(), x.data() + motion.dim, ", "));
   };
@@ -104,7 +109,7 @@ std::string rigid_motion(const PointMotion& motion) {
     return x;
   };
   const Eigen::Vector3d through = clean(omega.cross(a) / omega.squaredNorm(), extent);  // the nearest to the origin
-  if (motion.dim == 2) return "turns about " + told(through);
+  if (turns.size() == 1) return "turns about " + told(through);                         // the axis is known
   std::string text =
       fmt::format("turns about the axis through {} along {}", told(through), told(clean(omega.normalized(), 1)));
   if (std::abs(a.dot(omega)) > alike * extent * omega.squaredNorm()) text += " and moves along it";

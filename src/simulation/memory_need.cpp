@@ -1,38 +1,35 @@
-// The bytes a point are those of the arrays that a phase has; what unknowns take was measured on plates of 8e4 to 1e6
-// of them, and on lines.
+// The bytes a point are those of the arrays that a phase has; what unknowns take was measured, see matrix_size.hpp too.
 #include "simulation/memory_need.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "base/memory_room.hpp"
+#include "scene/dimensions.hpp"
 #include "scene/support_kind.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/highest_frequency.hpp"
+#include "simulation/matrix_size.hpp"
 #include "simulation/multigrid_choice.hpp"
 #include "simulation/omega_1_needs.hpp"
+#include "simulation/scene_motion.hpp"
 #include "solvers/relaxation/conjugate_descent.hpp"
 #include "solvers/statics/static_methods.hpp"
+#include "space/grid/domain_basis.hpp"
 #include "space/kernels/elastic_cells.hpp"
+#include "space/kernels/point_weights.hpp"
 #include "space/materials/point_material.hpp"
+#include "space/materials/with_kinematics.hpp"
 
 namespace stillpoint {
 namespace {
 
 constexpr double real = sizeof(double);
-constexpr double of_entry = sizeof(double) + sizeof(int);  // of a sparse matrix
-
-bool averages_dilatation(const Scene& scene) { return scene.dim > 1 && scene.phase.dilatation != Dilatation::points; }
-// Splines whose means points share are those of degree p − 1, see SplineMeans.
-bool means_over_splines(const Scene& scene) {
-  return averages_dilatation(scene) && scene.phase.dilatation == Dilatation::splines && degree_of(scene.grid.basis) > 1;
-}
-bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
 
 // --- the points ------------------------------------------------------------------------------------------------------
 
@@ -48,27 +45,32 @@ double of_law(const Scene& scene, const MaterialSpec& material) {
     }
     return sum;
   };
-  switch (kinematics(scene.state)) {
-    case Kinematics::line:
-      return bytes(make_point_material<Kinematics::line>(material, scene.state, 0, 1, moves_on(scene)));
-    case Kinematics::plane:
-      return bytes(make_point_material<Kinematics::plane>(material, scene.state, 0, 1, moves_on(scene)));
-    case Kinematics::axisymmetric:
-      return bytes(make_point_material<Kinematics::axisymmetric>(material, scene.state, 0, 1, moves_on(scene)));
-    case Kinematics::space:
-      break;
-  }
-  return bytes(make_point_material<Kinematics::space>(material, scene.state, 0, 1, moves_on(scene)));
+  return with_kinematics(kinematics(scene.state), [&]<Kinematics K>() {
+    return bytes(make_point_material<K>(material, scene.state, 0, 1, moves_on(scene)));
+  });
 }
 
+template <AxisBasis B, Kinematics K>
+double weights_of() {
+  double sum = 0;
+  for (const PointArray& array : PointWeights<B, K>::arrays()) sum += array.bytes_per_point;
+  return sum;
+}
 double of_weights(const Scene& scene) {
   const bool of_domains = scene.phase.quadrature == Quadrature::domains;
-  const bool is_linear = scene.grid.basis == BasisKind::linear;
-  if (scene.dim == 2 && is_linear && !of_domains) return scene.dim * real;
-  if (scene.dim == 3)
-    return is_linear ? 0.0 : 2 * scene.dim * (degree_of(scene.grid.basis) + 1) * real;  // factors, see PointWeights
-  const double functions = std::pow(degree_of(scene.grid.basis) + (of_domains ? 2 : 1), scene.dim);
-  return functions * (1 + scene.dim + (scene.state == StressState::axisymmetric ? 1 : 0)) * real;
+  return with_kinematics(kinematics(scene.state), [&]<Kinematics K>() {
+    switch (scene.grid.basis) {
+      case BasisKind::linear:
+        return of_domains ? weights_of<DomainBSpline<1>, K>() : weights_of<BSpline<1>, K>();
+      case BasisKind::quadratic:
+        return of_domains ? weights_of<DomainBSpline<2>, K>() : weights_of<BSpline<2>, K>();
+      case BasisKind::cubic:
+        return of_domains ? weights_of<DomainBSpline<3>, K>() : weights_of<BSpline<3>, K>();
+      case BasisKind::hermite:
+        break;
+    }
+    return weights_of<CubicHermite, K>();
+  });
 }
 
 double of_motion(const Scene& scene) {
@@ -79,24 +81,14 @@ double of_motion(const Scene& scene) {
   return numbers * real;
 }
 
-const LawInfo& law_of(const Scene& scene, const BodySpec& body) {
-  return *catalogue().law(scene.materials.at(body.material).law);
-}
-bool remembers(const Scene& scene) {
-  return std::ranges::any_of(scene.bodies, [&](const BodySpec& one) { return law_of(scene, one).history_dependent; });
-}
-bool is_nonlinear(const Scene& scene) {
-  return remembers(scene) ||
-         std::ranges::any_of(scene.bodies, [&](const BodySpec& one) { return law_of(scene, one).finite_strain; });
-}
-
-// Of linear elastic cells of a linear basis.
+// Of linear elastic cells of a linear basis; those of a line keep none.
 double of_moments(const Scene& scene, const BodySize& size) {
-  const bool takes_moments = scene.dim > 1 && scene.state != StressState::axisymmetric &&
-                             scene.grid.basis == BasisKind::linear && scene.phase.quadrature == Quadrature::points &&
-                             !is_nonlinear(scene) && !moves_on(scene) && !scene.geostatic;
+  const bool takes_moments = scene.state != StressState::axisymmetric && scene.grid.basis == BasisKind::linear &&
+                             scene.phase.quadrature == Quadrature::points && !is_nonlinear(scene) && !moves_on(scene) &&
+                             !scene.geostatic;
   if (!takes_moments) return 0;
-  const double of_cell = scene.dim == 2 ? ElasticCells<2>::bytes_per_cell : ElasticCells<3>::bytes_per_cell;
+  constexpr std::array of_cells{0.0, ElasticCells<2>::bytes_per_cell, ElasticCells<3>::bytes_per_cell};
+  const double of_cell = of_dimension(of_cells, scene.dim);
   return of_cell * size.cells / size.points;
 }
 
@@ -110,55 +102,22 @@ double bytes_per_point(const Scene& scene, const BodySize& size) {
 
 // --- the unknowns ----------------------------------------------------------------------------------------------------
 
-// Neighbours of a function, itself included, along an axis: those that share a cell with it; or those that feel the
-// same means, through p splines of degree p − 1 to either side of those that they share cells with.
-double own_neighbours_along(const Scene& scene) {
-  return scene.grid.basis == BasisKind::hermite ? 6 : 2 * degree_of(scene.grid.basis) + 1;
-}
-double neighbours_along(const Scene& scene) {
-  if (!means_over_splines(scene)) return own_neighbours_along(scene);
-  const int p = degree_of(scene.grid.basis), values = scene.grid.basis == BasisKind::hermite ? 2 : 1;
-  return own_neighbours_along(scene) + 2 * values * (p + (p - 1) * (2 * p - 1));
-}
-double neighbours(const Scene& scene) { return std::pow(neighbours_along(scene), scene.dim); }
+// Numbers an unknown as measured, of a line or a plane with what cells have at their corners. In space, where a cell
+// has eight functions or more for the three unknowns that it brings, that is counted by itself: a force, two numbers of
+// the function, and, as a phase begins, what points give to it (NodalTotals).
+struct VectorsOf {
+  double numbers;
+  bool corners_apart;
+};
+constexpr std::array<VectorsOf, 3> vectors_of{{{25, false}, {25, false}, {11, true}}};
 
-// Entries of a column of L. With nested dissection their number grows with log n in the plane, and in space as the
-// surface of what divides the body, n^(1/3); no more than the band.
-double entries_of_factor(const Scene& scene, const BodySize& size) {
-  if (scene.dim == 1) return scene.dim * neighbours(scene);
-  constexpr double measured_at = 1e5, by_octave = 0.03;
-  constexpr double in_the_plane[] = {125, 340, 620, 760}, in_space[] = {27, 68, 110};
-  const auto basis = static_cast<std::size_t>(scene.grid.basis);
-  const double growth = 1 + by_octave * std::log2(std::max(size.unknowns, 1.0) / measured_at);
-  const double by_means = neighbours_along(scene) / own_neighbours_along(scene);  // what separates parts is wider
-  const double entries = by_means * (scene.dim == 2 ? std::max(0.5, growth) * in_the_plane[basis]
-                                                    : std::cbrt(size.unknowns) * in_space[basis]);
-  return std::min(entries, 2 * by_means * size.width);
+double of_vectors(const Scene& scene, const BodySize& size) {
+  return of_dimension(vectors_of, scene.dim).numbers * real * size.unknowns;
 }
-
-double of_matrix(const Scene& scene, const BodySize& size) {
-  return of_entry * scene.dim * neighbours(scene) * size.unknowns;
-}
-
-double of_factor(const Scene& scene, const BodySize& size) {
-  return real * entries_of_factor(scene, size) * size.unknowns;
-}
-
-// Of a line or plane with what cells have at their corners, as measured.
-double vectors(const Scene& scene) { return scene.dim == 3 ? 11 : 25; }
-
-// In space, where a cell has eight functions or more for the three unknowns that it brings: a force, two numbers of the
-// function, and, as a phase begins, what points give to it (NodalTotals).
 double of_corners(const Scene& scene, const BodySize& size) {
-  if (scene.dim < 3) return 0;
+  if (!of_dimension(vectors_of, scene.dim).corners_apart) return 0;
   const double functions = std::pow(degree_of(scene.grid.basis) + 1, scene.dim);
   return functions * (scene.dim * real + 2 * sizeof(int) + (2 + scene.dim) * real) * size.cells;
-}
-
-// The block of a column for every neighbour, of all functions of the grid, from which a matrix is made.
-double of_assembly(const Scene& scene, const BodySize& size) {
-  const double along = 2 * degree_of(scene.grid.basis) + 1;
-  return size.grid_functions * std::pow(along, scene.dim) * scene.dim * scene.dim * real;
 }
 
 // Those of loads and supports that vary, as muParser has them: one for the schedule of the loads, one for the phase.
@@ -195,17 +154,14 @@ MemoryNeed::Part springs(const Scene& scene) {
 bool factorises(const Scene& scene, const BodySize& size) {
   const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
   const bool solves = method && method->is_newton && linear_solver_of(scene.solve.method) != LinearSolver::iterative;
-  const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
-  const bool steps_tell = relaxation && relaxation->chooses_mass && wants_equilibrium_only(scene) &&
-                          !is_nonlinear(scene) && !moves_on(scene);
+  const bool steps_tell = steps_tell_omega_1(scene, {.linear = !is_nonlinear(scene), .moves_on = moves_on(scene)});
   return solves || omega_1_needs(scene, static_cast<std::size_t>(size.unknowns), steps_tell).any();
 }
 
 // As asked for, or as auto may choose.
 bool takes_multigrid(const Scene& scene, const BodySize& size) {
   if (scene.mass.kind == MassKind::multigrid) return true;
-  const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
-  return relaxation && relaxation->chooses_mass && !remembers(scene) && !moves_on(scene) && scene.walls.empty() &&
+  return chooses_mass(scene) && !remembers(scene) && !moves_on(scene) && scene.walls.empty() &&
          multigrid_pays(scene, size.unknowns, !is_nonlinear(scene));
 }
 
@@ -222,16 +178,15 @@ MemoryNeed memory_need(const Scene& scene) {
   const auto add = [&](const char* what, double bytes, const std::string& key) {
     if (bytes > 0) need.parts.push_back({what, bytes, key});
   };
-  const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
-  const bool chooses_mass = relaxation && relaxation->chooses_mass && wants_equilibrium_only(scene);
+  const bool tries_another_mass = chooses_mass(scene) && wants_equilibrium_only(scene);
   constexpr double while_placed = 60, while_moving = 100;  // bytes a point of copies, for a while
   add("material points", size.points * need.bytes_per_point, size.most_points);
-  if (chooses_mass) add("the same with another mass", size.points * need.bytes_per_point, size.most_points);
+  if (tries_another_mass) add("the same with another mass", size.points * need.bytes_per_point, size.most_points);
   add("points as they are placed", size.points * (while_placed + (moves_on(scene) ? while_moving : 0)),
       size.most_points);
-  add("vectors of unknowns", vectors(scene) * real * size.unknowns, "grid.cells");
+  add("vectors of unknowns", of_vectors(scene, size), "grid.cells");
   add("forces of cells at their corners", of_corners(scene, size), "grid.cells");
-  if (chooses_mass && is_nonlinear(scene))
+  if (tries_another_mass && is_nonlinear(scene))
     add("steps that auto remembers", 2 * ConjugateDescent::memory * real * size.unknowns, "grid.cells");
 
   constexpr double little = 1e7;
@@ -242,30 +197,24 @@ MemoryNeed memory_need(const Scene& scene) {
   if (multigrid) {
     // K, the module's copy of it, transfers and coarser levels.
     constexpr double of_hierarchy = 2.0;
-    add("stiffness matrix", of_matrix(scene, size), "grid.cells");
-    add("hierarchy of multigrid", of_hierarchy * of_matrix(scene, size), "grid.cells");
+    add("stiffness matrix", bytes_of_matrix(scene, size), "grid.cells");
+    add("hierarchy of multigrid", of_hierarchy * bytes_of_matrix(scene, size), "grid.cells");
   }
   const StaticMethodInfo* const solver = catalogue().static_method(scene.solve.method);
   const bool multiplies = multigrid && solver && solver->is_newton;
-  if (multiplies) add("stiffness matrix by columns and by rows", 2 * of_matrix(scene, size), "grid.cells");
-  if (factor || consistent || multiplies || (multigrid && chooses_mass))
-    add("a matrix as it is assembled", of_assembly(scene, size), "grid.cells");
+  if (multiplies) add("stiffness matrix by columns and by rows", 2 * bytes_of_matrix(scene, size), "grid.cells");
+  if (factor || consistent || multiplies || (multigrid && tries_another_mass))
+    add("a matrix as it is assembled", bytes_of_assembly(scene, size), "grid.cells");
   if (consistent)
     // As it was assembled, and as it is factorised.
-    add("mass matrix and its factor", (2 * of_matrix(scene, size) + of_factor(scene, size)) / scene.dim, "grid.cells");
+    add("mass matrix and its factor", (2 * bytes_of_matrix(scene, size) + bytes_of_factor(scene, size)) / scene.dim,
+        "grid.cells");
   if (factor) {
-    add("stiffness matrix", (is_nonlinear(scene) ? 4 : 2) * of_matrix(scene, size), "grid.cells");
-    if (means_over_splines(scene)) add("its products with means", 1.5 * of_matrix(scene, size), "grid.cells");
-    add("factor of the stiffness", of_factor(scene, size), "grid.cells");
+    add("stiffness matrix", (is_nonlinear(scene) ? 4 : 2) * bytes_of_matrix(scene, size), "grid.cells");
+    if (means_over_splines(scene)) add("its products with means", 1.5 * bytes_of_matrix(scene, size), "grid.cells");
+    add("factor of the stiffness", bytes_of_factor(scene, size), "grid.cells");
   }
   return need;
-}
-
-bool has_room_for_factor(const Scene& scene) {
-  constexpr double most_entries = std::numeric_limits<int>::max();  // that CHOLMOD numbers
-  const BodySize size = body_size(scene);
-  if (entries_of_factor(scene, size) * size.unknowns > most_entries) return false;
-  return of_assembly(scene, size) + 2 * of_matrix(scene, size) + of_factor(scene, size) <= memory_room().bytes;
 }
 
 MemoryNeed require_memory(const Scene& scene) {

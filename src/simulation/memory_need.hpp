@@ -25,9 +25,6 @@ struct MemoryNeed {
 /// To 30 %, and nothing that is small. What only comes up on the way, as a factor that UMFPACK makes, is not in it.
 MemoryNeed memory_need(const Scene& scene);
 
-/// Whether a run that can do without a factor of K may make one.
-bool has_room_for_factor(const Scene& scene);
-
 /// The same. Throws SceneError at the key that sets the largest part, if the process may not take so much.
 MemoryNeed require_memory(const Scene& scene);
 

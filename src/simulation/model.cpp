@@ -19,6 +19,7 @@
 #include "simulation/lowest_frequency.hpp"
 #include "simulation/multigrid_choice.hpp"
 #include "simulation/notes.hpp"
+#include "simulation/scene_motion.hpp"
 
 namespace stillpoint {
 namespace {
@@ -81,21 +82,21 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   model.linear = is_linear(*model.phase, model.u);
   begin("the choice of a mass, and the hierarchy of multigrid");
   choose_multigrid(scene, set_up, model);
-  const bool is_auto = model.relaxation && model.relaxation->chooses_mass;
-  const bool chooses_mass = is_auto && !model.multigrid;
-  const bool scaled = chooses_mass && choose_mass(scene, model, set_up, store);
+  const bool tries_another_mass = chooses_mass(scene) && !model.multigrid;
+  const bool scaled = tries_another_mass && choose_mass(scene, model, set_up, store);
   std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
   std::ranges::move(load_notes(scene, *model.phase, model.u), std::back_inserter(model.notes));
   model.v = model.phase->initial_velocity(0);
   begin("the highest frequency");
-  if (!chooses_mass && !model.multigrid) {
+  if (!tries_another_mass && !model.multigrid) {
     model.omega_max =
         set_up.shared("omega_max", model.mass, [&] { return highest_frequency(scene, *model.phase, model.u); });
   }
   const bool has_scaled_mass = scaled || scene.mass.scaling != MassScaling::uniform;
-  const bool steps_tell = is_auto && wants_equilibrium_only(scene) &&
-                          (model.multigrid || mass_measures_volume(scene, has_scaled_mass)) &&
-                          !model.phase->info().updated_lagrangian && model.linear;
+  const bool steps_tell = steps_tell_omega_1(
+      scene, {.linear = model.linear,
+              .moves_on = model.phase->info().updated_lagrangian,
+              .mass_measures_volume = model.multigrid || mass_measures_volume(scene, has_scaled_mass)});
   const Omega1Needs needs = omega_1_needs(scene, model.phase->size(), steps_tell);
   begin("the lowest frequency, with a factor of the stiffness");
   if (needs.any() && !model.multigrid) find_omega_1(scene, needs, set_up, model);

@@ -10,8 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "scene/dimensions.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/locking_note.hpp"
+#include "space/grid/basis.hpp"
 
 namespace stillpoint {
 namespace {
@@ -44,7 +46,8 @@ std::string body_with_fitted_volumes(const Scene& scene) {
 // Σ_p V_p y_p² = (1 − 1/n²) ∫ y² dV. The fewest across a body of the plane.
 double fewest_domains_across(const Scene& scene) {
   double fewest = std::numeric_limits<double>::infinity();
-  if (scene.dim < 2 || scene.phase.quadrature != Quadrature::domains) return fewest;
+  const bool can_bend = !dimension_info(scene.dim).turns.empty();
+  if (!can_bend || scene.phase.quadrature != Quadrature::domains) return fewest;
   for (const BodySpec& body : scene.bodies) {
     for (std::size_t d = 0; d < body.points_per_cell.size(); ++d) {
       fewest = std::min(fewest, (body.max[d] - body.min[d]) / scene.grid.cell_length(d) * body.points_per_cell[d]);
@@ -55,11 +58,11 @@ double fewest_domains_across(const Scene& scene) {
 
 // In a cell, the same number along each axis: as many as a polynomial of a total degree has coefficients.
 int fewest_gauss_points(int dim, int degree) {
-  const int coefficients = (degree + 1) * (degree + 2) * (dim == 3 ? degree + 3 : 3) / 6;
-  const auto all = [dim](int along) { return dim == 3 ? along * along * along : along * along; };
+  int coefficients = 1;  // (degree + dim) over dim
+  for (int d = 1; d <= dim; ++d) coefficients = coefficients * (degree + d) / d;
   int along = 1;
-  while (all(along) < coefficients) ++along;
-  return all(along);
+  while (power(along, dim) < coefficients) ++along;
+  return power(along, dim);
 }
 
 // A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 in each coordinate [Strang

@@ -3,7 +3,8 @@
 #include <stillpoint/relaxation.hpp>
 
 #include "simulation/catalogue.hpp"
-#include "simulation/memory_need.hpp"
+#include "simulation/matrix_size.hpp"
+#include "simulation/scene_motion.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
@@ -12,9 +13,8 @@ Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns, bool steps_t
   const bool is_static = scene.solve.is_static();
   const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
   const RelaxationInfo* relaxation = is_static ? nullptr : find_relaxation(strategy.name);
-  const bool finds_its_own = relaxation && relaxation->chooses_mass;
   // auto works without, and of a large body the factor alone would cost more than the way to rest.
-  const bool large = finds_its_own && unknowns > direct_solver_limit;
+  const bool large = chooses_mass(scene) && unknowns > direct_solver_limit;
   const bool distance = scene.stop.distance > 0 && !(large && (steps_tell || !has_room_for_factor(scene)));
   return {.critical_damping = !is_static && strategy.uses("c") && !scene.damping.c,
           .tolerances = !is_static && scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v),

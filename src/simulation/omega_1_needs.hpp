@@ -13,7 +13,7 @@ struct Omega1Needs {
   bool any() const { return critical_damping || tolerances || relaxation || useful; }
 };
 
-/// steps_tell: whether the steps of the relaxation tell omega_1 of the motions that the loads drive.
+/// steps_tell: as steps_tell_omega_1() says.
 Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns, bool steps_tell);
 
 }  // namespace stillpoint

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/stop_request.hpp"
+#include "simulation/memory_need.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/dimensions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -13,6 +15,8 @@ namespace {
 bool has_named_supports(const Scene& scene) {
   return std::ranges::any_of(scene.supports, [](const SupportSpec& support) { return !support.name.empty(); });
 }
+
+int moment_components(const Scene& scene) { return dimension_info(scene.dim).moment_components; }
 
 double largest_displacement(const LagrangianPhase& phase, double t, ConstVec u) {
   const auto dim = static_cast<std::size_t>(phase.dim());
@@ -46,11 +50,10 @@ std::vector<std::string> reaction_columns(const Scene& scene) {
   std::vector<std::string> columns;
   for (const SupportSpec& support : scene.supports) {
     if (support.name.empty()) continue;
-    if (scene.dim == 1) columns.push_back(support.name + ".reaction");
-    for (int i = 0; i < scene.dim && scene.dim > 1; ++i)
-      columns.push_back(fmt::format("{}.reaction_{}", support.name, "xyz"[i]));
-    for (int i = 0; i < 3 && scene.dim == 3; ++i)
-      columns.push_back(fmt::format("{}.moment_{}", support.name, "xyz"[i]));
+    std::vector<std::string> axes = axis_names(scene.dim);
+    std::ranges::move(component_names(support.name + ".reaction", axes, "_"), std::back_inserter(columns));
+    axes.resize(static_cast<std::size_t>(moment_components(scene)));
+    std::ranges::move(component_names(support.name + ".moment", axes, "_"), std::back_inserter(columns));
   }
   return columns;
 }
@@ -60,7 +63,7 @@ std::vector<double> reaction_values(const Scene& scene, const LagrangianPhase& p
   if (!has_named_supports(scene)) return values;
   for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
     values.insert(values.end(), support.force.begin(), support.force.begin() + scene.dim);
-    if (scene.dim == 3) values.insert(values.end(), support.moment.begin(), support.moment.end());
+    values.insert(values.end(), support.moment.begin(), support.moment.begin() + moment_components(scene));
   }
   return values;
 }
@@ -70,7 +73,8 @@ void fill_supports(const Scene& scene, const LagrangianPhase& phase, double t, P
     motion.residual(t);
     for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
       summary.reactions[support.name] = {support.force.begin(), support.force.begin() + scene.dim};
-      if (scene.dim == 3) summary.reaction_moments[support.name] = {support.moment.begin(), support.moment.end()};
+      if (const int moments = moment_components(scene); moments > 0)
+        summary.reaction_moments[support.name] = {support.moment.begin(), support.moment.begin() + moments};
     }
   }
   const std::vector<WeakSupport> weak = phase.weak_supports(t, motion.u());

@@ -1,5 +1,6 @@
 #include "study/common_places.hpp"
 
+#include "scene/dimensions.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/points/material_points.hpp"
 
@@ -29,7 +30,7 @@ CommonPlaces places_on(const Scene& scene) {
 }  // namespace
 
 CommonPlaces common_places(const Scene& scene) {
-  return scene.dim == 1 ? places_on<1>(scene) : scene.dim == 2 ? places_on<2>(scene) : places_on<3>(scene);
+  return with_dimension(scene.dim, [&]<int Dim>() { return places_on<Dim>(scene); });
 }
 
 double count_of_places(const Scene& scene) {

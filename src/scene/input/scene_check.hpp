@@ -100,7 +100,8 @@ void check_overlaps(SceneCheck& check);
 /// The number of material points if the bodies fill whole cells; 0 if that depends on the placement.
 long known_points(SceneCheck& check);
 /// Supports, walls, loads and initial stress.
-void check_loads(SceneCheck& check, bool grid, const std::optional<BodyBox>& body);
+void check_supports_and_walls(SceneCheck& check, bool grid);
+void check_loads(SceneCheck& check, const std::optional<BodyBox>& body);
 /// The exact solution. bodies: whether all of them are in order.
 void check_exact(SceneCheck& check, bool bodies);
 /// When phases end, and what scenes of more than one phase can have.

@@ -56,6 +56,8 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{0, kInfinity, false, false};
 inline constexpr Range kNotNegative{0, kInfinity, true, false};
+/// From 0 to 1, 1 itself not.
+inline constexpr Range kShare{0, 1, true, false};
 inline constexpr Range from(double lower, double upper) { return {lower, upper, true, true}; }
 
 /// "a number", "a string", "an array" …

@@ -231,7 +231,8 @@ void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
   const std::optional<BodyBox> body = check_bodies(check, grid);
   check_mass(check);
   check_multigrid(check);
-  check_loads(check, grid, body);
+  check_supports_and_walls(check, grid);
+  check_loads(check, body);
   check_exact(check, body.has_value());
   check_phases(check, grid);
   check_output(check, body);

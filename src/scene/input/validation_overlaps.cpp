@@ -111,7 +111,7 @@ class OverlapCheck {
 
   /// And so is what lies next to it along each axis.
   bool is_inside_solid(const BodySpec& shape, const SpacePoint& x) const {
-    std::unique_ptr<const Solid>& solid = solids_[&shape];
+    std::shared_ptr<const Solid>& solid = solids_[&shape];
     if (!solid) solid = solid_of(shape);
     if (!solid->contains(x)) return false;
     for (std::size_t d = 0; d < 3; ++d) {
@@ -138,7 +138,7 @@ class OverlapCheck {
   SceneCheck& check_;
   const std::vector<BodySpec>& bodies_;
   double rounding_ = 0;  // [m]
-  mutable std::map<const BodySpec*, std::unique_ptr<const Solid>> solids_;
+  mutable std::map<const BodySpec*, std::shared_ptr<const Solid>> solids_;
 };
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "base/text.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/outline.hpp"
-#include "scene/stl_file.hpp"
 
 namespace stillpoint {
 namespace {
@@ -56,9 +55,9 @@ bool check_cylinder(SceneCheck& check, std::size_t k) {
 }
 
 bool check_stl(SceneCheck& check, std::size_t k) {
-  const BodySpec& body = check.scene().bodies[k];
+  BodySpec& body = check.scene().bodies[k];
   std::vector<Problem> problems;
-  read_stl_file(body.stl, problems);
+  body.from_stl = {.file = body.stl, .solid = read_stl_solid(body, problems)};
   for (Problem& problem : problems) {
     if (problem.where.line == 0) {  // the file as a whole: said where it is named
       check.add(check.body_key(k, "stl"), fmt::format("{} {}", in_quotes(body.stl.string()), problem.message));
@@ -136,18 +135,30 @@ bool check_corners(SceneCheck& check, std::size_t k) {
   return true;
 }
 
+bool is_in_order(SceneCheck& check, std::size_t k) {
+  switch (check.scene().bodies[k].shape()) {
+    case BodyShape::polygon:
+      return check_prism(check, k);
+    case BodyShape::sphere:
+      return check_radii(check, k);
+    case BodyShape::cylinder:
+      return check_cylinder(check, k);
+    case BodyShape::triangles:
+      return check_stl(check, k);
+    case BodyShape::box:  // what is written of another shape could not be read
+    case BodyShape::points:
+      break;
+  }
+  return false;
+}
+
 bool check_solid(SceneCheck& check, std::size_t k) {
   BodySpec& body = check.scene().bodies[k];
   const auto shape = std::ranges::find_if(kShapes, [&](const char* s) { return check.written(check.body_key(k, s)); });
   const std::string key = check.body_key(k, *shape);
   if (!check.sound(key)) return false;
-  const bool in_order = !body.polygon.empty()    ? check_prism(check, k)
-                        : !body.sphere.empty()   ? check_radii(check, k)
-                        : !body.cylinder.empty() ? check_cylinder(check, k)
-                        : !body.stl.empty()      ? check_stl(check, k)
-                                                 : false;
-  if (!in_order) return false;
-  const std::unique_ptr<const Solid> solid = solid_of(body);
+  if (!is_in_order(check, k)) return false;
+  const std::shared_ptr<const Solid> solid = solid_of(body);
   if (!stands_in_box(check, k, key, solid->bounds())) return false;
   const SpaceBox part = in_common(solid->bounds(), box_of(body));
   if (!(part.volume() > 0) || !(volume_in(*solid, part) > 0)) {

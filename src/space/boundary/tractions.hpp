@@ -7,26 +7,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "scene/body_surface.hpp"
-#include "scene/border_line.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
-#include "space/boundary/face_pieces.hpp"
-#include "space/boundary/grid_crossings.hpp"
+#include "space/boundary/traction_pieces.hpp"
 #include "space/kernels/change_of_volume.hpp"
 
 namespace stillpoint {
 
 /// Dead ones, t(X, t) dA per undeformed area, and pressures that follow the deformed surface, −p(X, t) n da =
 /// −p cof(f) N dA. X: the undeformed position.
-/// A straight part of a body's border, in space a part of a face or a curved surface, is cut into pieces, some to a
-/// cell; they carry the undeformed area, 2 π r ds if axisymmetric.
+/// They act on pieces of the border, which carry the undeformed area.
 template <AxisBasis B, Kinematics K>
 class Tractions final : public BoundaryCondition<B, K> {
   static constexpr int dim = dimensions(K);
@@ -35,7 +30,11 @@ class Tractions final : public BoundaryCondition<B, K> {
 
  public:
   Tractions(const Scene& scene, const GridOf& grid) : scene_(scene) {
-    for (const TractionSpec& traction : scene.tractions) cut_border(traction, grid);
+    for (const TractionSpec& traction : scene.tractions) {
+      TractionCutter<K>(scene, traction, grid).cut([&](const auto& x, double area, const auto& normal) {
+        add_piece(traction, x, area, normal);
+      });
+    }
     check_values();
   }
 
@@ -119,66 +118,6 @@ class Tractions final : public BoundaryCondition<B, K> {
     std::array<double, dim> vector;  // n da when the phase begins [m²]
   };
 
-  void cut_border(const TractionSpec& traction, const GridOf& grid) {
-    if constexpr (dim == 1) {
-      const BodySpec& body = scene_.bodies.front();
-      const bool upper = is_upper(traction.face.value());
-      add_piece(traction, {(upper ? body.max : body.min)[0]}, body.area, {upper ? 1.0 : -1.0});
-    } else if constexpr (dim == 2) {
-      for (const BorderLine& line : border_lines(scene_, traction)) cut_line(traction, line, grid);
-    } else if (traction.surface) {
-      cut_surface(traction);
-    } else {
-      cut_face(traction, grid);
-    }
-  }
-  std::vector<FacePoint> rule_along(const TractionSpec& traction, const BodySpec& body, std::size_t along) const {
-    const bool carried = has_phases(scene_);
-    const bool varies = std::ranges::any_of(traction.formulas(), &Expression::uses_position);
-    return varies ? varying_face_rule(body, along, carried)
-                  : face_rule(body, along, carried, scene_.phase.quadrature == Quadrature::domains);
-  }
-  void cut_face(const TractionSpec& traction, const GridOf& grid) {
-    const BodySpec& body = scene_.bodies.front();
-    const Face face = traction.face.value();
-    const auto normal = static_cast<std::size_t>(axis_of(face));
-    Point<dim> outwards{};
-    outwards[normal] = is_upper(face) ? 1 : -1;
-    for_face_pieces<dim>(
-        grid, normal, (is_upper(face) ? body.max : body.min)[normal],
-        part_of_face(face, traction.from, traction.to, body.min, body.max),
-        [&](std::size_t along) { return rule_along(traction, body, along); },
-        [&](const Point<dim>& x, double area, double) { add_piece(traction, x, area, outwards); });
-  }
-  // Into pieces of half a cell, which are not cut at its border: a function that has a kink there is integrated to
-  // second order.
-  void cut_surface(const TractionSpec& traction) {
-    double length = std::numeric_limits<double>::infinity();
-    for (std::size_t d = 0; d < dim; ++d) length = std::min(length, scene_.grid.cell_length(d) / 2);
-    const BodySpec& body = scene_.bodies[body_with_surface(scene_).value()];
-    for (const SurfacePiece& piece : surface_pieces(body, *traction.surface, length)) {
-      const auto& [x, y, z] = piece.vector;
-      const double area = std::hypot(x, y, z);
-      add_piece(traction, piece.x, area, {x / area, y / area, z / area});
-    }
-  }
-  // Into pieces of each cell's part.
-  void cut_line(const TractionSpec& traction, const BorderLine& line, const GridOf& grid) {
-    const BodySpec& body = scene_.bodies[line.body];
-    const std::size_t across = std::abs(line.normal[0]) > std::abs(line.normal[1]) ? 0 : 1;
-    const std::vector<FacePoint> rule = rule_along(traction, body, 1 - across);
-    const std::vector<Point<dim>> ends = grid_crossings(line, grid);
-    for (std::size_t c = 0; c + 1 < ends.size(); ++c) {
-      const Point<dim>&from = ends[c], &to = ends[c + 1];
-      const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
-      for (const auto& [xi, weight] : rule) {
-        Point<dim> x;
-        for (std::size_t d = 0; d < dim; ++d) x[d] = (from[d] + to[d]) / 2 + (to[d] - from[d]) / 2 * xi;
-        const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
-        add_piece(traction, x, length / 2 * weight * depth, line.normal);
-      }
-    }
-  }
   void add_piece(const TractionSpec& traction, const Point<dim>& x, double area, const Point<dim>& normal) {
     CarriedPoint<B, K> at{};
     at.x = x;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/parallel_loop.hpp"
+#include "scene/dimensions.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
@@ -104,7 +105,7 @@ class ConservationCheck {
       const bool affine = !points.B_apic[0].empty();
       Turn turn;
       for (std::size_t k = 0; k < turn.size(); ++k) {
-        const std::size_t i = Dim == 2 ? 0 : (k + 1) % 3, j = Dim == 2 ? 1 : (k + 2) % 3;
+        const std::size_t i = dimension_info(Dim).turns[k].from, j = dimension_info(Dim).turns[k].to;
         turn[k] = sum_over(points.size(), [&](std::size_t p) {
           const double spin = affine ? points.B_apic[Dim * j + i][p] - points.B_apic[Dim * i + j][p] : 0;
           return points.mass[p] * (points.x[i][p] * v[j][p] - points.x[j][p] * v[i][p] + spin);

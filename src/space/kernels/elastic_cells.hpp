@@ -7,8 +7,8 @@
 //
 // so that with constant moduli A and small strain the sums that the corners' forces are made of,
 //
-//   T_ij[m] = Σ_p V_p P_ij x_m = A : Σ_p V_p H x_m,    G_ij[m] = Σ_p V_p H_ij x_m = Σ_n q_j c_{n ∪ j, i} Σ_p V_p x_n
-//   x_m,
+//   T_ij[m] = Σ_p V_p P_ij x_m = A : Σ_p V_p H x_m,
+//   G_ij[m] = Σ_p V_p H_ij x_m = Σ_n q_j c_{n ∪ j, i} Σ_p V_p x_n x_m,
 //
 // take of the points no more than the moments Σ_p V_p x_n x_m: 6 numbers in the plane, 23 in space. A cell costs the
 // same however many points it has. The force that belongs to c_m, f_m = Σ_{j ∈ m} q_j T_ij[m \ j], goes to the corners
@@ -20,7 +20,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <vector>
 
@@ -261,7 +260,7 @@ class ElasticCells {
       });
       unroll<lanes / 4>([&](auto half) __attribute__((always_inline)) {
         std::array<Lanes<4>, 4> of_half;
-        unroll<4>([&](auto s) __attribute__((always_inline)) { of_half[s] = quarter<half()>(column[s]); });
+        unroll<4>([&](auto s) __attribute__((always_inline)) { of_half[s] = four_lanes<half()>(column[s]); });
         const auto rows = transposed(of_half);
         unroll<4>([&](auto r) __attribute__((always_inline)) {
           constexpr std::size_t lane = 4 * half + r;
@@ -274,7 +273,7 @@ class ElasticCells {
     return bad[0] + bad[1] + bad[2] + bad[3];
   }
   template <int Half>
-  [[gnu::always_inline]] static Lanes<4> quarter(const Lane& all) {
+  [[gnu::always_inline]] static Lanes<4> four_lanes(const Lane& all) {
     if constexpr (lanes == 4) {
       return all;
     } else if constexpr (Half == 0) {

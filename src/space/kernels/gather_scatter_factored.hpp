@@ -25,16 +25,17 @@ struct GatherScatter<B, Kinematics::space> {
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,
                      const double* u_before, std::size_t first, Rows& H, Rows& dH) {
     Corners corners;
-    for (int a = 0; a < per_cell; ++a) {
-      const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
-      for (int i = 0; i < dim; ++i) corners[i][a] = u[at + i];
-    }
-    gather_one(weights, begin, end, first, corners, H);
-    if constexpr (Increments) {
+    const auto for_corners = [&](const auto& visit)
+        __attribute__((always_inline)) {  // visit(number of a component, it)
       for (int a = 0; a < per_cell; ++a) {
         const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
-        for (int i = 0; i < dim; ++i) corners[i][a] -= u_before[at + i];
+        for (int i = 0; i < dim; ++i) visit(at + i, corners[i][a]);
       }
+    };
+    for_corners([&](std::ptrdiff_t at, double& corner) __attribute__((always_inline)) { corner = u[at]; });
+    gather_one(weights, begin, end, first, corners, H);
+    if constexpr (Increments) {
+      for_corners([&](std::ptrdiff_t at, double& corner) __attribute__((always_inline)) { corner -= u_before[at]; });
       gather_one(weights, begin, end, first, corners, dH);
     }
   }

@@ -1,6 +1,9 @@
 // The inertia of a phase, and what becomes of the points' momentum when it ends.
 #pragma once
 
+#include <span>
+
+#include "scene/dimensions.hpp"
 #include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
@@ -148,8 +151,8 @@ void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
   if constexpr (Dim > 1) {
     if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
     if (AffineVelocity<B, K>::carries_gradient) return;
-    constexpr std::size_t turns = Dim == 2 ? 1 : 3;  // about z, or x, y and z: from axis first to second
-    constexpr std::array<std::size_t, 3> first{Dim == 2 ? 0 : 1, 2, 0}, second{Dim == 2 ? 1 : 2, 0, 1};
+    constexpr std::span<const Turn> about = dimension_info(Dim).turns;
+    constexpr std::size_t turns = about.size();
     std::vector<double> spin(turns * inertia_.mass().size());  // δ_i (d_i × ḋ_i)/m_i
     for (const AddedInertia& added : inertia_.added()) {
       const auto i = static_cast<std::size_t>(added.function);
@@ -157,7 +160,8 @@ void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
       const auto d = deviation<Dim>(grid_u_, added), d_dot = deviation<Dim>(grid_v, added);
       const double delta = added.inertia / scene_.mass.factor;
       for (std::size_t r = 0; r < turns; ++r) {
-        const double turn = d[first[r]] * d_dot[second[r]] - d[second[r]] * d_dot[first[r]];
+        const auto& [axis, from, to] = about[r];
+        const double turn = d[from] * d_dot[to] - d[to] * d_dot[from];
         spin[turns * i + r] = delta * turn / inertia_.mass()[i];
       }
     }
@@ -168,8 +172,9 @@ void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
           double of_point = 0;
           for (int a = 0; a < per_cell; ++a)
             of_point += N[a] * spin[turns * static_cast<std::size_t>(weights_.function(k, a)) + r];
-          body_.points.B_apic[Dim * second[r] + first[r]][p] += of_point / 2;
-          body_.points.B_apic[Dim * first[r] + second[r]][p] -= of_point / 2;
+          const auto& [axis, from, to] = about[r];
+          body_.points.B_apic[Dim * to + from][p] += of_point / 2;
+          body_.points.B_apic[Dim * from + to][p] -= of_point / 2;
         }
       }
     });

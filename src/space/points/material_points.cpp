@@ -215,7 +215,7 @@ class Filling {
   CellShares& covered_;
   bool domains_;
   CellPositions<Dim> positions_;
-  std::unique_ptr<const Solid> solid_;  // of a body in space that is no box
+  std::shared_ptr<const Solid> solid_;  // of a body in space that is no box
   MomentFit fit_;
   QuadratureReport quadrature_;
 };

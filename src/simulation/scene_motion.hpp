@@ -1,0 +1,25 @@
+// What a scene tells of its motion before anything of it is made.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+namespace stillpoint {
+
+/// Whether its points move on from phase to phase.
+inline bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
+/// Whether the law of some body remembers.
+bool remembers(const Scene& scene);
+/// Whether the law of some body is not linear.
+bool is_nonlinear(const Scene& scene);
+/// Whether the relaxation, if the scene has one, finds its own mass, as auto does.
+bool chooses_mass(const Scene& scene);
+
+/// What is asked of a motion before its steps may tell omega_1.
+struct Motion {
+  bool linear = false, moves_on = false;
+  bool mass_measures_volume = true;  // or its inertia is that of multigrid
+};
+/// Whether the steps of the relaxation tell omega_1 of the motions that the loads drive.
+bool steps_tell_omega_1(const Scene& scene, const Motion& motion);
+
+}  // namespace stillpoint

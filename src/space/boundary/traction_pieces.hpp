@@ -1,0 +1,104 @@
+// The part of a body's border that a traction acts on, cut into pieces, some to a cell.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "scene/body_surface.hpp"
+#include "scene/border_line.hpp"
+#include "space/boundary/face_pieces.hpp"
+#include "space/boundary/grid_crossings.hpp"
+#include "space/materials/deformation.hpp"
+
+namespace stillpoint {
+
+/// Of a body's end, of a straight part of its border, in space of a part of a face or of a curved surface. The area is
+/// undeformed, 2 π r ds if axisymmetric [m²].
+template <Kinematics K>
+class TractionCutter {
+  static constexpr int dim = dimensions(K);
+
+ public:
+  TractionCutter(const Scene& scene, const TractionSpec& traction, const Grid<dim>& grid)
+      : scene_(scene), traction_(traction), grid_(grid) {}
+
+  /// visit(x, area, normal outwards)
+  template <class Visit>
+  void cut(const Visit& visit) const {
+    if constexpr (dim == 1) {
+      const BodySpec& body = scene_.bodies.front();
+      const bool upper = is_upper(traction_.face.value());
+      visit(Point<dim>{(upper ? body.max : body.min)[0]}, body.area, Point<dim>{upper ? 1.0 : -1.0});
+    } else if constexpr (dim == 2) {
+      for (const BorderLine& line : border_lines(scene_, traction_)) cut_line(line, visit);
+    } else if (traction_.surface) {
+      cut_surface(visit);
+    } else {
+      cut_face(visit);
+    }
+  }
+
+ private:
+  std::vector<FacePoint> rule_along(const BodySpec& body, std::size_t along) const {
+    const bool carried = has_phases(scene_);
+    const bool varies = std::ranges::any_of(traction_.formulas(), &Expression::uses_position);
+    return varies ? varying_face_rule(body, along, carried)
+                  : face_rule(body, along, carried, scene_.phase.quadrature == Quadrature::domains);
+  }
+  template <class Visit>
+  void cut_face(const Visit& visit) const {
+    const BodySpec& body = scene_.bodies.front();
+    const Face face = traction_.face.value();
+    const auto normal = static_cast<std::size_t>(axis_of(face));
+    Point<dim> outwards{};
+    outwards[normal] = is_upper(face) ? 1 : -1;
+    for_face_pieces<dim>(
+        grid_, normal, (is_upper(face) ? body.max : body.min)[normal],
+        part_of_face(face, traction_.from, traction_.to, body.min, body.max),
+        [&](std::size_t along) { return rule_along(body, along); },
+        [&](const Point<dim>& x, double area, double) { visit(x, area, outwards); });
+  }
+  // Into pieces of half a cell, which are not cut at its border: a function that has a kink there is integrated to
+  // second order.
+  template <class Visit>
+  void cut_surface(const Visit& visit) const {
+    double length = std::numeric_limits<double>::infinity();
+    for (std::size_t d = 0; d < dim; ++d) length = std::min(length, scene_.grid.cell_length(d) / 2);
+    const BodySpec& body = scene_.bodies[body_with_surface(scene_).value()];
+    for (const SurfacePiece& piece : surface_pieces(body, *traction_.surface, length)) {
+      const auto& [x, y, z] = piece.vector;
+      const double area = std::hypot(x, y, z);
+      visit(piece.x, area, Point<dim>{x / area, y / area, z / area});
+    }
+  }
+  // Into pieces of each cell's part.
+  template <class Visit>
+  void cut_line(const BorderLine& line, const Visit& visit) const {
+    const BodySpec& body = scene_.bodies[line.body];
+    const std::size_t across = std::abs(line.normal[0]) > std::abs(line.normal[1]) ? 0 : 1;
+    const std::vector<FacePoint> rule = rule_along(body, 1 - across);
+    const std::vector<Point<dim>> ends = grid_crossings(line, grid_);
+    for (std::size_t c = 0; c + 1 < ends.size(); ++c) {
+      const Point<dim>&from = ends[c], &to = ends[c + 1];
+      const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+      for (const auto& [xi, weight] : rule) {
+        Point<dim> x;
+        for (std::size_t d = 0; d < dim; ++d) x[d] = (from[d] + to[d]) / 2 + (to[d] - from[d]) / 2 * xi;
+        const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
+        visit(x, length / 2 * weight * depth, line.normal);
+      }
+    }
+  }
+
+  const Scene& scene_;
+  const TractionSpec& traction_;
+  const Grid<dim>& grid_;
+};
+
+}  // namespace stillpoint
