@@ -68,6 +68,7 @@ struct StaticMethodInfo {
   bool takes_end_of_loads = false;  // loads and supports may depend on t: the equilibrium is that at stop.time
   bool is_newton = false;           // one step is the whole solution
   bool factorises = false;          // K, so that no mass has a part in it
+  bool tells_omega_1 = false;       // of a linear body, by its steps
 };
 
 /// A name of integrator.method.

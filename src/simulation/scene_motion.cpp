@@ -33,8 +33,9 @@ bool chooses_mass(const Scene& scene) {
 }
 
 bool steps_tell_omega_1(const Scene& scene, const Motion& motion) {
-  return chooses_mass(scene) && wants_equilibrium_only(scene) && motion.linear && !motion.moves_on &&
-         motion.mass_measures_volume;
+  const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
+  const bool tells = method ? method->tells_omega_1 : chooses_mass(scene);
+  return tells && wants_equilibrium_only(scene) && motion.linear && !motion.moves_on && motion.mass_measures_volume;
 }
 
 }  // namespace stillpoint

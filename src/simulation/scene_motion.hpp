@@ -19,7 +19,7 @@ struct Motion {
   bool linear = false, moves_on = false;
   bool mass_measures_volume = true;  // or its inertia is that of multigrid
 };
-/// Whether the steps of the relaxation tell omega_1 of the motions that the loads drive.
+/// Whether the steps of the relaxation, or of the static solver, tell omega_1 of the motions that the loads drive.
 bool steps_tell_omega_1(const Scene& scene, const Motion& motion);
 
 }  // namespace stillpoint
