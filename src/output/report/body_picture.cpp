@@ -109,6 +109,7 @@ BodyPicture::BodyPicture(const GridSpec& grid, const BodyMoment& first, std::siz
   const double share = static_cast<double>(found.cells) / static_cast<double>(std::max<std::size_t>(1, points_.size()));
   const double of_cell = dim_ == 1 ? share : std::sqrt(dim_ == 2 ? share : std::min(1.0, 2 * share));
   for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) mark_.push_back(of_cell * grid.cell_length(k));
+  for (int k = 0; k < dim_; ++k) x_.push_back(picked(at.front(), static_cast<std::size_t>(dim_), k, points_));
 }
 
 BodyPicture::Surface BodyPicture::surface(const GridSpec& grid, const std::vector<std::vector<double>>& at) const {
@@ -117,8 +118,11 @@ BodyPicture::Surface BodyPicture::surface(const GridSpec& grid, const std::vecto
   std::vector<char> is_seen(all_, dim_ < 3 ? 1 : 0);
   for (const std::vector<double>& position : at) {
     std::vector<CellKey> keys(all_);
-    for (std::size_t p = 0; p < all_; ++p) keys[p] = cell_of(&position[p * width], grid, dim_);
-    const std::unordered_set<CellKey> occupied(keys.begin(), keys.end());
+    std::unordered_set<CellKey> occupied;
+    for (std::size_t p = 0; p < all_; ++p) {
+      keys[p] = cell_of(&position[p * width], grid, dim_);
+      if (p == 0 || keys[p] != keys[p - 1]) occupied.insert(keys[p]);  // a cell's points follow each other
+    }
     if (found.cells == 0 && dim_ < 3) found.cells = occupied.size();
     if (dim_ < 3) continue;
     std::unordered_set<CellKey> outer;
@@ -134,8 +138,11 @@ BodyPicture::Surface BodyPicture::surface(const GridSpec& grid, const std::vecto
       }
     }
     if (found.cells == 0) found.cells = faces;
-    for (std::size_t p = 0; p < all_; ++p)
-      if (outer.contains(keys[p])) is_seen[p] = 1;
+    bool is_outer = false;
+    for (std::size_t p = 0; p < all_; ++p) {
+      if (p == 0 || keys[p] != keys[p - 1]) is_outer = outer.contains(keys[p]);
+      if (is_outer) is_seen[p] = 1;
+    }
   }
   for (std::size_t p = 0; p < all_; ++p)
     if (is_seen[p]) found.points.push_back(p);
@@ -154,13 +161,9 @@ void BodyPicture::add(const BodyMoment& moment) {
   std::size_t number = 0;
   {
     const std::vector<double> u = moment.field("u");
-    if (x_.empty()) {
-      const std::vector<double> position = moment.field("position");
-      for (int k = 0; k < dim_; ++k) {
-        x_.push_back(picked(position, width, k, points_));
-        const std::vector<float> moved = picked(u, width, k, points_);
-        for (std::size_t p = 0; p < moved.size(); ++p) x_.back()[p] -= moved[p];
-      }
+    for (int k = 0; times_.empty() && k < dim_; ++k) {  // back to the start
+      const std::vector<float> moved = picked(u, width, k, points_);
+      for (std::size_t p = 0; p < moved.size(); ++p) x_[static_cast<std::size_t>(k)][p] -= moved[p];
     }
     for (int k = 0; k < dim_; ++k)
       keep(number++, dim_ == 1 ? "u" : std::string("u") + axes[static_cast<std::size_t>(k)],

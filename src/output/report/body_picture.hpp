@@ -21,7 +21,8 @@ std::vector<std::size_t> drawn_moments(const BodyMoment& first, std::size_t all)
 /// is room for, points are left out evenly.
 class BodyPicture {
  public:
-  /// moments: how many will be added. at: where the points are when the surface is looked for, each (P × dim) [m].
+  /// moments: how many will be added, `first` before the others. at: where the points are when the surface is looked
+  /// for, each (P × dim), first of all in `first` [m].
   BodyPicture(const GridSpec& grid, const BodyMoment& first, std::size_t moments,
               const std::vector<std::vector<double>>& at);
   void add(const BodyMoment& moment);

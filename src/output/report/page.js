@@ -173,6 +173,7 @@ function showRun(data, page) {
   runVerdict(page, s, data.goals);
   const pictures = data.picture && section(page, "The body", "body");
   if (pictures) bodyPicture(pictures, data.picture, s.stages);
+  if (data.lacks_memory) page.append(element("p", {}, "No memory was left for a picture of the body."));
   if (data.history) historyCharts(page, data.history, data.goals);
   runFacts(page, s);
   modelFacts(page, s);

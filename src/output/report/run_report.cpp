@@ -1,5 +1,6 @@
 #include "output/report/run_report.hpp"
 
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,15 +36,31 @@ bool RunReport::looks_at_body() const {
   return !folder_.empty() && scene_.output.snapshots.empty() && scene_.output.fields_every <= 0;
 }
 
-void RunReport::begin(const BodyMoment& moment) {
-  picture_.emplace(scene_.grid, moment, 2, std::vector<std::vector<double>>{moment.field("position")});
-  picture_->add(moment);
+// A run that has come to its end does not fail for want of a picture.
+template <class Draw>
+void RunReport::draw_if_memory_is_left(const Draw& draw) {
+  try {
+    if (!lacks_memory_) draw();
+  } catch (const std::bad_alloc&) {
+    lacks_memory_ = true;
+    picture_.reset();
+  }
 }
 
-void RunReport::end(const BodyMoment& moment) { picture_->add(moment); }
+void RunReport::begin(const BodyMoment& moment) {
+  draw_if_memory_is_left([&] {
+    picture_.emplace(scene_.grid, moment, 2, std::vector<std::vector<double>>{moment.field("position")});
+    picture_->add(moment);
+  });
+}
+
+void RunReport::end(const BodyMoment& moment) {
+  draw_if_memory_is_left([&] { picture_->add(moment); });
+}
 
 Json RunReport::picture() const {
   if (picture_) return picture_->json();
+  if (lacks_memory_) return nullptr;
   const std::filesystem::path fields_h5 = folder_ / "fields.h5";
   return std::filesystem::exists(fields_h5) ? stored_picture(scene_.grid, fields_h5) : Json();
 }
@@ -56,6 +73,7 @@ std::string RunReport::page(const Summary& summary) const {
                       {"goals", {{"residual", stop.residual}, {"distance", stop.distance}, {"time", stop.time}}},
                       {"history", history_excerpt(folder_ / "history.csv")},
                       {"picture", picture()},
+                      {"lacks_memory", lacks_memory_},
                       {"scene", {{"text", scene_.text}, {"set", scene_.overrides}}}});
 }
 

@@ -29,10 +29,13 @@ class RunReport {
 
  private:
   Json picture() const;
+  template <class Draw>
+  void draw_if_memory_is_left(const Draw& draw);
 
   const Scene& scene_;
   std::filesystem::path folder_;
   std::optional<BodyPicture> picture_;
+  bool lacks_memory_ = false;
 };
 
 }  // namespace stillpoint
