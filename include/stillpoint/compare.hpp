@@ -79,6 +79,8 @@ struct ComparedRun {
 
 struct Comparison {
   std::string scene, title;
+  std::string scene_text;              // of its file
+  std::vector<std::string> overrides;  // laid over it
   std::size_t dofs = 0, points = 0;
   int threads = 1;
   bool chooses_threads = false;  // each run took all of them or one, whichever it found quicker
@@ -109,7 +111,7 @@ double chebyshev_estimate(double kappa, double error);
 Comparison compare(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
                    const CompareOptions& options = {});
 
-/// compare.csv and compare.json in a folder.
+/// compare.csv, compare.json and report.html in a folder.
 void write_comparison(const Comparison& comparison, const std::filesystem::path& folder);
 
 }  // namespace stillpoint

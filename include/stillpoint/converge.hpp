@@ -85,7 +85,9 @@ struct ErrorSource {
 
 struct ConvergenceStudy {
   std::string scene, title;
-  std::vector<std::string> varied;  // what the series is given beside the overrides, "key=value"
+  std::string scene_text;              // of its file
+  std::vector<std::string> overrides;  // laid over it in all series
+  std::vector<std::string> varied;     // what the series is given beside the overrides, "key=value"
   std::vector<Refinement> refined;
   double ratio = 2;
   std::string reference;  // what errors are measured against
@@ -112,7 +114,7 @@ std::vector<ConvergenceStudy> converge_varied(const std::filesystem::path& scene
                                               const std::vector<Variation>& varied,
                                               const ConvergeOptions& options = {});
 
-/// converge.csv and converge.json in a folder.
+/// converge.csv, converge.json and report.html in a folder.
 void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder);
 /// Of all series: with a column for each varied key, and a list of series.
 void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder);

@@ -126,6 +126,34 @@ void Hdf5File::write(const std::string& name, hid_t type, hid_t native_type, con
   check(dataset.close());
 }
 
+std::vector<double> Hdf5File::read(const std::string& name) const {
+  const Quiet quiet;
+  const Handle dataset(check(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), "cannot read"), H5Dclose);
+  const Handle space(check(H5Dget_space(dataset), "cannot read"), H5Sclose);
+  std::vector<double> values(static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space), "cannot read")));
+  check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "cannot read");
+  return values;
+}
+
+std::size_t Hdf5File::rows_of(const std::string& name) const {
+  const Quiet quiet;
+  const Handle dataset(check(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), "cannot read"), H5Dclose);
+  const Handle space(check(H5Dget_space(dataset), "cannot read"), H5Sclose);
+  std::array<hsize_t, 2> size{};
+  if (check(H5Sget_simple_extent_ndims(space), "cannot read") > 2) return 0;
+  check(H5Sget_simple_extent_dims(space, size.data(), nullptr), "cannot read");
+  return size[0];
+}
+
+double Hdf5File::read_attribute(const std::string& group, const std::string& name) const {
+  const Quiet quiet;
+  const Handle attribute(
+      check(H5Aopen_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "cannot read"), H5Aclose);
+  double value = 0;
+  check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "cannot read");
+  return value;
+}
+
 void Hdf5File::close() {
   const Quiet quiet;
   if (!output_) return static_cast<void>(check(H5Fclose(std::exchange(file_, H5I_INVALID_HID))));

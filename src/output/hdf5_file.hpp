@@ -1,4 +1,4 @@
-// A file of HDF5 that is written, dataset by dataset, or copied from.
+// A file of HDF5 that is written, dataset by dataset, or read.
 #pragma once
 
 #include <cstddef>
@@ -43,6 +43,11 @@ class Hdf5File {
   /// At least one row. Chunked, and compressed if the library can, a chunk at a time.
   void write(const std::string& name, const std::vector<double>& values, const Columns& columns);
   void write(const std::string& name, const std::vector<int>& values);
+
+  /// A dataset of numbers, row by row; how many rows it has; and an attribute of a group.
+  std::vector<double> read(const std::string& name) const;
+  std::size_t rows_of(const std::string& name) const;
+  double read_attribute(const std::string& group, const std::string& name) const;
 
   /// Whatever could not be written throws here at the latest; the disk has the file then.
   void close();

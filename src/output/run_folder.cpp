@@ -1,5 +1,6 @@
 #include "output/run_folder.hpp"
 
+#include <span>
 #include <system_error>
 
 #include "base/atomic_file.hpp"
@@ -10,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* summary = "summary.json";
+constexpr const char* of_the_end[] = {"summary.json", "report.html"};
 constexpr const char* gone_on_from[] = {
     "history.csv", "fields.h5", "fields.xdmf", "checkpoint.h5", "checkpoint-previous.h5", "unstable_mode.csv"};
 constexpr const char* frames_folder = "fields.partial";
@@ -32,13 +33,13 @@ void throw_unless_of_disk(const fs::path& folder, const fs::filesystem_error& er
 void prepare_folder(const fs::path& folder, bool resumes) {
   try {
     fs::create_directories(folder);
-    require_file(folder / summary);
-    require_file(partial_name(folder / summary));
-    for (const char* name : gone_on_from) {
-      require_file(folder / name);
-      require_file(partial_name(folder / name));
+    for (const auto names : {std::span<const char* const>(of_the_end), std::span<const char* const>(gone_on_from)}) {
+      for (const char* name : names) {
+        require_file(folder / name);
+        require_file(partial_name(folder / name));
+      }
     }
-    fs::remove(folder / summary);
+    for (const char* name : of_the_end) fs::remove(folder / name);
     if (resumes) return;
     for (const char* name : gone_on_from) fs::remove(folder / name);
     fs::remove_all(folder / frames_folder);

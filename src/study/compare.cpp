@@ -45,6 +45,8 @@ class Comparing {
       : file_(std::move(scene)), overrides_(std::move(overrides)), options_(options), scene_(load({})) {
     result_.scene = scene_.name;
     result_.title = scene_.title;
+    result_.scene_text = scene_.text;
+    result_.overrides = overrides_;
     result_.goal = options_.goal;
     result_.threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
     result_.chooses_threads = options_.threads == 0 && result_.threads > 1;

@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/json.hpp"
+#include "output/report/report_page.hpp"
 #include "study/csv_text.hpp"
 
 namespace stillpoint {
@@ -32,7 +33,7 @@ std::string csv(const Comparison& c) {
   return text;
 }
 
-std::string json(const Comparison& c) {
+Json json(const Comparison& c) {
   Json runs = Json::array();
   for (const ComparedRun& run : c.runs) {
     Json samples = Json::array();
@@ -67,36 +68,41 @@ std::string json(const Comparison& c) {
                     {"memory_bytes", run.memory_bytes},
                     {"samples", samples}});
   }
-  const Json whole = {{"scene", c.scene},
-                      {"title", c.title},
-                      {"dofs", c.dofs},
-                      {"points", c.points},
-                      {"threads", c.threads},
-                      {"chooses_threads", c.chooses_threads},
-                      {"transient", c.transient},
-                      {"goal", c.goal},
-                      {"goal_of", c.by_residual ? "residual" : "error"},
-                      {"omega_1", number(c.omega_1)},
-                      {"omega_max", number(c.omega_max)},
-                      {"kappa", number(c.kappa)},
-                      {"lower_bound", number(c.chebyshev_estimate)},
-                      {"reference", c.reference},
-                      {"reference_residual", number(c.reference_residual)},
-                      {"ramp_difference", number(c.ramp_difference)},
-                      {"sample", {"evaluations", "error", "residual", "distance"}},
-                      {"wall_s", c.wall_s},
-                      {"timed_s", c.timed_s},
-                      {"runs", runs},
-                      {"notes", c.notes},
-                      {"versions", versions_of_libraries()}};
-  return whole.dump(1) + "\n";
+  return {{"scene", c.scene},
+          {"title", c.title},
+          {"dofs", c.dofs},
+          {"points", c.points},
+          {"threads", c.threads},
+          {"chooses_threads", c.chooses_threads},
+          {"transient", c.transient},
+          {"goal", c.goal},
+          {"goal_of", c.by_residual ? "residual" : "error"},
+          {"omega_1", number(c.omega_1)},
+          {"omega_max", number(c.omega_max)},
+          {"kappa", number(c.kappa)},
+          {"lower_bound", number(c.chebyshev_estimate)},
+          {"reference", c.reference},
+          {"reference_residual", number(c.reference_residual)},
+          {"ramp_difference", number(c.ramp_difference)},
+          {"sample", {"evaluations", "error", "residual", "distance"}},
+          {"wall_s", c.wall_s},
+          {"timed_s", c.timed_s},
+          {"runs", runs},
+          {"notes", c.notes},
+          {"versions", versions_of_libraries()}};
 }
 
 }  // namespace
 
 void write_comparison(const Comparison& comparison, const std::filesystem::path& folder) {
   write_file(folder / "compare.csv", csv(comparison));
-  write_file(folder / "compare.json", json(comparison));
+  const Json whole = json(comparison);
+  write_file(folder / "compare.json", whole.dump(1) + "\n");
+  const std::string page = report_page(comparison.title.empty() ? comparison.scene : comparison.title,
+                                       {{"kind", "compare"},
+                                        {"comparison", whole},
+                                        {"scene", {{"text", comparison.scene_text}, {"set", comparison.overrides}}}});
+  write_file(folder / report_name, page);
 }
 
 }  // namespace stillpoint

@@ -58,6 +58,8 @@ class Converging {
         kept_(options_.keep, options_.resumes, scene_) {
     study_.scene = scene_.name;
     study_.title = scene_.title;
+    study_.scene_text = scene_.text;
+    study_.overrides = overrides;
     study_.varied = varied;
     study_.refined = options_.refine;
     study_.ratio = options_.ratio;

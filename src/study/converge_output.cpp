@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/json.hpp"
+#include "output/report/report_page.hpp"
 #include "study/csv_text.hpp"
 
 namespace stillpoint {
@@ -127,6 +128,10 @@ void write_studies(const std::vector<ConvergenceStudy>& series, const std::files
   whole["versions"] = versions_of_libraries();
   write_file(folder / "converge.csv", csv(series));
   write_file(folder / "converge.json", whole.dump(1) + "\n");
+  const std::string page = report_page(
+      first.title.empty() ? first.scene : first.title,
+      {{"kind", "converge"}, {"study", whole}, {"scene", {{"text", first.scene_text}, {"set", first.overrides}}}});
+  write_file(folder / report_name, page);
 }
 
 }  // namespace stillpoint

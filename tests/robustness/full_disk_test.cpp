@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// History, probes, three frames of fields, three checkpoints and a summary.
+// History, probes, three frames of fields, three checkpoints, a summary and a report.
 const std::vector<std::string> settings = {"grid.cells=[8, 8]", "stop.steps=60", "checkpoint.every_steps=40",
                                            "output.stages=[1e-3, 1e-2]"};
 constexpr int not_in_equilibrium = 3, failed = 4;
@@ -85,6 +85,7 @@ void check_final_names(const fs::path& out, const fs::path& unbroken) {
     if (fs::exists(out / name)) CHECK((contents(out / name) == contents(unbroken / name)));
   }
   if (fs::exists(out / "summary.json")) CHECK(json_of(out / "summary.json")["steps"] == 60);
+  if (fs::exists(out / "report.html")) CHECK(contents(out / "report.html").ends_with("</html>\n"));
   CHECK(contents(unbroken / "history.csv").starts_with(history_in(out)));
 }
 
@@ -119,7 +120,7 @@ TEST_CASE("on a disk that is full from any call on a run fails by name, loses no
               not_in_equilibrium);
         check_final_names(out, unbroken);
         CHECK(left_in(out) == left_in(unbroken));
-        CHECK(fs::exists(out / "summary.json"));
+        for (const char* last : {"summary.json", "report.html"}) CHECK(fs::exists(out / last));
       }
       fs::remove_all(out);
     }

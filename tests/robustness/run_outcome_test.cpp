@@ -208,7 +208,8 @@ TEST_CASE("a folder that cannot be written is bad input, found before anything r
 }
 
 TEST_CASE("a folder in the place of an output file is bad input, found before anything runs") {
-  for (const char* name : {"history.csv", "summary.json", "history.csv.partial", "checkpoint.h5", "fields.h5"}) {
+  for (const char* name :
+       {"history.csv", "summary.json", "report.html", "history.csv.partial", "checkpoint.h5", "fields.h5"}) {
     const TemporaryFolder folder;
     run(bar({"stop.steps=10"}), {.out = folder.path() / "earlier"});
     const auto out = folder.path() / "out";
@@ -225,7 +226,7 @@ TEST_CASE("nothing of an earlier run stands beside what a run that breaks down h
   const TemporaryFolder folder;
   run(bar({"output.stages=[0.1]", "stop.steps=100"}), {.out = folder.path()});
   folder.write("unstable_mode.csv", "point,x,mode\n");
-  const auto names = {"summary.json", "fields.h5", "fields.xdmf", "history.csv", "unstable_mode.csv"};
+  const auto names = {"summary.json", "report.html", "fields.h5", "fields.xdmf", "history.csv", "unstable_mode.csv"};
   for (const char* name : names) CHECK(std::filesystem::exists(folder.path() / name));
   const auto breaks_down = [&] {
     if (is_stepping(folder.path())) throw std::runtime_error("the disk is full");

@@ -1,0 +1,206 @@
+#include "output/report/body_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_set>
+#include <utility>
+
+namespace stillpoint {
+namespace {
+
+constexpr std::size_t most_values = 1'150'000;  // of two bytes each: a report stays below 3 MB
+constexpr std::size_t fewest_moments = 6, most_moments = 60;
+
+// The fields of one point at one moment.
+std::size_t width_of(const BodyMoment& body) {
+  const std::size_t stress = body.dim == 1 ? 1 : body.dim == 2 ? 4 : 6;
+  return static_cast<std::size_t>(body.dim) + 1 + stress + body.history_names.size();
+}
+
+using CellKey = std::uint64_t;
+constexpr int bits_of_axis = 21;
+constexpr std::uint64_t middle = std::uint64_t{1} << (bits_of_axis - 1);
+
+// The cell of a position, as a number; what is further away than numbers go is in the last one there.
+CellKey cell_of(const double* x, const GridSpec& grid, int dim) {
+  CellKey key = 0;
+  for (int k = 0; k < dim; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    const double cell = std::floor((x[k] - grid.min[axis]) / grid.cell_length(axis));
+    const double most = static_cast<double>(middle) - 2;
+    const auto number = static_cast<std::int64_t>(std::isfinite(cell) ? std::clamp(cell, -most, most) : most);
+    key |= (static_cast<std::uint64_t>(number) + middle) << (bits_of_axis * k);
+  }
+  return key;
+}
+
+// min + (max − min) k/4094
+class Scale {
+ public:
+  void include(const std::vector<float>& values) {
+    for (const float value : values) {
+      if (!std::isfinite(value)) continue;
+      min_ = std::min(min_, value);
+      max_ = std::max(max_, value);
+    }
+  }
+  double min() const { return min_; }
+  double max() const { return max_; }
+  std::string text(const std::vector<float>& values) const {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const double range = static_cast<double>(max_) - static_cast<double>(min_);
+    std::string text;
+    text.reserve(2 * values.size());
+    for (const float value : values) {
+      std::size_t k = 4095;
+      if (std::isfinite(value))
+        k = range > 0 ? static_cast<std::size_t>(std::lround(4094 * (value - min()) / range)) : 0;
+      text += digits[k / 64];
+      text += digits[k % 64];
+    }
+    return text;
+  }
+  Json json() const { return {{"min", number(min())}, {"max", number(max())}}; }
+
+ private:
+  float min_ = std::numeric_limits<float>::infinity(), max_ = -std::numeric_limits<float>::infinity();
+};
+
+// One component at the points that are drawn; component < 0: the length of the vector.
+std::vector<float> picked(const std::vector<double>& values, std::size_t width, int component,
+                          const std::vector<std::size_t>& points) {
+  std::vector<float> some;
+  some.reserve(points.size());
+  for (const std::size_t p : points) {
+    const double* row = &values[p * width];
+    double value = component < 0 ? 0 : row[component];
+    if (component < 0) {
+      for (std::size_t k = 0; k < width; ++k) value = std::hypot(value, row[k]);
+    }
+    some.push_back(static_cast<float>(value));
+  }
+  return some;
+}
+
+std::vector<std::size_t> evenly(std::size_t all, std::size_t some) {
+  std::vector<std::size_t> numbers;
+  if (some >= all) some = all;
+  for (std::size_t k = 0; k < some; ++k) numbers.push_back(some > 1 ? k * (all - 1) / (some - 1) : all - 1);
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<std::size_t> drawn_moments(const BodyMoment& first, std::size_t all) {
+  const std::size_t wanted = most_values / std::max<std::size_t>(1, first.points * width_of(first));
+  return evenly(all, std::clamp(wanted, fewest_moments, most_moments));
+}
+
+BodyPicture::BodyPicture(const GridSpec& grid, const BodyMoment& first, std::size_t moments,
+                         const std::vector<std::vector<double>>& at)
+    : dim_(first.dim), all_(first.points) {
+  Surface found = surface(grid, at);
+  const std::size_t room = most_values / (static_cast<std::size_t>(dim_) + moments * width_of(first));
+  for (const std::size_t k : evenly(found.points.size(), room)) points_.push_back(found.points[k]);
+  // Half of the points of a cell at the surface of a body in space lie before the others.
+  const double share = static_cast<double>(found.cells) / static_cast<double>(std::max<std::size_t>(1, points_.size()));
+  const double of_cell = dim_ == 1 ? share : std::sqrt(dim_ == 2 ? share : std::min(1.0, 2 * share));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) mark_.push_back(of_cell * grid.cell_length(k));
+  for (int k = 0; k < dim_; ++k) x_.push_back(picked(at.front(), static_cast<std::size_t>(dim_), k, points_));
+}
+
+BodyPicture::Surface BodyPicture::surface(const GridSpec& grid, const std::vector<std::vector<double>>& at) const {
+  const auto width = static_cast<std::size_t>(dim_);
+  Surface found;
+  std::vector<char> is_seen(all_, dim_ < 3 ? 1 : 0);
+  for (const std::vector<double>& position : at) {
+    std::vector<CellKey> keys(all_);
+    std::unordered_set<CellKey> occupied;
+    for (std::size_t p = 0; p < all_; ++p) {
+      keys[p] = cell_of(&position[p * width], grid, dim_);
+      if (p == 0 || keys[p] != keys[p - 1]) occupied.insert(keys[p]);  // a cell's points follow each other
+    }
+    if (found.cells == 0 && dim_ < 3) found.cells = occupied.size();
+    if (dim_ < 3) continue;
+    std::unordered_set<CellKey> outer;
+    std::size_t faces = 0;
+    for (const CellKey key : occupied) {
+      for (int k = 0; k < dim_; ++k) {
+        const CellKey step = CellKey{1} << (bits_of_axis * k);
+        for (const CellKey neighbour : {key - step, key + step}) {
+          if (occupied.contains(neighbour)) continue;
+          ++faces;
+          outer.insert(key);
+        }
+      }
+    }
+    if (found.cells == 0) found.cells = faces;
+    bool is_outer = false;
+    for (std::size_t p = 0; p < all_; ++p) {
+      if (p == 0 || keys[p] != keys[p - 1]) is_outer = outer.contains(keys[p]);
+      if (is_outer) is_seen[p] = 1;
+    }
+  }
+  for (std::size_t p = 0; p < all_; ++p)
+    if (is_seen[p]) found.points.push_back(p);
+  return found;
+}
+
+void BodyPicture::keep(std::size_t number, const std::string& name, std::vector<float> values) {
+  if (number == fields_.size()) fields_.push_back({name});
+  fields_[number].values.push_back(std::move(values));
+}
+
+void BodyPicture::add(const BodyMoment& moment) {
+  constexpr std::array axes = {".x", ".y", ".z"};
+  constexpr std::array of_stress = {".xx", ".yy", ".zz", ".xy", ".yz", ".zx"};
+  const auto width = static_cast<std::size_t>(dim_);
+  std::size_t number = 0;
+  {
+    const std::vector<double> u = moment.field("u");
+    for (int k = 0; times_.empty() && k < dim_; ++k) {  // back to the start
+      const std::vector<float> moved = picked(u, width, k, points_);
+      for (std::size_t p = 0; p < moved.size(); ++p) x_[static_cast<std::size_t>(k)][p] -= moved[p];
+    }
+    for (int k = 0; k < dim_; ++k)
+      keep(number++, dim_ == 1 ? "u" : std::string("u") + axes[static_cast<std::size_t>(k)],
+           picked(u, width, k, points_));
+  }
+  keep(number++, "v", picked(moment.field("v"), width, dim_ == 1 ? 0 : -1, points_));
+  {
+    const std::vector<double> stress = moment.field("stress");
+    const std::size_t components = stress.size() / all_;
+    for (std::size_t k = 0; k < components; ++k)
+      keep(number++, components == 1 ? "stress" : std::string("stress") + of_stress[k],
+           picked(stress, components, static_cast<int>(k), points_));
+  }
+  for (const std::string& name : moment.history_names) keep(number++, name, picked(moment.field(name), 1, 0, points_));
+  times_.push_back(moment.t);
+}
+
+Json BodyPicture::json() const {
+  Json x = Json::array(), fields = Json::array(), moments = Json::array();
+  for (const std::vector<float>& along : x_) {
+    Scale scale;
+    scale.include(along);
+    Json axis = scale.json();
+    axis["values"] = scale.text(along);
+    x.push_back(std::move(axis));
+  }
+  for (const double t : times_) moments.push_back({{"t", number(t)}, {"values", Json::array()}});
+  for (const Field& field : fields_) {
+    Scale scale;
+    for (const std::vector<float>& values : field.values) scale.include(values);
+    Json one = scale.json();
+    one["name"] = field.name;
+    fields.push_back(std::move(one));
+    for (std::size_t m = 0; m < field.values.size(); ++m) moments[m]["values"].push_back(scale.text(field.values[m]));
+  }
+  return {{"dim", dim_}, {"points", all_},   {"drawn", points_.size()}, {"mark", mark_},
+          {"x", x},      {"fields", fields}, {"moments", moments}};
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,41 @@
+// The report of a run: its verdict, the picture of its body, its history, its model and its scene.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+#include <stillpoint/summary.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "output/report/body_moment.hpp"
+#include "output/report/body_picture.hpp"
+
+namespace stillpoint {
+
+/// Draws the stages of fields.h5 where there are some, and otherwise what the run began and ended with.
+class RunReport {
+ public:
+  /// folder: where the run writes to; empty: there is no report. The scene outlives this.
+  RunReport(const Scene& scene, std::filesystem::path folder);
+
+  /// Whether begin() and end() are to be called.
+  bool looks_at_body() const;
+  void begin(const BodyMoment& moment);
+  void end(const BodyMoment& moment);
+  /// The text of report.html, once history.csv and the fields are there. Throws std::filesystem::filesystem_error if
+  /// they cannot be read.
+  std::string page(const Summary& summary) const;
+
+ private:
+  Json picture() const;
+  template <class Draw>
+  void draw_if_memory_is_left(const Draw& draw);
+
+  const Scene& scene_;
+  std::filesystem::path folder_;
+  std::optional<BodyPicture> picture_;
+  bool lacks_memory_ = false;
+};
+
+}  // namespace stillpoint
