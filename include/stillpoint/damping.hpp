@@ -30,6 +30,8 @@ class Damping {
   virtual LinearDamping linear() const { return {}; }
   /// Whether add_local() does anything; then the right-hand side is discontinuous in v.
   virtual bool is_local() const { return false; }
+  /// Whether add_local() may be given a part of the degrees of freedom at a time, from several threads at once.
+  virtual bool goes_by_pieces() const { return true; }
   /// Q += D(v, Q), degree of freedom by degree of freedom; v, Q: (n).
   virtual void add_local(ConstVec /*v*/, Vec /*Q*/) const {}
   /// Whether D also needs Q of the last accepted step, as for the sign of dQ/dt; then add_local_since() is called in

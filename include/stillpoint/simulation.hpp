@@ -48,6 +48,11 @@ struct SimulationOptions {
   /// Asked after every step, and often while no step is taken: in the set-up, within Newton's method and in the tests
   /// at the end. True ends the run in good order.
   std::function<bool()> interrupted{};
+  /// A stopping test of the program's own, asked after every accepted step beside those of the scene: why the
+  /// simulation ends there, or an empty string if it goes on. It may look at the Simulation.
+  std::function<std::string()> stop_test{};
+  /// Told each row of the history, and what its columns are called ("t", "steps", …), with files or without.
+  std::function<void(const std::vector<std::string>& columns, const std::vector<double>& row)> at_row{};
   std::function<void(const Progress&)> progress{};  // told a few times a second
   /// Told before a phase ends (false) and when the next has begun (true); the Simulation shows that state.
   std::function<void(bool begun)> at_phase_change{};
@@ -98,6 +103,9 @@ class Simulation {
   double t() const;    // [s]
   ConstVec u() const;  // nodal displacement since the phase began, (n) [m]; valid until the next step
   ConstVec v() const;  // nodal velocity, (n) [m/s]; likewise
+  /// y = [u; v] of the present phase, (2n), which steps advance in place; [u; p] if system().keeps_momentum(). Whoever
+  /// holds it keeps its memory alive: after a change of phase, or after this object, it stays as it was then.
+  std::shared_ptr<const Vector> state() const;
   long steps() const;
   long evaluations() const;  // of the internal force, by the integrator
   int phases() const;

@@ -7,6 +7,8 @@
 #include <stillpoint/compare.hpp>
 #include <stillpoint/converge.hpp>
 #include <stillpoint/exact_solution.hpp>
+#include <stillpoint/own_damping.hpp>
+#include <stillpoint/own_relaxation.hpp>
 #include <stillpoint/run.hpp>
 #include <stillpoint/scene.hpp>
 #include <stillpoint/spectrum.hpp>

@@ -15,6 +15,7 @@ enum class RunStatus {
   equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, for the dwell
   unstable_equilibrium,  // the same, but K(u) has a negative eigenvalue: the least disturbance ends it
   limit_load,            // the factor of driven loads does not grow any more, by stop.load_growth
+  stop_test,             // SimulationOptions::stop_test
   end_time,              // t = stop.time
   step_limit,            // stop.steps taken
   time_limit,            // stop.wall_time spent

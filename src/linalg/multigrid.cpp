@@ -28,7 +28,8 @@ std::filesystem::path own_folder() {
   return ignored ? std::filesystem::path() : file.parent_path();
 }
 
-// Beside the program as it was built; installed, in the folder of libraries, wherever the two were put.
+// Beside the program as it was built; installed, in the folder of libraries, wherever the two were put. The Python
+// module is two folders below the program, or installed below python3/dist-packages in the folder of libraries.
 Module load_module() {
   const std::string file = STILLPOINT_MULTIGRID_MODULE;
   if (file.empty()) {
@@ -36,7 +37,9 @@ Module load_module() {
             "this stillpoint was built without PETSc; install libpetsc-real-dev (Debian's package) and build it again"};
   }
   const std::filesystem::path own = own_folder();
-  const std::array candidates{own / file, own / ".." / STILLPOINT_LIBDIR / "stillpoint" / file,
+  const std::filesystem::path up = "..";
+  const std::array candidates{own / file, own / up / STILLPOINT_LIBDIR / "stillpoint" / file, own / up / up / file,
+                              own / up / up / up / "stillpoint" / file,
                               std::filesystem::path(STILLPOINT_FULL_LIBDIR) / "stillpoint" / file};
   std::string tried;
   for (const std::filesystem::path& candidate : candidates) {

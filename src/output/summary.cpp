@@ -16,6 +16,8 @@ std::string to_string(RunStatus status) {
       return "unstable-equilibrium";
     case RunStatus::limit_load:
       return "limit-load";
+    case RunStatus::stop_test:
+      return "stop-test";
     case RunStatus::end_time:
       return "end-time";
     case RunStatus::step_limit:

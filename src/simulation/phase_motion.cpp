@@ -27,7 +27,8 @@ std::unique_ptr<Integrator> make_stepper(const Model& model, const Scene& scene,
 PhaseMotion::PhaseMotion(Model& model, const Scene& scene, const VectorSpace& vectors, double t, ConstVec u0,
                          ConstVec v0)
     : system(*model.phase, *model.damping, vectors, model.multigrid ? &model.multigrid->mass : nullptr),
-      y(vectors.make(2 * model.phase->size())),
+      shared_y(std::make_shared<Vector>(vectors.make(2 * model.phase->size()))),
+      y(*shared_y),
       u_vector(vectors.view(first_half(y.span()))),
       v_vector(vectors.view(second_half(y.span()))),
       integrator(make_stepper(model, scene, system)) {

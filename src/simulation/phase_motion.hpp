@@ -43,8 +43,9 @@ class PhaseMotion {
   }
 
   RelaxationSystem system;
-  Vector y;                   // [u; v], or [u; p] if the system keeps momentum
-  Vector u_vector, v_vector;  // its halves, in place
+  std::shared_ptr<Vector> shared_y;  // with whoever looks at it for longer than this object lives
+  Vector& y;                         // [u; v], or [u; p] if the system keeps momentum
+  Vector u_vector, v_vector;         // its halves, in place
   std::unique_ptr<Integrator> integrator;
 
  private:

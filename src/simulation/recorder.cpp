@@ -83,8 +83,18 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   std::ranges::copy(energy_balance_.values(row.figures.kinetic_energy), std::back_inserter(values));
   if (has_distance_) values.push_back(row.distance.value_or(std::numeric_limits<double>::quiet_NaN()));
   history_.add(row.figures, values);
+  if (told_) tell(row.figures, values);
   last_row_ = t;
   while (static_cast<double>(rows_) * interval_ <= t) ++rows_;
+}
+
+void Recorder::tell(const HistoryRow& figures, const std::vector<double>& others) const {
+  std::vector<std::string> names = {"t", "steps", "rhs_evaluations", "residual", "kinetic_energy"};
+  std::ranges::copy(columns(), std::back_inserter(names));
+  std::vector<double> row = {figures.t, static_cast<double>(figures.steps),
+                             static_cast<double>(figures.rhs_evaluations), figures.residual, figures.kinetic_energy};
+  row.insert(row.end(), others.begin(), others.end());
+  told_(names, row);
 }
 
 void Recorder::end_phase(double t, PhaseMotion& motion) {

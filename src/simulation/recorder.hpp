@@ -6,7 +6,11 @@
 #include <stillpoint/summary.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "output/history.hpp"
 #include "output/probes.hpp"
@@ -25,6 +29,9 @@ class Recorder {
   Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance,
            bool resumed);
   void archive(const StateArchive& state);
+  /// Each row from now on, with the names of its columns.
+  using Told = std::function<void(const std::vector<std::string>& columns, const std::vector<double>& row)>;
+  void tell_rows(Told told) { told_ = std::move(told); }
 
   /// The next time that a step must not pass [s].
   double next_time() const;
@@ -52,6 +59,7 @@ class Recorder {
  private:
   double next_row_time() const;
   std::vector<std::string> columns() const;
+  void tell(const HistoryRow& figures, const std::vector<double>& others) const;
 
   const Scene& scene_;
   const LagrangianPhase& phase_;
@@ -60,6 +68,7 @@ class Recorder {
   double largest_factor_ = 0;  // of driven loads, in the rows
   EnergyBalance energy_balance_;
   History history_;
+  Told told_;
   Snapshots snapshots_;
   double interval_;       // between rows [s]
   bool lands_on_rows_;    // else a row is taken at the first step that is not before it

@@ -33,6 +33,7 @@ const std::string& Simulation::reason() const { return impl_->reason_; }
 double Simulation::t() const { return impl_->t_; }
 ConstVec Simulation::u() const { return impl_->motion_->u(); }
 ConstVec Simulation::v() const { return impl_->motion_->v(); }
+std::shared_ptr<const Vector> Simulation::state() const { return impl_->motion_->shared_y; }
 long Simulation::steps() const { return impl_->steps(); }
 long Simulation::evaluations() const { return impl_->evaluations(); }
 int Simulation::phases() const { return impl_->phases_; }

@@ -60,6 +60,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
   const bool resumes = !options_.resume.empty();
   if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);
   if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance(), resumes);
+  if (recorder_) recorder_->tell_rows(options_.at_row);
   if (resumes) {
     resume(options_.resume);
   } else {
@@ -239,6 +240,10 @@ void Simulation::Impl::look_for_end() {
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps());
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
+  if (!done() && options_.stop_test) {
+    reason_ = options_.stop_test();
+    if (!reason_.empty()) status_ = RunStatus::stop_test;
+  }
   if (!done() && schedule_.settled(t_)) look_for_mechanism();
   if (!done()) look_for_standstill();
   if (!done() && scene_.load) look_for_limit_load();

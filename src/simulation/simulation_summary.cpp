@@ -22,6 +22,7 @@ int Simulation::Impl::exit_status() const {
   switch (status_) {
     case RunStatus::equilibrium:
     case RunStatus::limit_load:
+    case RunStatus::stop_test:
       return 0;
     case RunStatus::end_time:
       return scene_.stop.wants_equilibrium() || scene_.stop.load_growth > 0 ? 3 : 0;

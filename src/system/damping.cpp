@@ -1,12 +1,17 @@
 #include <stillpoint/damping.hpp>
+#include <stillpoint/own_damping.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "base/growing_table.hpp"
 #include "base/parallel_loop.hpp"
+#include "system/put_damping.hpp"
 
 namespace stillpoint {
 namespace {
@@ -82,6 +87,26 @@ class Combined final : public Damping {
   double alpha_;
 };
 
+// D(v, Q) is what a program gives.
+class Own final : public Damping {
+ public:
+  Own(OwnDampingForce force, double alpha, double stiffness_factor)
+      : force_(std::move(force)), alpha_(alpha), stiffness_factor_(stiffness_factor) {}
+  bool is_local() const override { return true; }
+  bool goes_by_pieces() const override { return false; }
+  void add_local(ConstVec v, Vec Q) const override {
+    D_.assign(Q.size(), 0.0);
+    force_(alpha_, v, Q, D_);
+    for_each_index(Q.size(), [=, D = D_.data()](std::size_t i) { Q[i] += D[i]; });
+  }
+  double stiffness_factor() const override { return stiffness_factor_; }
+
+ private:
+  OwnDampingForce force_;
+  double alpha_, stiffness_factor_;
+  mutable std::vector<double> D_;  // (n)
+};
+
 void require(bool ok, std::string_view strategy, std::string_view what, double found) {
   if (!ok) throw std::invalid_argument(fmt::format("damping '{}' needs {}, found {}", strategy, what, found));
 }
@@ -94,11 +119,11 @@ void require_c(std::string_view name, double c) { require(c >= 0 && std::isfinit
 /// A damping for scenes, and how it is made.
 struct Row {
   StrategyInfo about;
-  std::unique_ptr<Damping> (*make)(double c, double alpha);
+  std::function<std::unique_ptr<Damping>(double c, double alpha)> make;
 };
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all = {
+GrowingTable<Row>& table() {
+  static GrowingTable<Row> all({
       {{.name = "none", .equation = "M a = Q", .source = "", .damps = false},
        [](double, double) -> std::unique_ptr<Damping> { return std::make_unique<None>(); }},
       {{.name = "viscous",
@@ -146,19 +171,36 @@ const std::vector<Row>& rows() {
          require_alpha("combined", alpha);
          return std::make_unique<Combined>(alpha);
        }},
-  };
+  });
+  return all;
+}
+
+const std::vector<Row>& rows() { return table().rows(); }
+std::string_view name_of(const Row& row) { return row.about.name; }
+std::string_view name_of(const StrategyInfo& info) { return info.name; }
+
+GrowingTable<StrategyInfo>& infos() {
+  static GrowingTable<StrategyInfo> all([] {
+    std::vector<StrategyInfo> of_rows;
+    for (const Row& row : rows()) of_rows.push_back(row.about);
+    return of_rows;
+  }());
   return all;
 }
 
 }  // namespace
 
-const std::vector<StrategyInfo>& dampings() {
-  static const std::vector<StrategyInfo> all = [] {
-    std::vector<StrategyInfo> infos;
-    for (const Row& row : rows()) infos.push_back(row.about);
-    return infos;
-  }();
-  return all;
+const std::vector<StrategyInfo>& dampings() { return infos().rows(); }
+
+void put_damping(const StrategyInfo& about, double stiffness_factor, OwnDampingForce force) {
+  const auto same = [&](const auto& row) { return name_of(row) == about.name; };
+  infos();  // of the rows before
+  table().put({about,
+               [=, force = std::move(force)](double, double alpha) -> std::unique_ptr<Damping> {
+                 return std::make_unique<Own>(force, alpha, stiffness_factor);
+               }},
+              same);
+  infos().put(about, same);
 }
 
 bool is_undamped(std::string_view strategy) {

@@ -74,7 +74,7 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q, Vec a) {
 
 bool RelaxationSystem::damped_out_of_balance(double t, ConstVec u, ConstVec v, Vec Q) {
   ++evaluations_;
-  if (!is_sum_of_its_own()) {
+  if (!is_sum_of_its_own() || !damping_.goes_by_pieces()) {
     if (!balance(t, u, Q)) return false;
     add_local_damping(v, Q);
     return true;

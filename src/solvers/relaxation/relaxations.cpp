@@ -1,23 +1,29 @@
 #include "solvers/relaxation/relaxations.hpp"
 
+#include <stillpoint/own_relaxation.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "base/growing_table.hpp"
 
 namespace stillpoint {
 namespace {
 
-using Make = std::unique_ptr<Integrator> (*)(const RelaxationOptions&, RelaxationSystem&);
+using Make = std::function<std::unique_ptr<Integrator>(const RelaxationOptions&, RelaxationSystem&)>;
 
 struct Row {
   RelaxationInfo info;
   Make make;
 };
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all = {
+GrowingTable<Row>& table() {
+  static GrowingTable<Row> all({
       {{.about = {.name = "kinetic",
                   .equation = "M a = Q, v = 0 at every peak of v'Mv/2",
                   .source = "Cundall 1976; Barnes 1999",
@@ -85,19 +91,32 @@ const std::vector<Row>& rows() {
         .chooses_mass = true,
         .step_fraction = 0.95},
        make_auto},
-  };
+  });
+  return all;
+}
+
+const std::vector<Row>& rows() { return table().rows(); }
+
+GrowingTable<RelaxationInfo>& infos() {
+  static GrowingTable<RelaxationInfo> all([] {
+    std::vector<RelaxationInfo> of_rows;
+    for (const Row& row : rows()) of_rows.push_back(row.info);
+    return of_rows;
+  }());
   return all;
 }
 
 }  // namespace
 
-const std::vector<RelaxationInfo>& relaxations() {
-  static const std::vector<RelaxationInfo> all = [] {
-    std::vector<RelaxationInfo> infos;
-    for (const Row& row : rows()) infos.push_back(row.info);
-    return infos;
-  }();
-  return all;
+const std::vector<RelaxationInfo>& relaxations() { return infos().rows(); }
+
+void put_relaxation(const RelaxationInfo& info, MakeOwnRelaxation make) {
+  infos();  // of the rows before
+  table().put(
+      {info, [make = std::move(make)](const RelaxationOptions& options,
+                                      RelaxationSystem& system) { return make_own_relaxation(options, system, make); }},
+      [&](const Row& row) { return row.info.about.name == info.about.name; });
+  infos().put(info, [&](const RelaxationInfo& other) { return other.about.name == info.about.name; });
 }
 
 const RelaxationInfo* find_relaxation(std::string_view name) {

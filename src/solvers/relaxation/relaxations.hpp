@@ -1,7 +1,7 @@
 // The relaxations, a file each.
 #pragma once
 
-#include <stillpoint/relaxation.hpp>
+#include <stillpoint/own_relaxation.hpp>
 
 #include <memory>
 
@@ -15,5 +15,10 @@ std::unique_ptr<Integrator> make_fire2(const RelaxationOptions& options, Relaxat
 std::unique_ptr<Integrator> make_chebyshev(const RelaxationOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_nesterov(const RelaxationOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_auto(const RelaxationOptions& options, RelaxationSystem& system);
+/// By what a program has added.
+std::unique_ptr<Integrator> make_own_relaxation(const RelaxationOptions& options, RelaxationSystem& system,
+                                                const MakeOwnRelaxation& make);
+/// A further row, or another one in the place of that of the same name.
+void put_relaxation(const RelaxationInfo& info, MakeOwnRelaxation make);
 
 }  // namespace stillpoint

@@ -1,0 +1,25 @@
+// Python objects that C++ keeps: they are let go of with the GIL held, whichever thread does it.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include <pybind11/pybind11.h>
+
+namespace stillpoint::python {
+
+using Held = std::shared_ptr<const pybind11::object>;
+
+inline Held hold(pybind11::object object) {
+  return {new pybind11::object(std::move(object)), [](const pybind11::object* held) {
+            const pybind11::gil_scoped_acquire gil;
+            delete held;
+          }};
+}
+
+/// For what stays to the end of the process, when there may be no Python any more to let go of it.
+inline Held hold_for_good(pybind11::object object) {
+  return {new pybind11::object(std::move(object)), [](const pybind11::object*) {}};
+}
+
+}  // namespace stillpoint::python

@@ -1,0 +1,46 @@
+"""Stillpoint: quasi-static equilibrium by dynamic relaxation in the material point method.
+
+    import stillpoint
+
+    simulation = stillpoint.Simulation("bar.toml")
+    while simulation.step():
+        ...
+    print(simulation.summary.status, simulation.points.stress)
+
+Scenes are files or dictionaries with the same keys; `stillpoint list keys` has them. Units are SI, or none.
+"""
+
+from __future__ import annotations
+
+from . import errors
+from ._core import Motion, Points, Scene, Unknowns, __version__
+from .errors import Problem, SceneError, StateError
+from .figures import Figures
+from .progress import ProgressBar
+from .scenes import load
+from .simulations import Simulation, resume, run
+from .strategies import add_damping, add_relaxation
+from .studies import compare, converge, spectrum
+
+__all__ = [
+    "Figures",
+    "Motion",
+    "Points",
+    "Problem",
+    "ProgressBar",
+    "Scene",
+    "SceneError",
+    "Simulation",
+    "StateError",
+    "Unknowns",
+    "__version__",
+    "add_damping",
+    "add_relaxation",
+    "compare",
+    "converge",
+    "errors",
+    "load",
+    "resume",
+    "run",
+    "spectrum",
+]

@@ -1,0 +1,122 @@
+"""One simulation, step by step or as a whole."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from typing import Any
+
+from numpy.typing import NDArray
+
+from . import _core
+from .figures import Figures, figures_in, table_of
+from .progress import Told, telling
+from .scenes import Source, scene_of
+
+
+
+def _path(path: str | os.PathLike[str] | None) -> str:
+    return "" if path is None else os.fspath(path)
+
+
+class Simulation(_core.Simulation):
+    """A simulation of a scene: one object from the set-up to the end, which `stillpoint run` steps as well.
+
+    scene: as of load(), or a path or a dictionary. out: a folder for history.csv, fields and checkpoints; None: no files.
+    threads: 0: as many as there are, or one where that is quicker. stop(simulation): a stopping test, asked after every
+    step beside those of the scene; it returns whether the simulation ends, or why. progress: called a few times a second
+    with a dictionary (t, end_time, steps, residual, residual_goal, wall_s), or True for a bar.
+
+    Steps let go of the GIL. One thread at a time works with a simulation: others get a RuntimeError meanwhile.
+    """
+
+    def __init__(
+        self,
+        scene: _core.Scene | Source,
+        *,
+        out: str | os.PathLike[str] | None = None,
+        threads: int = 0,
+        stop: Callable[[Simulation], bool | str] | None = None,
+        progress: Told = None,
+        _resume: str = "",
+    ) -> None:
+        self._scene = scene_of(scene)
+        self._bar = telling(progress)
+        super().__init__(self._scene, out=_path(out), resume=_resume, threads=threads, stop=stop, progress=self._bar)
+
+    @classmethod
+    def resume(
+        cls,
+        checkpoint: str | os.PathLike[str],
+        scene: _core.Scene | Source | None = None,
+        *,
+        out: str | os.PathLike[str] | None = None,
+        threads: int = 0,
+        stop: Callable[[Simulation], bool | str] | None = None,
+        progress: Told = None,
+    ) -> Simulation:
+        """Goes on from what save() or `[checkpoint]` has left, with the same bits as if it had never stopped.
+
+        scene: None: that of the checkpoint. Relaxations and dampings of one's own have to be added before. StateError if
+        the checkpoint is damaged, or of another scene, body or version.
+        """
+        path = os.fspath(checkpoint)
+        of_what = _core.load_checkpoint(path) if scene is None else scene
+        return cls(of_what, out=out, threads=threads, stop=stop, progress=progress, _resume=path)
+
+    @property
+    def scene(self) -> _core.Scene:
+        """What is simulated."""
+        return self._scene
+
+    def run(self, until: float = math.inf) -> Simulation:
+        """Steps until time until [s], or until it is done. Ctrl-C is raised between two steps, and the simulation can go
+        on from there; a single step that takes more than half a second is broken off and ends it. Returns itself."""
+        super().run(until)
+        if self._bar is not None and self.done:
+            self._bar.close()
+        return self
+
+    def save(self, checkpoint: str | os.PathLike[str]) -> None:
+        """Saves the state between two steps, to go on from with resume(). OSError if the file cannot be written."""
+        super().save(os.fspath(checkpoint))
+
+    @property
+    def summary(self) -> Figures:
+        """The figures of summary.json, as of now; complete once it is done."""
+        return figures_in(self.summary_json())
+
+    @property
+    def history(self) -> NDArray[Any]:
+        """The rows of history.csv so far, as a structured array: history["t"], history["residual"], … A simulation that
+        was resumed has those since then."""
+        columns, rows = self.history_rows()
+        return table_of(columns, rows, whole=("steps", "rhs_evaluations"))
+
+    def __repr__(self) -> str:
+        return f"<stillpoint.Simulation of '{self._scene.name}': {self.status}, t = {self.t:.6g}, {self.steps} steps>"
+
+
+def resume(checkpoint: str | os.PathLike[str], scene: _core.Scene | Source | None = None, **options: Any) -> Simulation:
+    """Simulation.resume()."""
+    return Simulation.resume(checkpoint, scene, **options)
+
+
+def run(
+    scene: _core.Scene | Source,
+    *,
+    out: str | os.PathLike[str] | None = None,
+    threads: int = 0,
+    progress: Told = None,
+) -> Figures:
+    """Simulates a scene until it is done, with the files of `stillpoint run` in the folder out; returns its summary.
+
+    A run that goes wrong says so in .status, .reason and .exit_status. Ctrl-C finishes the step, writes the files, and is
+    raised then.
+    """
+    bar = telling(progress)
+    text = _core.run_with_files(scene_of(scene), _path(out), "", threads, bar)
+    if bar is not None:
+        bar.close()
+    return figures_in(text)

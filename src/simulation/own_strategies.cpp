@@ -1,0 +1,77 @@
+// Dampings and relaxations of a program's own: their rows in the catalogue.
+#include <stillpoint/own_damping.hpp>
+#include <stillpoint/own_relaxation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "simulation/catalogue.hpp"
+#include "solvers/relaxation/relaxations.hpp"
+#include "system/put_damping.hpp"
+
+namespace stillpoint {
+namespace {
+
+enum class Kind { damping, relaxation };
+
+bool is_word(const std::string& name) {
+  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
+         std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
+}
+
+// For good, as rows only refer to their words.
+std::string_view kept(const std::string& text) {
+  static std::mutex mutex;
+  static std::deque<std::string> all;
+  const std::scoped_lock lock(mutex);
+  return all.emplace_back(text);
+}
+
+StrategyInfo own_strategy(const std::string& name, const std::string& equation, const std::string& source, Kind kind) {
+  static std::mutex mutex;
+  static std::map<std::string, Kind> own;
+  if (!is_word(name)) {
+    throw std::invalid_argument(fmt::format(
+        "a strategy cannot be called '{}'; expected lower-case letters, digits and hyphens, beginning with a letter",
+        name));
+  }
+  const std::scoped_lock lock(mutex);
+  const auto before = own.find(name);
+  if (before == own.end() && (catalogue().strategy(name) || catalogue().static_method(name)))
+    throw std::invalid_argument(fmt::format("'{}' is a method of this library; expected another name", name));
+  if (before != own.end() && before->second != kind) {
+    throw std::invalid_argument(fmt::format("'{}' was added as a {}; expected another name", name,
+                                            kind == Kind::damping ? "relaxation" : "damping"));
+  }
+  own.emplace(name, kind);
+  return {.name = kept(name), .equation = kept(equation), .source = kept(source)};
+}
+
+}  // namespace
+
+void add_damping(const OwnDamping& about, OwnDampingForce force) {
+  const double factor = about.stiffness_factor;
+  if (!(factor >= 1) || !std::isfinite(factor))
+    throw std::invalid_argument(fmt::format("the stiffness factor of a damping must be >= 1, found {}", factor));
+  StrategyInfo info = own_strategy(about.name, about.equation, about.source, Kind::damping);
+  info.keys = {"alpha"};
+  info.is_local = true;
+  put_damping(info, factor, std::move(force));
+}
+
+void add_relaxation(const OwnRelaxationInfo& about, MakeOwnRelaxation make) {
+  StrategyInfo info = own_strategy(about.name, about.equation, about.source, Kind::relaxation);
+  info.integrators = {"leapfrog"};
+  info.is_relaxation = true;
+  info.resets_velocity = true;  // for all that is known
+  put_relaxation({.about = info, .needs_omega_1 = about.needs_omega_1}, std::move(make));
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""scenes_test.py ROOT CLAIM PACKAGE: one claim about the scenes of the Python package."""
+
+from modules import BAR, ROOT, raised, table_of  # first: finds the package
+
+import math
+from pathlib import Path
+
+import numpy as np
+import stillpoint
+from claims import check_the_claim, claim
+
+
+@claim("a dictionary with a file's keys relaxes to the same bits")
+def _(_folder):
+    table = table_of(BAR)
+    by_file, by_table = (stillpoint.Simulation(scene).run() for scene in (BAR, table))
+    assert by_file.status == "equilibrium" and by_table.steps == by_file.steps
+    assert np.array_equal(by_file.history, by_table.history)
+    assert np.array_equal(by_file.points.stress, by_table.points.stress)
+
+
+@claim("every scene of problems/ is the same scene as a dictionary")
+def _(_folder):
+    files = [file for file in sorted((ROOT / "problems").glob("*.toml"))]
+    assert len(files) > 20
+    for file in files:
+        scene, of_table = stillpoint.load(file), stillpoint.load(table_of(file))
+        assert (of_table.title, of_table.dim) == (scene.title, scene.dim), file
+        import tomllib
+
+        assert tomllib.loads(of_table.text) == table_of(file), file
+
+
+@claim("everything wrong with a dictionary is told at once, by its keys")
+def _(_folder):
+    table = table_of(BAR)
+    table["grid"]["cells"] = "a"
+    table["body"]["material"] = "none"
+    table["suport"] = [{"at": 1.0}]
+    table["support"][0]["at"] = True
+    error = raised(stillpoint.SceneError, stillpoint.load, table)
+    assert isinstance(error, ValueError)
+    told = {problem.where: problem.message for problem in error.problems}
+    assert set(told) == {"grid.cells", "body.material", "suport[0]", "support[0].at"}, told
+    assert "did you mean 'support'" in told["suport[0]"]
+    assert str(error).splitlines() == [f"{where}: {message}" for where, message in told.items()], str(error)
+
+
+@claim("everything wrong with a file is told at once, with line and column")
+def _(folder):
+    file = folder / "wrong.toml"
+    file.write_text(BAR.read_text(encoding="utf-8").replace("cells = 4", "cells = 0").replace("E = 1.0", "E = -1.0"))
+    error = raised(stillpoint.SceneError, stillpoint.load, file)
+    assert len(error.problems) == 2 and all(problem.where == str(file) for problem in error.problems), error.problems
+    lines = file.read_text(encoding="utf-8").splitlines()
+    assert {lines[problem.line - 1].split("=")[0].strip() for problem in error.problems} == {"cells", "E"}
+    assert f"{file}:{error.problems[0].line}:{error.problems[0].column}: " in str(error)
+
+
+@claim("overrides by keyword, by dotted key and by dictionaries within are those of --set")
+def _(_folder):
+    scene = stillpoint.load(BAR, {"damping.c": "pi/10", "force[0].value": 0.002}, damping={"strategy": "viscous"})
+    assert scene.overrides == ['damping.c="pi/10"', "force[0].value=0.002", 'damping.strategy="viscous"']
+    assert stillpoint.Simulation(scene).summary.c == math.pi / 10
+    wide = stillpoint.load(BAR, probe=[{"name": "end", "at": 10.0, "fields": ["u"]}])
+    assert list(stillpoint.Simulation(wide).summary.probes) == ["end"]
+    error = raised(stillpoint.SceneError, stillpoint.load, BAR, damping={"c": -1})
+    assert error.problems[0].where == "--set damping.c=-1" and not error.problems[0].line
+
+
+@claim("numpy's numbers and arrays, paths and tuples are values of a scene, and nothing else is")
+def _(folder):
+    from stillpoint.scene_text import SceneText
+
+    table = {"a": np.float64(0.1), "b": np.arange(3), "c": (1, 2.5), "d": Path("x y"), "e": True, "f": 'q"\n', "g": -math.inf}
+    import tomllib
+
+    read = tomllib.loads(SceneText(table).text)
+    assert read == {"a": 0.1, "b": [0, 1, 2], "c": [1, 2.5], "d": "x y", "e": True, "f": 'q"\n', "g": -math.inf}
+    assert isinstance(read["e"], bool)
+    assert "NoneType" in str(raised(TypeError, SceneText, {"a": None}))
+    (folder / "points.csv").write_text("x,volume\n")
+
+
+@claim("what cannot be opened is told as of the command")
+def _(folder):
+    error = raised(stillpoint.SceneError, stillpoint.load, folder / "none.toml")
+    assert error.problems[0].message == "there is no such file", error.problems
+    raised(stillpoint.StateError, stillpoint.resume, folder / "none.h5")
+
+
+check_the_claim()
