@@ -24,11 +24,12 @@ constexpr double kNoShare = 1e-12;
 /// Of polynomials in space up to a total degree.
 std::size_t count_of(int degree) { return static_cast<std::size_t>((degree + 1) * (degree + 2) * (degree + 3)) / 6; }
 
-Eigen::Map<const Eigen::Matrix3Xd> columns(const std::vector<SpacePoint>& x) {
-  return {x.front().data(), 3, static_cast<Index>(x.size())};
+// Copies, which Eigen aligns: it adds up other memory in an order that depends on where that lies.
+Eigen::Matrix3Xd columns(const std::vector<SpacePoint>& x) {
+  return Eigen::Map<const Eigen::Matrix3Xd>(x.front().data(), 3, static_cast<Index>(x.size()));
 }
-Eigen::Map<const VectorXd> vector_of_values(const std::vector<double>& values) {
-  return {values.data(), static_cast<Index>(values.size())};
+VectorXd vector_of_values(const std::vector<double>& values) {
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 VectorXd equal(std::size_t n) { return VectorXd::Constant(static_cast<Index>(n), 1.0 / static_cast<double>(n)); }
 
@@ -51,7 +52,7 @@ CellPart::CellPart(const Solid& solid, const SpaceBox& box, std::size_t most_poi
       most_points_(most_points),
       degree_(degree_for(most_points)),
       rule_(solid.rule(box, std::max(2, degree_))) {
-  const auto weight = vector_of_values(rule_.weight);
+  const VectorXd weight = vector_of_values(rule_.weight);
   volume_ = weight.size() == 0 ? 0 : weight.sum();
   if (empty()) return;
   Eigen::Matrix3Xd x = columns(rule_.x);
