@@ -8,7 +8,7 @@ In a tutorial, a Markdown file (all of problems/tutorials, if none is named),
     ![…](NAME.png)      has to be left by the commands.
 
 Commands of a tutorial run in bash, in one empty folder that has links to problems/ and scripts/, with build/release
-before everything on the PATH and PYTHONPATH. In what they print '…' stands for anything in a line, a line of it for any
+before everything on the PATH, and its Python package. In what they print '…' stands for anything in a line, a line of it for any
 number of lines, and spaces for as many as there are. --accept writes what was printed and drawn into the tutorials where it differs. Exit status 1 if
 something differs or a command fails, 2 for bad input.
 """
@@ -93,7 +93,7 @@ def agree(shown, printed):
 
 def environment(binaries):
     paths = [str(binaries), os.environ["PATH"]]
-    return os.environ | {"PATH": os.pathsep.join(paths), "PYTHONPATH": str(binaries), "LC_ALL": "C.UTF-8"}
+    return os.environ | {"PATH": os.pathsep.join(paths), "PYTHONPATH": str(binaries / "python"), "LC_ALL": "C.UTF-8"}
 
 
 def run(command, folder, binaries):
