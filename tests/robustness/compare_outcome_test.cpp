@@ -150,7 +150,7 @@ TEST_CASE("a comparison's files are whole: a line and an object a run, and null 
     ++files;
     CHECK(entry.path().extension() != ".partial");
   }
-  CHECK(files == 2);
+  CHECK(files == 3);
 
   std::istringstream csv(contents(out / "compare.csv"));
   std::vector<std::string> lines;

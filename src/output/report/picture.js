@@ -115,12 +115,20 @@ const niceStep = (range, most) => {
   return power * [1, 2, 5, 10].find((factor) => factor * power >= raw);
 };
 
+// By how much displacements can be enlarged: so that the largest is a few hundredths to a third of the body.
+function enlargements(picture) {
+  const size = Math.max(...picture.x.map((axis) => axis.max - axis.min));
+  const largest = Math.max(...picture.fields.slice(0, picture.dim).map((field) => Math.max(Math.abs(field.min), Math.abs(field.max))));
+  const shares = largest > 0 ? [0.03, 0.1, 0.3].map((share) => Number((share * size / largest).toPrecision(1))) : [];
+  return [1, ...shares.filter((value) => value > 1)];
+}
+
 // In the plane and in space points are marks as large as what they stand for.
 function pointPicture(parent, picture, body, tools) {
   const inSpace = picture.dim === 3, count = picture.drawn;
   const canvas = element("canvas", {class: inSpace ? "picture turns" : "picture", tabindex: 0, role: "img"});
-  const factor = element("select", {}, ...[1, 3, 10, 30, 100, 300, 1000, 1e4, 1e5].map((value) => element("option", {value}, `× ${short(value)}`)));
-  tools.append(element("label", {}, "Displacements", factor));
+  const factor = element("select", {}, ...enlargements(picture).map((value) => element("option", {value}, `× ${short(value)}`)));
+  if (factor.length > 1) tools.append(element("label", {}, "Displacements", factor));
   const readout = element("p", {"aria-live": "polite"}), extremes = element("p", {class: "faint"});
   const ticks = element("div", {class: "ticks"});
   const scale = element("div", {class: "scale", role: "img"}, element("div", {class: "bar"}), ticks);
@@ -211,7 +219,7 @@ function pointPicture(parent, picture, body, tools) {
     else drawAxes(c, box, toX, toY, pixels, left + shift, height - bottom);
 
     const [X, Y, depth] = seen(now.m, enlarged), values = body.list[now.k].of(now.m), {from, to, least, most} = limitsOf(now.k);
-    const half = inSpace ? [0, 0].fill(Math.max(0.8, 0.58 * Math.max(...picture.mark) * pixels)) : picture.mark.map((length) => Math.max(0.6, 0.6 * length * pixels));
+    const half = inSpace ? [0, 0].fill(Math.max(0.8, 0.75 * Math.max(...picture.mark) * pixels)) : picture.mark.map((length) => Math.max(0.6, 0.6 * length * pixels));
     const order = Array.from({length: count}, (_, p) => p);
     const shade = (p) => Number.isFinite(values[p]) ? Math.max(0, Math.min(63, Math.round(63 * (to > from ? (values[p] - from) / (to - from) : 0)))) : -1;
     if (inSpace) order.sort((a, b) => depth[a] - depth[b]);
