@@ -27,7 +27,7 @@ def _(_folder):
     thread = threading.Thread(target=lambda: simulation.run(2e5))
     thread.start()
     while thread.is_alive():
-        counted += 1
+        counted += "another thread" in told_by(lambda: simulation.t)
     assert simulation.t >= 2e5 and counted > 1000, counted
 
 
