@@ -24,19 +24,17 @@ def endless(**more):
 @claim("while steps are taken other threads run")
 def _(_folder):
     simulation, counted = endless(), 0
-    thread = threading.Thread(target=lambda: simulation.run(2e6))
+    thread = threading.Thread(target=lambda: simulation.run(2e5))
     thread.start()
-    longest, last = 0.0, time.monotonic()
     while thread.is_alive():
-        now = time.monotonic()
-        longest, last, counted = max(longest, now - last), now, counted + 1
-    assert simulation.t >= 2e6 and counted > 1000 and longest < 0.5, (counted, longest)
+        counted += "another thread" in told_by(lambda: simulation.t)
+    assert simulation.t >= 2e5 and counted > 1000, counted
 
 
 @claim("a simulation that a thread steps is refused to others, which it does no harm")
 def _(_folder):
     simulation = endless()
-    thread = threading.Thread(target=lambda: simulation.run(2e6))
+    thread = threading.Thread(target=lambda: simulation.run(2e5))
     thread.start()
     while "another thread" not in (refused := told_by(lambda: simulation.t)):
         assert thread.is_alive()
@@ -44,7 +42,7 @@ def _(_folder):
                 lambda: simulation.summary, lambda: simulation.save("nowhere.h5"), lambda: simulation.history):  # fmt: skip
         assert "another thread" in told_by(use) or not thread.is_alive()
     thread.join()
-    assert refused and simulation.t >= 2e6 and len(simulation.unknowns.u) == 9
+    assert refused and simulation.t >= 2e5 and len(simulation.unknowns.u) == 9
 
 
 def told_by(use):
