@@ -13,7 +13,7 @@ def followed(folder, text, *options):
     return call(sys.executable, ROOT / "scripts/tutorials.py", "--binaries", folder, folder / "it.md", *options)
 
 
-@claim("a tutorial that shows what its commands print passes, with anything for … and for spaces")
+@claim("a tutorial that shows what its commands print passes, with anything for an ellipsis and for spaces")
 def _(folder):
     text = """
 ```toml my.toml
