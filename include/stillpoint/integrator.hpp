@@ -71,8 +71,8 @@ class Integrator {
   virtual bool force_is_current() const { return false; }
   /// ‖F − R‖ at the present (t, y) [N], if it was found on the way.
   virtual std::optional<double> unbalanced_force() const { return std::nullopt; }
-  /// M⁻¹p at the present y = [u; p], of a mass that is known by its inverse, if it was found on the way: (n) [m/s], until
-  /// the next step; else empty.
+  /// M⁻¹p at the present y = [u; p], of a mass that is known by its inverse, if it was found on the way: (n) [m/s],
+  /// until the next step; else empty.
   virtual ConstVec velocity() const { return {}; }
   /// M⁻¹(F − R) at the present (t, y) [m/s²], likewise.
   virtual ConstVec acceleration() const { return {}; }

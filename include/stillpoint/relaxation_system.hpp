@@ -83,8 +83,8 @@ class RelaxationSystem {
     double power;           // Q·v [W]
     double kinetic_energy;  // ½ vᵀ M v [J], without what was added to light nodes
   };
-  /// With the Q of the last residual(); v: the second half of y, (n). If v is p, by one M⁻¹, or by the velocity M⁻¹p, (n),
-  /// if it is known.
+  /// With the Q of the last residual(); v: the second half of y, (n). If v is p, by one M⁻¹, or by the velocity M⁻¹p,
+  /// (n), if it is known.
   Motion motion(const Vector& v, ConstVec velocity = {}) { return motion(v, Q_, velocity); }
   /// F of the last evaluation, (n) [N].
   ConstVec last_external_force() const { return F_.span(); }
