@@ -64,6 +64,13 @@ double bytes_of_assembly(const Scene& scene, const BodySize& size) {
   return size.grid_functions * std::pow(along, scene.dim) * scene.dim * scene.dim * sizeof(double);
 }
 
+// n m² operations for m entries a column: beyond 900 of them a factor takes 3 s and more of a body of linear cells in
+// space, whose way to rest takes a tenth of that; in the plane there are as many for none but cubic functions.
+bool factor_is_cheap(const Scene& scene, const BodySize& size) {
+  constexpr double many = 900;
+  return entries_of_factor(scene, size) <= many * size.unknowns;
+}
+
 bool has_room_for_factor(const Scene& scene) {
   constexpr double most_entries = std::numeric_limits<int>::max();  // that CHOLMOD numbers
   const BodySize size = body_size(scene);

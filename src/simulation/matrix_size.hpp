@@ -23,5 +23,8 @@ double bytes_of_assembly(const Scene& scene, const BodySize& size);
 
 /// Whether a run that can do without a factor of K may make one.
 bool has_room_for_factor(const Scene& scene);
+/// Whether a factor of K costs about as much as a relaxation, or less, as in the plane; in space it costs as many times
+/// more as there are cells across half of the body.
+bool factor_is_cheap(const Scene& scene, const BodySize& size);
 
 }  // namespace stillpoint

@@ -100,6 +100,9 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   const Omega1Needs needs = omega_1_needs(scene, model.phase->size(), steps_tell);
   begin("the lowest frequency, with a factor of the stiffness");
   if (needs.any() && !model.multigrid) find_omega_1(scene, needs, set_up, model);
+  const bool goes_without_bound = !needs.any() && !model.multigrid && !steps_tell && !chooses_mass(scene);
+  if (goes_without_bound && scene.stop.wants_equilibrium() && !model.phase->info().updated_lagrangian)
+    model.notes.push_back(no_error_bound_note());
   begin("the norm of errors");
   model.learns_omega_1 = !model.omega_1 && steps_tell;
   if (scene.stop.distance > 0 && !model.omega_1 && !model.learns_omega_1) {

@@ -211,6 +211,11 @@ std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianP
       omega_1, material / nodes)};
 }
 
+std::string no_error_bound_note() {
+  return "omega_1 is not looked for, as a factor of the stiffness would take longer than the way to rest: there is no "
+         "error bound; stop.distance asks for one";
+}
+
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
   std::vector<std::string> notes = quadrature_notes(scene, phase, scaled);
   std::ranges::move(support_notes(scene), std::back_inserter(notes));

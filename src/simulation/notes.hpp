@@ -12,6 +12,9 @@
 
 namespace stillpoint {
 
+/// Of a run that goes without omega_1, as a factor of its stiffness costs too much.
+std::string no_error_bound_note();
+
 /// A sentence each: on what the points integrate, on supports outside the body, on phases. scaled: whether the mass has
 /// been scaled by Gershgorin's bound though the scene does not say so.
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled);

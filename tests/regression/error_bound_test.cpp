@@ -17,10 +17,12 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "largest.hpp"
 #include "scenes.hpp"
 #include "simulation/model.hpp"
+#include "simulation/omega_1_needs.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "way_to_rest.hpp"
 
@@ -407,4 +409,26 @@ TEST_CASE("a large body learns omega_1 from the steps of auto or cg, and its dis
     REQUIRE(simulation.distance());
     CHECK(*simulation.distance() <= 1e-3);
   }
+}
+
+TEST_CASE("a large body in space goes without a factor and says that it has no error bound, unless that is asked for") {
+  const auto scene_with = [](int cells, const std::vector<std::string>& more) {
+    std::vector<std::string> set = {"damping.strategy=kinetic", fmt::format("grid.cells=[{0}, {0}, {0}]", cells)};
+    set.insert(set.end(), more.begin(), more.end());
+    return scenes::load("oedometer", set);
+  };
+  const auto has_note = [](const Model& model) {
+    return std::ranges::any_of(model.notes, [](const std::string& note) { return note.find("no error bound") < 200; });
+  };
+  const Model large = make_model(scene_with(26, {}));
+  REQUIRE(large.phase->size() > 45'000);
+  CHECK_FALSE(large.omega_1);
+  CHECK(has_note(large));
+  const Model small = make_model(scene_with(8, {}));
+  CHECK(small.omega_1);
+  CHECK_FALSE(has_note(small));
+  CHECK(omega_1_needs(scene_with(26, {"stop.distance=1e-3"}), large.phase->size(), false).any());
+  const Model in_the_plane = make_model(scenes::load("incompressible", {"grid.cells=[200, 160]", "grid.basis=linear"}));
+  CHECK(in_the_plane.phase->size() > 50'000);
+  CHECK(in_the_plane.omega_1);
 }
