@@ -179,11 +179,14 @@ MemoryNeed memory_need(const Scene& scene) {
     if (bytes > 0) need.parts.push_back({what, bytes, key});
   };
   const bool tries_another_mass = chooses_mass(scene) && wants_equilibrium_only(scene);
-  constexpr double while_placed = 60, while_moving = 100;  // bytes a point of copies, for a while
+  // Bytes a point of copies, for a while: as points are placed and sorted, or, later, of their displacement and stress
+  // as they are shown.
+  constexpr double while_placed = 60, while_moving = 100;
+  const double while_shown = (scene.dim + stress_components(scene.state)) * real;
   add("material points", size.points * need.bytes_per_point, size.most_points);
   if (tries_another_mass) add("the same with another mass", size.points * need.bytes_per_point, size.most_points);
-  add("points as they are placed", size.points * (while_placed + (moves_on(scene) ? while_moving : 0)),
-      size.most_points);
+  add("points as they are placed and shown",
+      size.points * (std::max(while_placed, while_shown) + (moves_on(scene) ? while_moving : 0)), size.most_points);
   add("vectors of unknowns", of_vectors(scene, size), "grid.cells");
   add("forces of cells at their corners", of_corners(scene, size), "grid.cells");
   if (tries_another_mass && is_nonlinear(scene))

@@ -67,7 +67,7 @@ class MaterialPointPhase final : public LagrangianPhase,
       if (found) contact_ = found;
     }
     extend_into_slivers();
-    origin_ = point_positions();
+    if (updated_lagrangian()) origin_ = point_positions();
     if (scene_.geostatic) set_geostatic_stress();
     if (updated_lagrangian()) set_initial_point_velocity();
     begin_phase(0);
@@ -300,8 +300,9 @@ class MaterialPointPhase final : public LagrangianPhase,
   LoadControl<B, K> load_control_;
   Contact* contact_ = nullptr;  // of one of them
   PointOrder<Dim> order_;
-  std::vector<double> origin_;  // positions at the start of the run, in the points' order of then, (P × Dim)
-  long looks_ = 0;              // of progress() at the strain
+  // Positions at the start of the run, in the points' order of then, (P × Dim); none if points stay where they are.
+  std::vector<double> origin_;
+  long looks_ = 0;  // of progress() at the strain
   DeformationFromPositions<B, K> deformation_;
   double motion_since_deformation_ = 0;  // was taken from the positions, at most [cells]
 

@@ -44,7 +44,8 @@ std::vector<double> MaterialPointPhase<B, K>::point_positions() const {
 template <AxisBasis B, Kinematics K>
 PointData MaterialPointPhase<B, K>::point_data() const {
   const std::vector<double> of_point(points());
-  PointData data{point_positions(), origin_, of_point, of_point, std::vector<int>(points())};
+  const std::vector<double> positions = point_positions();
+  PointData data{positions, updated_lagrangian() ? origin_ : positions, of_point, of_point, std::vector<int>(points())};
   for_points([&](std::size_t k, std::size_t p, std::size_t number) {
     data.volumes[number] += body_.points.volume[p];
     data.masses[number] += body_.points.mass[p];
