@@ -40,7 +40,7 @@ PLANE = Body(
 SPACE = Body(
     ROOT / "problems/square_load.toml",
     ("stop.residual=1e-6",),
-    tuple((cells, cells, cells) for cells in (8, 16, 24, 32, 40)),  # 1.7e3 to 1.9e5 unknowns, where factors take 10 GB
+    tuple((cells, cells, cells) for cells in (8, 16, 24, 32, 40)),  # 1.7e3 to 1.9e5 unknowns, where factors take 3 GB
 )
 QUICK_SIZES = 3
 LONG, VERY_LONG = 10, 150  # [s]: runs that are repeated once at most, and not at all
