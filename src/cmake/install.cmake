@@ -35,7 +35,8 @@ endif()
 # --- the command, with what helps to use it --------------------------------------------------------
 install(TARGETS stillpoint_command RUNTIME COMPONENT command)
 configure_file(src/command/stillpoint.1.in ${PROJECT_BINARY_DIR}/stillpoint.1 @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/stillpoint.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+execute_process(COMMAND gzip -9nkf ${PROJECT_BINARY_DIR}/stillpoint.1 COMMAND_ERROR_IS_FATAL ANY)
+install(FILES ${PROJECT_BINARY_DIR}/stillpoint.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
 install(FILES src/command/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME stillpoint COMPONENT command)
 install(DIRECTORY problems DESTINATION ${CMAKE_INSTALL_DATADIR}/stillpoint COMPONENT command

@@ -11,13 +11,18 @@ endif()
 if(NOT BUILD_SHARED_LIBS OR NOT STILLPOINT_PYTHON)
   message(FATAL_ERROR "STILLPOINT_PACKAGES needs BUILD_SHARED_LIBS=ON and STILLPOINT_PYTHON=ON")
 endif()
-set(STILLPOINT_PACKAGE_CONTACT stillpoint@localhost CACHE STRING "Whom the packages name for questions: an address")
+# Debian's tools take the address from there as well.
+set(STILLPOINT_PACKAGE_CONTACT $ENV{DEBEMAIL} CACHE STRING "Whom the packages name for questions: an address")
+if(NOT STILLPOINT_PACKAGE_CONTACT)
+  set(STILLPOINT_PACKAGE_CONTACT stillpoint@localhost)  # for packages that stay in one house
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME stillpoint)
 set(CPACK_PACKAGE_CONTACT "The Stillpoint developers <${STILLPOINT_PACKAGE_CONTACT}>")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has one of its own
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -55,6 +60,13 @@ set(python "${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}")
 math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
 set(next_python "${Python_VERSION_MAJOR}.${next_minor}")
 
+# Which package a program needs that links the library; and that the loader's cache is out of date.
+file(WRITE ${PROJECT_BINARY_DIR}/shlibs "libstillpoint 0 libstillpoint0 ${same}\n")
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/shlibs ${PROJECT_BINARY_DIR}/triggers)
+set(scripts ${PROJECT_SOURCE_DIR}/src/cmake/packages/python)  # compile Python, and take that away again
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${scripts}/postinst ${scripts}/prerm)
+
 stillpoint_package(command stillpoint "quasi-static equilibrium in the material point method"
   "${about}This package has the command and its scenes."
   PACKAGE_DEPENDS "libstillpoint0 ${same}"
@@ -64,9 +76,7 @@ stillpoint_package(library libstillpoint0 "material point method, relaxed to equ
   "${about}This package has the shared library, for several processors of this
 architecture, of which the loader takes the widest that it can."
   PACKAGE_SECTION libs
-  PACKAGE_RECOMMENDS "libopenblas0-openmp"
-  PACKAGE_GENERATE_SHLIBS ON
-  PACKAGE_GENERATE_SHLIBS_POLICY "=")
+  PACKAGE_RECOMMENDS "libopenblas0-openmp")
 stillpoint_package(development libstillpoint-dev "material point method, relaxed to equilibrium - development"
   "${about}This package has the headers, the CMake package and the pkg-config file."
   PACKAGE_SECTION libdevel
@@ -76,11 +86,11 @@ stillpoint_package(python python3-stillpoint "material point method, relaxed to 
   "${about}This package has the Python module."
   PACKAGE_SECTION python
   PACKAGE_DEPENDS "libstillpoint0 ${same}, python3 (>= ${python}~), python3 (<< ${next_python}), python3-numpy"
-  PACKAGE_SUGGESTS "python3-matplotlib, stillpoint"
-  PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/src/cmake/packages/python/postinst;${PROJECT_SOURCE_DIR}/src/cmake/packages/python/prerm")
+  PACKAGE_SUGGESTS "python3-matplotlib, stillpoint")
 if(TARGET stillpoint_multigrid)
   stillpoint_package(multigrid stillpoint-multigrid "material point method, relaxed to equilibrium - multigrid mass"
-    "${about}This package has what mass.kind = \"multigrid\" needs, for large bodies in space."
+    "${about}This package has what mass.kind = \"multigrid\" needs, for large bodies
+in space."
     PACKAGE_DEPENDS "libstillpoint0 ${same}")
 endif()
 include(CPack)
