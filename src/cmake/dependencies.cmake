@@ -7,6 +7,9 @@ endif()
 
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 CONFIG)
+if(STILLPOINT_INSTALLED_AS STREQUAL SHARED)  # with all that it needs inside or linked
+  return()
+endif()
 find_dependency(fmt CONFIG)
 find_dependency(muparser CONFIG)
 find_dependency(tomlplusplus CONFIG)

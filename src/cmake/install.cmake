@@ -1,26 +1,42 @@
+# What is installed, by components: command, library, development, python, multigrid (src/cmake/packages.cmake makes a
+# Debian package of each).
 include(CMakePackageConfigHelpers)
 set(STILLPOINT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/stillpoint)
-
-# Eigen aligns by the processor that it is compiled for. With -march=native in the library and not in a program that
-# links it, one would free what the other allocated in another way: both take the widest alignment instead.
-target_compile_definitions(stillpoint PUBLIC EIGEN_MAX_ALIGN_BYTES=64)
 
 # Our own compiler flags stay here: nothing that is installed names them.
 get_target_property(links stillpoint INTERFACE_LINK_LIBRARIES)
 list(REMOVE_ITEM links $<LINK_ONLY:stillpoint_flags>)
 set_target_properties(stillpoint PROPERTIES INTERFACE_LINK_LIBRARIES "${links}")
 
-# With BUILD_SHARED_LIBS, the installed program finds its library beside it, wherever the two are put.
+# With BUILD_SHARED_LIBS, what is installed finds its library beside it, wherever the two are put.
 set_target_properties(stillpoint_command PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
 
-install(TARGETS stillpoint EXPORT stillpointTargets)
-install(TARGETS stillpoint_command RUNTIME)
-install(DIRECTORY include/stillpoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT stillpointTargets NAMESPACE stillpoint:: DESTINATION ${STILLPOINT_CONFIG_DIR})
+install(TARGETS stillpoint EXPORT stillpointTargets
+  ARCHIVE COMPONENT development
+  LIBRARY COMPONENT library NAMELINK_COMPONENT development)
+install(DIRECTORY include/stillpoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(EXPORT stillpointTargets NAMESPACE stillpoint:: DESTINATION ${STILLPOINT_CONFIG_DIR} COMPONENT development)
 
+set(STILLPOINT_INSTALLED_AS STATIC)
+if(BUILD_SHARED_LIBS)
+  set(STILLPOINT_INSTALLED_AS SHARED)
+endif()
 configure_package_config_file(src/cmake/stillpointConfig.cmake.in ${PROJECT_BINARY_DIR}/stillpointConfig.cmake
   INSTALL_DESTINATION ${STILLPOINT_CONFIG_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/stillpointConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/stillpointConfig.cmake ${PROJECT_BINARY_DIR}/stillpointConfigVersion.cmake
               src/cmake/dependencies.cmake
-        DESTINATION ${STILLPOINT_CONFIG_DIR})
+        DESTINATION ${STILLPOINT_CONFIG_DIR} COMPONENT development)
+if(BUILD_SHARED_LIBS)  # what a static library links, CMake alone knows
+  configure_file(src/cmake/stillpoint.pc.in ${PROJECT_BINARY_DIR}/stillpoint.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/stillpoint.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endif()
+
+# --- the command, with what helps to use it --------------------------------------------------------
+install(TARGETS stillpoint_command RUNTIME COMPONENT command)
+configure_file(src/command/stillpoint.1.in ${PROJECT_BINARY_DIR}/stillpoint.1 @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/stillpoint.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+install(FILES src/command/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  RENAME stillpoint COMPONENT command)
+install(DIRECTORY problems DESTINATION ${CMAKE_INSTALL_DATADIR}/stillpoint COMPONENT command
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.json" PATTERN "*.md" PATTERN "*.py" PATTERN "*.png")

@@ -18,8 +18,7 @@ if(STILLPOINT_PETSC)
     target_compile_definitions(stillpoint_multigrid PRIVATE EIGEN_MAX_ALIGN_BYTES=64)  # as of the library
     target_link_libraries(stillpoint_multigrid PRIVATE
       stillpoint_flags Eigen3::Eigen fmt::fmt PkgConfig::PETSC ${STILLPOINT_MPI})
-    install(TARGETS stillpoint_multigrid LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/stillpoint)
-    add_dependencies(stillpoint stillpoint_multigrid)  # whoever has the library finds the module
+    install(TARGETS stillpoint_multigrid LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/stillpoint COMPONENT multigrid)
     set(STILLPOINT_MULTIGRID_MODULE stillpoint_multigrid.so)
   else()
     message(STATUS "PETSc (libpetsc-real-dev) is not found: mass.kind = \"multigrid\" will be refused")

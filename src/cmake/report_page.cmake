@@ -18,6 +18,6 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
 configure_file(${report_dir}/page.html ${PROJECT_BINARY_DIR}/report_page.html @ONLY)
 file(READ ${PROJECT_BINARY_DIR}/report_page.html REPORT_PAGE)
 configure_file(${report_dir}/page_template.cpp.in ${PROJECT_BINARY_DIR}/report_page_template.cpp @ONLY)
-target_sources(stillpoint PRIVATE ${PROJECT_BINARY_DIR}/report_page_template.cpp)
+list(APPEND STILLPOINT_SOURCES ${PROJECT_BINARY_DIR}/report_page_template.cpp)
 set_source_files_properties(${PROJECT_BINARY_DIR}/report_page_template.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)

@@ -28,8 +28,9 @@ std::filesystem::path own_folder() {
   return ignored ? std::filesystem::path() : file.parent_path();
 }
 
-// Beside the program as it was built; installed, in the folder of libraries, wherever the two were put. The Python
-// module is two folders below the program, or installed below python3/dist-packages in the folder of libraries.
+// Beside the program as it was built; installed, in the folder of libraries, wherever the two were put. Two folders
+// below are the Python module, installed in python3/dist-packages in the folder of libraries, and the library for a
+// wider processor, in glibc-hwcaps/NAME.
 Module load_module() {
   const std::string file = STILLPOINT_MULTIGRID_MODULE;
   if (file.empty()) {
@@ -38,7 +39,11 @@ Module load_module() {
   }
   const std::filesystem::path own = own_folder();
   const std::filesystem::path up = "..";
-  const std::array candidates{own / file, own / up / STILLPOINT_LIBDIR / "stillpoint" / file, own / up / up / file,
+  const std::array candidates{own / file,
+                              own / up / STILLPOINT_LIBDIR / "stillpoint" / file,
+                              own / "stillpoint" / file,
+                              own / up / up / file,
+                              own / up / up / "stillpoint" / file,
                               own / up / up / up / "stillpoint" / file,
                               std::filesystem::path(STILLPOINT_FULL_LIBDIR) / "stillpoint" / file};
   std::string tried;
