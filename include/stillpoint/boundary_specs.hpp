@@ -60,7 +60,10 @@ struct BoundarySpecs {
   std::vector<PointForceSpec> forces;
   std::vector<TractionSpec> tractions;
   std::vector<Expression> body_force;  // of x, y, z, t; per mass [m/s²]; empty: none
+  std::string own_load;                // the name of a body force that the program adds to it (own_load.hpp); or empty
   std::optional<LoadSpec> load;        // of these forces, tractions and body forces
+
+  bool has_body_force() const { return !body_force.empty() || !own_load.empty(); }
 
   /// visit(key, formula) for each formula of these.
   template <class Visit>

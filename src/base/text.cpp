@@ -95,4 +95,10 @@ std::string unknown_word(const std::string& what, const std::string& word, const
                            candidates.size() > most ? fmt::format(" … ({} in all)", candidates.size()) : "");
 }
 
+bool is_plain_word(std::string_view name) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  return !name.empty() && is_letter(name.front()) &&
+         std::ranges::all_of(name, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; });
+}
+
 }  // namespace stillpoint

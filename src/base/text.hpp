@@ -26,4 +26,9 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 /// "unknown value 'x'; did you mean 'y'?", or with the values on offer if none is near.
 std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates);
 
+/// Whether a program may give something this name in scenes; what_a_plain_word_is says when it may, for messages.
+bool is_plain_word(std::string_view name);
+inline constexpr std::string_view what_a_plain_word_is =
+    "lower-case letters, digits and hyphens, beginning with a letter";
+
 }  // namespace stillpoint

@@ -1,5 +1,6 @@
-// Dampings and relaxations that are written in Python.
+// Dampings, loads and relaxations that are written in Python.
 #include <stillpoint/own_damping.hpp>
+#include <stillpoint/own_load.hpp>
 #include <stillpoint/own_relaxation.hpp>
 
 #include <array>
@@ -171,6 +172,21 @@ void bind_strategies(py::module_& module) {
       },
       py::arg("name"), py::arg("force"), py::kw_only(), py::arg("stiffness_factor") = 1.0, py::arg("equation") = "",
       py::arg("source") = "");
+  module.def(
+      "add_load",
+      [](const std::string& name, py::object force, double settles_at) {
+        add_load({.name = name, .settles_at = settles_at},
+                 [held = hold_for_good(std::move(force))](double t, int dim, ConstVec x, Vec b) {
+                   const py::gil_scoped_acquire gil;
+                   const Shape shape = {static_cast<py::ssize_t>(x.size()) / dim, dim};
+                   const Array found = (*held)(t, copy_of(x, shape)).cast<Array>();
+                   if (found.ndim() != 2 || found.shape(0) != shape[0] || found.shape(1) != shape[1])
+                     throw std::invalid_argument(
+                         fmt::format("the load: expected an array of shape ({}, {})", shape[0], shape[1]));
+                   std::copy_n(found.data(), b.size(), b.begin());
+                 });
+      },
+      py::arg("name"), py::arg("force"), py::kw_only(), py::arg("settles_at") = 0.0);
   module.def(
       "add_relaxation",
       [](const std::string& name, py::object make, const std::string& equation, const std::string& source,

@@ -17,7 +17,10 @@ Scene with_loads(const Scene& scene, const Keeps& keeps) {
     if (keeps(fmt::format("traction[{}]", k))) chosen.tractions.push_back(scene.tractions[k]);
   for (std::size_t k = 0; k < scene.forces.size(); ++k)
     if (keeps(fmt::format("force[{}]", k))) chosen.forces.push_back(scene.forces[k]);
-  if (!keeps("body_force")) chosen.body_force.clear();
+  if (!keeps("body_force")) {
+    chosen.body_force.clear();
+    chosen.own_load.clear();
+  }
   return chosen;
 }
 
@@ -32,7 +35,7 @@ std::vector<std::string> names_of_loads(const Scene& scene) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < scene.tractions.size(); ++k) names.push_back(fmt::format("traction[{}]", k));
   for (std::size_t k = 0; k < scene.forces.size(); ++k) names.push_back(fmt::format("force[{}]", k));
-  if (!scene.body_force.empty()) names.emplace_back("body_force");
+  if (scene.has_body_force()) names.emplace_back("body_force");
   return names;
 }
 

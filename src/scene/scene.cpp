@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scene/dimensions.hpp"
+#include "scene/own_loads.hpp"
 
 namespace stillpoint {
 namespace {
@@ -57,7 +58,7 @@ Location Scene::location(const std::string& key) const {
 }
 
 bool loads_vary(const Scene& scene) {
-  bool any = false;
+  bool any = own_load_varies(scene);
   scene.for_each_formula([&](const std::string&, const Expression& formula) { any = any || formula.uses('t'); });
   return any;
 }

@@ -1,9 +1,11 @@
 #include "simulation/failure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "scene/own_loads.hpp"
 #include "simulation/formula_positions.hpp"
 #include "system/largest_at.hpp"
 
@@ -34,6 +36,22 @@ std::string formula_without_value(const Scene& scene, const LagrangianPhase& pha
   return said;
 }
 
+// "body_force.own is not a number at t = 0.3 at material point …"; empty: it has values.
+std::string own_load_without_value(const Scene& scene, const LagrangianPhase& phase, double t, double step) {
+  const auto own = own_load(scene.own_load);
+  if (!own) return "";
+  const std::vector<double> x = phase.positions();
+  std::vector<double> b(x.size());
+  for (const double at : {t, t + step / 2, t + step}) {
+    own->b(at, scene.dim, x, b);
+    const auto wrong = std::ranges::find_if_not(b, [](double value) { return std::isfinite(value); });
+    if (wrong == b.end()) continue;
+    return fmt::format("body_force.own is {} at t = {:.6g} at {}", std::isnan(*wrong) ? "not a number" : "infinite", at,
+                       to_string(phase.diagnosis().of_point(static_cast<std::size_t>(wrong - b.begin()) / scene.dim)));
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string failure(const Moment& moment, const std::string& what) {
@@ -42,8 +60,9 @@ std::string failure(const Moment& moment, const std::string& what) {
 
 std::string failure_of_step(const Scene& scene, const LagrangianPhase& phase, const Moment& moment,
                             const StepReport& report) {
-  const std::string formula = formula_without_value(scene, phase, moment.t, report.h);
-  return failure(moment, formula.empty() ? report.message : formula + "; expected a finite number at any time");
+  std::string load = formula_without_value(scene, phase, moment.t, report.h);
+  if (load.empty()) load = own_load_without_value(scene, phase, moment.t, report.h);
+  return failure(moment, load.empty() ? report.message : load + "; expected a finite number at any time");
 }
 
 std::string most_stressed(const LagrangianPhase& phase, double t, ConstVec u) {

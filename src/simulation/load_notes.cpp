@@ -67,7 +67,7 @@ void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, No
   const std::vector<Load> loads = loads_of(scene);
   constexpr std::size_t most_told = 20;
   std::size_t zeros = 0;
-  bool some_act = false;
+  bool some_act = !scene.own_load.empty();  // for all that is known
   for (const auto& [key, components] : loads) {
     const std::vector<double> positions = std::ranges::any_of(components, &Expression::uses_position)
                                               ? formula_positions(scene, phase, key)

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/own_loads.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/formula_positions.hpp"
 
@@ -52,6 +53,7 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end) {
   is_open_ = !(end > 0) && loads_vary(scene);
   if (!(end > 0)) return;
+  if (const auto own = own_load(scene.own_load)) settled_from_ = std::min(own->about.settles_at, end);
   // All that vary are looked at closely, unless there are more than a thousand.
   long varying = 0;
   scene.for_each_formula([&](const std::string&, const Expression& formula) { varying += formula.uses('t'); });

@@ -192,6 +192,9 @@ MemoryNeed memory_need(const Scene& scene) {
   if (tries_another_mass && is_nonlinear(scene))
     add("steps that auto remembers", 2 * ConjugateDescent::memory * real * size.unknowns, "grid.cells");
 
+  if (!scene.own_load.empty())
+    add("positions and forces of the program's own load", 2 * scene.dim * real * size.points, size.most_points);
+
   constexpr double little = 1e7;
   if (const MemoryNeed::Part of_loads = formulas(scene); of_loads.bytes > little) need.parts.push_back(of_loads);
   if (const MemoryNeed::Part of_springs = springs(scene); of_springs.bytes > little) need.parts.push_back(of_springs);

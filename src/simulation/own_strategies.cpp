@@ -2,7 +2,6 @@
 #include <stillpoint/own_damping.hpp>
 #include <stillpoint/own_relaxation.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -12,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "simulation/catalogue.hpp"
 #include "solvers/relaxation/relaxations.hpp"
 #include "system/put_damping.hpp"
@@ -20,11 +20,6 @@ namespace stillpoint {
 namespace {
 
 enum class Kind { damping, relaxation };
-
-bool is_word(const std::string& name) {
-  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
-         std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
-}
 
 // For good, as rows only refer to their words.
 std::string_view kept(const std::string& text) {
@@ -37,11 +32,9 @@ std::string_view kept(const std::string& text) {
 StrategyInfo own_strategy(const std::string& name, const std::string& equation, const std::string& source, Kind kind) {
   static std::mutex mutex;
   static std::map<std::string, Kind> own;
-  if (!is_word(name)) {
-    throw std::invalid_argument(fmt::format(
-        "a strategy cannot be called '{}'; expected lower-case letters, digits and hyphens, beginning with a letter",
-        name));
-  }
+  if (!is_plain_word(name))
+    throw std::invalid_argument(
+        fmt::format("a strategy cannot be called '{}'; expected {}", name, what_a_plain_word_is));
   const std::scoped_lock lock(mutex);
   const auto before = own.find(name);
   if (before == own.end() && (catalogue().strategy(name) || catalogue().static_method(name)))

@@ -5,7 +5,8 @@ MODULES is the folder of the package, build/release/python; SCENE problems/bar.t
 - the time of a step from a Python loop beyond the same steps taken by run(), on the bar of problems/bar.toml;
 - the time of a step of a relaxation written in Python beside the built-in one of the same coefficients, on about 20 000
   points of the plane;
-- the same of a local damping.
+- the same of a local damping;
+- the time of a step under a body force that changes all the time, as a formula and in Python.
 Medians of several rounds, taken in turn, on one thread.
 """
 
@@ -88,6 +89,26 @@ def in_the_plane(points, strategies, steps, law):
     print(f"{len(simulations[0].points)} points, {law['law']}: a step of {told}: {found[1] / found[0]:.2f} times")
 
 
+def loads(points, steps):
+    side = round((points / 4) ** 0.5)
+    scene = {
+        "dim": 2,
+        "grid": {"min": [0, 0], "max": [1, 1], "cells": [side, side], "basis": "quadratic"},
+        "body": {"material": "block", "state": "plane-strain", "points_per_cell": 4},
+        "material": {"block": {"law": "linear-elastic", "E": 1.0, "nu": 0.3, "rho": 1.0}},
+        "mass": {"kind": "lumped"},
+        "support": [{"face": "bottom"}],
+        "stop": NO_STOP,
+        "output": {"every": 1e9},
+    }
+    stillpoint.add_load("wave", lambda t, x: 1e-3 * np.sin(x - t), settles_at=np.inf)
+    forces = {"none": {"value": [0, -1e-3]}, "formulas": {"value": ["1e-3*sin(x-t)", "1e-3*sin(y-t)"]}, "Python": {"own": "wave"}}
+    simulations = [stillpoint.Simulation(stillpoint.load(scene, body_force=b), threads=1) for b in forces.values()]
+    found = medians(*(lambda s=s: [s.step() for _ in range(steps)] for s in simulations))
+    told = ", ".join(f"{name} {1e6 * t / steps:.0f} us" for name, t in zip(forces, found))
+    print(f"{len(simulations[0].points)} points, a body force that varies: a step of {told}")
+
+
 def main():
     stillpoint.add_relaxation("heavy-ball", HeavyBall, needs_omega_1=True)
     stillpoint.add_damping("cundall-in-python", cundall, stiffness_factor=1.7)
@@ -98,6 +119,7 @@ def main():
         in_the_plane(20_000, ("viscous", "heavy-ball"), 200, law)
         in_the_plane(20_000, ("adaptive", "heavy-ball"), 200, law)
         in_the_plane(20_000, ("cundall", "cundall-in-python"), 200, law)
+    loads(20_000, 200)
 
 
 main()

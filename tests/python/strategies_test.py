@@ -43,6 +43,52 @@ def _(_folder):
     assert own.run().status == "equilibrium", own.reason
 
 
+@claim("a load in Python is the body force of the same formula, bit for bit, and is asked once a phase if it stays")
+def _(_folder):
+    asked = []
+
+    def weight(t, x):
+        asked.append(t)
+        assert x.ndim == 2 and not np.shares_memory(x, weight.last)
+        weight.last = x
+        b = np.zeros_like(x)
+        b[:, -1] = -9.81 * (1 + x[:, -1])
+        return b
+
+    weight.last = np.zeros(0)
+    stillpoint.add_load("weight", weight)
+    scene = {"grid": {"min": [0, 0], "max": [1, 2], "cells": [4, 8], "basis": "quadratic"}, "dim": 2,
+             "body": {"material": "soil", "state": "plane-strain", "points_per_cell": 4},
+             "material": {"soil": {"law": "linear-elastic", "E": 1e5, "nu": 0.3, "rho": 1000}},
+             "support": [{"face": "bottom"}], "stop": {"steps": 50, "distance": 0}}
+    own = stillpoint.Simulation(stillpoint.load(scene, body_force={"own": "weight"})).run()
+    assert asked == [0]
+    formula = stillpoint.Simulation(stillpoint.load(scene, body_force={"value": [0, "-9.81*(1+y)"]})).run()
+    assert own.steps == formula.steps == 50
+    assert np.array_equal(own.unknowns.u, formula.unknowns.u) and own.unknowns.u.any()
+
+
+@claim("what a load in Python raises reaches the caller, and one of a wrong shape or an unknown name is refused")
+def _(_folder):
+    scene = {"grid": {"min": 0, "max": 1, "cells": 4}, "body": {"material": "bar"},
+             "material": {"bar": {"law": "linear-elastic", "E": 1, "rho": 1}}, "support": [{"at": 0}]}
+
+    def broken(t, x):
+        if t > 1:
+            raise KeyError("no wind")
+        return np.ones_like(x)
+
+    stillpoint.add_load("broken", broken, settles_at=np.inf)
+    simulation = stillpoint.Simulation(stillpoint.load(scene, body_force={"own": "broken"}, stop={"time": 10}))
+    assert "no wind" in str(raised(KeyError, simulation.run))
+    stillpoint.add_load("flat", lambda t, x: np.ones(3))
+    assert "shape" in str(raised(ValueError, stillpoint.Simulation, stillpoint.load(scene, body_force={"own": "flat"})))
+    error = raised(stillpoint.SceneError, stillpoint.load, scene, body_force={"own": "borken"})
+    assert "did you mean 'broken'" in str(error)
+    raised(ValueError, stillpoint.add_load, "Wind!", broken)
+    raised(ValueError, stillpoint.add_load, "wind", broken, settles_at=-1)
+
+
 @claim("a relaxation that is a function and returns its state is one as well")
 def _(_folder):
     def gradient(h, motion, _u_new, _v_new):

@@ -19,7 +19,7 @@ from .figures import Figures
 from .progress import ProgressBar
 from .scenes import load
 from .simulations import Simulation, resume, run
-from .strategies import add_damping, add_relaxation
+from .strategies import add_damping, add_load, add_relaxation
 from .studies import compare, converge, spectrum
 
 __all__ = [
@@ -35,6 +35,7 @@ __all__ = [
     "Unknowns",
     "__version__",
     "add_damping",
+    "add_load",
     "add_relaxation",
     "compare",
     "converge",

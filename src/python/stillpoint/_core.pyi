@@ -179,6 +179,12 @@ def add_damping(
     equation: str = ...,
     source: str = ...,
 ) -> None: ...
+def add_load(
+    name: str,
+    force: Callable[[float, NDArray[np.float64]], ArrayLike],
+    *,
+    settles_at: float = ...,
+) -> None: ...
 def add_relaxation(
     name: str,
     make: Callable[[], Any],

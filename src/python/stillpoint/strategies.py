@@ -1,4 +1,4 @@
-"""Dampings and relaxations of one's own."""
+"""Dampings, loads and relaxations of one's own."""
 
 from __future__ import annotations
 
@@ -24,6 +24,20 @@ def add_damping(
     lower-case letters, digits and hyphens, or one of this library's.
     """
     _core.add_damping(name, force, stiffness_factor=stiffness_factor, equation=equation, source=source)
+
+
+def add_load(
+    name: str, force: Callable[[float, NDArray[np.float64]], ArrayLike], *, settles_at: float = 0.0
+) -> None:
+    """From now on body_force.own = name is a force per mass b = force(t, x) [m/s2], beside body_force.value or alone.
+
+    t [s]; x (points x dim): the positions that all points have as a phase begins [m], in any order; b likewise. settles_at:
+    from when on it is what it will be at the end [s]: no equilibrium is found before. 0: it depends on position alone, and is
+    asked once a phase; math.inf: it may change until stop.time. In the place of one of that name that was added before. What
+    force() raises ends the step and reaches the caller. ValueError if the name is no word of lower-case letters, digits and
+    hyphens, or settles_at is negative.
+    """
+    _core.add_load(name, force, settles_at=settles_at)
 
 
 def add_relaxation(

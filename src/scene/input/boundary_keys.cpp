@@ -63,7 +63,9 @@ void add_boundary(Tables& tables) {
            {.unit = "Pa", .variables = "xt"});
 
   tables.add({"body_force", "a load on all bodies"}, std::identity())
-      .key("value", &Scene::body_force, "per mass", {.unit = "m/s2", .variables = "xt", .required = true});
+      .key("value", &Scene::body_force, "per mass", {.unit = "m/s2", .variables = "xt"})
+      .key("own", &Scene::own_load,
+           "the name of a load that the program has added by add_load(), beside value or alone");
 
   tables.add({"load", "loads in one proportion, driven by a displacement to the limit load and beyond"}, &Scene::load)
       .key("displacement", &LoadSpec::displacement,

@@ -11,6 +11,7 @@
 #include "scene/controlled_loads.hpp"
 #include "scene/input/face_interval_check.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/own_loads.hpp"
 #include "scene/support_kind.hpp"
 
 namespace stillpoint {
@@ -83,6 +84,15 @@ void check_tractions(SceneCheck& check, bool bodies) {
   }
 }
 
+void check_body_force(SceneCheck& check) {
+  Scene& scene = check.scene();
+  if (check.written("body_force") && !check.written("body_force.value") && !check.written("body_force.own"))
+    check.add("body_force", "the key 'value' is missing");
+  if (scene.own_load.empty() || own_load(scene.own_load)) return;
+  check.add("body_force.own", unknown_own_load(scene.own_load));
+  scene.own_load.clear();  // nothing else is to be said of it
+}
+
 /// Loads of one proportion are as large as their displacement makes them.
 void check_load_control(SceneCheck& check) {
   const Scene& scene = check.scene();
@@ -100,7 +110,10 @@ void check_load_control(SceneCheck& check) {
       check.add("load", fmt::format("a load that it drives depends on t ({}); the time belongs into load.displacement",
                                     formula.text()));
   });
-  if (scene.geostatic && reference_loads(scene).body_force.size() == scene.body_force.size())
+  if (own_load_varies(reference_loads(scene)))
+    check.add("load", fmt::format("a load that it drives, {}, depends on t; the time belongs into load.displacement",
+                                  in_quotes(scene.own_load)));
+  if (scene.geostatic && reference_loads(scene).has_body_force())
     check.add("initial.geostatic",
               "is the stress of a weight that acts from the start; [load] drives it, from nothing");
   if (scene.solve.is_static())
@@ -128,7 +141,9 @@ void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
   if (!scene.initial_u.empty())
     check.add("initial.u", "does not go with initial.geostatic, which is the stress of the undeformed body");
   const auto& b = scene.body_force;
-  if (b.size() != static_cast<std::size_t>(scene.dim)) {
+  if (!scene.own_load.empty()) {
+    check.add("body_force.own", "does not go with initial.geostatic, which is the stress of a constant weight alone");
+  } else if (b.size() != static_cast<std::size_t>(scene.dim)) {
     if (!check.written("body_force")) check.add(key, "needs a [body_force]: the weight that the stress bears");
   } else if (!std::ranges::all_of(b, &Expression::constant) || b[0]({}, 0) != 0 ||
              (scene.dim == 3 && b[2]({}, 0) != 0)) {
@@ -158,6 +173,7 @@ void check_loads(SceneCheck& check, const std::optional<BodyBox>& body) {
   for (std::size_t k = 0; k < scene.forces.size() && body; ++k)
     check.inside(scene.forces[k].at, body->min, body->max, body->name, fmt::format("force[{}].at", k));
   check_tractions(check, body.has_value());
+  check_body_force(check);
   check_load_control(check);
   check_geostatic(check, body);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "space/boundary/boundary_condition.hpp"
+#include "space/boundary/point_loads.hpp"
 
 namespace stillpoint {
 
@@ -32,44 +33,24 @@ class BodyForce final : public BoundaryCondition<B, K> {
       return;
     }
     std::vector<double> sum(F.size(), 0.0);
-    add_from_points(phase, 0, sum);
+    add_point_loads(phase, at_points(phase, 0), sum);
     for (std::size_t k = 0; k < F.size(); ++k) F[k] += sum[k];
   }
   bool varies() const override {
     return std::ranges::any_of(b_, [](const Expression& b) { return b.uses('t'); });
   }
   void add_load(const Parts& phase, double t, Vec F) const override {
-    if (varies()) add_from_points(phase, t, F);
+    if (varies()) add_point_loads(phase, at_points(phase, t), F);
   }
   void add_load_on_supports(const Parts& phase, double t, const double*, Vec F_s) const override {
-    const auto& points = phase.points;
-    const std::size_t n = phase.dofs.size();
-    for (std::size_t k = 0; k < points.cells(); ++k) {
-      for (int a = 0; a < phase.weights.per_cell; ++a) {
-        for (int i = 0; i < dim; ++i) {
-          phase.dofs.for_sources(dim * phase.weights.function(k, a) + i, [&](int, int dof, double share) {
-            if (phase.dofs.is_free(dof)) return;
-            for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-              const double b = b_[static_cast<std::size_t>(i)](points.position(p), t);
-              F_s[static_cast<std::size_t>(dof) - n] += share * points.mass[p] * b * phase.weights.N(k, p)[a];
-            }
-          });
-        }
-      }
-    }
+    add_point_loads_on_supports(phase, at_points(phase, t), F_s);
   }
 
  private:
-  void add_from_points(const Parts& phase, double t, Vec F) const {
-    const auto& points = phase.points;
-    for (std::size_t k = 0; k < points.cells(); ++k) {
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        for (int i = 0; i < dim; ++i) {
-          const double b = b_[static_cast<std::size_t>(i)](points.position(p), t);
-          phase.weights.add_at_functions(k, p, i, points.mass[p] * b, phase.dofs, F);
-        }
-      }
-    }
+  auto at_points(const Parts& phase, double t) const {
+    return [this, &points = phase.points, t](std::size_t p, int i) {
+      return b_[static_cast<std::size_t>(i)](points.position(p), t);
+    };
   }
 
   const std::vector<Expression>& b_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "space/boundary/body_force.hpp"
+#include "space/boundary/own_body_force.hpp"
 #include "space/boundary/point_forces.hpp"
 #include "space/boundary/supports.hpp"
 #include "space/boundary/tractions.hpp"
@@ -24,6 +25,7 @@ BoundaryConditions<B, K> make_boundary_conditions(const Scene& scene, const Grid
   if (!scene.walls.empty()) all.push_back(std::make_unique<Walls<B, K>>(scene, time_scale));
   if (!scene.forces.empty()) all.push_back(std::make_unique<PointForces<B, K>>(scene));
   if (!scene.body_force.empty()) all.push_back(std::make_unique<BodyForce<B, K>>(scene));
+  if (!scene.own_load.empty()) all.push_back(std::make_unique<OwnBodyForceCondition<B, K>>(scene));
   if (!scene.tractions.empty()) all.push_back(std::make_unique<Tractions<B, K>>(scene, grid));
   return all;
 }
