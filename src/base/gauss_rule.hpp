@@ -2,21 +2,19 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
-
-#include <gsl/gsl_integration.h>
 
 namespace stillpoint {
 
-/// Positions in [0, 1] and their weights, exact up to a degree.
-struct UnitRule {
-  explicit UnitRule(int degree) : at(static_cast<std::size_t>(degree / 2 + 1)), weight(at.size()) {
-    const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)> table(
-        gsl_integration_glfixed_table_alloc(at.size()), gsl_integration_glfixed_table_free);
-    for (std::size_t k = 0; k < at.size(); ++k) gsl_integration_glfixed_point(0, 1, k, &at[k], &weight[k], table.get());
-  }
+/// n positions in [a, b], ascending, and their weights: exact up to degree 2n − 1.
+struct GaussRule {
+  GaussRule(double a, double b, std::size_t n);
   std::vector<double> at, weight;
+};
+
+/// That of [0, 1] which is exact up to a degree.
+struct UnitRule : GaussRule {
+  explicit UnitRule(int degree) : GaussRule(0, 1, static_cast<std::size_t>(degree / 2 + 1)) {}
 };
 
 }  // namespace stillpoint

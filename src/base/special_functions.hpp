@@ -1,4 +1,5 @@
-// Functions that exact solutions need beyond those of <cmath>, by GSL. Arguments outside what is told give NaN.
+// Functions beyond those of <cmath>, by GSL, or by Boost in a build without the libraries under the GPL. Arguments
+// outside what is told give NaN.
 #pragma once
 
 #include <functional>
@@ -27,8 +28,14 @@ JacobiFunctions jacobi(double u, double k);
 double bessel_j0(double x);
 double bessel_j1(double x);
 
-/// The zero of f between a < b, at whose ends it has different signs, to rounding (Brent's method). Throws
-/// std::domain_error if it has not, or has no value.
+/// Legendre's polynomial P_k, |x| ≤ 1.
+double legendre(int k, double x);
+
+/// What a variable of Student's distribution with that many degrees of freedom is below with the probability.
+double student_quantile(double probability, double degrees_of_freedom);
+
+/// The zero of f between a < b, at whose ends it has different signs, to rounding: it stays between two ends (Brent's
+/// method, or that of Alefeld, Potra and Shi). Throws std::domain_error if it has not, or has no value.
 double zero_between(double a, double b, const std::function<double(double)>& f);
 
 }  // namespace stillpoint

@@ -1,5 +1,6 @@
 # Everything that the library links, from Debian's packages (scripts/packages lists them).
-# This file is used twice: by the build, and, installed, by find_package(stillpoint).
+# This file is used twice: by the build, and, installed, by find_package(stillpoint). STILLPOINT_GPL: with the libraries
+# under the GPL.
 if(NOT CMAKE_FIND_PACKAGE_NAME)  # the build: nobody called find_package, and what is missing is an error at once
   set(CMAKE_FIND_PACKAGE_NAME stillpoint)
   set(stillpoint_FIND_REQUIRED TRUE)
@@ -15,14 +16,17 @@ find_dependency(muparser CONFIG)
 find_dependency(tomlplusplus CONFIG)
 find_dependency(nlohmann_json CONFIG)
 find_dependency(OpenMP COMPONENTS CXX)
-find_dependency(GSL)
 find_dependency(ZLIB)
 find_dependency(Qhull CONFIG)
 find_dependency(SUNDIALS CONFIG COMPONENTS arkode nvecserial)
 
+if(STILLPOINT_GPL)
+  find_dependency(GSL)
+endif()
+
 # SuiteSparse, ARPACK and HDF5 bring no CMake package in Debian: a target for each. (CMake's own FindHDF5 compiles a C
 # program, so that a project in C++ alone could not find stillpoint.)
-if(NOT TARGET stillpoint::cholmod)
+if(STILLPOINT_GPL AND NOT TARGET stillpoint::cholmod)
   find_library(STILLPOINT_CHOLMOD cholmod REQUIRED)
   find_path(STILLPOINT_CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
   add_library(stillpoint::cholmod UNKNOWN IMPORTED)
@@ -34,7 +38,9 @@ if(NOT TARGET stillpoint::cholmod)
   add_library(stillpoint::umfpack UNKNOWN IMPORTED)
   set_target_properties(stillpoint::umfpack PROPERTIES
     IMPORTED_LOCATION ${STILLPOINT_UMFPACK} INTERFACE_INCLUDE_DIRECTORIES ${STILLPOINT_UMFPACK_INCLUDE})
+endif()
 
+if(NOT TARGET stillpoint::arpack)
   find_library(STILLPOINT_ARPACK arpack REQUIRED)
   add_library(stillpoint::arpack UNKNOWN IMPORTED)
   set_target_properties(stillpoint::arpack PROPERTIES IMPORTED_LOCATION ${STILLPOINT_ARPACK})

@@ -21,8 +21,10 @@ target_compile_options(stillpoint_flags INTERFACE
 find_package(CLI11 CONFIG REQUIRED)  # of the command alone
 set(STILLPOINT_DEPENDENCIES
   fmt::fmt muparser::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json OpenMP::OpenMP_CXX
-  GSL::gsl ZLIB::ZLIB Qhull::qhull_r SUNDIALS::arkode SUNDIALS::nvecserial stillpoint::cholmod stillpoint::umfpack
-  stillpoint::arpack stillpoint::hdf5)
+  ZLIB::ZLIB Qhull::qhull_r SUNDIALS::arkode SUNDIALS::nvecserial stillpoint::arpack stillpoint::hdf5)
+if(STILLPOINT_GPL)
+  list(APPEND STILLPOINT_DEPENDENCIES GSL::gsl stillpoint::cholmod stillpoint::umfpack)
+endif()
 
 # What most files include and none of us changes is compiled once: half the time of the build.
 set(STILLPOINT_PRECOMPILED

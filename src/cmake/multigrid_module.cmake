@@ -1,7 +1,7 @@
 # The module that calls PETSc, loaded when a scene asks for multigrid: nobody else waits for PETSc and MPI to start.
 # STILLPOINT_MULTIGRID_MODULE: its file name; empty: there is none.
 set(STILLPOINT_MULTIGRID_MODULE "")
-if(STILLPOINT_PETSC)
+if(STILLPOINT_GPL AND STILLPOINT_PETSC)
   find_package(PkgConfig QUIET)
   if(PkgConfig_FOUND)
     pkg_check_modules(PETSC QUIET IMPORTED_TARGET PETSc)

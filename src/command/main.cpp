@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/gpl.hpp"
 #include "base/work_apart.hpp"
 #include "command/commands.hpp"
 
@@ -117,7 +118,7 @@ std::string number_or_auto(std::string& text) {
 
 int dispatch(int argc, char** argv) {
   CLI::App app("Quasi-static equilibrium by dynamic relaxation in the material point method", "stillpoint");
-  app.set_version_flag("--version", STILLPOINT_VERSION);
+  app.set_version_flag("--version", STILLPOINT_VERSION + std::string(stillpoint::missing_without_gpl()));
 
   RunArguments run_arguments;
   CLI::App& run_app = *app.add_subcommand("run", "relax a scene; writes summary.json and history.csv");

@@ -8,6 +8,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "base/gpl.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -33,10 +35,7 @@ std::filesystem::path own_folder() {
 // wider processor, in glibc-hwcaps/NAME.
 Module load_module() {
   const std::string file = STILLPOINT_MULTIGRID_MODULE;
-  if (file.empty()) {
-    return {nullptr,
-            "this stillpoint was built without PETSc; install libpetsc-real-dev (Debian's package) and build it again"};
-  }
+  if (file.empty()) return {nullptr, std::string(why_no_petsc())};
   const std::filesystem::path own = own_folder();
   const std::filesystem::path up = "..";
   const std::array candidates{own / file,

@@ -1,4 +1,4 @@
-// A sparse Cholesky factor (SuiteSparse's CHOLMOD) that solves again and again without allocating.
+// A sparse Cholesky factor that solves again and again without allocating.
 #pragma once
 
 #include <stillpoint/sparse_matrix.hpp>
@@ -6,13 +6,14 @@
 
 #include <cstddef>
 #include <memory>
+#include <string_view>
 
 namespace stillpoint {
 
 /// A = L Lᵀ for a symmetric positive definite A (n × n).
 class SparseCholesky {
  public:
-  /// Factorises A. Throws std::runtime_error if CHOLMOD itself fails (memory);
+  /// Factorises A. Throws std::runtime_error if the library itself fails (memory);
   /// a matrix that is not positive definite is no error: see positive_definite().
   explicit SparseCholesky(const SparseMatrix& A);
   SparseCholesky(SparseCholesky&&) noexcept;
@@ -26,6 +27,9 @@ class SparseCholesky {
   std::size_t size() const;
   /// What the factor and its work space take [bytes].
   std::size_t bytes() const;
+
+  /// By which it is made.
+  static std::string_view library();
 
  private:
   struct Impl;

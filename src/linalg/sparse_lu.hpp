@@ -1,4 +1,4 @@
-// A sparse LU factor (SuiteSparse's UMFPACK) that solves again and again without allocating.
+// A sparse LU factor that solves again and again without allocating.
 #pragma once
 
 #include <stillpoint/sparse_matrix.hpp>
@@ -6,13 +6,14 @@
 
 #include <cstddef>
 #include <memory>
+#include <string_view>
 
 namespace stillpoint {
 
 /// P R A Q = L U for a square A (n × n): P, Q permutations, R a scaling of the rows.
 class SparseLu {
  public:
-  /// Factorises A, of which it keeps a copy. Throws std::runtime_error if UMFPACK itself fails (memory); a matrix
+  /// Factorises A, of which it keeps a copy. Throws std::runtime_error if the library itself fails (memory); a matrix
   /// that is singular or not finite is no error: see regular().
   explicit SparseLu(const SparseMatrix& A);
   SparseLu(SparseLu&&) noexcept;
@@ -27,6 +28,9 @@ class SparseLu {
   std::size_t size() const;
   /// What the factor, the copy of A and the work space take [bytes].
   std::size_t bytes() const;
+
+  /// By which it is made.
+  static std::string_view library();
 
  private:
   struct Impl;

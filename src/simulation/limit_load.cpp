@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <gsl/gsl_fit.h>
+
+#include "base/line_fit.hpp"
 
 namespace stillpoint {
 namespace {
@@ -64,10 +65,9 @@ std::optional<double> LimitLoad::measured_growth() const {
   const std::size_t count = q_.size() / 5;
   if (q_.size() < fewest_pieces) return {};
   const std::size_t first = q_.size() - count;
-  double at_zero = 0, slope = 0, cov00 = 0, cov01 = 0, cov11 = 0, squares = 0;
-  gsl_fit_linear(&q_[first], 1, &factor_[first], 1, count, &at_zero, &slope, &cov00, &cov01, &cov11, &squares);
+  const LineFit line = fit_line({&q_[first], count}, {&factor_[first], count});
   const double middle = (q_[first] + q_.back()) / 2;
-  const double growth = slope * (middle - first_q_) / (at_zero + slope * middle - first_factor_);
+  const double growth = line.slope * (middle - first_q_) / (line.at_zero + line.slope * middle - first_factor_);
   if (!std::isfinite(growth)) return {};
   return growth;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/gpl.hpp"
 #include "base/text.hpp"
 #include "linalg/multigrid.hpp"
 #include "scene/throw_scene_error.hpp"
@@ -59,6 +60,8 @@ void check_integrator(const std::string& integrator) {
     if (!is_adaptive(integrator) || method->adaptive) return;
     throw_option_error("--integrators", integrator, in_quotes(method->name) + " has no error estimate");
   }
+  if (const std::string why = why_no_integrator(method_of(integrator)); !why.empty())
+    throw_option_error("--integrators", integrator, why);
   std::vector<std::string> names;
   for (const MethodInfo& method : catalogue().methods) names.push_back(method.name);
   throw_option_error("--integrators", integrator, unknown_word("there is no integrator", method_of(integrator), names));

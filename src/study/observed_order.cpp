@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_fit.h>
+#include "base/line_fit.hpp"
+#include "base/special_functions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -64,14 +64,12 @@ std::optional<ObservedOrder> observed_order(ConstVec sizes, ConstVec errors) {
     log_h.push_back(std::log(sizes[k]));
     log_e.push_back(std::log(errors[k]));
   }
-  double intercept = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, squares = 0;
-  gsl_fit_linear(log_h.data(), 1, log_e.data(), 1, log_h.size(), &intercept, &slope, &cov00, &cov01, &variance,
-                 &squares);
-  ObservedOrder found{.order = slope, .first = range->first, .last = range->last};
+  const LineFit line = fit_line(log_h, log_e);
+  ObservedOrder found{.order = line.slope, .first = range->first, .last = range->last};
   if (log_h.size() > 2) {
-    const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(log_h.size() - 2));
-    found.low = slope - t * std::sqrt(variance);
-    found.high = slope + t * std::sqrt(variance);
+    const double t = student_quantile(0.975, static_cast<double>(log_h.size() - 2));
+    found.low = line.slope - t * std::sqrt(line.slope_variance);
+    found.high = line.slope + t * std::sqrt(line.slope_variance);
   }
   return found;
 }

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
+#include "linalg/sparse_cholesky.hpp"
+#include "linalg/sparse_lu.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/load_schedule.hpp"
 
@@ -50,7 +52,9 @@ std::optional<Found> solve(const Scene& scene, LagrangianPhase& phase, std::vect
       newton(phase, scene.stop.time, u, {.tolerance = reference_residual, .near_enough = near_enough});
   if (report.converged) {
     const bool by_lu = report.lu_factorisations > 0;
-    return Found{std::move(u), by_lu ? "Newton's method, UMFPACK" : "Newton's method, CHOLMOD", report.residual};
+    return Found{std::move(u),
+                 fmt::format("Newton's method, {}", by_lu ? SparseLu::library() : SparseCholesky::library()),
+                 report.residual};
   }
   notes.push_back("Newton's method found no reference: " + report.reason);
   return std::nullopt;

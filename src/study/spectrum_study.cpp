@@ -5,7 +5,10 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/stopwatch.hpp"
+#include "linalg/sparse_cholesky.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/balanced_leapfrog.hpp"
 #include "simulation/catalogue.hpp"
@@ -19,7 +22,7 @@ namespace {
 void find_by_mass(const LagrangianPhase& phase, ConstVec u, SpectrumStudy& study) {
   study.omega_1 = omega_1_by_lanczos(phase, 0, u);
   study.omega_max = omega_max_by_power_iteration(phase, 0, u);
-  study.estimates = {{"omega_1", "Lanczos on K⁻¹M (CHOLMOD)", study.omega_1},
+  study.estimates = {{"omega_1", fmt::format("Lanczos on K⁻¹M ({})", SparseCholesky::library()), study.omega_1},
                      {"omega_1", "ARPACK, shift-invert at 0", omega_1_by_arpack(phase, 0, u)},
                      {"omega_max", "power iteration, matrix-free", study.omega_max},
                      {"omega_max", "ARPACK, shift-invert at the bound", omega_max_by_arpack(phase, 0, u)},

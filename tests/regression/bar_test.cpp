@@ -5,12 +5,14 @@
 #include <catch2/catch.hpp>
 
 #include "dense.hpp"
+#include "missing_method.hpp"
 #include "scenes.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 using scenes::bar;
 using scenes::probe;
+using test::is_missing;
 
 namespace {
 
@@ -95,6 +97,7 @@ TEST_CASE("the transient at t = 20 is the reference to 1e-7 by ARKODE, by leapfr
       {"integrator.method=leapfrog", "integrator.step=0.0002"},
   };
   for (const auto& way : ways) {
+    if (is_missing(way.front().substr(way.front().find('=') + 1))) continue;
     const Summary s = transient(way);
     CAPTURE(s.integrator);
     CHECK(s.t == 20);

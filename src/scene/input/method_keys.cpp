@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "base/gpl.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -50,8 +52,9 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
   const std::string own_scale = "rtol times the scene's own scale";
 
   tables.add({"integrator", "the steps in time"}, &Scene::integrator)
-      .key("method", &IntegratorSpec::method, "of time integration",
-           {.words = names_of(catalogue.methods), .listed_by = "stillpoint list integrators"})
+      .key(
+          "method", &IntegratorSpec::method, "of time integration",
+          {.words = names_of(catalogue.methods), .listed_by = "stillpoint list integrators", .hint = why_no_integrator})
       .key("damping", &IntegratorSpec::treatment, "how C v is treated in a step",
            {.words = {kTreatments.begin(), kTreatments.end()}})
       .key("step", &IntegratorSpec::step, "fixed; or step_fraction", {.range = kPositive, .unit = "s"})

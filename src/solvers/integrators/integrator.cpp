@@ -7,9 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "base/gpl.hpp"
 #include "base/text.hpp"
 #include "solvers/integrators/arkode_erk.hpp"
-#include "solvers/integrators/gsl_integrator.hpp"
+#include "solvers/integrators/integrator_by_gsl.hpp"
 #include "solvers/integrators/staggered_integrators.hpp"
 
 namespace stillpoint {
@@ -71,7 +72,8 @@ Method find_method(std::string_view name, DampingTreatment treatment) {
     }
     names.push_back(method.name);
   }
-  throw std::invalid_argument(unknown_word("there is no integrator", std::string(name), names));
+  const std::string why = why_no_integrator(std::string(name));
+  throw std::invalid_argument(why.empty() ? unknown_word("there is no integrator", std::string(name), names) : why);
 }
 
 double critical_step(const Method& method, const Damping& damping, const DampedSpectrum& spectrum) {

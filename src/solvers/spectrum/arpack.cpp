@@ -109,7 +109,7 @@ FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, Cons
   const FrequencyEstimate bound = omega_max_bound_by_gershgorin(system, t, u);
   if (!bound.converged) return {0, 0, watch.seconds(), false, bound.status};
   if (bound.omega == 0) return {0, 0, watch.seconds(), true, "K = 0"};
-  // Above the spectrum σM − K is positive definite, so that CHOLMOD serves: (K − σM)⁻¹ = −(σM − K)⁻¹.
+  // Above the spectrum σM − K is positive definite, so that a Cholesky factor serves: (K − σM)⁻¹ = −(σM − K)⁻¹.
   const double sigma = (1 + 1e-6) * bound.omega * bound.omega;
   const SparseCholesky factor(
       SparseMatrix(sigma * system.mass().matrix() - system.tangents().matrix(Tangent::elastic, t, u)));

@@ -11,7 +11,7 @@
 
 namespace stillpoint {
 
-/// A symmetric K with its factor; M and K outlive it. Throws std::runtime_error if CHOLMOD itself fails.
+/// A symmetric K with its factor; M and K outlive it. Throws std::runtime_error if no memory is left for it.
 class FactorisedStiffness {
  public:
   FactorisedStiffness(const Mass& mass, const SparseMatrix& K);

@@ -16,7 +16,7 @@ struct Row {
 const std::vector<Row>& rows() {
   static const std::vector<Row> all = {
       {{.name = "newton",
-        .equation = "K du = Q with the consistent tangent, CHOLMOD if K is symmetric, UMFPACK if not",
+        .equation = "K du = Q with the consistent tangent, by a Cholesky factor if K is symmetric, by LU if not",
         .source = "Kelley 1995, section 8.1",
         .takes_end_of_loads = true,
         .is_newton = true,

@@ -4,28 +4,22 @@
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>
-#include <memory>
+#include <cstdint>
+#include <random>
 #include <vector>
 
 #include <Eigen/Core>
-#include <gsl/gsl_integration.h>
-#include <gsl/gsl_rng.h>
+
+#include "base/gauss_rule.hpp"
 
 namespace stillpoint {
 
 /// Places of n points in [−1, 1], ascending: Gauss-Legendre's, or in the middles of n equal parts.
 inline std::vector<double> line_positions(Placement placement, int n) {
-  std::vector<double> xi(static_cast<std::size_t>(n));
-  if (placement == Placement::gauss) {
-    const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)> table(
-        gsl_integration_glfixed_table_alloc(xi.size()), gsl_integration_glfixed_table_free);
-    for (std::size_t k = 0; k < xi.size(); ++k) {
-      double weight = 0;
-      gsl_integration_glfixed_point(-1, 1, k, &xi[k], &weight, table.get());
-    }
-  } else {
-    for (int k = 0; k < n; ++k) xi[static_cast<std::size_t>(k)] = (2.0 * k + 1) / n - 1;
-  }
+  const auto count = static_cast<std::size_t>(n);
+  if (placement == Placement::gauss) return GaussRule(-1, 1, count).at;
+  std::vector<double> xi(count);
+  for (int k = 0; k < n; ++k) xi[static_cast<std::size_t>(k)] = (2.0 * k + 1) / n - 1;
   return xi;
 }
 
@@ -48,8 +42,7 @@ class CellPositions {
   explicit CellPositions(const BodySpec& body)
       : random_(body.placement == Placement::random),
         jitter_(body.jitter),
-        rng_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free) {
-    gsl_rng_set(rng_.get(), body.seed);
+        generator_(body.seed == 0 ? seed_of_zero : static_cast<std::uint32_t>(body.seed)) {
     int count = 1;
     for (int d = 0; d < Dim; ++d) count *= body.points_per_cell[static_cast<std::size_t>(d)];
     pattern_.resize(Dim, count);
@@ -76,7 +69,7 @@ class CellPositions {
     if (!vary()) return xi_;
     for (Eigen::Index p = 0; p < xi_.cols(); ++p) {
       for (int d = 0; d < Dim; ++d) {
-        const double r = 2 * gsl_rng_uniform_pos(rng_.get()) - 1;
+        const double r = 2 * share() - 1;
         xi_(d, p) = random_ ? r : pattern_(d, p) + jitter_ * room_(d, p) * r;
       }
     }
@@ -85,9 +78,19 @@ class CellPositions {
   }
 
  private:
+  static constexpr std::uint32_t seed_of_zero = 4357;  // as GSL has it, whose numbers these are
+
+  // Uniform in (0, 1).
+  double share() {
+    constexpr double range = 4294967296.0;  // 2³²
+    std::uint_fast32_t drawn = 0;
+    while (drawn == 0) drawn = generator_();
+    return static_cast<double>(drawn) / range;
+  }
+
   bool random_;
   double jitter_;
-  std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng_;
+  std::mt19937 generator_;
   Eigen::MatrixXd pattern_, room_, xi_;
 };
 

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include <Eigen/QR>
-#include <gsl/gsl_sf_legendre.h>
+
+#include "base/special_functions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -42,7 +43,7 @@ class Legendre {
     for (Index d = 0; d < xi.rows(); ++d) {
       for (int k = 0; k < stride; ++k) {
         for (Index p = 0; p < xi.cols(); ++p) {
-          values_(d * stride + k, p) = gsl_sf_legendre_Pl(k, std::clamp(xi(d, p), -1.0, 1.0));
+          values_(d * stride + k, p) = legendre(k, std::clamp(xi(d, p), -1.0, 1.0));
         }
       }
     }

@@ -6,9 +6,7 @@
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
-#include <gsl/gsl_errno.h>
 
-#include "base/quiet_gsl.hpp"
 #include "largest.hpp"
 
 using namespace stillpoint;
@@ -53,13 +51,15 @@ TEST_CASE("a zero is found to rounding, and one that is not there is an error") 
   CHECK_THROWS_AS(zero_between(-1, 1, [](double) { return std::nan(""); }), std::domain_error);
 }
 
-TEST_CASE("a program's own handler of GSL's errors is there again afterwards, however many were quiet at once") {
-  const auto own = [](const char*, const char*, int, int) {};
-  gsl_error_handler_t* const before = gsl_set_error_handler(own);
-  {
-    const QuietGsl one;
-    { const QuietGsl other; }
-    CHECK(std::isnan(lambert_w(-1)));
+TEST_CASE("Legendre's polynomials are those of their recursion, and Student's quantiles those of a table") {
+  Largest error;
+  for (const double x : {-1.0, -0.3, 0.0, 0.7, 1.0}) {
+    error.take_magnitude(legendre(0, x) - 1);
+    error.take_magnitude(legendre(1, x) - x);
+    for (int k = 1; k < 9; ++k)  // (k + 1) P_k+1 = (2k + 1) x P_k − k P_k−1
+      error.take_magnitude((k + 1) * legendre(k + 1, x) - (2 * k + 1) * x * legendre(k, x) + k * legendre(k - 1, x));
   }
-  CHECK(gsl_set_error_handler(before) == static_cast<gsl_error_handler_t*>(own));
+  CHECK(error.value() < 1e-14);
+  CHECK(student_quantile(0.975, 1) == Approx(12.7062).epsilon(1e-6));  // Abramowitz and Stegun, table 26.10
+  CHECK(student_quantile(0.975, 10) == Approx(2.22814).epsilon(1e-6));
 }

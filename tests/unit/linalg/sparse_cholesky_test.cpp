@@ -9,11 +9,12 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
-#include <dlfcn.h>
-#include <suitesparse/SuiteSparse_config.h>
+
+#include "factor_allocations.hpp"
 
 using stillpoint::SparseCholesky;
 using stillpoint::SparseMatrix;
+using stillpoint::test::FactorAllocations;
 
 namespace {
 
@@ -50,25 +51,6 @@ double residual(const SparseMatrix& A, const std::vector<double>& x, const std::
   const Eigen::Map<const Eigen::VectorXd> X(x.data(), A.rows()), B(b.data(), A.rows());
   return (A * X - B).norm() / B.norm();
 }
-
-// CHOLMOD allocates through SuiteSparse's table of functions, where it can be counted. The library is loaded with
-// CHOLMOD, but is not among what the tests name to the linker, hence dlsym.
-int allocations = 0;
-class CountedAllocations {
- public:
-  CountedAllocations() : table_(static_cast<SuiteSparse_config_struct*>(dlsym(RTLD_DEFAULT, "SuiteSparse_config"))) {
-    REQUIRE(table_ != nullptr);
-    saved_ = *table_;
-    allocations = 0;
-    table_->malloc_func = [](std::size_t size) { return ++allocations, std::malloc(size); };
-    table_->calloc_func = [](std::size_t count, std::size_t size) { return ++allocations, std::calloc(count, size); };
-    table_->realloc_func = [](void* old, std::size_t size) { return ++allocations, std::realloc(old, size); };
-  }
-  ~CountedAllocations() { *table_ = saved_; }
-
- private:
-  SuiteSparse_config_struct *table_, saved_{};
-};
 
 }  // namespace
 
@@ -142,12 +124,12 @@ TEST_CASE("a moved Cholesky factor still solves") {
 
 TEST_CASE("solving with a Cholesky factor allocates nothing") {
   const int m = GENERATE(10, 150);
-  const CountedAllocations counted;
+  const FactorAllocations counted;
   const SparseCholesky factor(laplacian(m));
-  CHECK(allocations > 0);  // the count does see CHOLMOD
+  CHECK(counted.count() > 0);  // it does see the library
   const std::vector<double> b = ramp(factor.size());
   std::vector<double> x(factor.size());
-  allocations = 0;
+  const long before = counted.count();
   for (int k = 0; k < 5; ++k) factor.solve(b, x);
-  CHECK(allocations == 0);
+  CHECK(counted.count() == before);
 }

@@ -8,16 +8,16 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
-#include <dlfcn.h>
-#include <suitesparse/SuiteSparse_config.h>
 
 #include "convection.hpp"
+#include "factor_allocations.hpp"
 #include "linalg/sparse_cholesky.hpp"
 
 using stillpoint::SparseCholesky;
 using stillpoint::SparseLu;
 using stillpoint::SparseMatrix;
 using stillpoint::test::convection;
+using stillpoint::test::FactorAllocations;
 
 namespace {
 
@@ -33,23 +33,6 @@ double residual(const SparseMatrix& A, const std::vector<double>& x, const std::
   const Eigen::Map<const Eigen::VectorXd> X(x.data(), A.rows()), B(b.data(), A.rows());
   return (A * X - B).norm() / B.norm();
 }
-
-// UMFPACK allocates through SuiteSparse's table of functions, where it can be counted; see sparse_cholesky_test.cpp.
-int allocations = 0;
-class CountedAllocations {
- public:
-  CountedAllocations() : table_(static_cast<SuiteSparse_config_struct*>(dlsym(RTLD_DEFAULT, "SuiteSparse_config"))) {
-    REQUIRE(table_ != nullptr);
-    saved_ = *table_;
-    allocations = 0;
-    table_->malloc_func = [](std::size_t size) { return ++allocations, std::malloc(size); };
-    table_->realloc_func = [](void* old, std::size_t size) { return ++allocations, std::realloc(old, size); };
-  }
-  ~CountedAllocations() { *table_ = saved_; }
-
- private:
-  SuiteSparse_config_struct *table_, saved_{};
-};
 
 }  // namespace
 
@@ -118,14 +101,14 @@ TEST_CASE("a moved LU factor still solves") {
 }
 
 TEST_CASE("solving with an LU factor allocates nothing, and the factor says what it takes") {
-  const CountedAllocations counted;
+  const FactorAllocations counted;
   const SparseLu small(convection(10, 3)), large(convection(100, 3));
-  CHECK(allocations > 0);  // the count does see UMFPACK
+  CHECK(counted.count() > 0);  // it does see the library
   const std::vector<double> b = ramp(large.size());
   std::vector<double> x(large.size());
-  allocations = 0;
+  const long before = counted.count();
   for (int k = 0; k < 5; ++k) large.solve(b, x);
-  CHECK(allocations == 0);
+  CHECK(counted.count() == before);
   const std::size_t real = sizeof(double);
   CHECK(small.bytes() > 5 * 100 * real);         // A alone
   CHECK(large.bytes() > 2 * 20 * 10000 * real);  // log n of fill in each row of L and of U

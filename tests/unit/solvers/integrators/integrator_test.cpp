@@ -14,12 +14,14 @@
 
 #include "allocation_count.hpp"
 #include "linalg/sundials.hpp"
+#include "missing_method.hpp"
 #include "solvers/integrators/integrator_setup.hpp"
 
 namespace {
 
 using namespace stillpoint;
 using test::for_each_way;
+using test::is_missing;
 using test::Setup;
 using Status = StepReport::Status;
 
@@ -162,6 +164,7 @@ TEST_CASE("the one-force schemes allocate nothing after their first step", "[int
 
 TEST_CASE("the right-hand side and a Runge-Kutta step allocate nothing after the first step", "[integrator]") {
   for (const std::string method : {"erk:rk4", "erk:dormand-prince-7-4-5", "gsl:rk4"}) {
+    if (is_missing(method)) continue;
     Setup setup(method, 0.1);
     setup.start();
     setup.integrator->step(10);
@@ -201,10 +204,10 @@ TEST_CASE("unknown methods and options that do not fit are refused with a reason
   CHECK_THROWS_AS(find_method("symplectic-euler", DampingTreatment::averaged), std::invalid_argument);
   CHECK_THROWS_WITH(Setup("leapfrog", 0.1, 1e-4), Catch::Contains("error estimate"));
   CHECK_THROWS_WITH(Setup("erk:rk4", 0.1, 1e-4), Catch::Contains("error estimate"));
-  CHECK_THROWS_WITH(Setup("gsl:msadams", 0.1), Catch::Contains("adaptive only"));
+  if (STILLPOINT_HAS_GPL) CHECK_THROWS_WITH(Setup("gsl:msadams", 0.1), Catch::Contains("adaptive only"));
   CHECK_THROWS_WITH(Setup("leapfrog", 0), Catch::Contains("max_step"));
   CHECK_THROWS_WITH(Setup("leapfrog", std::numeric_limits<double>::infinity()), Catch::Contains("max_step"));
-  CHECK_THROWS_WITH(Setup("gsl:rk4", 0.1, -1.0), Catch::Contains("rtol"));
+  if (STILLPOINT_HAS_GPL) CHECK_THROWS_WITH(Setup("gsl:rk4", 0.1, -1.0), Catch::Contains("rtol"));
   CHECK_THROWS_AS(
       Setup("symplectic-euler", 0.1, {}, {.n = 3, .consistent = true}, "identity", 0.3, DampingTreatment::exact),
       std::invalid_argument);

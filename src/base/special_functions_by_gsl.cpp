@@ -1,11 +1,10 @@
-#include "base/special_functions.hpp"
-
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <gsl/gsl_sf_bessel.h>
@@ -13,8 +12,10 @@
 #include <gsl/gsl_sf_elljac.h>
 #include <gsl/gsl_sf_exp.h>
 #include <gsl/gsl_sf_lambert.h>
+#include <gsl/gsl_sf_legendre.h>
 
 #include "base/quiet_gsl.hpp"
+#include "base/special_functions.hpp"
 
 namespace stillpoint {
 namespace {
@@ -39,6 +40,10 @@ double elliptic_e(double phi, double k) { return value_of(gsl_sf_ellint_E_e, phi
 double elliptic_k(double k) { return value_of(gsl_sf_ellint_Kcomp_e, k, GSL_PREC_DOUBLE); }
 double bessel_j0(double x) { return value_of(gsl_sf_bessel_J0_e, x); }
 double bessel_j1(double x) { return value_of(gsl_sf_bessel_J1_e, x); }
+double legendre(int k, double x) { return value_of(gsl_sf_legendre_Pl_e, k, x); }
+double student_quantile(double probability, double degrees_of_freedom) {
+  return gsl_cdf_tdist_Pinv(probability, degrees_of_freedom);
+}
 
 JacobiFunctions jacobi(double u, double k) {
   const QuietGsl quiet;

@@ -1,4 +1,4 @@
-#include "solvers/integrators/gsl_integrator.hpp"
+#include "solvers/integrators/integrator_by_gsl.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,14 @@
+// A build without GSL has none of its steppers.
+#include <stdexcept>
+
+#include "solvers/integrators/integrator_by_gsl.hpp"
+
+namespace stillpoint {
+
+std::vector<Method> gsl_methods() { return {}; }
+
+std::unique_ptr<Integrator> make_gsl(const IntegratorOptions& options, RelaxationSystem& /*system*/) {
+  throw std::logic_error("there is no method '" + options.method + "'");
+}
+
+}  // namespace stillpoint
