@@ -68,9 +68,8 @@ TEST_CASE("Newton's method balances a load that a program adds, and its supports
 
 TEST_CASE("no equilibrium is found before a load that a program adds has settled") {
   add_weight("pause", 5, [](double t) { return t < 5 ? 5.0 : 10.0; });  // at rest under half of it long before
-  Simulation simulation(
-      load_scene(column, {"body_force={own=\"pause\"}", "stop.time=50", "output.every=1"}),
-      {.threads = 1});
+  Simulation simulation(load_scene(column, {"body_force={own=\"pause\"}", "stop.time=50", "output.every=1"}),
+                        {.threads = 1});
   CHECK(simulation.run() == RunStatus::equilibrium);
   CHECK(simulation.t() > 5);
 }
