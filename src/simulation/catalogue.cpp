@@ -17,21 +17,20 @@ namespace {
 
 // A catalogue, and which tables it is of: a program may have added to them since.
 struct Edition {
+  const std::vector<LawInfo>* laws;
   const std::vector<StrategyInfo>* dampings;
   const std::vector<RelaxationInfo>* relaxations;
   Catalogue catalogue;
 };
 
-Edition edition_of(const std::vector<StrategyInfo>& dampings, const std::vector<RelaxationInfo>& relaxations) {
-  Catalogue catalogue{.laws = material_laws(),
-                      .strategies = dampings,
-                      .static_methods = static_methods(),
-                      .methods = {},
-                      .solutions = {}};
+Edition edition_of(const std::vector<LawInfo>& laws, const std::vector<StrategyInfo>& dampings,
+                   const std::vector<RelaxationInfo>& relaxations) {
+  Catalogue catalogue{
+      .laws = laws, .strategies = dampings, .static_methods = static_methods(), .methods = {}, .solutions = {}};
   for (const KnownSolution& known : known_solutions()) catalogue.solutions.push_back(known.about);
   for (const RelaxationInfo& relaxation : relaxations) catalogue.strategies.push_back(relaxation.about);
   for (const Method& method : methods()) catalogue.methods.push_back(method);
-  return {&dampings, &relaxations, std::move(catalogue)};
+  return {&laws, &dampings, &relaxations, std::move(catalogue)};
 }
 
 }  // namespace
@@ -40,10 +39,12 @@ const Catalogue& catalogue() {
   static std::mutex mutex;
   static std::list<Edition> editions;  // all of them, as rows of each are referred to
   const std::scoped_lock lock(mutex);
+  const std::vector<LawInfo>& laws = material_laws();
   const std::vector<StrategyInfo>& forces = dampings();
   const std::vector<RelaxationInfo>& iterations = relaxations();
-  if (editions.empty() || editions.back().dampings != &forces || editions.back().relaxations != &iterations)
-    editions.push_back(edition_of(forces, iterations));
+  if (editions.empty() || editions.back().laws != &laws || editions.back().dampings != &forces ||
+      editions.back().relaxations != &iterations)
+    editions.push_back(edition_of(laws, forces, iterations));
   return editions.back().catalogue;
 }
 

@@ -3,7 +3,6 @@
 #include <stillpoint/own_relaxation.hpp>
 
 #include <cmath>
-#include <deque>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/kept_text.hpp"
 #include "base/text.hpp"
 #include "simulation/catalogue.hpp"
 #include "solvers/relaxation/relaxations.hpp"
@@ -20,14 +20,6 @@ namespace stillpoint {
 namespace {
 
 enum class Kind { damping, relaxation };
-
-// For good, as rows only refer to their words.
-std::string_view kept(const std::string& text) {
-  static std::mutex mutex;
-  static std::deque<std::string> all;
-  const std::scoped_lock lock(mutex);
-  return all.emplace_back(text);
-}
 
 StrategyInfo own_strategy(const std::string& name, const std::string& equation, const std::string& source, Kind kind) {
   static std::mutex mutex;
@@ -44,7 +36,7 @@ StrategyInfo own_strategy(const std::string& name, const std::string& equation, 
                                             kind == Kind::damping ? "relaxation" : "damping"));
   }
   own.emplace(name, kind);
-  return {.name = kept(name), .equation = kept(equation), .source = kept(source)};
+  return {.name = kept_for_good(name), .equation = kept_for_good(equation), .source = kept_for_good(source)};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace stillpoint {
 /// A law without history. Once the body has moved on it keeps the deformation gradient F_0 with which the phase began:
 ///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began.
 template <ElasticLaw Law>
-class ElasticMaterial final : public LawMaterialBase<Law> {
+class ElasticMaterial : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
   using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
   using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
@@ -102,7 +102,7 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
   }
   std::vector<std::pair<std::string, ConstVec>> shown_history() const override { return {}; }
 
- private:
+ protected:
   bool moved() const { return !F0_.empty(); }
   Tensor F0(std::size_t p) const {
     Tensor F;
@@ -122,6 +122,8 @@ class ElasticMaterial final : public LawMaterialBase<Law> {
     for (double& component : pushed) component /= J;
     return pushed;
   }
+
+ private:
   // answer(q) becomes the block's V P.
   template <class Answer>
   double loop(Block& block, const double* V, const Answer& answer) const {

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "base/growing_table.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -34,13 +36,12 @@ std::vector<std::string_view> cone_names() {
   return names;
 }
 
-}  // namespace
-
-const std::vector<LawInfo>& material_laws() {
+// Those of this library.
+std::vector<LawInfo> built_in() {
   using enum StressState;
   static const std::vector<StressState> all = {uniaxial_stress, uniaxial_strain, plane_strain,
                                                plane_stress,    axisymmetric,    space};
-  static const std::vector<LawInfo> laws = {
+  return {
       {"linear-elastic",
        "sigma = lambda tr(eps) I + 2 mu eps, small strain",
        "Hooke's law",
@@ -75,7 +76,19 @@ const std::vector<LawInfo>& material_laws() {
        {{"cone", "match to Mohr-Coulomb", cone_names(), "plane-strain"}},
        /*history_dependent=*/true},
   };
+}
+
+GrowingTable<LawInfo>& table() {
+  static GrowingTable<LawInfo> laws(built_in());
   return laws;
+}
+
+}  // namespace
+
+const std::vector<LawInfo>& material_laws() { return table().rows(); }
+
+void put_law(const LawInfo& about) {
+  table().put(about, [&](const LawInfo& other) { return other.name == about.name; });
 }
 
 }  // namespace stillpoint

@@ -10,6 +10,7 @@
 
 #include "space/materials/elastic_material.hpp"
 #include "space/materials/history_material.hpp"
+#include "space/materials/own_material.hpp"
 
 namespace stillpoint {
 namespace {
@@ -19,6 +20,8 @@ using Made = std::unique_ptr<PointMaterial<K>>;
 
 template <StressState S>
 Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::size_t count, bool updated_lagrangian) {
+  if (auto answers = own_law_answers(material.law, S, material.parameters))
+    return std::make_unique<OwnMaterial<S>>(OwnLawAtPoint<S>(std::move(answers)), begin, count, updated_lagrangian);
   const auto lame = LameParameters::from(material.parameters.at("E"), material.parameters.at("nu"));
   const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
     return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian);

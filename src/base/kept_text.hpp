@@ -1,0 +1,12 @@
+// Texts for rows that only refer to their words.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace stillpoint {
+
+/// A copy that stays to the end of the process.
+std::string_view kept_for_good(const std::string& text);
+
+}  // namespace stillpoint
