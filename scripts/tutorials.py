@@ -7,7 +7,7 @@ In a tutorial, a Markdown file (all of problems/tutorials, if none is named),
     ```toml NAME        and the like, with a name behind the language, has a file that is written before,
     ![…](NAME.png)      has to be left by the commands.
 
-Commands of a tutorial run in bash, in one empty folder that has links to problems/ and scripts/, with build/release
+Commands of a tutorial run in bash, in one empty folder that has links to problems/, scripts/ and build/release, with that
 before everything on the PATH, and its Python package. In what they print '…' stands for anything in a line, a line of it for any
 number of lines, and spaces for as many as there are. --accept writes what was printed and drawn into the tutorials where it differs. Exit status 1 if
 something differs or a command fails, 2 for bad input.
@@ -110,6 +110,8 @@ def follow(tutorial, folder, binaries):
     """The tutorial's text with what its commands print, and the differences from what it shows."""
     for name in ("problems", "scripts"):
         (folder / name).symlink_to(ROOT / name)
+    (folder / "build").mkdir()
+    (folder / "build/release").symlink_to(binaries)
     text, differences = tutorial.read_text(encoding="utf-8"), []
     pieces, end = [], 0
     for fence in FENCE.finditer(text):

@@ -17,6 +17,8 @@ namespace stillpoint {
 template <ElasticLaw Law>
 class ElasticMaterial : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
+
+ protected:
   using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
   using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
 

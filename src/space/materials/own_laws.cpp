@@ -16,12 +16,12 @@ namespace {
 
 using OfStates = std::map<StressState, MakeLaw>;
 
-struct Table {
+struct OwnLaws {
   std::mutex mutex;
   std::map<std::string, OfStates, std::less<>> laws;
 };
-Table& table() {
-  static Table all;
+OwnLaws& own_laws() {
+  static OwnLaws all;
   return all;
 }
 
@@ -55,11 +55,11 @@ void add_law(const OwnLaw& about, const OfStates& of_states) {
         fmt::format("a law cannot be called '{}'; expected {}", about.name, what_a_plain_word_is));
   if (of_states.empty()) throw std::invalid_argument(fmt::format("the law '{}' has no stress state", about.name));
   check_parameters(about);
-  const std::scoped_lock lock(table().mutex);
+  const std::scoped_lock lock(own_laws().mutex);
   const bool is_known = std::ranges::find(material_laws(), about.name, &LawInfo::name) != material_laws().end();
-  if (is_known && !table().laws.contains(about.name))
+  if (is_known && !own_laws().laws.contains(about.name))
     throw std::invalid_argument(fmt::format("'{}' is a law of this library; expected another name", about.name));
-  table().laws[about.name] = of_states;
+  own_laws().laws[about.name] = of_states;
   put_law(row_of(about, of_states));
 }
 
@@ -67,9 +67,9 @@ std::shared_ptr<const LawAnswers> own_law_answers(const std::string& law, Stress
                                                   const LawParameters& parameters) {
   MakeLaw make;
   {
-    const std::scoped_lock lock(table().mutex);
-    const auto found = table().laws.find(law);
-    if (found == table().laws.end()) return nullptr;
+    const std::scoped_lock lock(own_laws().mutex);
+    const auto found = own_laws().laws.find(law);
+    if (found == own_laws().laws.end()) return nullptr;
     make = found->second.at(state);
   }
   return make(parameters);
