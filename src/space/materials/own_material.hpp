@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/unroll.hpp"
 #include "space/materials/elastic_material.hpp"
 #include "space/materials/material_laws.hpp"
 
@@ -50,25 +51,37 @@ class OwnMaterial final : public ElasticMaterial<OwnLawAtPoint<S>> {
  public:
   using Base::Base;
 
-  double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
+  [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
+    const double* volume = V + block.first;
     const std::size_t first = block.first;
+    alignas(64) Rows P;
     if (!moved()) {
-      law_.answers().first_piola(block.count, stride, block.H[0].data(), block.VP[0].data());
-    } else {
-      alignas(64) typename Block::Rows total;
-      for (std::size_t q = 0; q < block.count; ++q) {
-        const Tensor H = Base::total(Base::F0(first + q), block.H_at(q));
-        for (std::size_t c = 0; c < components; ++c) total[c][q] = H[c];
-      }
-      law_.answers().first_piola(block.count, stride, total[0].data(), block.VP[0].data());
+      law_.answers().first_piola(block.count, stride, block.H[0].data(), P[0].data());
+      return Base::sum_in_groups(
+          block.count, [&](std::size_t q)
+                           __attribute__((always_inline)) { return block.store_stress(q, volume[q], row(P, q)); });
     }
-    double bad = 0;
-    for (std::size_t q = 0; q < block.count; ++q) {
-      Tensor P;
-      for (std::size_t c = 0; c < components; ++c) P[c] = block.VP[c][q];
-      bad += block.store_stress(q, V[first + q], moved() ? Base::push(Base::F0(first + q), P) : P);
-    }
-    return bad;
+    alignas(64) Rows total;  // H of f F_0
+    Base::sum_in_groups(
+        block.count, [&](std::size_t q) __attribute__((always_inline)) {
+          const Tensor H = Base::total(Base::F0(first + q), block.H_at(q));
+          unroll<components>([&](auto c) __attribute__((always_inline)) { total[c][q] = H[c]; });
+          return 0.0;
+        });
+    law_.answers().first_piola(block.count, stride, total[0].data(), P[0].data());
+    return Base::sum_in_groups(
+        block.count, [&](std::size_t q) __attribute__((always_inline)) {
+          return block.store_stress(q, volume[q], Base::push(Base::F0(first + q), row(P, q)));
+        });
+  }
+
+ private:
+  using Rows = typename Block::Rows;
+
+  [[gnu::always_inline]] static Tensor row(const Rows& rows, std::size_t q) {
+    Tensor tensor;
+    unroll<components>([&](auto c) __attribute__((always_inline)) { tensor[c] = rows[c][q]; });
+    return tensor;
   }
 };
 
