@@ -42,15 +42,16 @@ struct OwnLaw {
 /// Their values by name, all of them.
 using LawParameters = std::map<std::string, double>;
 
-/// What a law answers to deformations, in plain arrays: of one stress state and one set of parameters.
+/// What a law answers to deformations, in plain arrays: of one stress state and one set of parameters. Several threads
+/// ask at once, and nothing may be thrown: a trial that cannot be evaluated gets NaN.
 class LawAnswers {
  public:
   virtual ~LawAnswers() = default;
   /// P [Pa] of some points at once; component c of point q at [stride c + q] of H and P, which do not overlap.
-  virtual void first_piola(std::size_t points, std::size_t stride, const double* H, double* P) const = 0;
+  virtual void first_piola(std::size_t points, std::size_t stride, const double* H, double* P) const noexcept = 0;
   /// σ [Pa], (stress components), and ∂P/∂H [Pa], row by row, of one point.
-  virtual void cauchy(const double* H, double* sigma) const = 0;
-  virtual void moduli(const double* H, double* A) const = 0;
+  virtual void cauchy(const double* H, double* sigma) const noexcept = 0;
+  virtual void moduli(const double* H, double* A) const noexcept = 0;
 };
 
 /// Those of a value type: its loop over the points is compiled where this is named, with that program's flags.
@@ -63,7 +64,7 @@ class AnswersOf final : public LawAnswers {
   explicit AnswersOf(const Law& law) : law_(law) {}
 
   [[gnu::flatten]] void first_piola(std::size_t points, std::size_t stride, const double* __restrict H,
-                                    double* __restrict P) const override {
+                                    double* __restrict P) const noexcept override {
     const Law law = law_;
     // Whole groups fill the processor's registers. What is left is one that begins early enough: a point that it meets
     // again answers the same again, which costs less than a rest of single points.
@@ -85,8 +86,8 @@ class AnswersOf final : public LawAnswers {
       if (end == points) return;
     }
   }
-  void cauchy(const double* H, double* sigma) const override { std::ranges::copy(law_.cauchy(at(H)), sigma); }
-  void moduli(const double* H, double* A) const override { std::ranges::copy(law_.moduli(at(H)), A); }
+  void cauchy(const double* H, double* sigma) const noexcept override { std::ranges::copy(law_.cauchy(at(H)), sigma); }
+  void moduli(const double* H, double* A) const noexcept override { std::ranges::copy(law_.moduli(at(H)), A); }
 
  private:
   // body(0), …, written out before the compiler looks for vectors

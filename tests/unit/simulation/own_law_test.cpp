@@ -89,7 +89,8 @@ TEST_CASE(
   }
   for (const char* state : {"uniaxial-stress", "uniaxial-strain"}) {
     INFO(state);
-    CHECK(difference(60, "neo_hookean_bar.toml", "material.rubber.law", {std::string("body.state=") + state}) < rounding);
+    CHECK(difference(60, "neo_hookean_bar.toml", "material.rubber.law", {std::string("body.state=") + state}) <
+          rounding);
   }
   CHECK(difference(20, "oedometer.toml", "material.soil.law", {"grid.cells=[3,6,3]"}) < rounding);
 }

@@ -27,12 +27,6 @@ void add_weight(const std::string& name, double settles_at, double (*g)(double))
   });
 }
 
-std::vector<std::string> with(const std::vector<std::string>& more) {
-  std::vector<std::string> all = {"stop.distance=0", "stop.energy=0"};
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
 std::vector<double> after(int steps, const std::vector<std::string>& overrides) {
   Simulation simulation(load_scene(column, overrides), {.threads = 1, .stops = false});
   for (int k = 0; k < steps; ++k) simulation.step();
