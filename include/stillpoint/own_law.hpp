@@ -114,7 +114,7 @@ using MakeLaw = std::function<std::unique_ptr<LawAnswers>(const LawParameters&)>
 /// a name is no word, or one of this library's, or a parameter is called rho or law or by a name twice.
 void add_law(const OwnLaw& about, const std::map<StressState, MakeLaw>& of_states);
 
-/// The same of Law<S> for each of these states, made of LawParameters.
+/// The same of a template of laws, for each of these states, each made of LawParameters.
 template <template <StressState> class Law, StressState... states>
 void add_law(const OwnLaw& about) {
   static_assert((std::is_constructible_v<Law<states>, const LawParameters&> && ...));

@@ -36,6 +36,12 @@ bool check_material(SceneCheck& check, const SolutionInfo& solution) {
         return material->second.parameters.contains(std::string(p.name));
       }))
     return false;
+  for (const char* const modulus : {"E", "nu"}) {
+    if (material->second.parameters.contains(modulus)) continue;
+    check.add("exact.solution",
+              fmt::format("'{}' is one of E and nu, and the law '{}' has no {}", solution.name, law->name, modulus));
+    return false;
+  }
   if (solution.laws.empty() || std::ranges::find(solution.laws, law->name) != solution.laws.end()) return true;
   const std::vector<std::string> laws(solution.laws.begin(), solution.laws.end());
   check.add("exact.solution", fmt::format("'{}' is known for the law{} {}, not for '{}'", solution.name,

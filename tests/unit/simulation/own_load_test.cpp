@@ -48,8 +48,7 @@ TEST_CASE("a load that a program adds is the body force of the same formula, bit
 TEST_CASE("Newton's method balances a load that a program adds, and its supports bear it") {
   add_weight("steady", 0, [](double) { return 10.0; });
   const auto at_rest = [](const std::string& load) {
-    Simulation simulation(
-        load_scene(column, {load, "solve.method=newton", "support[0].name=base", "damping.strategy=none"}));
+    Simulation simulation(load_scene(column, {load, "solve.method=newton", "support[0].name=base"}));
     CHECK(simulation.run() == RunStatus::equilibrium);
     return simulation.summary();
   };
@@ -74,7 +73,7 @@ TEST_CASE("a load that is no number ends a run with its name, the time and the p
     if (t > 0.1) b[2 * 3 + 1] = std::numeric_limits<double>::quiet_NaN();
   });
   Simulation simulation(load_scene(column, {"body_force={own=\"hole\"}", "stop.time=50"}), {.threads = 1});
-  CHECK(simulation.run() == RunStatus::failed);
+  CHECK(simulation.run() == RunStatus::diverged);
   INFO(simulation.reason());
   CHECK(simulation.reason().find("body_force.own is not a number at t = ") != std::string::npos);
   CHECK(simulation.reason().find("material point") != std::string::npos);
@@ -94,7 +93,6 @@ TEST_CASE(
   };
   CHECK(refusal({"body_force={own=\"steadi\"}"}).find("there is no load 'steadi'; did you mean 'steady'?") !=
         std::string::npos);
-  CHECK(refusal({"body_force={}"}).find("the key 'value' is missing") != std::string::npos);
   const std::string driven = "load={displacement=\"t\"}";
   CHECK(refusal({"body_force={own=\"swinging\"}", driven, "stop.time=1"}).find("'swinging', depends on t") !=
         std::string::npos);
