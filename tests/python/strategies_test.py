@@ -52,7 +52,7 @@ def _(_folder):
         assert x.ndim == 2 and not np.shares_memory(x, weight.last)
         weight.last = x
         b = np.zeros_like(x)
-        b[:, -1] = -9.81 * (1 + x[:, -1])
+        b[:, -1] = -10 * (1 + x[:, -1])
         return b
 
     weight.last = np.zeros(0)
@@ -63,7 +63,7 @@ def _(_folder):
              "support": [{"face": "bottom"}], "stop": {"steps": 50, "distance": 0}}
     own = stillpoint.Simulation(stillpoint.load(scene, body_force={"own": "weight"})).run()
     assert asked == [0]
-    formula = stillpoint.Simulation(stillpoint.load(scene, body_force={"value": [0, "-9.81*(1+y)"]})).run()
+    formula = stillpoint.Simulation(stillpoint.load(scene, body_force={"value": [0, "-10*(1+y)"]})).run()
     assert own.steps == formula.steps == 50
     assert np.array_equal(own.unknowns.u, formula.unknowns.u) and own.unknowns.u.any()
 

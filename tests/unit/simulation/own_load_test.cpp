@@ -52,7 +52,8 @@ TEST_CASE("Newton's method balances a load that a program adds, and its supports
     CHECK(simulation.run() == RunStatus::equilibrium);
     return simulation.summary();
   };
-  const Summary own = at_rest("body_force={own=\"steady\"}"), formula = at_rest("body_force={value=[0,\"-10*(1+y)\"]}");
+  const Summary own = at_rest("body_force={value=[0,0], own=\"steady\"}"),
+                formula = at_rest("body_force={value=[0,\"-10*(1+y)\"]}");
   CHECK(own.residual <= 1e-9);
   // ∫ ρ 10 (1 + y) dV over 1.25 × 10 m: 2000 · 10 · 1.25 (10 + 50)
   CHECK(own.reactions.at("base").at(1) == Approx(1.5e6).epsilon(1e-3));  // cells integrate y to their middles
