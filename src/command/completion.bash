@@ -17,7 +17,6 @@ _stillpoint_keys() {
 _stillpoint() {
   local word=$2 before=$3 command=${COMP_WORDS[1]}
   COMPREPLY=()
-  # `--set KEY=VALUE` is three words to bash, of which '=' is one.
   if ((COMP_CWORD == 1)); then
     mapfile -t COMPREPLY < <(compgen -W "$(stillpoint --help | sed -n '/^Subcommands/,$ s/^  \([a-z]*\) .*/\1/p') --help --version" -- "$word")
     return
