@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include <gsl/gsl_sf_lambert.h>
 #include <gsl/gsl_sf_legendre.h>
 
+#include "base/bracket.hpp"
 #include "base/quiet_gsl.hpp"
 #include "base/special_functions.hpp"
 
@@ -54,11 +54,7 @@ JacobiFunctions jacobi(double u, double k) {
 
 double zero_between(double a, double b, const std::function<double(double)>& f) {
   const double at_a = f(a), at_b = f(b);
-  if (at_a == 0) return a;
-  if (at_b == 0) return b;
-  if (!(std::isfinite(at_a) && std::isfinite(at_b) && (at_a < 0) != (at_b < 0)))
-    throw std::domain_error(
-        fmt::format("there is no zero to be found between {:g} and {:g}, with values {:g} and {:g}", a, b, at_a, at_b));
+  if (const auto end = zero_at_an_end(a, b, at_a, at_b)) return *end;
   const QuietGsl quiet;
   const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);

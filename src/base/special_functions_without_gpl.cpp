@@ -15,6 +15,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
+#include "base/bracket.hpp"
 #include "base/special_functions.hpp"
 
 namespace stillpoint {
@@ -69,11 +70,7 @@ double zero_between(double a, double b, const std::function<double(double)>& f) 
     return found;
   };
   const double at_a = f(a), at_b = f(b);
-  if (at_a == 0) return a;
-  if (at_b == 0) return b;
-  if (!(std::isfinite(at_a) && std::isfinite(at_b) && (at_a < 0) != (at_b < 0)))
-    throw std::domain_error(
-        fmt::format("there is no zero to be found between {:g} and {:g}, with values {:g} and {:g}", a, b, at_a, at_b));
+  if (const auto end = zero_at_an_end(a, b, at_a, at_b)) return *end;
   constexpr double rounding = 2 * std::numeric_limits<double>::epsilon();
   const auto near = [](double low, double high) {
     return high - low <= rounding * std::min(std::abs(low), std::abs(high));
