@@ -67,6 +67,8 @@ class Integrator {
   virtual void set_max_step(double h) = 0;
   /// v in y was changed at the present t, as by a contact that closed; u was not.
   virtual void velocity_changed() = 0;
+  /// u in y was changed as well, as by a contact that put back what had gone too far: the force is evaluated anew.
+  virtual void displacement_changed() = 0;
   /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
   virtual bool force_is_current() const { return false; }
   /// ‖F − R‖ at the present (t, y) [N], if it was found on the way.

@@ -57,8 +57,8 @@ class RelaxationSystem {
   void set_damping_rate(double c) { linear_.mass = c; }
 
   /// After an accepted step to (t, y), y: (2n): laws remember, contacts open and close. force_is_current: whether the
-  /// last evaluation was there. True if velocities were changed by it.
-  bool accept(double t, Vec y, bool force_is_current);
+  /// last evaluation was there. What contacts changed in y.
+  ContactChange accept(double t, Vec y, bool force_is_current);
 
   /// ‖F − R‖/‖F‖ over the free degrees of freedom; if F = 0 over the largest reactions or, without any, the largest
   /// internal force so far (ForceScale). 0 if there is no load.

@@ -41,6 +41,9 @@ class Tangents {
   virtual SparseMatrix of_loads(double t, ConstVec u) const;
 };
 
+/// What a contact that opened or closed changed: the velocity there, or the displacement as well, of what was put back.
+enum class ContactChange { nothing, velocity, displacement };
+
 /// What touches the body and may open or close. What is closed only changes in update(), between accepted steps, so
 /// that within a step the motion stays a smooth ODE.
 class Contact {
@@ -51,9 +54,9 @@ class Contact {
   /// Local damping, which acts on the sum of all other forces, must leave a closed contact to its wall: sets Q there as
   /// the last add_force() did; Q: (n).
   virtual void hold(Vec Q) const = 0;
-  /// After an accepted step whose forces were the last ones evaluated: opens and closes contacts. True if v, (n), was
-  /// changed by it.
-  virtual bool update(double t, ConstVec u, Vec v) = 0;
+  /// After an accepted step whose forces were the last ones evaluated: opens and closes contacts, and puts back what
+  /// has gone too far; u, v: (n).
+  virtual ContactChange update(double t, Vec u, Vec v) = 0;
   /// Sum + Σ (contact forces)² of the last add_force() [N²].
   virtual double squared_forces(double sum) const = 0;
 };

@@ -84,6 +84,7 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   choose_multigrid(scene, set_up, model);
   const bool tries_another_mass = chooses_mass(scene) && !model.multigrid;
   const bool scaled = tries_another_mass && choose_mass(scene, model, set_up, store);
+  std::ranges::move(model.body_notes.at_start(scene, *model.phase), std::back_inserter(model.notes));
   std::ranges::move(accuracy_notes(scene, *model.phase, scaled), std::back_inserter(model.notes));
   std::ranges::move(load_notes(scene, *model.phase, model.u), std::back_inserter(model.notes));
   model.v = model.phase->initial_velocity(0);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/body_notes.hpp"
 #include "simulation/multigrid_mass.hpp"
 #include "simulation/set_up_store.hpp"
 #include "simulation/volume_norm.hpp"
@@ -45,6 +46,7 @@ struct Model {
   double distance_goal = 0;           // the error bound that equilibrium takes, relative; 0: no test of it
   // stiffening() at the beginning, if the step is to follow it: it was not asked for as such.
   std::optional<double> initial_stiffening;
+  BodyNotes body_notes;
   std::vector<std::string> notes;  // what a user should know of this scene's accuracy, a sentence each
   std::vector<SetUpPart> parts;    // of the set-up, that take time
   double spared_s = 0;             // of their times: what was not spent again, as a store had it [s]

@@ -56,7 +56,15 @@ RelaxationSystem::Motion PhaseMotion::motion() {
 
 void PhaseMotion::accept(double t) {
   if (integrator->static_iteration()) return;
-  if (system.accept(t, y.span(), integrator->force_is_current())) integrator->velocity_changed();
+  switch (system.accept(t, y.span(), integrator->force_is_current())) {
+    case ContactChange::nothing:
+      break;
+    case ContactChange::velocity:
+      integrator->velocity_changed();
+      break;
+    case ContactChange::displacement:
+      integrator->displacement_changed();
+  }
   follow_stiffness(t);
 }
 

@@ -1,6 +1,7 @@
 #include "simulation/simulation_impl.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <numbers>
@@ -151,6 +152,7 @@ void Simulation::Impl::next_phase() {
     model_.relaxing.from = motion_->integrator->carried_over();
     motion_.reset();
     begin_phase(std::vector<double>(v0.size(), 0.0), v0);
+    std::ranges::move(model_.body_notes.later(scene_, *model_.phase), std::back_inserter(model_.notes));
     if (recorder_) recorder_->begin_phase(t_, *motion_);
     ++phases_;
     tell_phase_change(true);

@@ -139,13 +139,13 @@ void RelaxationSystem::remember_force() {
   force_remembered_ = true;
 }
 
-bool RelaxationSystem::accept(double t, Vec y, bool force_is_current) {
+ContactChange RelaxationSystem::accept(double t, Vec y, bool force_is_current) {
   Contact* contact = system_.contact();
-  if (!system_.history_dependent() && !contact) return false;
-  const ConstVec u = first_half(y);
+  if (!system_.history_dependent() && !contact) return ContactChange::nothing;
+  const Vec u = first_half(y);
   if (!force_is_current && !balance(t, u, Q_.span())) throw std::logic_error("an accepted state cannot be evaluated");
   system_.commit(*trial_);
-  return contact && contact->update(t, u, second_half(y));
+  return contact ? contact->update(t, u, second_half(y)) : ContactChange::nothing;
 }
 
 double RelaxationSystem::residual(double t, ConstVec u) {

@@ -27,7 +27,7 @@ std::vector<const MaterialSpec*> materials_in_use(SceneCheck& check) {
   return materials;
 }
 
-/// A wall that moves stays on a grid line only if the grid follows it.
+/// A wall that moves, or does not stand on its face, is on a grid line only if the grid follows it.
 void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
   const Scene& scene = check.scene();
   const std::string& follow = scene.grid.follow;
@@ -35,7 +35,8 @@ void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
   if (!follow.empty() && std::ranges::find(scene.walls, follow, &WallSpec::name) == scene.walls.end()) return;
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     const WallSpec& wall = scene.walls[k];
-    if (!wall.motion.uses('t') || wall.name.empty() || follow == wall.name) continue;
+    const bool rests = wall.motion.constant() && wall.motion({}, 0) == 0;
+    if (rests || wall.name.empty() || follow == wall.name) continue;
     check.add(
         fmt::format("wall[{}].motion", k),
         fmt::format("a wall that moves has to stay on a grid line from phase to phase{}, {}",

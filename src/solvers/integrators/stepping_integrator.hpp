@@ -22,6 +22,7 @@ class SteppingIntegrator : public Integrator {
   StepReport step(double t_stop) final;
   void set_max_step(double h) final;
   void velocity_changed() final { restart(t_, *y_); }
+  void displacement_changed() final { evaluate_anew(t_, *y_); }
   void archive(const StateArchive& state) final;
   long steps() const final { return steps_; }
   long rejected_steps() const final { return rejected_; }
@@ -42,6 +43,8 @@ class SteppingIntegrator : public Integrator {
   virtual void begin(double t, const Vector& y) = 0;
   /// Begins again at (t, y) if only v has changed; the last force evaluation was there.
   virtual void restart(double t, const Vector& y) { begin(t, y); }
+  /// The same if u has changed as well, so that there is no force evaluation yet.
+  virtual void evaluate_anew(double t, const Vector& y) { begin(t, y); }
   /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
   /// read.
   virtual Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) = 0;

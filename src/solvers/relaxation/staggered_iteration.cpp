@@ -42,6 +42,12 @@ void StaggeredIteration::restart(double t, const Vector& /*y*/) {
   on_restart();
 }
 
+void StaggeredIteration::evaluate_anew(double t, const Vector& /*y*/) {
+  admissible_ = system().out_of_balance(t, u_->span(), Q_.span(), a_.span());
+  remember_loads();
+  if (admissible_) on_restart();
+}
+
 void StaggeredIteration::remember_loads() {
   if (relaxation_.steady) return;
   const ConstVec F = system().last_external_force();

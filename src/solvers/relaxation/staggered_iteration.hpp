@@ -87,6 +87,7 @@ class StaggeredIteration : public SteppingIntegrator {
  private:
   void begin(double t, const Vector& y) final;
   void restart(double t, const Vector& y) final;
+  void evaluate_anew(double t, const Vector& y) final;
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
   void archive_memory(const StateArchive& state) final;

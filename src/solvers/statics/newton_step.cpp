@@ -40,6 +40,7 @@ class NewtonStep final : public Integrator {
   }
   void set_max_step(double /*h*/) override {}
   void velocity_changed() override {}
+  void displacement_changed() override {}
   bool static_iteration() const override { return true; }
   void archive(const StateArchive& state) override { state("iterations", iterations_); }
   long steps() const override { return iterations_; }

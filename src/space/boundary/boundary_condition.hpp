@@ -8,6 +8,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "space/boundary/face_gaps.hpp"
 #include "space/boundary/prescribed_motion.hpp"
 #include "space/boundary/wall_reaction.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
@@ -66,6 +67,7 @@ struct PhaseParts {
   const DegreesOfFreedom& dofs;
   const std::vector<double>& node_mass;  // m_i, (functions) [kg]
   const Mass& mass;
+  bool remembers;  // whether some of its points have a history
 };
 
 /// Entries of a matrix over the free degrees of freedom; those of equal row and column are summed.
@@ -82,8 +84,10 @@ class BoundaryCondition {
   virtual ~BoundaryCondition() = default;
 
   // A phase begins, in this order:
-  /// Takes hold of unknowns. reached: whether material reaches a function, (functions).
-  virtual void hold(const GridOf&, const std::vector<char>& /*reached*/, HeldUnknowns&) {}
+  /// Takes hold of unknowns. reached: whether material reaches a function, (functions); gaps: how far it is from a face
+  /// of the grid. Before the first phase it may be asked twice.
+  virtual void hold(const GridOf&, const std::vector<char>& /*reached*/, const FaceGaps<B, K>& /*gaps*/,
+                    HeldUnknowns&) {}
   /// F += the forces that depend on neither t nor u.
   virtual void begin_phase(const Parts&, Vec /*F*/) {}
   /// v: the velocities with which it begins, changed if they would go through a wall; (n).
@@ -103,6 +107,8 @@ class BoundaryCondition {
   /// reactions are looked at.
   virtual void add_load_on_supports(const Parts&, double /*t*/, const double* /*u*/, Vec /*F_s*/) const {}
 
+  /// Whether the phase should end, as what it touches lies elsewhere than its weights say.
+  virtual bool asks_for_next_phase() const { return false; }
   /// The phase ends with u.
   virtual void end_phase(const double* /*u*/) {}
 

@@ -15,6 +15,7 @@
 #include "scene/support_kind.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
+#include "space/boundary/touched_functions.hpp"
 
 namespace stillpoint {
 
@@ -27,19 +28,24 @@ class Supports final : public BoundaryCondition<B, K> {
  public:
   Supports(const Scene& scene, double time_scale) : scene_(scene), rest_(Expression(0.0), time_scale) {
     for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale, support.at);
+    touched_.resize(motions_.size());
   }
 
-  void hold(const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) override {
+  void hold(const GridOf& grid, const std::vector<char>& reached, const FaceGaps<B, K>& gaps,
+            HeldUnknowns& held) override {
     for (std::size_t s = 0; s < motions_.size(); ++s) {
       if (holds_by_springs(scene_.grid, scene_.supports[s])) continue;
       if (scene_.supports[s].face) {
-        hold_face(s, grid, reached, held);
+        hold_face(s, grid, reached, gaps, held);
       } else {
         hold_position(s, grid, reached, held);
       }
     }
   }
   bool varies() const override { return false; }
+  void archive(const StateArchive& state) override {
+    for (std::size_t s = 0; s < touched_.size(); ++s) touched_[s].archive(state.part(fmt::format("support_{}", s)));
+  }
 
  private:
   void hold_position(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {
@@ -59,14 +65,28 @@ class Supports final : public BoundaryCondition<B, K> {
     held.prescribe(unknown, motions_[s], s);
   }
 
-  // Every function that is not zero on the face, of a part those of its nodes: values move with the support, slopes
-  // along it stay.
-  void hold_face(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) {
+  // Every function that is not zero on the face and whose material lies on it, of a part those of its nodes: values
+  // move with the support, slopes along it stay.
+  void hold_face(std::size_t s, const GridOf& grid, const std::vector<char>& reached, const FaceGaps<B, K>& gaps,
+                 HeldUnknowns& held) {
     const SupportSpec& support = scene_.supports[s];
     const int axis = axis_of(*support.face);
     const std::vector<int> values = Basis::face_values(grid, axis, is_upper(*support.face));
-    for (const int function : Basis::face_functions(grid, axis, is_upper(*support.face))) {
-      if (!reached[static_cast<std::size_t>(function)] || !is_in_part(support, grid, function)) continue;
+    std::vector<int> functions = Basis::face_functions(grid, axis, is_upper(*support.face));
+    std::erase_if(functions, [&](int function) {
+      return !reached[static_cast<std::size_t>(function)] || !is_in_part(support, grid, function);
+    });
+    const bool is_first = held.start() == 0;
+    const int count = Basis::count(grid);
+    const std::vector<int> touched = is_first ? touched_[s].first(*support.face, functions, gaps, count)
+                                              : touched_[s].next(*support.face, functions, gaps, count);
+    if (is_first && touched.empty() && !functions.empty()) {
+      throw_scene_error(scene_, fmt::format("support[{}].face", s),
+                        gap_message("the nearest material", touched_[s].least(), gaps.cell_at(*support.face)) +
+                            ", and a support holds what lies on it; expected a body that reaches the face, or a grid "
+                            "that begins where the body does");
+    }
+    for (const int function : touched) {
       for (int component = 0; component < dim; ++component) {
         const int unknown = dim * function + component;
         const bool named = component == support.component;
@@ -103,6 +123,7 @@ class Supports final : public BoundaryCondition<B, K> {
   const Scene& scene_;
   PrescribedMotion rest_;
   std::vector<PrescribedMotion> motions_;                             // of each support
+  std::vector<TouchedFunctions> touched_;                             // of each, on its face
   std::map<std::pair<std::size_t, int>, PrescribedMotion> at_nodes_;  // of those that vary, and each of their functions
 };
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "scene/body_depth.hpp"
 
 namespace stillpoint {
 namespace {
@@ -31,27 +34,35 @@ std::vector<std::array<double, 2>> in_nodes(const std::vector<double>& component
 WallContact::WallContact(std::string name, bool upper, double friction, PrescribedMotion motion)
     : name_(std::move(name)), outward_(upper ? 1 : -1), friction_(friction), motion_(std::move(motion)) {}
 
-void WallContact::begin_phase(double t, ConstVec mass, std::vector<Node> nodes, Vec v) {
+void WallContact::begin_phase(const Phase& phase, ConstVec mass, std::vector<Node> nodes, Vec v) {
+  const auto known = [this](std::size_t k) { return stays(k); };
+  std::vector<double> gap(nodes.size(), 0);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    // Of points with a history their positions do not tell a thing so small as what one has been pressed into a wall.
+    if (!known(k)) gap[k] = phase.remembers ? std::max(0.0, nodes[k].gap) : nodes[k].gap;
+    if (std::abs(gap[k]) <= touching * phase.cell) gap[k] = 0;
+  }
   mass_ = mass;
   nodes_ = std::move(nodes);
+  gap_ = std::move(gap);
   closed_.resize(nodes_.size(), 0);
   slip_.resize(nodes_.size(), Along{});
   normal_force_.assign(nodes_.size(), 0);
   shear_force_.assign(nodes_.size(), Along{});
+  driving_.assign(nodes_.size(), Along{});
   held_.assign(nodes_.size(), 0);
-  start_ = motion_.displacement(t);
-  accepted_t_ = t;
-  const double velocity = motion_.velocity(t);
+  closed_across_gap_ = false;
+  cell_ = phase.cell;
+  start_ = phase.face_at;
+  accepted_t_ = phase.t;
+  const double velocity = motion_.velocity(phase.t);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    if (nodes_[k].normal < 0) {
-      closed_[k] = 0;
-      continue;
+    const bool may_touch = nodes_[k].normal >= 0 && gap_[k] <= 0;
+    if (!started_ || !may_touch) {
+      closed_[k] = may_touch;
+    } else if (closed_[k] || approaches(k, velocity, v)) {
+      close(k, velocity, v);
     }
-    if (!started_) {
-      closed_[k] = 1;
-      continue;
-    }
-    if (closed_[k] || approaches(k, velocity, v)) close(k, velocity, v);
   }
 }
 
@@ -77,11 +88,22 @@ bool WallContact::stop_along(std::size_t k, Vec v) {
   return moved;
 }
 
-// Of a node that slips, after a step: it sticks once its velocity has turned round. True if v was changed.
+// F_t = −Q_t would hold it; what exceeds the limit makes it slip the way of Q_t. 0 if it sticks.
+WallContact::Along WallContact::slip_of(std::size_t k) const {
+  const Along& Q_t = driving_[k];
+  return std::hypot(Q_t[0], Q_t[1]) > friction_ * std::abs(normal_force_[k]) ? direction(Q_t) : Along{};
+}
+
+// Of a node that slips, after a step: once its velocity has turned round it sticks, or slips on the way that it is
+// driven. True if v was changed.
 bool WallContact::slide(std::size_t k, Vec v) {
   const Along v_t = along(k, v);
   const double forwards = v_t[0] * slip_[k][0] + v_t[1] * slip_[k][1];
-  if (forwards < 0) return stop_along(k, v);
+  if (forwards < 0) {
+    const bool changed = stop_along(k, v);
+    slip_[k] = slip_of(k);
+    return changed;
+  }
   if (forwards > 0) slip_[k] = direction(v_t);
   return false;
 }
@@ -112,7 +134,7 @@ void WallContact::add_force(double t, const LinearDamping& C, Vec Q) const {
     Q[n] = held_[k];
     if (friction_ == 0) continue;
     const bool stays = sticks(slip_[k]);
-    const Along Q_t = along(k, Q);
+    const Along Q_t = driving_[k] = along(k, Q);
     const double limit = stays ? 0 : friction_ * std::max(0.0, -outward_ * normal_force_[k]);
     for (std::size_t i = 0; i < Q_t.size(); ++i) {
       if (nodes_[k].along[i] < 0) continue;
@@ -128,41 +150,52 @@ void WallContact::hold(Vec Q) const {
   }
 }
 
-bool WallContact::update(double t, ConstVec u, Vec v) {
-  const double velocity = motion_.velocity(t), moved = motion_.displacement(t) - start_;
+ContactChange WallContact::update(double t, Vec u, Vec v) {
+  const double velocity = motion_.velocity(t), wall = motion_.displacement(t) - start_;
+  const double rounding = 1e-11 * cell_, near = 1e-3 * cell_;
   step_ = t - accepted_t_;
   accepted_t_ = t;
-  bool changed = false;
-  if (!started_) {
-    started_ = true;
-    for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      if (!closed_[k]) continue;
-      closed_[k] = outward_ * normal_force_[k] < 0 || approaches(k, velocity, v);
-      if (closed_[k]) changed = close(k, velocity, v) || changed;
-    }
-  }
+  ContactChange change = ContactChange::nothing;
+  const auto changes = [&](bool changed, ContactChange what) {
+    if (changed) change = std::max(change, what);
+  };
+  const bool begins = !std::exchange(started_, true);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     if (nodes_[k].normal < 0) continue;
     const auto n = static_cast<std::size_t>(nodes_[k].normal);
+    const double past = outward_ * (u[n] - touches_at(k, wall));
+    const bool pulls = outward_ * normal_force_[k] > 0;
+    const auto put_back = [&] {
+      changes(u[n] != touches_at(k, wall), ContactChange::displacement);
+      u[n] = touches_at(k, wall);
+    };
+    if (begins && closed_[k])
+      closed_[k] = past >= -rounding && (past > rounding || !pulls || approaches(k, velocity, v));
     if (!closed_[k]) {
-      const bool touches = outward_ * (u[n] - moved) >= 0 && outward_ * (v[n] - velocity) > 0;
-      if (touches) changed = close(k, velocity, v) || changed;
+      const bool arrives = outward_ * (v[n] - velocity) > 0;
+      if (!(past > rounding || (past >= -rounding && arrives))) continue;
+      put_back();
+      changes(close(k, velocity, v), ContactChange::velocity);
+      closed_across_gap_ = closed_across_gap_ || gap_[k] > near;
       continue;
     }
-    if (outward_ * normal_force_[k] > 0) {
+    if (begins) changes(close(k, velocity, v), ContactChange::velocity);
+    if (past < -near || (pulls && past <= rounding)) {
       closed_[k] = 0;
       continue;
     }
+    if (std::abs(past) > rounding) {
+      put_back();
+      changes(close(k, velocity, v), ContactChange::velocity);
+    }
     if (std::isinf(friction_) || friction_ == 0) continue;
     if (!sticks(slip_[k])) {
-      changed = slide(k, v) || changed;
+      changes(slide(k, v), ContactChange::velocity);
       continue;
     }
-    // F_t = −Q_t holds it; what exceeds the limit makes it slip the way of Q_t.
-    const Along& F_t = shear_force_[k];
-    if (std::hypot(F_t[0], F_t[1]) > friction_ * std::abs(normal_force_[k])) slip_[k] = direction({-F_t[0], -F_t[1]});
+    slip_[k] = slip_of(k);
   }
-  return changed;
+  return change;
 }
 
 // On the wall: minus the forces on the body. Power on the body: Σ F_n w.
@@ -182,6 +215,8 @@ void WallContact::archive(const StateArchive& state) {
   state("closed", closed_);
   std::vector<double> slip = components_of(slip_), shear_force = components_of(shear_force_);
   state("slip", slip);
+  state("gap", gap_);
+  state("closed_across_gap", closed_across_gap_);
   state("started", started_);
   state("displacement_at_start", start_);
   state("accepted_t", accepted_t_);
@@ -193,12 +228,12 @@ void WallContact::archive(const StateArchive& state) {
   slip_ = in_nodes(slip);
   shear_force_ = in_nodes(shear_force);
   const std::size_t saved = closed_.size();
-  for (const std::size_t size : {slip_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
+  for (const std::size_t size : {slip_.size(), gap_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
     if (size != saved) throw StateError(fmt::format("of the wall '{}' the numbers of nodes differ", name_));
   // The nodes are those of the phase that is restored, or before it begins some others.
   closed_.resize(nodes_.size(), 0);
   for (auto* const components : {&slip_, &shear_force_}) components->resize(nodes_.size(), Along{});
-  for (auto* const forces : {&held_, &normal_force_}) forces->resize(nodes_.size(), 0);
+  for (auto* const values : {&gap_, &held_, &normal_force_}) values->resize(nodes_.size(), 0);
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (nodes_[k].normal < 0) closed_[k] = 0;
 }

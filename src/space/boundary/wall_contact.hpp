@@ -2,20 +2,30 @@
 //
 // A wall acts at the grid functions that alone are not zero on its face. Each of its nodes is open or closed, and when
 // closed sticks or slips. The set changes only between accepted steps, so that within a step the motion stays a smooth
-// ODE; the forces follow from it. With the out-of-balance force Q, the wall's velocity w, and s = ±1 outwards:
+// ODE; the forces follow from it. With the out-of-balance force Q, the wall's displacement u_w and velocity w, s = ±1
+// outwards, and the gap g between the node's material and the wall when the phase began (FaceGaps):
 //
 //   closed   a_n = w',  contact force  F_n = m (w' + c w) − Q_n          opens if s F_n > 0, tension
-//   open     F_n = 0                                                     closes when it touches: s (u_n − u_w) ≥ 0 and
-//                                                                        s (v_n − w) > 0; then v_n = w
+//   open     F_n = 0                                                     closes when its material touches: s (u_n −
+//   u_w) ≥ g;
+//                                                                        then u_n = u_w + s g, v_n = w
 //   stick    a_t = 0,   F_t = −Q_t                                       slips when |F_t| > μ |F_n|, along Q_t
-//   slip     F_t = −μ |F_n| d, d the direction of v_t                    sticks when v_t turns round; then v_t = 0
+//   slip     F_t = −μ |F_n| d, d the direction of v_t                    when v_t turns round v_t = 0, and it sticks
+//   unless
+//                                                                        |Q_t| > μ |F_n|: then it slips along Q_t
 //
 // t: along the face, one component in the plane and two in space, where d turns with v_t from step to step.
 // w and w' of a closed node are differences over the last step's length: a wall that stops or starts at once does so
-// within a step, wherever in it that falls.
+// within a step, wherever in it that falls. What has gone past the wall within a step, or lies inside it, is put back
+// onto it: where a body comes to rest does not depend on how it came there.
+//
+// Where g > 0 there is a layer without material between the wall and what it touches, whose functions resist too
+// little. So a phase should end when a node has closed across more than a thousandth of a cell: the next one begins
+// where the material touches the wall.
 #pragma once
 
 #include <stillpoint/damping.hpp>
+#include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/state_archive.hpp>
 #include <stillpoint/types.hpp>
 
@@ -38,17 +48,27 @@ class WallContact {
   struct Node {
     int normal = -1;
     std::array<int, 2> along{-1, -1};
+    double gap = 0;  // g [m]; of a node whose gap() is not asked for it does not matter
+  };
+  struct Phase {
+    double t = 0;            // when it begins [s]
+    double face_at = 0;      // how far the face of the grid has moved [m]
+    double cell = 0;         // the width of the cells there [m]
+    bool remembers = false;  // whether the body has a history, which a jump of a node would leave its mark in
   };
   /// mass: diagonal of the lumped M, which outlives the phase, (n).
-  void begin_phase(double t, ConstVec mass, std::vector<Node> nodes, Vec v);
+  void begin_phase(const Phase& phase, ConstVec mass, std::vector<Node> nodes, Vec v);
+  /// Whether node k was closed where its material touches: its gap is 0.
+  bool stays(std::size_t k) const { return started_ && k < closed_.size() && closed_[k] && gap_[k] == 0; }
 
   /// Q += contact forces, for C = c_m M + c_i I; Q: (n). A pure function of what is closed.
   void add_force(double t, const LinearDamping& C, Vec Q) const;
   /// Q of the closed nodes' normals as the last add_force() left it.
   void hold(Vec Q) const;
-  /// Opens and closes nodes after an accepted step at t. Q: the last one given to add_force, without contact. True
-  /// if an entry of v was changed.
-  bool update(double t, ConstVec u, Vec v);
+  /// Opens and closes nodes after an accepted step at t; the last add_force() was there. What of u and v it changes.
+  ContactChange update(double t, Vec u, Vec v);
+  /// Whether a node has closed across a gap that weights see.
+  bool asks_for_next_phase() const { return closed_across_gap_; }
   /// What the body does to it, of the last add_force(), and where it is at t.
   WallReaction reaction(double t) const;
   void archive(const StateArchive& state);
@@ -62,9 +82,11 @@ class WallContact {
   /// Of v or Q at a node; 0 where it is not free.
   Along along(std::size_t k, ConstVec values) const;
   bool stop_along(std::size_t k, Vec v);
+  Along slip_of(std::size_t k) const;
   bool slide(std::size_t k, Vec v);
   bool approaches(std::size_t k, double velocity, ConstVec v) const;
   bool close(std::size_t k, double velocity, Vec v);
+  double touches_at(std::size_t k, double wall) const { return wall + outward_ * gap_[k]; }
 
   std::string name_;
   double outward_, friction_;
@@ -73,14 +95,18 @@ class WallContact {
   std::vector<Node> nodes_;
   std::vector<int> closed_;  // 1 or 0
   std::vector<Along> slip_;  // d; 0 if it sticks
+  std::vector<double> gap_;  // g [m]
+  bool closed_across_gap_ = false;
+  double cell_ = 0;  // of the phase [m]
   // When the run begins, every node is taken for closed until the first forces show which ones the wall would have to
   // pull: a body that leans on a wall does so from the start, also on one that begins to give way.
   bool started_ = false;
-  double start_ = 0;                          // the wall's displacement when the phase began [m]
+  double start_ = 0;                          // the displacement of the face that the phase's positions go by [m]
   double accepted_t_ = 0, step_ = 0;          // end and length of the last step; 0: none yet [s]
   mutable std::vector<double> held_;          // m (w' + c w) of closed nodes at the last add_force()
   mutable std::vector<double> normal_force_;  // F_n and F_t on the body's nodes, likewise
   mutable std::vector<Along> shear_force_;
+  mutable std::vector<Along> driving_;  // Q_t of nodes that slip or stick, likewise
 };
 
 }  // namespace stillpoint

@@ -3,12 +3,17 @@
 
 #include <stillpoint/scene.hpp>
 
+#include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
+#include "space/boundary/carried_point.hpp"
+#include "space/boundary/touched_functions.hpp"
 #include "space/boundary/wall_contact.hpp"
 
 namespace stillpoint {
@@ -21,16 +26,21 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
   using typename BoundaryCondition<B, K>::Parts;
 
  public:
-  Walls(const Scene& scene, double time_scale) {
+  /// The scene outlives it.
+  Walls(const Scene& scene, double time_scale) : scene_(scene) {
     for (const WallSpec& wall : scene.walls) {
-      walls_.push_back({wall.face, {}, {wall.name, is_upper(wall.face), wall.friction, {wall.motion, time_scale}}});
+      walls_.push_back({wall.face, {}, {}, {wall.name, is_upper(wall.face), wall.friction, {wall.motion, time_scale}}});
     }
   }
 
-  void hold(const GridOf& grid, const std::vector<char>&, HeldUnknowns& held) override {
-    for (Wall& wall : walls_) {
+  void hold(const GridOf& grid, const std::vector<char>& reached, const FaceGaps<B, K>& gaps,
+            HeldUnknowns& held) override {
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      Wall& wall = walls_[w];
       wall.functions = Basis::face_values(grid, axis_of(wall.face), is_upper(wall.face));
       for (const int function : wall.functions) held.guide(dim * function + axis_of(wall.face));
+      if (!has_phases(scene_)) check_gaps(w, gaps);
+      take_gaps(wall, reached, gaps);
     }
   }
   // Where another wall crosses, that one alone acts along it.
@@ -43,7 +53,7 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
       const int normal = axis_of(wall.face);
       std::vector<WallContact::Node> nodes;
       for (const int function : wall.functions) {
-        WallContact::Node node{.normal = free_dof(dim * function + normal)};
+        WallContact::Node node{.normal = free_dof(dim * function + normal), .gap = wall.gaps[nodes.size()]};
         for (int axis = 0, k = 0; axis < dim; ++axis) {
           if (axis == normal) continue;
           const int along = dim * function + axis;
@@ -51,10 +61,17 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
         }
         nodes.push_back(node);
       }
-      wall.contact.begin_phase(t, phase.mass.diagonal(), std::move(nodes), v);
+      wall.contact.begin_phase({.t = t,
+                                .face_at = moved(wall.face, phase.grid),
+                                .cell = cell_width(phase.grid, wall.face),
+                                .remembers = phase.remembers},
+                               phase.mass.diagonal(), std::move(nodes), v);
     }
   }
   bool varies() const override { return false; }
+  bool asks_for_next_phase() const override {
+    return std::ranges::any_of(walls_, [](const Wall& wall) { return wall.contact.asks_for_next_phase(); });
+  }
 
   void archive(const StateArchive& state) override {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
@@ -77,10 +94,10 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
   void hold(Vec Q) const override {
     for (const Wall& wall : walls_) wall.contact.hold(Q);
   }
-  bool update(double t, ConstVec u, Vec v) override {
-    bool changed = false;
-    for (Wall& wall : walls_) changed = wall.contact.update(t, u, v) || changed;
-    return changed;
+  ContactChange update(double t, Vec u, Vec v) override {
+    ContactChange change = ContactChange::nothing;
+    for (Wall& wall : walls_) change = std::max(change, wall.contact.update(t, u, v));
+    return change;
   }
   double squared_forces(double sum) const override {
     for (const Wall& wall : walls_) sum += wall.contact.square_of_forces();
@@ -90,8 +107,49 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
   struct Wall {
     Face face;
     std::vector<int> functions;  // value functions on the face of the present grid
+    std::vector<double> gaps;    // of each, as the phase begins [m]
     WallContact contact;
   };
+
+  // In a single phase functions stay what they are: what does not lie on a wall when the run begins touches it through
+  // a layer without material, or not at all.
+  void check_gaps(std::size_t w, const FaceGaps<B, K>& gaps) const {
+    const Face face = walls_[w].face;
+    const double cell = gaps.cell_at(face), nearest = gaps.least_of_bodies(face);
+    const auto refuse = [&](const std::string& what, double gap) {
+      throw_scene_error(scene_, fmt::format("wall[{}].face", w),
+                        gap_message(what, gap, cell) +
+                            ", and in a single phase only what lies on a wall from the start can touch it; expected a "
+                            "body on the wall, a grid that ends where the body does, or phase.max_motion");
+    };
+    if (nearest > touching * cell) refuse("the nearest body", nearest);
+    for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
+      const double gap = gaps.of_body(body, face);
+      if (gap > touching * cell && gap < (1 - touching) * cell) refuse(fmt::format("body[{}]", body), gap);
+    }
+  }
+  // Of the functions that are not closed where their material touches.
+  static void take_gaps(Wall& wall, const std::vector<char>& reached, const FaceGaps<B, K>& gaps) {
+    wall.gaps.assign(wall.functions.size(), 0);
+    std::vector<int> asked;
+    std::vector<std::size_t> place;
+    for (std::size_t k = 0; k < wall.functions.size(); ++k) {
+      if (wall.contact.stays(k) || !reached[static_cast<std::size_t>(wall.functions[k])]) continue;
+      asked.push_back(wall.functions[k]);
+      place.push_back(k);
+    }
+    if (asked.empty()) return;
+    const std::vector<double> found = gaps.of(wall.face, asked);
+    for (std::size_t k = 0; k < place.size(); ++k) wall.gaps[place[k]] = found[k];
+  }
+  // How far the grid's face has moved since the start [m].
+  double moved(Face face, const GridOf& grid) const {
+    const auto axis = static_cast<std::size_t>(axis_of(face));
+    return is_upper(face) ? grid.axes[axis].max() - scene_.grid.max[axis]
+                          : grid.axes[axis].min() - scene_.grid.min[axis];
+  }
+
+  const Scene& scene_;
   std::vector<Wall> walls_;
 };
 

@@ -27,6 +27,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/body_depth.hpp"
 #include "scene/support_kind.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
@@ -151,7 +152,7 @@ class WeakSupports {
     held.motion = std::make_shared<const PrescribedMotion>(motion.at({x.begin(), x.end()}));
     check_motion(scene_, support, *held.motion);
   }
-  // Where bodies are, some pieces to a cell.
+  // Where bodies lie on it, some pieces to a cell.
   void cut_face([[maybe_unused]] std::size_t s, [[maybe_unused]] const GridOf& grid) {
     if constexpr (dim > 1) {
       const SupportSpec& support = scene_.supports[s];
@@ -159,9 +160,8 @@ class WeakSupports {
       const Axis& across = grid.axes[normal];
       const double face = is_upper(*support.face) ? across.max() : across.min();
       for (const BodySpec& body : scene_.bodies) {
-        const bool is_there = is_upper(*support.face) ? body.max[normal] > across.nodes[across.nodes.size() - 2]
-                                                      : body.min[normal] < across.nodes[1];
-        if (!is_there) continue;
+        const BodyDepth shape(body);
+        const double inwards = touching * cell_width(grid, *support.face) * (is_upper(*support.face) ? -1 : 1);
         std::vector<FaceInterval> part = held_part(scene_.grid, support);
         for (FaceInterval& interval : part) {
           interval.from = std::max(interval.from, body.min[interval.along]);
@@ -171,6 +171,9 @@ class WeakSupports {
           return face_rule(body, along, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
         };
         for_face_pieces<dim>(grid, normal, face, part, rule, [&](const Point<dim>& x, double size, double share) {
+          Point<dim> inside = x;
+          inside[normal] += inwards;
+          if (shape.is_known() && !shape.contains(inside)) return;  // nothing is held across a gap
           const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
           for (int i = 0; i < dim; ++i) {
             if (i == support.component || !support.roller) add(s, i, x, size * depth, share);

@@ -22,6 +22,7 @@
 #include "space/boundary/support_report.hpp"
 #include "space/boundary/wall_reaction.hpp"
 #include "space/phase/place_reader.hpp"
+#include "space/points/body_gap.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
@@ -139,6 +140,10 @@ class LagrangianPhase : public SemiDiscrete {
   /// Of loads that a displacement drives, at (t, u); none if none are.
   virtual std::optional<LoadState> load_state(double t, ConstVec u) const = 0;
   virtual std::vector<FreePart> free_parts() const = 0;
+  /// The bodies of the scene that share a function of the grid, pair by pair.
+  virtual std::vector<BodyGap> body_gaps() const = 0;
+  /// Whether a support, a spring or a wall acts at a function that reaches it, of each body of the scene.
+  virtual std::vector<char> held_bodies() const = 0;
   /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
   /// Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;

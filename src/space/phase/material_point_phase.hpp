@@ -59,8 +59,10 @@ class MaterialPointPhase final : public LagrangianPhase,
         inertia_(scene.mass, moves_on(scene)),
         boundary_(make_boundary_conditions<B, K>(scene_, grid_, time_scale())),
         weak_supports_(scene_, grid_, time_scale()),
-        load_control_(scene, grid_, time_scale()) {
+        load_control_(scene, grid_, time_scale()),
+        depths_(scene_) {
     describe();
+    depths_.begin(body_.first_number, origin_);
     for (const auto& condition : boundary_) {
       Contact* found = condition->contact();
       if (found && contact_) throw std::logic_error("two kinds of boundary conditions have contact");
@@ -104,6 +106,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::vector<WeakSupport> weak_supports(double t, ConstVec u) const override;
   std::optional<LoadState> load_state(double t, ConstVec u) const override;
   std::vector<FreePart> free_parts() const override;
+  std::vector<BodyGap> body_gaps() const override;  // phase_bodies.hpp
+  std::vector<char> held_bodies() const override;
   double stiffening(double t, ConstVec u) const override;
   PhaseControl& control() override { return *this; }
   const PhaseControl& control() const override { return *this; }
@@ -202,6 +206,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void take_saved_grid();
   void resume_phase(double t);
   void make_weights();
+  FaceGaps<B, K> face_gaps() { return {grid_, body_.points, weights_, depths_}; }
   std::vector<char> active_functions() const;
   bool follows_positions();
   void weigh_motion();
@@ -238,7 +243,9 @@ class MaterialPointPhase final : public LagrangianPhase,
   double spread_and_measure(double t, ConstVec u, std::vector<double>& grid) const;
   double largest_strain(const double* grid_u) const;
 
-  PhaseParts<B, K> parts() const { return {grid_, body_.points, weights_, held_, *dofs_, inertia_.mass(), *mass_}; }
+  PhaseParts<B, K> parts() const {
+    return {grid_, body_.points, weights_, held_, *dofs_, inertia_.mass(), *mass_, history_dependent_};
+  }
 
   // --- values at the grid's functions and at the points --------------------------------------------
   const PointMaterial<K>& material_of(std::size_t k) const {
@@ -303,6 +310,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   // Positions at the start of the run, in the points' order of then, (P × Dim); none if points stay where they are.
   std::vector<double> origin_;
   long looks_ = 0;  // of progress() at the strain
+  SurfaceDepths<Dim> depths_;
   DeformationFromPositions<B, K> deformation_;
   double motion_since_deformation_ = 0;  // was taken from the positions, at most [cells]
 

@@ -13,6 +13,8 @@ template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   if (!updated_lagrangian()) return 0;
   if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
+  for (const auto& condition : boundary_)
+    if (condition->asks_for_next_phase()) return 1;
   double share = 0;
   if (scene_.phase.max_motion) {
     const bool committed = history_dependent_ && t == committed_t_;
@@ -82,7 +84,8 @@ void MaterialPointPhase<B, K>::place_functions(double t) {
   make_weights();
   std::vector<char> reached = active_functions();
   held_ = HeldUnknowns(Dim * reached.size(), t);
-  for (const auto& condition : boundary_) condition->hold(grid_, reached, held_);
+  const FaceGaps<B, K> gaps = face_gaps();
+  for (const auto& condition : boundary_) condition->hold(grid_, reached, gaps, held_);
   untouched_ = untouched_functions();
   if (dofs_ && reached == reached_ && held_.prescribed() == dofs_->prescribed) return;
   dofs_.emplace(reached, Dim, held_.prescribed(), extension_);

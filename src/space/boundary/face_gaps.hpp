@@ -1,0 +1,111 @@
+// How far material is from a face of the grid, function by function.
+//
+// A function that is not zero on a face reaches a cell into the grid, so that it may move material that the face does
+// not touch. Its gap is that of the material which is nearest to the face,
+//
+//   g_a = min_p s (x_face − x_p) − d_p,   over the points with N_ap > 0,
+//
+// s = ±1 outwards, d_p how far p lies below its body's surface: of a domain by its corners as they are, else as the
+// body was filled. So u_a ≤ g_a at all functions of a face lets no material pass it: Σ_a N_a u_a ≤ g of each position.
+#pragma once
+
+#include <stillpoint/scene_options.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "space/grid/basis.hpp"
+#include "space/kernels/point_weights.hpp"
+#include "space/points/material_points.hpp"
+#include "space/points/point_domains.hpp"
+#include "space/points/surface_depths.hpp"
+
+namespace stillpoint {
+
+/// Of the cells at a face of a grid, along its normal [m].
+template <int Dim>
+double cell_width(const Grid<Dim>& grid, Face face) {
+  const auto& nodes = grid.axes[axis_of(face)].nodes;
+  return is_upper(face) ? nodes.back() - nodes[nodes.size() - 2] : nodes[1] - nodes[0];
+}
+
+template <AxisBasis B, Kinematics K>
+class FaceGaps {
+  static constexpr int dim = dimensions(K);
+  static constexpr int per_cell = PointWeights<B, K>::per_cell;
+  using Basis = TensorBasis<B, dim>;
+
+ public:
+  static constexpr double nothing = std::numeric_limits<double>::infinity();
+
+  /// All outlive it, and are of the phase that begins.
+  FaceGaps(const Grid<dim>& grid, const MaterialPoints<dim>& points, const PointWeights<B, K>& weights,
+           SurfaceDepths<dim>& depths)
+      : grid_(grid), points_(points), weights_(weights), depths_(depths) {}
+
+  /// Of each of these functions of a face, ascending [m]; `nothing` if no material reaches it, 0 where it is not known.
+  std::vector<double> of(Face face, const std::vector<int>& functions) const {
+    const bool upper = is_upper(face);
+    const int axis = axis_of(face);
+    const int cells = grid_.axes[axis].cells();
+    const double at = position_of(face);
+    std::vector<double> gaps(functions.size(), nothing);
+    for (std::size_t k = 0; k < points_.cells(); ++k) {
+      const int from_face = upper ? cells - 1 - weights_.cell_at(k)[axis] : weights_.cell_at(k)[axis];
+      if (from_face >= B::window) continue;
+      for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
+        double gap = nothing;
+        for (int a = 0; a < per_cell; ++a) {
+          if (!reaches(k, p, a)) continue;
+          const auto found = std::ranges::lower_bound(functions, weights_.function(k, a));
+          if (found == functions.end() || *found != weights_.function(k, a)) continue;
+          if (gap == nothing) gap = of_point(p, face, at);
+          double& least = gaps[static_cast<std::size_t>(found - functions.begin())];
+          least = std::min(least, gap);
+        }
+      }
+    }
+    return gaps;
+  }
+  /// The least gap of a body as it was described, [m]: also where it touches a face between two points.
+  double least_of_bodies(Face face) const {
+    double least = nothing;
+    for (std::size_t body = 0; body < depths_.bodies(); ++body) least = std::min(least, of_body(body, face));
+    return least;
+  }
+  double of_body(std::size_t body, Face face) const { return depths_.gap(body, face, position_of(face)); }
+
+  double cell_at(Face face) const { return cell_width(grid_, face); }
+
+ private:
+  // Those of its cell that are zero at a point are so on a grid line alone; a domain need not reach into the next cell.
+  bool reaches([[maybe_unused]] std::size_t k, [[maybe_unused]] std::size_t p, [[maybe_unused]] int a) const {
+    constexpr double rounding = 1e-12;
+    if constexpr (B::window == 1) return true;
+    return std::abs(weights_.N(k, p)[a]) > rounding;
+  }
+  double position_of(Face face) const {
+    const Axis& across = grid_.axes[axis_of(face)];
+    return is_upper(face) ? across.max() : across.min();
+  }
+  double of_point(std::size_t p, Face face, double at) const {
+    const int axis = axis_of(face);
+    const double outward = is_upper(face) ? 1 : -1;
+    if (points_.has_domains()) {
+      double least = nothing;
+      for (const auto& corner : Domain<dim>::of(points_, p).x) least = std::min(least, outward * (at - corner[axis]));
+      return least;
+    }
+    const auto depth = depths_.along(face, points_.number[p], points_.position(p));
+    return depth ? outward * (at - points_.x[axis][p]) - *depth : 0;
+  }
+
+  const Grid<dim>& grid_;
+  const MaterialPoints<dim>& points_;
+  const PointWeights<B, K>& weights_;
+  SurfaceDepths<dim>& depths_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,15 @@
+// How far two bodies that share functions of the grid are apart.
+#pragma once
+
+#include <cstddef>
+
+namespace stillpoint {
+
+/// Bodies a < b of a scene.
+struct BodyGap {
+  std::size_t a = 0, b = 0;
+  double gap = 0;    // the least between them [m]; 0 if they touch
+  double cells = 0;  // the same in cells
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,63 @@
+// How deep material points lay below the surface of their body when it was filled, remembered for those that come near
+// a face of the grid.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "scene/body_depth.hpp"
+#include "space/grid/grid.hpp"
+
+namespace stillpoint {
+
+template <int Dim>
+class SurfaceDepths {
+ public:
+  /// The scene outlives it.
+  explicit SurfaceDepths(const Scene& scene) : scene_(scene) {}
+
+  /// first_number: of the points of each body, and how many there are; origin: positions at the start of the run, by
+  /// number, (P × Dim), or empty if points stay where they are. Both outlive this object.
+  void begin(const std::vector<int>& first_number, const std::vector<double>& origin) {
+    first_number_ = &first_number;
+    origin_ = &origin;
+    for (const BodySpec& body : scene_.bodies) bodies_.emplace_back(body);
+  }
+
+  /// Of the point with this number, along the normal of a face of the grid [m], or two cells if it is deeper. Empty if
+  /// the surface of its body is not known. x: its position, if that of the start is the same.
+  std::optional<double> along(Face face, int number, const Point<Dim>& x) {
+    auto& known = known_[static_cast<std::size_t>(face)];
+    const auto [found, is_new] = known.try_emplace(number);
+    if (!is_new) return found->second;
+    Point<Dim> X = x;
+    if (!origin_->empty()) std::copy_n(origin_->begin() + static_cast<std::ptrdiff_t>(Dim) * number, Dim, X.begin());
+    const auto body = std::ranges::upper_bound(*first_number_, number) - first_number_->begin() - 1;
+    const auto axis = static_cast<std::size_t>(axis_of(face));
+    found->second =
+        bodies_[static_cast<std::size_t>(body)].along(X, axis, is_upper(face), 2 * scene_.grid.cell_length(axis));
+    return found->second;
+  }
+
+  std::size_t bodies() const { return scene_.bodies.size(); }
+  /// Between a body, as it was described, and a face of the grid at this coordinate [m]; 0 if nobody knows.
+  double gap(std::size_t body, Face face, double at) const {
+    if (!bodies_[body].is_known()) return 0;
+    const auto axis = static_cast<std::size_t>(axis_of(face));
+    return is_upper(face) ? at - scene_.bodies[body].max[axis] : scene_.bodies[body].min[axis] - at;
+  }
+
+ private:
+  const Scene& scene_;
+  const std::vector<int>* first_number_ = nullptr;
+  const std::vector<double>* origin_ = nullptr;
+  std::vector<BodyDepth> bodies_;
+  std::array<std::unordered_map<int, std::optional<double>>, static_cast<std::size_t>(2 * Dim)> known_;
+};
+
+}  // namespace stillpoint
