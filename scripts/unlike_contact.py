@@ -1,20 +1,18 @@
-"""Unlike scenes with walls: elastic bodies that open, close, are thrown, pushed and moved, and bodies above a gap.
+"""Unlike scenes with walls: elastic bodies that open, close, are thrown, pushed and moved.
 
-The equilibrium of an elastic body on smooth walls is unique: every way there has to give it. Where all of a face ends up
-on its wall, a roller in the place of the wall has the same one.
+The equilibrium of an elastic body on smooth walls is unique: every way there has to give it. Where all of a face ends
+up on its wall, a roller in the place of the wall has the same one.
 """
 
 import math
-from dataclasses import replace
 
 from unlike_scene import (
-    IN_TIME, Unlike, base_scene, changed, confined_modulus, log_uniform, material, points_of, rounded, settled, some,
-    uniform, wave_time,
+    BASES, IN_TIME, Unlike, base_scene, changed, confined_modulus, log_uniform, material, points_of, rounded, wave_time,
+    ways_of,
 )  # fmt: skip
 
 FLOOR = "floor"
-NOT_IF_A_WALL_MOVES = {"kinetic", "fire", "fire2", "nesterov"}  # they set velocities to 0, the wall's too, and are refused
-GAP = "gap|apart|above|reach|touch|between|beyond"
+NOT_IF_A_WALL_MOVES = {"kinetic", "fire", "fire2", "nesterov"}  # set velocities to 0, the wall's too: refused
 
 
 def in_time(scene):
@@ -92,7 +90,7 @@ def disturb(r, scene, m, g, height, h, axis, kinds=None):
 
 def column_on_wall(r, all_ways=False):
     """A column between rollers, a free block without lateral strain, or a bar, on a wall; pressed besides or not."""
-    dim, basis = r.choice([1, 2, 2, 2, 3]), r.choice(["linear", "quadratic", "cubic"])
+    dim, basis = r.choice([1, 2, 2, 2, 3]), r.choice(BASES)
     free = dim == 2 and r.random() < 0.3
     across, up, h = (3 if free else r.randint(1, 3)), r.randint(2, 6 if dim < 3 else 3), log_uniform(r, 0.05, 5)
     room = r.choice([0, 1, 2])  # cells above it
@@ -131,7 +129,7 @@ def column_on_wall(r, all_ways=False):
     scene["title"] = f"on a wall in {dim} dimensions, {basis}, {m['law']}, {kind}{', free' if free else ''}"
     return Unlike(
         scene,
-        in_time(scene) if all_ways else some(r, in_time(scene), 4),
+        ways_of(r, in_time(scene), all_ways, 4),
         answer=answer,
         components=(axis,),
         moved=moved,
@@ -143,7 +141,7 @@ def column_on_wall(r, all_ways=False):
 
 def block_in_corner(r, all_ways=False):
     """A block in a corner of two smooth walls under gravity that is tilted into it. It may lean, and open a part."""
-    basis, nx, ny, h = r.choice(["linear", "quadratic", "cubic"]), r.randint(1, 4), r.randint(1, 4), log_uniform(r, 0.05, 5)
+    basis, nx, ny, h = r.choice(BASES), r.randint(1, 4), r.randint(1, 4), log_uniform(r, 0.05, 5)
     m = material(r, r.choice(["linear-elastic", "linear-elastic", "hencky"]))
     cells = [nx + 1, ny + 1]
     size, high = [rounded(n * h, 10) for n in cells], [rounded(nx * h, 10), rounded(ny * h, 10)]
@@ -166,7 +164,7 @@ def block_in_corner(r, all_ways=False):
     scene["title"] = f"in a corner, {basis}, {m['law']}, {kind}"
     return Unlike(
         scene,
-        in_time(scene) if all_ways else some(r, in_time(scene), 4),
+        ways_of(r, in_time(scene), all_ways, 4),
         moved=moved,
         cell=h,
         above={"base": (1, moved), "flank": (0, 0.0)},
@@ -176,7 +174,7 @@ def block_in_corner(r, all_ways=False):
 
 def plate_that_opens(r, all_ways=False):
     """A plate on a smooth floor, pulled up at one end: a part of it opens, and may do so more than once."""
-    basis, nx, ny, h = r.choice(["linear", "quadratic", "cubic"]), r.randint(4, 10), r.randint(1, 2), log_uniform(r, 0.05, 5)
+    basis, nx, ny, h = r.choice(BASES), r.randint(4, 10), r.randint(1, 2), log_uniform(r, 0.05, 5)
     m = material(r, "linear-elastic")
     cells = [nx, ny + 1]
     size, high = [rounded(n * h, 10) for n in cells], [rounded(nx * h, 10), rounded(ny * h, 10)]
@@ -197,12 +195,13 @@ def plate_that_opens(r, all_ways=False):
     if "t" in pulled:
         scene["stop"]["time"] = rounded(4000 * T)
     scene["probe"] = [
-        {"name": f"at_{k}", "at": [rounded(x * high[0], 10), 0.0], "fields": ["u.x", "u.y"]} for k, x in enumerate((0, 0.3, 0.7, 1))
+        {"name": f"at_{k}", "at": [rounded(x * high[0], 10), 0.0], "fields": ["u.x", "u.y"]}
+        for k, x in enumerate((0, 0.3, 0.7, 1))
     ]
     scene["title"] = f"a plate that opens, {basis}, {kind}"
     return Unlike(
         scene,
-        in_time(scene) if all_ways else some(r, in_time(scene), 4),
+        ways_of(r, in_time(scene), all_ways, 4),
         cell=h,
         above={f"at_{k}": (1, 0.0) for k in range(4)},
         needed=True,
@@ -211,7 +210,7 @@ def plate_that_opens(r, all_ways=False):
 
 def between_walls(r, all_ways=False):
     """A column between two walls of which the upper one presses it, and may let it go again."""
-    basis, nx, ny, h = r.choice(["linear", "quadratic", "cubic"]), r.randint(1, 3), r.randint(2, 6), log_uniform(r, 0.05, 5)
+    basis, nx, ny, h = r.choice(BASES), r.randint(1, 3), r.randint(2, 6), log_uniform(r, 0.05, 5)
     m = material(r, "linear-elastic")
     size = [rounded(nx * h, 10), rounded(ny * h, 10)]
     scene = base_scene(2, size, [nx, ny], basis, {"points_per_cell": points_of(r, basis, 2)}, m, "plane-strain")
@@ -223,7 +222,8 @@ def between_walls(r, all_ways=False):
     scene["support"] = [{"face": "left", "kind": "roller"}, {"face": "right", "kind": "roller"}]
     press = r.choice([f"-{d}*min(t/{rounded(t1 + T)}, 1)", f"-{d}*(t>={t1})", f"-{d}"])
     if back:
-        press = r.choice([f"-{d}*((t>={t1}) - (t>={t2}))", f"-{d}*(min(t/{rounded(t1 + T)}, 1) - min(max(t/{t2} - 1, 0), 1))"])
+        slowly = f"min(t/{rounded(t1 + T)}, 1) - min(max(t/{t2} - 1, 0), 1)"
+        press = r.choice([f"-{d}*((t>={t1}) - (t>={t2}))", f"-{d}*({slowly})"])
     scene["wall"] = [{"name": FLOOR, "face": "bottom"}, {"name": "lid", "face": "top", "motion": press}]
     g = rounded(log_uniform(r, 1e-7, 0.5 * strain) * confined_modulus(m) / (m["rho"] * size[1]))
     scene["body_force"] = {"value": [0.0, -g]}
@@ -240,7 +240,7 @@ def between_walls(r, all_ways=False):
     scene["title"] = f"between walls, {basis}, {'pressed and let go' if back else 'pressed'}"
     return Unlike(
         scene,
-        in_time(scene) if all_ways else some(r, in_time(scene), 4),
+        ways_of(r, in_time(scene), all_ways, 4),
         answer=answer,
         components=(1,),
         cell=h,
@@ -251,7 +251,7 @@ def between_walls(r, all_ways=False):
 
 def on_wall_in_phases(r, all_ways=False):
     """A column of a large-strain law on a wall, through many phases; the grid follows a wall that moves."""
-    basis, nx, ny, h = r.choice(["linear", "quadratic", "cubic"]), 2, r.randint(4, 8), log_uniform(r, 0.05, 5)
+    basis, nx, ny, h = r.choice(BASES), 2, r.randint(4, 8), log_uniform(r, 0.05, 5)
     m = material(r, r.choice(["hencky", "neo-hookean"]), r.choice([0.0, 0.2, 0.3]))
     cells = [nx, ny + 2]
     size, height = [rounded(n * h, 10) for n in cells], rounded(ny * h, 10)
@@ -273,7 +273,7 @@ def on_wall_in_phases(r, all_ways=False):
     scene["title"] = f"on a wall in phases, {basis}, {m['law']}, {kind}"
     return Unlike(
         scene,
-        in_time(scene) if all_ways else some(r, in_time(scene), 3),
+        ways_of(r, in_time(scene), all_ways, 3),
         answer=answer,
         tolerance=0.02,
         unique=5e-3,
@@ -285,86 +285,4 @@ def on_wall_in_phases(r, all_ways=False):
     )
 
 
-# --- across a gap --------------------------------------------------------------------------------------
-
-
-def above_gap(r):
-    """A column between rollers above a wall or a held face, and nothing between: (scene, gap in cells, g)"""
-    basis, nx, ny, h = r.choice(["linear", "quadratic", "cubic"]), r.randint(1, 3), r.randint(4, 6), log_uniform(r, 0.05, 5)
-    gap = r.choice([rounded(r.uniform(0.01, 1), 3), rounded(r.uniform(0.1, 2.5), 3), 0.5, 1.0, 0.8])
-    m = material(r, r.choice(["linear-elastic", "hencky"]))
-    size = [rounded(nx * h, 10), rounded((ny + 3) * h, 10)]
-    low, high = rounded(gap * h, 8), rounded((3 + gap) * h, 8)
-    points = [3, 3]
-    body = {"min": [0.0, low], "max": [size[0], high], "points_per_cell": points}
-    scene = base_scene(2, size, [nx, ny + 3], basis, body, m, "plane-strain")
-    if m["law"] == "hencky":
-        scene["phase"] = {"max_motion": r.choice([0.1, 0.3])}
-    scene["stop"] |= {"residual": 1e-6, "steps": 8000}
-    height = high - low
-    g = rounded(log_uniform(r, 1e-5, 3e-3) * confined_modulus(m) / (m["rho"] * height))
-    scene["body_force"] = {"value": [0.0, -g]}
-    scene["support"] = [{"face": "left", "kind": "roller"}, {"face": "right", "kind": "roller"}]
-    scene["title"] = f"{gap} cells above {{}}, {basis}, {m['law']}"
-    exact = settled(height, m, g, low, -low)
-    return scene, h, exact
-
-
-def above_a_wall(r, all_ways=False):
-    scene, h, exact = above_gap(r)
-    scene["wall"] = [{"name": FLOOR, "face": "bottom"}]
-    scene["title"] = scene["title"].format("a wall")
-    ways = in_time(scene)
-    return Unlike(
-        scene, ways if all_ways else some(r, ways, 3), exact=exact, tolerance=0.03, unique=0, components=(1,), cell=h, says=GAP,
-    )  # fmt: skip
-
-
-def above_a_held_face(r, all_ways=False):
-    scene, h, exact = above_gap(r)
-    scene["support"].append({"face": "bottom", "kind": r.choice(["fixed", "roller"])})
-    scene["title"] = scene["title"].format("a held face")
-    ways = [*IN_TIME, "newton", "cg", "newton-cg", "lbfgs"]
-    return Unlike(
-        scene, ways if all_ways else some(r, ways, 3), exact=exact, tolerance=0.03, unique=0, components=(1,), cell=h, notes=GAP,
-    )  # fmt: skip
-
-
-def blocks_with_a_gap(r, all_ways=False):
-    """Two blocks with a gap: the other one is held by nothing, or by its own face and feels nothing."""
-    basis, h = r.choice(["linear", "quadratic", "cubic"]), log_uniform(r, 0.05, 5)
-    reach = {"linear": 0.95, "quadratic": 1.9, "cubic": 2.9}[basis]
-    gap = rounded(r.uniform(0.01, reach), 3)
-    ny, n = r.randint(1, 3), r.randint(2, 4)
-    m = material(r, "linear-elastic")
-    start = rounded((n + gap) * h, 8)
-    end = rounded((n + 3 + gap) * h if r.random() < 0.5 else (n + 6) * h, 8)
-    size = [rounded((n + 6) * h, 10), rounded(ny * h, 10)]
-    held = end == size[0] and r.random() < 0.7
-    pushed = r.choice([-1, 1])
-    points = points_of(r, basis, 2)
-    bodies = [
-        {"max": [rounded(n * h, 10), size[1]], "material": "m", "state": "plane-strain", "points_per_cell": points},
-        {"min": [start, 0.0], "max": [end, size[1]], "material": "m", "state": "plane-strain", "points_per_cell": points},
-    ]
-    scene = base_scene(2, size, [n + 6, ny], basis, {}, m, "plane-strain")
-    scene["body"] = bodies
-    scene["stop"] |= {"residual": 1e-7, "steps": 10000}
-    p = rounded(log_uniform(r, 1e-6, 1e-3) * m["E"] * pushed)
-    scene["support"] = [{"face": "left"}] + ([{"face": "right"}] if held else [])
-    inner = [[start, 0.0], [start, size[1]]] if held else [[end, 0.0], [end, size[1]]]
-    scene["traction"] = [{"line": inner, "value": [p, 0.0]}]
-    scene["title"] = f"two blocks, {gap} cells apart, {basis}, {'the other held' if held else 'the other held by nothing'}"
-    ways = [*IN_TIME, "newton", "cg"]
-    ways = ways if all_ways else some(r, ways, 3)
-    unlike = Unlike(scene, ways, tolerance=1e-2, unique=0, cell=h, notes=GAP)
-    if not held:
-        return replace(unlike, never="nothing holds the block beyond the gap")
-
-    # Each alone: the left one does not move, for the right one Newton's method has the answer of it alone.
-    alone = changed(scene, body=[bodies[1]], support=[{"face": "right"}])
-    return replace(unlike, answer=alone, needed=False)
-
-
 ON_WALLS = [column_on_wall, column_on_wall, block_in_corner, plate_that_opens, between_walls, on_wall_in_phases]
-ACROSS_GAPS = [above_a_wall, above_a_held_face, blocks_with_a_gap]

@@ -19,13 +19,14 @@ import numpy as np
 
 from limited_run import run
 from map_cases import settings_of
-from unlike_scene import changed, toml
+from unlike_scene import toml
 
 SECONDS = 10  # of processor time, of a run
 PENETRATION = 1e-9  # of a cell
 STRONGER = 0.01  # than its law allows
 MUCH = 0.5  # strain in a single phase
-OF_THE_WAY = "needs omega_1|has no time|not known beforehand|sets velocities to zero|cannot be fitted"  # refusals that another way does not meet
+# refusals that another way does not meet
+OF_THE_WAY = "needs omega_1|has no time|not known beforehand|sets velocities to zero|cannot be fitted"
 LAST = "output.stages=[1e300]"
 WRONG = {"FALSE", "alarm", "unnamed", "hang", "crash"}
 
@@ -110,7 +111,7 @@ def contact_fault(unlike, summary):
 
 
 def beyond_strength(unlike, ended):
-    """The largest f/(ξ c) of Drucker and Prager's cone that matches Mohr and Coulomb's in plane strain (tension positive):
+    """The largest f/(ξ c), of the cone that matches Mohr and Coulomb's law in plane strain, tension positive:
     f = √J₂ + η p − ξ c,   η = sin φ/(√(1 − η̄²/3) + (η̄/3) sin φ),   η̄ = 3 sin ψ/√(9 + 3 sin² ψ),   ξ = η cot φ"""
     m = unlike.scene["material"]["m"]
     phi, psi = np.radians(m["phi"]), np.radians(m["psi"])

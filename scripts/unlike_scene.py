@@ -1,4 +1,4 @@
-"""A scene unlike those of the stability map, with what is known of its answer; and the pieces that such scenes share."""
+"""A scene unlike those of the stability map, with what is known of its answer; and what such scenes have in common."""
 
 import copy
 import math
@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+BASES = ["linear", "quadratic", "cubic"]
 IN_TIME = [
     "viscous", "one-sided", "cundall", "combined", "kinetic", "adaptive", "papadrakakis", "fire", "fire2", "chebyshev",
     "nesterov", "auto", "erk:rk4/viscous", "symplectic-euler/viscous", "erk:bogacki-shampine-4-2-3:adaptive/viscous",
@@ -59,7 +60,8 @@ def toml(scene, path=""):
     for key, value in scene.items():
         name = f"{path}{key}"
         if isinstance(value, dict):
-            tables.append((f"[{name}]\n" if not all(isinstance(part, dict) for part in value.values()) else "", value, name))
+            only_tables = value and all(isinstance(part, dict) for part in value.values())
+            tables.append(("" if only_tables else f"[{name}]\n", value, name))
         elif isinstance(value, list) and value and all(isinstance(part, dict) for part in value):
             tables += [(f"[[{name}]]\n", part, name) for part in value]
         else:
@@ -153,3 +155,7 @@ def some(r, ways, count):
     """In their order."""
     taken = set(r.sample(ways, min(count, len(ways))))
     return [way for way in ways if way in taken]
+
+
+def ways_of(r, ways, all_ways, count=3):
+    return ways if all_ways else some(r, ways, count)
