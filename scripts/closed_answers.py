@@ -70,6 +70,11 @@ def small_strain_column(x, E, nu, rho, g, l, **_):
     return -rho * g / (lam + 2 * mu) * (l * x - x**2 / 2)
 
 
+def resting_column(x, E, nu, rho, g, l, gap=0.0, w=0.0, **_):
+    """P = M (F − 1) of a column that began at x = gap and has come to rest on a floor at x = w."""
+    return w - gap + small_strain_column(x - gap, E, nu, rho, g, l)
+
+
 def column_stress(x, rho, g, l, **_):
     """The Cauchy stress −ρ g (l − x) of any law in uniaxial strain, at ν = 0 and where A stays as it is."""
     return -rho * g * (l - x)

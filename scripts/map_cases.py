@@ -112,9 +112,9 @@ def rows_of(case, ways, folder):
             )
 
 
-def read_known_variations(file):
-    """{number: reason} of the random variations that are known to be false."""
-    return {int(number): reason for number, reason in read_table(file).get("variations", {}).items()}
+def read_known(file, kind):
+    """{number: reason} of the random scenes of this kind, "variations" or "unlike", that are known to be false."""
+    return {int(number): reason for number, reason in read_table(file).get(kind, {}).items()}
 
 
 def read_rows(file, judges):

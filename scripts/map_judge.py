@@ -4,7 +4,7 @@ Outcomes
   equilibrium, end-time, limit-load   exit status 0, and the answer is right
   FALSE                   exit status 0, and the answer is wrong by more than 1 %, or there should be none
   inaccurate              the same, by more than the case's tolerance but not by 1 %
-  noted                   exit status 0, the answer is wrong, and a note says why (`notes` of the case)
+  noted                   exit status 0, the answer is wrong or should be none, and a note says why (`notes` of the case)
   wrong figure            exit status 0, the answer is right and a figure of the summary is not
   step-limit, failed, …   exit status 3 or 4: the status of summary.json
   refused                 exit status 2 before anything ran
@@ -142,6 +142,7 @@ JUDGES = {
     "exact": by_exact,
     "newton": by_static_solver("newton"),
     "cg": by_static_solver("cg"),
+    "auto": by_static_solver("auto"),  # with what judge_set adds or holds, in phases too
     "slow": by_static_solver("viscous"),  # under the loads of judge_set, which rise slowly
     "hencky_column": by_closed_answer("hencky_column"),
     "neo_hookean_column": by_closed_answer("neo_hookean_column"),
@@ -149,6 +150,7 @@ JUDGES = {
     "momentum": by_momentum,
     "column_stress": by_column_stress,
     "pulled": by_closed_answer("pulled"),
+    "resting_column": by_closed_answer("resting_column"),
     "threads": by_threads,
     "figures": by_figures,
 }
@@ -196,15 +198,15 @@ def outcome_of(program, row, ended):
         outcome = summary["status"]
     if ended.exit_status != 0:
         return (outcome if ended.says(row.says) else "unnamed"), None, reason
+    said, may_be_noted = ended.says(row.notes), "noted" in row.expected
     if not row.judge:
-        return "FALSE", None, reason
+        return ("noted" if may_be_noted and said else "FALSE"), None, reason
     try:
         error = JUDGES[row.judge](program, row, ended)
     except (KeyError, TypeError) as missing:  # in what the run left
         return "not judged", None, f"{row.judge}: {missing!r}"
     if error is None:
         return "not judged", None, f"{row.judge} finds no answer"
-    said, may_be_noted = ended.says(row.notes), "noted" in row.expected
     if not error <= row.tolerance:
         outcome = "inaccurate" if error <= WRONG else "FALSE"
         return ("noted" if may_be_noted and said else outcome), error, f"error {error:.2g}; {reason}"

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 """stability_map.py: case × integrator × strategy → outcome, evaluations, error, of the hard cases in problems/hard.
 
-Runs every row of problems/hard/map.toml, and random variations, each on one thread under a limit of time; compares the
-outcomes with what map.toml expects, and with problems/hard/map.csv, the last map that was accepted. Writes DIR/map.csv
-and draws DIR/map.png. Exit status 1 if
+Runs every row of problems/hard/map.toml, random variations of them, and random scenes that are unlike them, each on one
+thread under a limit of time; compares the outcomes with what map.toml expects, and with problems/hard/map.csv, the last
+map that was accepted. Writes DIR/map.csv and DIR/unlike.csv, and draws DIR/map.png. With --unlike N it runs N unlike
+scenes and nothing else. Exit status 1 if
   - an equilibrium is false: exit status 0, and an answer that is wrong by more than the case's tolerance (1 %),
   - an outcome is not one that the case expects, or not that of the last map,
+  - an unlike scene is false: by its known answer, or since another way to rest finds another equilibrium,
   - a fault that map.toml knows is gone: then its mark has to go as well.
 Evaluations that differ from those of the last map by more than 20 % are reported. Needs build/release/stillpoint.
 """
@@ -22,8 +24,9 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import map_random
+import map_unlike
 from case_table import BadTable
-from map_cases import read_known_variations, read_rows
+from map_cases import read_known, read_rows
 from map_judge import JUDGES, command_of, verdict
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -31,6 +34,7 @@ HARD = ROOT / "problems/hard"
 COLUMNS = ["case", "way", "expected", "outcome", "evaluations", "error", "fault"]
 LARGE_CHANGE = 0.2  # of evaluations
 QUICK_RANDOM, ALL_RANDOM = 40, 500
+QUICK_UNLIKE, ALL_UNLIKE = 20, 100
 KNOWN_SEED = 1  # of the variations whose faults are known
 SUCCESS = {"equilibrium", "end-time", "limit-load", "noted"}
 
@@ -117,7 +121,7 @@ def run_map(options):
 def run_random(options, count):
     """The number of variations that are wrong. The scenes of those that are not right stay in options.scenes."""
     options.scenes.mkdir(parents=True, exist_ok=True)
-    known = read_known_variations(options.cases) if options.seed == KNOWN_SEED else {}
+    known = read_known(options.cases, "variations") if options.seed == KNOWN_SEED else {}
     rows = [map_random.variation(options.seed, k, options.scenes) for k in range(count)]
     for k, row in enumerate(rows):
         row.fault = known.get(k, "")
@@ -134,6 +138,12 @@ def run_random(options, count):
     words = ", ".join(f"{number} {outcome}" for outcome, number in counts.most_common())
     print(f"{count} random variations of seed {options.seed}: {words}")
     return wrong
+
+
+def run_unlike(options, count):
+    """The number of unlike scenes that are wrong, and not known to be."""
+    known = read_known(options.cases, "unlike") if options.seed == KNOWN_SEED and not options.all_ways else {}
+    return map_unlike.run_unlike(options, count, known if options.family == "*" else {})
 
 
 def write_map(file, lines):
@@ -153,9 +163,12 @@ def accept(options, lines):
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
-    add("--quick", action="store_true", help="the short form, under a minute: fewer cases, 40 variations")
+    add("--quick", action="store_true", help="the short form, under a minute: fewer cases, 40 variations, 20 unlike scenes")
     add("--random", type=int, metavar="N", help="random variations (40 if quick, otherwise 500)")
-    add("--seed", type=int, default=KNOWN_SEED, help="of the variations")
+    add("--unlike", type=int, metavar="N", help="unlike scenes, and nothing else (besides the map: 20 if quick, otherwise 100)")
+    add("--family", default="*", metavar="PATTERN", help="of the unlike scenes: those whose names match (*, ?)")
+    add("--all-ways", action="store_true", help="each unlike scene by all of its ways, not by three or four")
+    add("--seed", type=int, default=KNOWN_SEED, help="of the variations and of the unlike scenes")
     add("--only", action="append", metavar="PATTERN", help="rows 'case [values]: way' that match (*, ?)")
     add("--out", type=Path, default=Path("out/stability_map"), metavar="DIR")
     add("--accept", action="store_true", help="keep what comes out as the last map, problems/hard/map.csv")
@@ -164,10 +177,14 @@ def parse():
     add("--last", type=Path, default=HARD / "map.csv", help=argparse.SUPPRESS)
     add("--program", type=Path, default=ROOT / "build/release/stillpoint", help=argparse.SUPPRESS)
     options = parser.parse_args()
-    options.only = options.only or ["*"]
     options.scenes = options.out / "random"
+    asked = options.unlike is not None
+    if not asked:
+        rows_alone = options.only or options.random is not None
+        options.unlike = 0 if rows_alone else QUICK_UNLIKE if options.quick else ALL_UNLIKE
     if options.random is None:
-        options.random = 0 if options.only != ["*"] else QUICK_RANDOM if options.quick else ALL_RANDOM
+        options.random = 0 if options.only or asked else QUICK_RANDOM if options.quick else ALL_RANDOM
+    options.only = options.only or ([] if asked else ["*"])
     return options
 
 
@@ -175,12 +192,14 @@ def main():
     options, start = parse(), time.monotonic()
     options.out.mkdir(parents=True, exist_ok=True)
     try:
-        lines, wrong = run_map(options)
+        lines, wrong = run_map(options) if options.only else ([], 0)
+        if options.only:
+            write_map(options.out / "map.csv", lines)
+        wrong += run_random(options, options.random) if options.random else 0
+        wrong += run_unlike(options, options.unlike) if options.unlike else 0
     except BadTable as error:
         print(f"stability_map: {error}", file=sys.stderr)
         return 2
-    write_map(options.out / "map.csv", lines)
-    wrong += run_random(options, options.random) if options.random else 0
     if options.accept:
         accept(options, lines)
     if lines:

@@ -172,5 +172,69 @@ def _(folder):
     assert map_random.variation(1, 7, folder).scene.read_text() == texts[7]
 
 
+@claim("a random unlike scene is the same however many there are, and of every family there is one that TOML reads")
+def _(_folder):
+    unlike, writer = script_module("map_unlike"), script_module("unlike_scene")
+    texts = {}
+    for family in unlike.names():
+        families = unlike.families_of(family)
+        drawn = [writer.toml(unlike.draw(seed, k, families)[1].scene) for seed in (1, 2) for k in range(20)]
+        texts[family] = len(set(drawn))
+        assert all(tomllib.loads(text)["title"] for text in drawn)
+        assert writer.toml(unlike.draw(1, 7, families)[1].scene) == drawn[7]
+    assert min(texts.values()) == 40, texts
+
+
+def the_unlike_scenes(folder, program, options=()):
+    """What comes of unlike scenes if every run ends as this text in the shell's words says."""
+    (folder / "program").write_text(program)
+    (folder / "program").chmod(0o755)
+    (folder / "map.toml").write_text("")
+    return call(
+        *[sys.executable, ROOT / "scripts/stability_map.py", "--unlike", "3", "--out", folder / "out"],
+        *["--program", folder / "program", "--cases", folder / "map.toml", *options],
+    )
+
+
+ENDS = '#!/bin/bash\nwhile [[ $1 != --out ]]; do shift; done\n%s\n'
+
+
+@claim("unlike scenes that are refused or not at rest are right, and no other part of the map runs")
+def _(folder):
+    beyond = ["--family", "blocks_with_a_gap"]
+    result = the_unlike_scenes(folder, ENDS % "exit 2", beyond)
+    assert result.returncode == 0 and "3 unlike scenes of seed 1: 0 wrong" in result.stdout, result
+    assert not (folder / "out/map.csv").exists() and (folder / "out/unlike.csv").exists()
+    honest = ENDS % """printf '{"status": "step-limit", "reason": "", "notes": []}' >"$2/summary.json"; exit 3"""
+    assert the_unlike_scenes(folder, honest, beyond).returncode == 0
+
+
+@claim("an equilibrium of an unlike scene that has none ends the map with status 1, and leaves the scene and its command")
+def _(folder):
+    rest = ENDS % """printf '{"status": "equilibrium", "reason": "", "notes": [], "probes": {}}' >"$2/summary.json" """
+    result = the_unlike_scenes(folder, rest, ["--family", "blocks_with_a_gap", "--seed", "2"])
+    assert result.returncode == 1 and "nothing holds the block beyond the gap" in result.stdout, result
+    scene = next((folder / "out/random").glob("unlike-2-*.toml"))
+    assert f"run {scene} --set" in result.stdout, result
+
+
+@claim("an unlike scene that is refused although it has an answer is wrong")
+def _(folder):
+    result = the_unlike_scenes(folder, ENDS % "echo no >&2; exit 2", ["--family", "column_on_wall"])
+    assert result.returncode == 1 and "alarm: no" in result.stdout, result
+
+
+@claim("ways that find different equilibria of one scene are false but for the one in their middle")
+def _(_folder):
+    numpy, judge = __import__("numpy"), script_module("unlike_judge")
+    unlike = script_module("unlike_scene").Unlike({"dim": 2}, [], unique=1e-6)
+    found = [judge.Found(str(k), "right", u=numpy.array([1.0, u])) for k, u in enumerate((2, 2 + 1e-9, 2.1, 2))]
+    judge.compare_ways(unlike, found)
+    assert [one.outcome for one in found] == ["right", "right", "FALSE", "right"], found
+    found[1].u = numpy.array([math.nan, math.nan])
+    judge.compare_ways(unlike, found)
+    assert [one.outcome for one in found] == ["right", "FALSE", "FALSE", "right"], found
+
+
 if __name__ == "__main__":
     check_the_claim()
