@@ -1,6 +1,7 @@
-// Where bodies lie beside walls and supports: problems/hard/block_on_floor.toml.
+// Where bodies lie beside walls and supports: a block on a smooth floor, above it, or above a face that is held.
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -13,49 +14,55 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-constexpr double top = -0.002;  // −ρ g H²/(2 E)
-constexpr double cell = 0.5;    // of the grid
+constexpr double cell = 0.5;    // of all these grids [m]
+constexpr double top = -0.002;  // −ρ g l²/(2 E) of a block on the floor [m]
 constexpr double penetration = 1e-9 * cell;
 
-Scene block(std::vector<std::string> overrides) { return scenes::load("hard/block_on_floor", overrides); }
+using Settings = std::vector<std::string>;
 
-const std::vector<std::string> strategies{"auto", "viscous", "kinetic", "one-sided", "cundall", "adaptive"};
-
-std::vector<std::string> with(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+/// A strategy; with viscous damping a rate near the critical one, since nothing holds the block.
+std::string by(const std::string& strategy) {
+  return "damping={strategy='" + strategy + (strategy == "viscous" ? "', c=25}" : "'}");
 }
 
-/// By a strategy; viscous with a rate that any body of this size comes to rest with, since nothing holds the block.
-std::vector<std::string> by(const std::string& strategy) {
-  std::vector<std::string> overrides{"damping.strategy=" + strategy, "stop.steps=400000"};
-  if (strategy == "viscous") overrides.emplace_back("damping.c=10");
-  return overrides;
+Scene on_floor(const std::string& strategy, Settings settings) {
+  settings.insert(settings.end(), {by(strategy), "stop.residual=1e-9"});
+  return scenes::load("hard/on_a_smooth_floor", settings);
+}
+
+std::string why_refused(const std::string& scene, const Settings& settings) {
+  try {
+    run(scenes::load(scene, settings));
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace
 
 TEST_CASE("an elastic block comes to rest on a smooth floor where it belongs, whichever way it came there") {
-  const std::vector<std::vector<std::string>> ways{
+  const std::vector<Settings> ways{
       {},
-      {"body_force.value=[0, '-1 + 20*(t<0.5)']", "stop.time=200"},  // lifted for a while
-      {"initial.v=[0, 5]"},                                          // thrown up
-      {"initial.u=[0, 0.1]"},                                        // let fall
-      {"initial.u=[0, -0.1]"},                                       // pushed into the floor
-      {"initial.u=[0, '0.05*(x - 1)']"},                             // tilted
-      {"initial.v=['0', '2*(x - 1)']"},                              // turned over its edge
-      {"body_force.value=[0, '-1 - 30*(t<0.2)']", "stop.time=200"},  // pressed, and thrown up by itself
+      {"body_force.value=[0, '-1 + 20*(t<0.5)']"},  // lifted for a while
+      {"initial.v=[0, 5]"},                         // thrown up
+      {"initial.u=[0, 0.1]"},                       // let fall
+      {"initial.u=[0, -0.1]"},                      // pushed into the floor
+      {"initial.u=[0, '0.05*(x - 1)']"},            // tilted
+      {"initial.v=['0', '2*(x - 1)']"},             // turned over its edge
+      {"body_force.value=[0, '-1 - 30*(t<0.2)']"},  // pressed, so that it jumps
   };
-  for (const std::string& strategy : strategies) {
-    for (const auto& way : ways) {
+  for (const std::string strategy : {"auto", "viscous", "kinetic", "one-sided", "cundall", "adaptive"}) {
+    for (const Settings& way : ways) {
       for (const char* basis : {"linear", "quadratic"}) {
         CAPTURE(strategy, way, basis);
-        const Summary s = run(block(with(with(by(strategy), way), {std::string("grid.basis=") + basis})));
+        Settings settings = way;
+        settings.push_back(std::string("grid.basis=") + basis);
+        const Summary s = run(on_floor(strategy, settings));
         CAPTURE(s.reason);
-        if (s.status == RunStatus::step_limit) continue;  // slow is not false
-        REQUIRE((s.status == RunStatus::equilibrium || s.status == RunStatus::end_time));
-        CHECK_THAT(scenes::probe(s, "bottom", "u.y"), WithinAbs(0, penetration));
-        const double share = 1e-6;  // of the displacement: what a residual of 1e-9 leaves
+        CHECK(s.status != RunStatus::diverged);
+        CHECK_THAT(scenes::probe(s, "base", "u.y"), WithinAbs(0, penetration));
+        const double share = s.status == RunStatus::equilibrium ? 1e-6 : 1e-3;  // what is left after 200 s without
         CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinAbs(top, share * std::abs(top)));
       }
     }
@@ -63,37 +70,41 @@ TEST_CASE("an elastic block comes to rest on a smooth floor where it belongs, wh
 }
 
 TEST_CASE("a wall is where its motion says, whether that is constant, begins elsewhere, jumps or comes back") {
-  struct Way {
-    std::string motion;
-    double end;
+  const std::vector<std::pair<std::string, double>> ways{
+      {"0.1", 0.1},
+      {"-0.1", -0.1},
+      {"0.1*(t>=1)", 0.1},
+      {"-0.1*(t>=1)", -0.1},
+      {"0.05 + 0.05*min(t,1)", 0.1},
+      {"0.2*min(t,1) - 0.1*min(max(t-2,0),1)", 0.1},
+      {"0.1*(t<1)", 0},
   };
-  for (const Way& way :
-       {Way{"0.1", 0.1}, Way{"-0.1", -0.1}, Way{"0.1*(t>=1)", 0.1}, Way{"-0.1*(t>=1)", -0.1},
-        Way{"0.05 + 0.05*min(t,1)", 0.1}, Way{"0.2*min(t,1) - 0.1*min(max(t-2,0),1)", 0.1}, Way{"0.1*(t<1)", 0}}) {
-    for (const std::string& strategy : strategies) {
-      CAPTURE(strategy, way.motion);
-      const Summary s = run(block(with(by(strategy), {"wall[0].motion='" + way.motion + "'", "stop.time=200"})));
+  for (const std::string strategy : {"auto", "viscous", "one-sided", "cundall", "adaptive"}) {
+    for (const auto& [motion, end] : ways) {
+      CAPTURE(strategy, motion);
+      const Summary s = run(on_floor(strategy, {"wall[0].motion='" + motion + "'"}));
       CAPTURE(s.reason);
-      CHECK_THAT(scenes::probe(s, "bottom", "u.y"), WithinAbs(way.end, penetration));
-      const double share = 1e-5;  // of the displacement: some damp little on a floor that no support holds
-      CHECK_THAT(scenes::probe(s, "top", "u.y") - way.end, WithinAbs(top, share * std::abs(top)));
+      CHECK_THAT(scenes::probe(s, "base", "u.y"), WithinAbs(end, penetration));
+      const double share = 1e-3;  // of the displacement: not all are at rest after 200 s
+      CHECK_THAT(scenes::probe(s, "top", "u.y") - end, WithinAbs(top, share * std::abs(top)));
     }
   }
 }
 
-TEST_CASE("a body that falls onto a wall in phases comes to rest on it") {
-  const std::vector<std::string> falling{"material.block.law=hencky", "phase.max_motion=0.1", "stop.residual=1e-7"};
+TEST_CASE("a body that falls in phases comes to rest on the wall, neither above it nor beyond") {
   for (const char* gap : {"1", "0.4", "0.07", "1.23"}) {
     for (const char* basis : {"linear", "quadratic", "cubic"}) {
-      for (const char* strategy : {"kinetic", "auto", "cundall"}) {
+      for (const char* strategy : {"kinetic", "cundall"}) {
         CAPTURE(gap, basis, strategy);
-        const Summary s = run(block(with(with(by(strategy), falling),
-                                         {std::string("constants.gap=") + gap, std::string("grid.basis=") + basis})));
+        const Summary s = run(scenes::load(
+            "hard/above_a_wall", {std::string("constants.gap=") + gap, by(strategy), std::string("grid.basis=") + basis,
+                                  "material.block.law=hencky", "phase.max_motion=0.1"}));
         CAPTURE(s.reason);
         CHECK(s.status == RunStatus::equilibrium);
-        const double of_cell = 1e-3;  // what phases leave of a fall of two cells
-        CHECK_THAT(scenes::probe(s, "bottom", "u.y") + std::stod(gap), WithinAbs(0, of_cell * cell));
-        CHECK_THAT(scenes::probe(s, "top", "u.y") + std::stod(gap), WithinAbs(top, of_cell * cell));
+        const double height = 3 - std::stod(gap), settled = 1e-3 * height * height / 2;
+        // What is left of a fall through many phases, in which points have stresses that no function feels.
+        const double left = 2e-3 * cell;
+        CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinAbs(-std::stod(gap) - settled, left));
       }
     }
   }
@@ -103,23 +114,43 @@ TEST_CASE("in a single phase a body that does not lie on a wall is refused, with
   for (const char* basis : {"linear", "quadratic", "cubic"}) {
     for (const auto& [gap, said] :
          {std::pair{"0.45", "0.45 m (0.9 of a cell)"}, std::pair{"0.5", "0.5 m (1 of a cell)"},
-          std::pair{"1e-5", "1e-05 m (2e-05 of a cell)"}}) {
+          std::pair{"1e-5", "1e-05 m (2e-05 of a cell)"}, std::pair{"1.3", "1.3 m (2.6 of a cell)"}}) {
       CAPTURE(basis, gap);
-      CHECK_THROWS_WITH(run(block({std::string("constants.gap=") + gap, std::string("grid.basis=") + basis})),
-                        Contains("wall[0].face") && Contains(said));
+      CHECK_THAT(
+          why_refused("hard/above_a_wall", {std::string("constants.gap=") + gap, std::string("grid.basis=") + basis}),
+          Contains("the nearest body is " + std::string(said)) && Contains("phase.max_motion"));
     }
   }
-  CHECK(run(block({"constants.gap=1e-9"})).status == RunStatus::equilibrium);  // what rounding leaves
+  CHECK(why_refused("hard/above_a_wall", {"constants.gap=1e-9", "stop.steps=10"}).empty());  // what rounding leaves
 }
 
 TEST_CASE("a support on a face holds nothing across a gap, which is refused with its size") {
-  for (const char* basis : {"linear", "quadratic", "cubic"}) {
-    for (const char* gap : {"0.01", "0.2", "0.45"}) {
-      CAPTURE(basis, gap);
-      CHECK_THROWS_WITH(run(block({"wall=[]", "support=[{face='bottom'}]", std::string("constants.gap=") + gap,
-                                   std::string("grid.basis=") + basis})),
-                        Contains("support[0].face") && Contains(std::string(gap) + " m"));
+  for (const std::string support :
+       {"{face='bottom'}", "{face='bottom', kind='roller'}", "{face='bottom', stiffness=10}"}) {
+    for (const char* basis : {"linear", "quadratic", "cubic"}) {
+      for (const std::string gap : {"0.01", "0.2", "0.45"}) {
+        CAPTURE(support, basis, gap);
+        const std::string said =
+            why_refused("hard/above_a_held_face",
+                        {"constants.gap=" + gap, std::string("grid.basis=") + basis,
+                         "support=[{face='left', kind='roller'}, {face='right', kind='roller'}, " + support + "]"});
+        if (Contains("stiffness").match(support)) {
+          CHECK_THAT(said, Contains("no material reaches this support"));
+        } else {
+          CHECK_THAT(said, Contains("the nearest material is " + gap + " m"));
+        }
+      }
     }
   }
-  CHECK(run(block({"wall=[]", "support=[{face='bottom'}]"})).status == RunStatus::equilibrium);
+  CHECK(why_refused("hard/above_a_held_face", {"constants.gap=0", "stop.steps=10"}).empty());
+}
+
+TEST_CASE("of bodies that share functions across a gap the one that nothing else holds is refused") {
+  for (const auto& [basis, gap] : {std::pair{"cubic", "1.1"}, std::pair{"quadratic", "0.6"},
+                                   std::pair{"linear", "0.45"}, std::pair{"cubic", "0.02"}}) {
+    CAPTURE(basis, gap);
+    CHECK_THAT(why_refused("hard/gap_between_blocks",
+                           {std::string("constants.gap=") + gap, std::string("grid.basis=") + basis}),
+               Contains("nothing holds it") && Contains(std::string(gap) + " m"));
+  }
 }

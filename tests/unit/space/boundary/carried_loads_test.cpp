@@ -146,7 +146,7 @@ class LoadedBlock {
     constant_force_.assign(dofs_->size(), 0);
     for (const auto& load : loads_) load->begin_phase(parts(), constant_force_);
   }
-  PhaseParts<B, K> parts() const { return {grid_, body_.points, weights_, held_, *dofs_, node_mass_, *mass_}; }
+  PhaseParts<B, K> parts() const { return {grid_, body_.points, weights_, held_, *dofs_, node_mass_, *mass_, false}; }
 
   const Scene scene_;
   Grid<2> grid_;
