@@ -26,7 +26,7 @@ PENETRATION = 1e-9  # of a cell
 STRONGER = 0.01  # than its law allows
 MUCH = 0.5  # strain in a single phase
 # refusals that another way does not meet
-OF_THE_WAY = "needs omega_1|has no time|not known beforehand|sets velocities to zero|cannot be fitted"
+OF_THE_WAY = "needs omega_1|needs a single phase|has no time|not known beforehand|sets velocities to zero|cannot be fitted"
 LAST = "output.stages=[1e300]"
 WRONG = {"FALSE", "alarm", "unnamed", "hang", "crash"}
 
