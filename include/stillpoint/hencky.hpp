@@ -28,20 +28,20 @@ class Hencky {
 
   Gradient<S> first_piola(const Gradient<S>& H) const {
     if constexpr (dimensions(S) == 1) {
-      return {uniaxial_ * logarithm(1 + H[0]) / (1 + H[0])};
+      return {uniaxial_ * logarithm(1 + H[0], H[0]) / (1 + H[0])};
     } else {
       const Tensor F = deformation_gradient<S>(H);
-      return gradient_part<S>(kirchhoff(LogStrain(F)) * transpose(inverse(F)));
+      return gradient_part<S>(kirchhoff(log_strain(H)) * transpose(inverse(F)));
     }
   }
 
   // σ = τ/J; a free side or face has contracted by J = e^(tr e)
   Stress<S> cauchy(const Gradient<S>& H) const {
     if constexpr (dimensions(S) == 1) {
-      const double e = logarithm(1 + H[0]);
+      const double e = logarithm(1 + H[0], H[0]);
       return {uniaxial_ * e * std::exp((contraction_ - 1) * e)};
     } else {
-      const LogStrain ln(deformation_gradient<S>(H));
+      const LogStrain ln = log_strain(H);
       return stress_part<S>(std::exp((contraction_ - 1) * ln.J) * kirchhoff(ln));
     }
   }
@@ -50,10 +50,10 @@ class Hencky {
     if constexpr (dimensions(S) == 1) {
       // d(E ln F/F)/dF = E (1 − ln F)/F²
       const double F = 1 + H[0];
-      return {uniaxial_ * (1 - logarithm(F)) / (F * F)};
+      return {uniaxial_ * (1 - logarithm(F, H[0])) / (F * F)};
     } else {
       const Tensor F = deformation_gradient<S>(H);
-      const LogStrain ln(F);
+      const LogStrain ln = log_strain(H);
       // δτ = 2 μ δe + λ tr(δe) I
       const auto rate = ln.rate();
       return moduli_of_rate<S>(F, kirchhoff(ln), [&](const Tensor& l) { return stress(rate(l), trace(l)); });
@@ -63,6 +63,8 @@ class Hencky {
  private:
   using Tensor = TensorFor<S>;
   using LogStrain = LogStrainOf<S>;
+
+  static LogStrain log_strain(const Gradient<S>& H) { return LogStrain(displacement_gradient<S>(H)); }
 
   // 2 μ e + λ tr(e) I, without the stress across a free face
   Tensor stress(const Tensor& e, double trace_e) const {

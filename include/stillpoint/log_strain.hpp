@@ -1,4 +1,5 @@
-// The logarithmic strain e = ½ ln b, b = F Fᵀ, with its rate and the change of volume.
+// The logarithmic strain e = ½ ln b, b = F Fᵀ, with its rate and the change of volume. All of it is taken from
+// H = F − I and B = b − I = H + Hᵀ + H Hᵀ, so that a strain far below the rounding of 1 keeps its digits.
 #pragma once
 
 #include <stillpoint/dual.hpp>
@@ -21,12 +22,15 @@ struct PlaneLogStrain {
   double m, y, a, slope;  // slope = da/dy
   double plane, zz, J;    // ln det₂F, ln F_zz and ln J, NaN if inside out
 
-  explicit PlaneLogStrain(const PlaneTensor& F) : b(F * transpose(F)), m((b.xx + b.yy) / 2) {
-    const double half = (b.xx - b.yy) / 2, plane_ratio = plane_determinant(F);
+  explicit PlaneLogStrain(const PlaneTensor& H) {
+    const PlaneTensor F = unit_plus(H), B = left_strain(H);
+    b = unit_plus(B);
+    m = 1 + (B.xx + B.yy) / 2;
+    const double half = (B.xx - B.yy) / 2, plane_ratio = plane_determinant(F);
     dev = {half, b.xy, b.xy, -half, 0};
     y = (half * half + b.xy * b.xy) / (m * m);
-    plane = logarithm(plane_ratio);
-    zz = S == StressState::axisymmetric ? logarithm(F.zz) : 0;
+    plane = logarithm(plane_ratio, change_of_area(H));
+    zz = S == StressState::axisymmetric ? logarithm(F.zz, H.zz) : 0;
     J = plane + zz;
     // (1 + x)/(1 − x) = b₁/b₂ = (b₁/√(b₁ b₂))², which loses no digits as b₂ → 0;  da/dy = (1/(1 − y) − a)/(2 y)
     const double x = std::sqrt(y), b1_over_mean = m * (1 + x) / plane_ratio;
@@ -118,20 +122,20 @@ template <class Number>
 }
 
 struct SpaceLogStrain {
-  SpaceTensor b;
+  SpaceTensor B;
   double J;  // ln J, NaN if inside out
 
-  explicit SpaceLogStrain(const SpaceTensor& F) : b(F * transpose(F)), J(logarithm(determinant(F))) {}
+  explicit SpaceLogStrain(const SpaceTensor& H)
+      : B(left_strain(H)), J(logarithm(determinant(unit_plus(H)), change_of_volume(H, cofactor(H)))) {}
 
-  SpaceTensor strain() const { return 0.5 * log_of_unit_plus(b - identity<SpaceTensor>); }
+  SpaceTensor strain() const { return 0.5 * log_of_unit_plus(B); }
 
   /// δe for δb = l b + b lᵀ, of as many l as are asked for: Σ_k ∂e/∂b_k δb_k, b_k = b_xx, b_yy, b_zz, b_xy, b_yz, b_zx,
   /// by one pass of Duals for all of them.
   class Rate {
    public:
-    explicit Rate(const SpaceTensor& b) : b_(b) {
+    explicit Rate(const SpaceTensor& B) : b_(unit_plus(B)) {
       using Six = Dual<6>;
-      const SpaceTensor B = b - identity<SpaceTensor>;
       const auto variable = [](double value, std::size_t k) {
         Six b_k(value);
         b_k.derivative[k] = 1;
@@ -156,10 +160,10 @@ struct SpaceLogStrain {
     SpaceTensor b_;
     std::array<SpaceTensor, 6> slopes_;  // ∂e/∂b_k
   };
-  Rate rate() const { return Rate(b); }
+  Rate rate() const { return Rate(B); }
 };
 
-/// Made of F = I + H; strain(), rate()(l) for δF = l F, and J = ln det F.
+/// Made of H = F − I; strain(), rate()(l) for δF = l F, and J = ln det F.
 template <StressState S>
 using LogStrainOf = std::conditional_t<S == StressState::space, SpaceLogStrain, PlaneLogStrain<S>>;
 

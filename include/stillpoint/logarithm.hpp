@@ -8,8 +8,9 @@
 
 namespace stillpoint {
 
-/// ln x; NaN if x is not positive and finite, or below the smallest normal number.
-inline double logarithm(double x) {
+/// ln x of an x = 1 + x_minus_1 whose distance from 1 is known to more digits than x keeps of it: ln(1 + 1e-20) =
+/// 1e-20. NaN if x is not positive and finite, or below the smallest normal number.
+inline double logarithm(double x, double x_minus_1) {
   // x = 2ᵏ m, √½ ≤ m < √2: with the bits of √½ as its zero, the exponent field counts k + 1023
   constexpr std::uint64_t sqrt_half = 0x3FE6A09E667F3BCD, one = 0x3FF0000000000000, mantissa = 0x000FFFFFFFFFFFFF;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) + (one - sqrt_half);
@@ -18,7 +19,8 @@ inline double logarithm(double x) {
   const double k = std::bit_cast<double>((bits >> 52) | 0x4330000000000000) - (4503599627370496.0 + 1023);
 
   // ln m = ln(1 + f) = f − f²/2 + s (f²/2 + R(s²)),  s = f/(2 + f)
-  const double f = m - 1, s = f / (2 + f), z = s * s, half_square = 0.5 * f * f;
+  const double f = x_minus_1 > -0.25 && x_minus_1 < 0.25 ? x_minus_1 : m - 1, s = f / (2 + f), z = s * s,
+               half_square = 0.5 * f * f;
   const double R = z * (6.666666666666735130e-01 +
                         z * (3.999999999940941908e-01 +
                              z * (2.857142874366239149e-01 +
@@ -30,5 +32,6 @@ inline double logarithm(double x) {
   using Limits = std::numeric_limits<double>;
   return x >= Limits::min() && x <= Limits::max() ? ln : Limits::quiet_NaN();
 }
+inline double logarithm(double x) { return logarithm(x, x - 1); }
 
 }  // namespace stillpoint

@@ -31,6 +31,11 @@ constexpr SpaceTensorOf<N> operator*(const SpaceTensorOf<N>& A, const SpaceTenso
           A.zx * B.xx + A.zy * B.yx + A.zz * B.zx, A.zx * B.xy + A.zy * B.yy + A.zz * B.zy,
           A.zx * B.xz + A.zy * B.yz + A.zz * B.zz};
 }
+/// I + A
+template <class N>
+constexpr SpaceTensorOf<N> unit_plus(const SpaceTensorOf<N>& A) {
+  return {1 + A.xx, A.xy, A.xz, A.yx, 1 + A.yy, A.yz, A.zx, A.zy, 1 + A.zz};
+}
 template <class N>
 constexpr SpaceTensorOf<N> transpose(const SpaceTensorOf<N>& A) {
   return {A.xx, A.yx, A.zx, A.xy, A.yy, A.zy, A.xz, A.yz, A.zz};
@@ -59,6 +64,11 @@ template <class N>
 constexpr N determinant(const SpaceTensorOf<N>& A) {
   const SpaceTensorOf<N> c = cofactor(A);
   return A.xx * c.xx + A.xy * c.xy + A.xz * c.xz;
+}
+/// det(I + H) − 1 = tr H + tr cof H + det H, with the digits of a small H.
+template <class N>
+constexpr N change_of_volume(const SpaceTensorOf<N>& H, const SpaceTensorOf<N>& cof_H) {
+  return trace(H) + (trace(cof_H) + (H.xx * cof_H.xx + H.xy * cof_H.xy + H.xz * cof_H.xz));
 }
 template <class N>
 constexpr SpaceTensorOf<N> inverse(const SpaceTensorOf<N>& A) {

@@ -20,16 +20,26 @@ inline constexpr PlaneTensor identity<PlaneTensor>{1, 0, 0, 1, 1};
 template <>
 inline constexpr SpaceTensor identity<SpaceTensor>{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/// F = I + H; F_zz = 1 if H does not know it.
+/// H as a tensor; H_zz = 0 if H does not know it.
+template <StressState S>
+constexpr TensorFor<S> displacement_gradient(const Gradient<S>& H) {
+  if constexpr (S == StressState::space) {
+    return {H[0], H[1], H[2], H[3], H[4], H[5], H[6], H[7], H[8]};
+  } else if constexpr (S == StressState::axisymmetric) {
+    return {H[0], H[1], H[2], H[3], H[4]};
+  } else {
+    return {H[0], H[1], H[2], H[3], 0};
+  }
+}
+/// F = I + H.
 template <StressState S>
 constexpr TensorFor<S> deformation_gradient(const Gradient<S>& H) {
-  if constexpr (S == StressState::space) {
-    return {1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
-  } else if constexpr (S == StressState::axisymmetric) {
-    return {1 + H[0], H[1], H[2], 1 + H[3], 1 + H[4]};
-  } else {
-    return {1 + H[0], H[1], H[2], 1 + H[3], 1};
-  }
+  return unit_plus(displacement_gradient<S>(H));
+}
+/// B = b − I = H + Hᵀ + H Hᵀ, b = F Fᵀ, with the digits of a small H, which b itself loses beside 1.
+template <class Tensor>
+constexpr Tensor left_strain(const Tensor& H) {
+  return H + transpose(H) + H * transpose(H);
 }
 
 template <StressState S>
@@ -63,7 +73,7 @@ constexpr TensorFor<S> stress_tensor(const Stress<S>& s) {
 template <StressState S, class Rate>
 constexpr Gradient<S> stress_rate(const TensorFor<S>& F_inverse, const TensorFor<S>& tau, const Rate& rate,
                                   const Gradient<S>& dH) {
-  const TensorFor<S> dF = deformation_gradient<S>(dH) - deformation_gradient<S>({}), l = dF * F_inverse;
+  const TensorFor<S> l = displacement_gradient<S>(dH) * F_inverse;
   return gradient_part<S>((rate(l) - tau * transpose(l)) * transpose(F_inverse));
 }
 

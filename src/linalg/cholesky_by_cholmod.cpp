@@ -73,10 +73,13 @@ class CholmodFactor final : public CholeskyFactor {
     cholmod_factorize(&view, L, &common);
     check("factorize");
     // A NaN passes CHOLMOD's own test d ≤ 0; its condition estimate (min L_ii/max L_ii)² is 0 then.
-    const bool positive_definite = L->minor == n && cholmod_rcond(L, &common) > 0;
+    ratio = cholmod_rcond(L, &common);
+    const bool positive_definite = L->minor == n && ratio > 0;
     check("rcond");
     return positive_definite;
   }
+
+  double pivot_ratio() const override { return ratio; }
 
   void solve(ConstVec b, Vec x) override {
     std::optional<OneBlasThread> same_bits;  // of a supernodal factor: to set it takes longer than a small solve
@@ -109,6 +112,7 @@ class CholmodFactor final : public CholeskyFactor {
   cholmod_factor* L = nullptr;
   cholmod_dense *X = nullptr, *Y = nullptr, *E = nullptr;  // result and workspaces of cholmod_solve2
   std::size_t n = 0;
+  double ratio = 0;  // of pivots
 };
 
 }  // namespace

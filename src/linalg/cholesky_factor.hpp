@@ -21,6 +21,8 @@ class CholeskyFactor {
   /// A: compressed. True: it is positive definite, and the factor solves. Throws std::runtime_error if no memory is
   /// left.
   virtual bool factorise(const SparseMatrix& A) = 0;
+  /// (min L_kk/max L_kk)²; of one that solves.
+  virtual double pivot_ratio() const = 0;
   /// As SparseCholesky's; the first call may allocate.
   virtual void solve(ConstVec b, Vec x) = 0;
   virtual std::size_t bytes() const = 0;

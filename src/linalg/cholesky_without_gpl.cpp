@@ -1,7 +1,9 @@
 // P A Pᵀ = L Lᵀ by Eigen, row by row [Davis, ACM TOMS 31(4), 2005, algorithm 849], in an order of minimum degree.
 // Its own steps of a solution: solve() of Eigen allocates.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -29,6 +31,17 @@ class EigenCholesky final : public CholeskyFactor {
                                ": out of memory");
     }
     return llt_.info() == Eigen::Success && pivots_are_finite();
+  }
+
+  double pivot_ratio() const override {
+    const Wide& L = factor();
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (Eigen::Index k = 0; k < n_; ++k) {
+      const double pivot = L.valuePtr()[L.outerIndexPtr()[k]];
+      least = std::min(least, pivot);
+      most = std::max(most, pivot);
+    }
+    return least / most * (least / most);
   }
 
   void solve(ConstVec b, Vec x) override {

@@ -42,6 +42,8 @@ class UmfpackFactor final : public LuFactor {
     return factorised == UMFPACK_OK && info[UMFPACK_RCOND] > 0 && std::isfinite(info[UMFPACK_RCOND]);
   }
 
+  double pivot_ratio() const override { return info[UMFPACK_RCOND]; }
+
   void solve(ConstVec b, Vec x) override {
     const OneBlasThread same_bits;
     check(umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), solution.data(), b.data(),

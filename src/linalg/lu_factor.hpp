@@ -20,6 +20,8 @@ class LuFactor {
 
   /// True: A is regular, and the factor solves. Throws std::runtime_error if no memory is left.
   virtual bool factorise() = 0;
+  /// min |U_kk|/max |U_kk|; of one that solves.
+  virtual double pivot_ratio() const = 0;
   /// As SparseLu's.
   virtual void solve(ConstVec b, Vec x) = 0;
   /// With its copy of A.

@@ -106,6 +106,8 @@ class EigenLu final : public LuFactor {
     return lu_.info() == Eigen::Success && lu_.pivot_ratio() > 0;
   }
 
+  double pivot_ratio() const override { return lu_.pivot_ratio(); }
+
   void solve(ConstVec b, Vec x) override {
     constexpr int refinements = 2;
     const Eigen::Map<const VectorXd> B(b.data(), A_.rows());

@@ -57,6 +57,11 @@ SparseCholesky::~SparseCholesky() = default;
 
 bool SparseCholesky::positive_definite() const { return impl_->positive_definite; }
 
+double SparseCholesky::pivot_ratio() const {
+  if (!positive_definite()) throw std::logic_error("pivot_ratio() of a matrix that is not positive definite");
+  return size() > 0 ? impl_->factor->pivot_ratio() : 1;
+}
+
 void SparseCholesky::solve(ConstVec b, Vec x) const {
   if (!positive_definite()) throw std::logic_error("solve() with a matrix that is not positive definite");
   if (b.size() != size() || x.size() != size())

@@ -22,6 +22,9 @@ class SparseCholesky {
 
   /// Whether the factorisation went through: a proof (to rounding) that A is positive definite.
   bool positive_definite() const;
+  /// The smallest pivot beside the largest, (min L_kk/max L_kk)², an upper bound of 1/κ(A): if it is of the size of
+  /// rounding, A may be singular. 1 if n = 0; needs positive_definite().
+  double pivot_ratio() const;
   /// x = A⁻¹ b; b, x: (n), may be the same array. Allocates nothing after the first call. Needs positive_definite().
   void solve(ConstVec b, Vec x) const;
   std::size_t size() const;

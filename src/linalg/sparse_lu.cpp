@@ -41,6 +41,11 @@ SparseLu::~SparseLu() = default;
 
 bool SparseLu::regular() const { return impl_->regular; }
 
+double SparseLu::pivot_ratio() const {
+  if (!regular()) throw std::logic_error("pivot_ratio() of a matrix that is singular");
+  return size() > 0 ? impl_->factor->pivot_ratio() : 1;
+}
+
 void SparseLu::solve(ConstVec b, Vec x) const {
   if (!regular()) throw std::logic_error("solve() with a matrix that is singular");
   if (b.size() != size() || x.size() != size())

@@ -22,6 +22,9 @@ class SparseLu {
 
   /// Whether every pivot is finite and not zero: min |U_ii|/max |U_ii| > 0.
   bool regular() const;
+  /// The smallest pivot beside the largest: if it is of the size of rounding, A may be singular. 1 if n = 0; needs
+  /// regular().
+  double pivot_ratio() const;
   /// x = A⁻¹ b with up to two steps of iterative refinement; b, x: (n), may be the same array. Allocates nothing.
   /// Needs regular().
   void solve(ConstVec b, Vec x) const;

@@ -38,6 +38,31 @@ double stress_part(const LagrangianPhase& phase, double t, ConstVec u, ConstVec 
   return sum;
 }
 
+// Whether a mode lives in functions that hardly reach the body: beside a point or two they are more unknowns than these
+// resist, and what moves there is no material. Such functions have inertia that they were given in place of mass, or,
+// scaled by Gershgorin, one that is small beside that of others, while no point moves as far as its nodes. Points stand
+// still in an hourglass motion too, but the functions that this lives in are filled, and it is to be told.
+bool moves_no_material(const LagrangianPhase& phase, double t, const std::vector<double>& x) {
+  constexpr double nearly_all = 0.9, little = 0.05;  // of xᵀMx = 1
+  constexpr double light = 0.25;                     // of the most inertia that a degree of freedom has
+  const Mass& M = phase.mass();
+  if (2 * M.relative_energy(x) > nearly_all) return true;
+  double of_mode = 0, sum = 0, most = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double m = M.diagonal()[k], square = m * x[k] * x[k];
+    of_mode += m * square;
+    sum += square;
+    most = std::max(most, m);
+  }
+  if (!(of_mode < light * most * sum)) return false;
+  const std::vector<double> moved = change_of(phase, PointQuantity::displacement, t, x);
+  const std::vector<double> mass = phase.point_data().masses;
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  double energy = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i) energy += mass[i / dim] * moved[i] * moved[i];
+  return energy < little;
+}
+
 // The lowest real λ of K x = λ M x with an unsymmetric K, from the one of its symmetric part, which is lower: by
 // inverse iteration from below. False if there is no real one there.
 bool find_real_mode(const SparseMatrix& K, const Mass& mass, LowestMode& lowest) {
@@ -93,7 +118,8 @@ EquilibriumStability stability_of(const LagrangianPhase& phase, double t, ConstV
   const SparseMatrix K = phase.tangents().matrix(Tangent::consistent, t, u) - phase.tangents().of_loads(t, u);
   const SparseMatrix transposed = K.transpose();
   // With an unsymmetric K no mode grows in one direction if the symmetric part is positive definite.
-  LowestMode lowest = lowest_mode(0.5 * (K + transposed), phase.mass());
+  LowestMode lowest = lowest_mode(0.5 * (K + transposed), phase.mass(),
+                                  [&](const std::vector<double>& x) { return moves_no_material(phase, t, x); });
   if (lowest.positive_definite) return {.kind = Kind::stable, .mode = {}, .largest = {}};
   if (!lowest.found) return {};
   constexpr double rounding = 1e-10;

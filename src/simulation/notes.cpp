@@ -124,6 +124,19 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
   return notes;
 }
 
+// A point in the middle of an eight-noded cell is strained by none of its 12 hourglass motions. In the plane, where a
+// cell has two of them, one side that is held rules them out, and one point a cell is a remedy against locking.
+std::optional<std::string> hourglass_note(const Scene& scene) {
+  if (scene.dim != 3 || scene.grid.basis != BasisKind::linear) return std::nullopt;
+  const bool one_a_cell = std::ranges::any_of(scene.bodies, [](const BodySpec& body) {
+    return body.file.empty() && std::ranges::all_of(body.points_per_cell, [](int along) { return along == 1; });
+  });
+  if (!one_a_cell) return std::nullopt;
+  return "one material point a cell lets the cells of a linear basis move in hourglass motions that strain no point: "
+         "an "
+         "answer is the one in which these have no part, and it bends too easily; expected points_per_cell = 8";
+}
+
 // A function that a loaded surface has just come into is loaded by its value there, and resisted by its gradient at the
 // nearest point alone: that point's stress takes what makes the two agree. Where a point crosses a line of the grid its
 // share of a linear function's gradient changes sign: what an elastic body settles over many phases comes out too large
@@ -222,6 +235,7 @@ std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhas
   std::ranges::move(phase_notes(scene, phase), std::back_inserter(notes));
   std::ranges::move(damping_notes(scene, phase), std::back_inserter(notes));
   if (std::optional<std::string> note = locking_note(scene)) notes.push_back(std::move(*note));
+  if (std::optional<std::string> note = hourglass_note(scene)) notes.push_back(std::move(*note));
   return notes;
 }
 
@@ -256,6 +270,29 @@ std::optional<std::string> slow_damping_note(const Scene& scene, double c, doubl
       "steps, "
       "and {}; expected damping.c = \"critical\"",
       c, half / omega_1, time, steps, limit);
+}
+
+// Positions keep what a phase moved a point by to their own rounding; strains are carried on by themselves.
+std::optional<std::string> lost_motion_note(const LagrangianPhase& phase, double t, ConstVec u, long phases) {
+  if (phases < 2) return std::nullopt;
+  constexpr double digits = 1e6;  // that a displacement should have at least
+  const auto largest = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(x));
+    return most;
+  };
+  std::vector<double> moved(static_cast<std::size_t>(phase.dim()) * phase.points()),
+      stress(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
+  phase.point_field(PointQuantity::displacement, t, u, moved);
+  const double most = largest(moved);
+  const double rounding = std::numeric_limits<double>::epsilon() * largest(phase.point_data().positions);
+  if (!(most < digits * rounding)) return std::nullopt;
+  phase.point_stress(t, u, stress);
+  if (largest(stress) == 0) return std::nullopt;  // nothing acts
+  return fmt::format(
+      "the points moved by {:.2g} m at most, and their positions are rounded to {:.1g} m from phase to phase: the "
+      "displacements are not resolved; expected larger loads or a single phase",
+      most, rounding);
 }
 
 std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance) {

@@ -30,6 +30,9 @@ std::optional<std::string> slow_damping_note(const Scene& scene, double c, doubl
 /// After a run that ended in equilibrium, if its error bound is large, as where the scene asks for none.
 std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance);
 
+/// After a run in phases, if the displacements are no more than what positions are rounded to.
+std::optional<std::string> lost_motion_note(const LagrangianPhase& phase, double t, ConstVec u, long phases);
+
 /// After a run of elastic bodies in phases, if much of the points' stresses is more than the grid's functions feel.
 std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress);
 

@@ -100,6 +100,7 @@ void Simulation::Impl::fill_state(Summary& s) {
     s.added_mass = transfer.added_mass;
     s.null_space_stress = model_.phase->null_space_stress(t_, motion_->u());
     add_note(s, null_space_note(scene_, *model_.phase, *s.null_space_stress));
+    add_note(s, lost_motion_note(*model_.phase, t_, motion_->u(), phases_));
   }
   fill_supports(scene_, *model_.phase, t_, *motion_, s);
   if (recorder_) recorder_->fill(s, t_, *motion_);

@@ -3,6 +3,7 @@
 
 #include <stillpoint/mass.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace stillpoint {
@@ -16,7 +17,9 @@ struct LowestMode {
   std::vector<double> x{};   // (n)
 };
 
-/// K: symmetric. One factorisation of K if it is positive definite; a few of K + σM, σ > −λ, if not.
-LowestMode lowest_mode(const SparseMatrix& K, const Mass& mass);
+/// K: symmetric. One factorisation of K if it is positive definite; a few of K + σM, σ > −λ, if not. is_left_out(x):
+/// whether a mode does not count, so that the lowest of the others is looked for; not found if a dozen do not.
+LowestMode lowest_mode(const SparseMatrix& K, const Mass& mass,
+                       const std::function<bool(const std::vector<double>& x)>& is_left_out = {});
 
 }  // namespace stillpoint

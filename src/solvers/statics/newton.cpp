@@ -13,9 +13,9 @@
 #include "linalg/gmres.hpp"
 #include "linalg/power_iteration.hpp"
 #include "linalg/row_product.hpp"
-#include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "solvers/statics/load_increments.hpp"
+#include "solvers/statics/semidefinite_factor.hpp"
 #include "solvers/statics/subtract_product.hpp"
 #include "system/largest_at.hpp"
 #include "system/static_balance.hpp"
@@ -186,7 +186,7 @@ class Newton {
     if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
     if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
       if (by_cholesky(K)) return true;
-      indefinite_ = true;
+      indefinite_ = !semidefinite_;
     }
     return by_lu(K);
   }
@@ -202,19 +202,20 @@ class Newton {
     return by_cholesky(system_.tangents().matrix(Tangent::elastic, t_, u));
   }
 
+  // False if K is indefinite, or if it is singular and Q drives what it does not resist.
   bool by_cholesky(const SparseMatrix& K) {
     is_used_again_ = factor_ && same(K, factorised_);
     if (!is_used_again_) {
       forget_factor();  // first: there may be no room for two
       factorised_ = K;
-      factor_.emplace(K);
+      factor_.emplace(factorised_, system_.mass());
       ++report_.cholesky_factorisations;
       report_.factor_bytes = std::max(report_.factor_bytes, factor_->bytes());
     }
-    const bool definite = factor_->positive_definite();
-    if (definite) factor_->solve(balance_.Q.span(), du_);
-    if (!definite) forget_factor();
-    return definite;
+    semidefinite_ = factor_->semidefinite();
+    const bool found = semidefinite_ && factor_->solve(balance_.Q.span(), du_);
+    if (!found) forget_factor();
+    return found;
   }
   void forget_factor() {
     factor_.reset();
@@ -224,6 +225,11 @@ class Newton {
     const SparseLu factor(K);
     ++report_.lu_factorisations;
     report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
+    if (factor.regular() && factor.pivot_ratio() > suspicious_pivot_ratio) {
+      factor.solve(balance_.Q.span(), du_);
+      return true;
+    }
+    if (solve_unsymmetric_singular(K, system_.mass(), balance_.Q.span(), du_)) return true;
     if (factor.regular()) factor.solve(balance_.Q.span(), du_);
     return factor.regular();
   }
@@ -266,16 +272,17 @@ class Newton {
   const NewtonOptions& options_;
   StaticBalance balance_;
   std::vector<double> trial_, du_;
-  SparseMatrix factorised_;               // K of the factor
-  std::optional<SparseCholesky> factor_;  // kept where the next K may be the same
-  bool is_used_again_ = false;            // whether K was
+  SparseMatrix factorised_;                   // K of the factor
+  std::optional<SemidefiniteFactor> factor_;  // kept where the next K may be the same
+  bool is_used_again_ = false;                // whether K was
   static constexpr int most_short_steps = 3;
   static constexpr double short_step = 0.3;
-  bool full_steps_ = false;  // whatever ‖Q‖ does
-  int short_steps_ = 0;      // one after the other
-  bool indefinite_ = false;  // K of the last iteration, if symmetric
-  bool refused_ = false;     // an equilibrium since the last that was taken
-  bool accepts_ = false;     // what is indefinite
+  bool full_steps_ = false;    // whatever ‖Q‖ does
+  int short_steps_ = 0;        // one after the other
+  bool semidefinite_ = false;  // what the last factor was asked for
+  bool indefinite_ = false;    // K of the last iteration, if symmetric
+  bool refused_ = false;       // an equilibrium since the last that was taken
+  bool accepts_ = false;       // what is indefinite
   StaticReport report_;
 };
 

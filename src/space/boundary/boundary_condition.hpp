@@ -19,11 +19,15 @@ namespace stillpoint {
 /// The unknowns of a grid (Dim function + component) that boundary conditions take hold of when a phase begins.
 class HeldUnknowns {
  public:
+  /// Owner of what no support of the scene holds.
+  static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+
   HeldUnknowns() = default;
   /// t: when the phase begins [s].
   HeldUnknowns(std::size_t unknowns, double t) : start_(t), by_(unknowns, nothing) {}
 
-  /// It follows the motion, which outlives this object; owner: the number of the support in its scene.
+  /// It follows the motion, which outlives this object; owner: the number of the support in its scene, or
+  /// nobody.
   void prescribe(int unknown, const PrescribedMotion& motion, std::size_t owner) {
     by_[static_cast<std::size_t>(unknown)] = support;
     prescribed_.push_back(unknown);

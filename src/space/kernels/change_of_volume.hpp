@@ -1,4 +1,5 @@
-// The change of volume of a block's points: J = det(I + H) and ∂J/∂H = cof(I + H), or to first order tr H and I.
+// The change of volume of a block's points: j = J − 1, J = det(I + H), and ∂j/∂H = cof(I + H), or to first order tr H
+// and I. j is summed from H itself, so that a small one has the digits that J loses beside 1.
 #pragma once
 
 #include <array>
@@ -24,21 +25,23 @@ requires(dimensions(K) > 1) struct ChangeOfVolume {
   using Row = typename Block::Row;
   using Tensor = TensorOf<K>;
 
-  /// J, or at small strain tr H, of the block's points.
-  static void of_block(const Block& block, bool finite_strain, Row& J) {
-    finite_strain ? of_block_as<true>(block, J) : of_block_as<false>(block, J);
+  /// J − 1, or at small strain tr H, of the block's points.
+  static void of_block(const Block& block, bool finite_strain, Row& j) {
+    finite_strain ? of_block_as<true>(block, j) : of_block_as<false>(block, j);
   }
   template <bool Finite>
-  [[gnu::always_inline]] static void of_block_as(const Block& block, Row& J) {
+  [[gnu::always_inline]] static void of_block_as(const Block& block, Row& j) {
 #pragma omp simd
     for (std::size_t q = 0; q < block.count; ++q) {
       if constexpr (Finite && in_space) {
-        J[q] = determinant<K>(plus_identity<K>(block.H_at(q)));
+        const SpaceTensor H = stillpoint::in_space(block.H_at(q));
+        j[q] = change_of_volume(H, stillpoint::cofactor(H));
       } else if constexpr (Finite) {
-        const double in_plane = (1 + block.H[0][q]) * (1 + block.H[3][q]) - block.H[1][q] * block.H[2][q];
-        J[q] = has_hoop ? in_plane * (1 + block.H[components - 1][q]) : in_plane;
+        const double in_plane =
+            block.H[0][q] + block.H[3][q] + (block.H[0][q] * block.H[3][q] - block.H[1][q] * block.H[2][q]);
+        j[q] = has_hoop ? in_plane + (1 + in_plane) * block.H[components - 1][q] : in_plane;
       } else {
-        J[q] = block.H[0][q] + block.H[second][q] + (has_hoop || in_space ? block.H[components - 1][q] : 0);
+        j[q] = block.H[0][q] + block.H[second][q] + (has_hoop || in_space ? block.H[components - 1][q] : 0);
       }
     }
   }

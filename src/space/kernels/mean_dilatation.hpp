@@ -33,7 +33,7 @@ namespace stillpoint {
 /// and after them average_direction(), the law's tangent(), transform_tangent().
 ///
 /// Means gives what comes from other points, in rows of the block's:
-///   means(block, x, mean)              x̄ of the state's J or tr H
+///   means(block, x, mean)              x̄ of the state's J − 1 or tr H
 ///   shares(block, y, share)            Σ_q T_qp y_q of its a/J̄
 ///   rates_of_means(block, x, mean),    the same of their derivatives.
 ///   rates_of_shares(block, y, share)
@@ -54,14 +54,12 @@ requires(dimensions(K) > 1) class MeanDilatation {
 
   /// block.H becomes H̄.
   void average(Block& block) { average_as<false>(block, nullptr, nullptr); }
-  /// And block.dH the part of H̄ that came since commit. before, after: what averaging does to a point, s_p or at small
-  /// strain (t̄ − tr H_p)/d, of the committed state and of this one, of the block's points; nobody asks for after if it
-  /// is null.
+  /// And block.dH the part of H̄ that came since commit. before, after: what averaging does to a point, s_p − 1 or at
+  /// small strain (t̄ − tr H_p)/d, of the committed state and of this one, of the block's points; nobody asks for after
+  /// if it is null.
   void average(Block& block, const double* before, double* after) { average_as<true>(block, before, after); }
   /// What averaging did to the block's points.
-  void write_effect(const Block& block, double* effect) const {
-    std::copy_n((finite_ ? s_ : added_).begin(), block.count, effect);
-  }
+  void write_effect(const Block& block, double* effect) const { std::copy_n(added_.begin(), block.count, effect); }
 
   /// block.VP, the law's V P̄, becomes V P.
   void transform_stress(Block& block) {
@@ -132,32 +130,35 @@ requires(dimensions(K) > 1) class MeanDilatation {
   template <bool Increments>
   void average_finite(Block& block, const double* before) {
     const std::size_t count = block.count;
-    Volume::template of_block_as<true>(block, J_);
-    means_.means(block, J_, mean_);
+    Volume::template of_block_as<true>(block, change_);
+    means_.means(block, change_, mean_);
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
-      const double product = 1 / (J_[q] * mean_[q]);
-      inverse_J_[q] = mean_[q] * product;
-      inverse_mean_[q] = J_[q] * product;
-      s_[q] = d == 3 ? std::cbrt(mean_[q] * inverse_J_[q]) : mean_[q] * std::sqrt(product);
-      inverse_s_[q] = d == 3 ? 1 / s_[q] : s_[q] * J_[q] * inverse_mean_[q];
-      const double s_before = Increments ? before[q] : 1;
+      const double J = 1 + change_[q], mean = 1 + mean_[q], product = 1 / (J * mean);
+      inverse_J_[q] = mean * product;
+      inverse_mean_[q] = J * product;
+      s_[q] = d == 3 ? std::cbrt(mean * inverse_J_[q]) : mean * std::sqrt(product);
+      inverse_s_[q] = d == 3 ? 1 / s_[q] : s_[q] * J * inverse_mean_[q];
+      // s − 1 = (J̄ − J)/J/(1 + s [+ s²]),  H̄ = s f − I = s H + (s − 1) I
+      const double added = (mean_[q] - change_[q]) * inverse_J_[q] / (1 + s_[q] * (d == 3 ? 1 + s_[q] : 1));
+      added_[q] = added;
+      const double before_added = Increments ? before[q] : 0;
       unroll<components>([&](auto c) __attribute__((always_inline)) {
         constexpr double one = on_diagonal[c] ? 1 : 0;
         const double f = one + block.H[c][q];
-        if constexpr (Increments) block.dH[c][q] = s_[q] * f - s_before * (f - block.dH[c][q]);
-        block.H[c][q] = s_[q] * f - one;
+        if constexpr (Increments) block.dH[c][q] = (added - before_added) * f + (1 + before_added) * block.dH[c][q];
+        block.H[c][q] = s_[q] * block.H[c][q] + added * one;
       });
     }
   }
   template <bool Increments>
   void average_small(Block& block, const double* before) {
     const std::size_t count = block.count;
-    Volume::template of_block_as<false>(block, J_);
-    means_.means(block, J_, mean_);
+    Volume::template of_block_as<false>(block, change_);
+    means_.means(block, change_, mean_);
 #pragma omp simd
     for (std::size_t q = 0; q < count; ++q) {
-      added_[q] = (mean_[q] - J_[q]) / d;
+      added_[q] = (mean_[q] - change_[q]) / d;
       inverse_J_[q] = inverse_mean_[q] = s_[q] = inverse_s_[q] = 1;
       const double more = Increments ? added_[q] - before[q] : 0;
       unroll<components>([&](auto c) __attribute__((always_inline)) {
@@ -229,11 +230,12 @@ requires(dimensions(K) > 1) class MeanDilatation {
 
   Means means_;
   const bool finite_;
-  alignas(64) Row J_, mean_, s_, inverse_J_, inverse_mean_, inverse_s_;  // of u; at small strain J = J̄ = s = 1
-  alignas(64) Row added_;                                                // (t̄ − tr H)/d of small strain
-  alignas(64) Row a_, push_;                                             // of V P̄
-  alignas(64) Row dJ_, dmean_, ds_;                                      // of δu
-  alignas(64) Rows kept_, direction_;                                    // V P̄, δH
+  alignas(64) Row change_, mean_;  // J − 1 and J̄ − 1 of u, at small strain tr H and t̄
+  alignas(64) Row s_, inverse_J_, inverse_mean_, inverse_s_;  // at small strain J = J̄ = s = 1
+  alignas(64) Row added_;                                     // s − 1, at small strain (t̄ − tr H)/d
+  alignas(64) Row a_, push_;                                  // of V P̄
+  alignas(64) Row dJ_, dmean_, ds_;                           // of δu
+  alignas(64) Rows kept_, direction_;                         // V P̄, δH
 };
 
 }  // namespace stillpoint

@@ -12,8 +12,9 @@
 
 namespace stillpoint {
 
-/// A law without history. Once the body has moved on it keeps the deformation gradient F_0 with which the phase began:
-///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began.
+/// A law without history. Once the body has moved on it keeps the deformation F_0 = I + H_0 with which the phase began:
+///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began,
+/// as H_0, and H = f F_0 − I = H + H_0 + H H_0, so that small strains lose no digits beside 1.
 template <ElasticLaw Law>
 class ElasticMaterial : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
@@ -26,11 +27,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool updated_lagrangian)
       : Base(law, begin, count,
              {.finite_strain = Law::finite_strain, .stress_stays = true, .wave_modulus = law.moduli({})[0]}) {
-    if (!updated_lagrangian || !Law::finite_strain) return;
-    const Tensor I = plus_identity<K>({});
-    F0_.resize(components * count);
-    for (std::size_t c = 0; c < components; ++c)
-      std::fill_n(F0_.begin() + static_cast<std::ptrdiff_t>(count * c), count, I[c]);
+    if (updated_lagrangian && Law::finite_strain) H0_.assign(components * count, 0.0);
   }
 
   [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
@@ -40,13 +37,13 @@ class ElasticMaterial : public LawMaterialBase<Law> {
           block, V,
           [ law, &block ](std::size_t q) __attribute__((always_inline)) { return law.first_piola(block.H_at(q)); });
     }
-    const double* of_block = F0_.data() + block.first - begin_;
+    const double* of_block = H0_.data() + block.first - begin_;
     const std::size_t n = count_;
     return loop(
         block, V, [ law, &block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
-          Tensor F_0;
-          unroll<components>([&](auto c) __attribute__((always_inline)) { F_0[c] = of_block[n * c + q]; });
-          return push(F_0, law.first_piola(total(F_0, block.H_at(q))));
+          Tensor H_0;
+          unroll<components>([&](auto c) __attribute__((always_inline)) { H_0[c] = of_block[n * c + q]; });
+          return push(plus_identity<K>(H_0), law.first_piola(total(H_0, block.H_at(q))));
         });
   }
   // Where P is linear in H, δP = P(δH).
@@ -64,8 +61,8 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
     if (!moved()) return law_.moduli(H);
     // Column b: the answer to a unit dH_b, dF = dH F_0
-    const Tensor F_0 = F0(p);
-    const ModuliMatrix A = law_.moduli(total(F_0, H));
+    const Tensor F_0 = plus_identity<K>(H0(p));
+    const ModuliMatrix A = law_.moduli(total(H0(p), H));
     ModuliMatrix pushed{};
     for (int b = 0; b < components; ++b) {
       Tensor dH{};
@@ -75,22 +72,22 @@ class ElasticMaterial : public LawMaterialBase<Law> {
     }
     return pushed;
   }
-  Stresses cauchy(const Tensor& H, std::size_t p) const override { return law_.cauchy(moved() ? total(F0(p), H) : H); }
+  Stresses cauchy(const Tensor& H, std::size_t p) const override { return law_.cauchy(moved() ? total(H0(p), H) : H); }
 
   void end_phase(const Block& block) override {
     for (std::size_t q = 0; q < block.count; ++q) {
       const std::size_t p = block.first + q;
-      const Tensor F = product<K>(plus_identity<K>(block.H_at(q)), F0(p));
-      for (std::size_t c = 0; c < components; ++c) F0_[count_ * c + p - begin_] = F[c];
+      const Tensor H = total(H0(p), block.H_at(q));
+      for (std::size_t c = 0; c < components; ++c) H0_[count_ * c + p - begin_] = H[c];
     }
   }
-  Vec memory() override { return F0_; }
+  Vec memory() override { return H0_; }
   void reorder(const Reordering& order, std::vector<double>&) override {
     std::vector<double> work;
-    order.apply(F0_, work, begin_, count_);
+    order.apply(H0_, work, begin_, count_);
   }
   void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
-    Base::take_values(F0_, from, begin, count);
+    Base::take_values(H0_, from, begin, count);
     begin_ = begin;
     count_ = count;
   }
@@ -105,18 +102,17 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   std::vector<std::pair<std::string, ConstVec>> shown_history() const override { return {}; }
 
  protected:
-  bool moved() const { return !F0_.empty(); }
-  Tensor F0(std::size_t p) const {
-    Tensor F;
-    for (std::size_t c = 0; c < components; ++c) F[c] = F0_[count_ * c + p - begin_];
-    return F;
+  bool moved() const { return !H0_.empty(); }
+  Tensor H0(std::size_t p) const {
+    Tensor H;
+    for (std::size_t c = 0; c < components; ++c) H[c] = H0_[count_ * c + p - begin_];
+    return H;
   }
-  // H of f F_0
-  static Tensor total(const Tensor& F_0, const Tensor& H) {
-    Tensor F = product<K>(plus_identity<K>(H), F_0);
-    const Tensor I = plus_identity<K>({});
-    for (int c = 0; c < components; ++c) F[c] -= I[c];
-    return F;
+  // (I + H)(I + H_0) − I
+  static Tensor total(const Tensor& H_0, const Tensor& H) {
+    Tensor all = product<K>(H, H_0);
+    for (int c = 0; c < components; ++c) all[c] += H[c] + H_0[c];
+    return all;
   }
   static Tensor push(const Tensor& F_0, const Tensor& P) {
     Tensor pushed = product<K>(P, transposed<K>(F_0));
@@ -137,7 +133,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
     return Base::sum_in_groups(count, point);
   }
 
-  std::vector<double> F0_;  // (components × points); empty in a body that never moves on
+  std::vector<double> H0_;  // (components × points); empty in a body that never moves on
 };
 
 }  // namespace stillpoint

@@ -64,14 +64,14 @@ class OwnMaterial final : public ElasticMaterial<OwnLawAtPoint<S>> {
     alignas(64) Rows total;  // H of f F_0
     Base::sum_in_groups(
         block.count, [&](std::size_t q) __attribute__((always_inline)) {
-          const Tensor H = Base::total(Base::F0(first + q), block.H_at(q));
+          const Tensor H = Base::total(Base::H0(first + q), block.H_at(q));
           unroll<components>([&](auto c) __attribute__((always_inline)) { total[c][q] = H[c]; });
           return 0.0;
         });
     law_.answers().first_piola(block.count, stride, total[0].data(), P[0].data());
     return Base::sum_in_groups(
         block.count, [&](std::size_t q) __attribute__((always_inline)) {
-          return block.store_stress(q, volume[q], Base::push(Base::F0(first + q), row(P, q)));
+          return block.store_stress(q, volume[q], Base::push(plus_identity<Base::K>(Base::H0(first + q)), row(P, q)));
         });
   }
 

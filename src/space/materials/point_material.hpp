@@ -101,8 +101,8 @@ class PointMaterial {
   /// The phase ends with the deformation in block.H: it becomes part of what the next phase starts from.
   virtual void end_phase(const PointBlock<K>& block) = 0;
   /// What the points remember, entry h of the material's q-th point at [points h + q]: of a law that knows the
-  /// deformation alone the gradient with which the phase began, if the body moves on; of one with history what was last
-  /// committed.
+  /// deformation alone the displacement gradient F − I with which the phase began, if the body moves on; of one with
+  /// history what was last committed.
   virtual Vec memory() = 0;
   /// Points are sorted anew. work: (history_size).
   virtual void reorder(const Reordering& order, std::vector<double>& work) = 0;

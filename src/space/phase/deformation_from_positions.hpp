@@ -83,9 +83,9 @@ class DeformationFromPositions {
   /// by their numbers, (P × dim).
   void apply(const Grid<dim>& grid, Body<K>& body, const Weights& weights, const CornerSum& corner_sum,
              const HeldUnknowns& held, const std::vector<double>& origin) const {
-    const PointDeformations F(body);
+    const PointDeformations memory(body);
     for (std::size_t b = 0; b + 1 < body.first_number.size(); ++b) {
-      const Values values = displacements(body, b, F, origin);
+      const Values values = displacements(body, b, memory, origin);
       if (values.mass.empty()) continue;
       const double h = (grid.axes[0].max() - grid.axes[0].min()) / grid.axes[0].cells();
       const Fit fit(grid, body.points, weights, corner_sum, values, options(h));
@@ -97,16 +97,17 @@ class DeformationFromPositions {
         }
         for (std::size_t p = body.points.begin(k); p < body.points.end(k); ++p) {
           if (values.mass[p] == 0) continue;
-          const auto inverse_F = identity_minus(weights.gradient(U.data(), k, p));
-          const double factor = determinant<K>(inverse_F) * determinant<K>(F.at(k, p));
-          if (factor > 1 / largest_factor && factor < largest_factor) F.set(k, p, inverse<K>(inverse_F));
+          const auto G = weights.gradient(U.data(), k, p), inverse_F = identity_minus(G);
+          const double factor = determinant<K>(inverse_F) * determinant<K>(plus_identity<K>(memory.at(k, p)));
+          if (factor > 1 / largest_factor && factor < largest_factor)
+            memory.set(k, p, product<K>(inverse<K>(inverse_F), G));  // (I − G)⁻¹ − I
         }
       });
     }
   }
 
  private:
-  // F_p of the points whose law knows the deformation alone, wherever they are kept.
+  // F_p − I of the points whose law knows the deformation alone, wherever they are kept.
   class PointDeformations {
    public:
     explicit PointDeformations(Body<K>& body) : points_(body.points) {
@@ -114,12 +115,12 @@ class DeformationFromPositions {
     }
     bool has(std::size_t k) const { return !of_material_[material(k)].empty(); }
     TensorOf<K> at(std::size_t k, std::size_t p) const {
-      TensorOf<K> F;
-      for (int c = 0; c < components; ++c) F[c] = entry(k, p, c);
-      return F;
+      TensorOf<K> H;
+      for (int c = 0; c < components; ++c) H[c] = entry(k, p, c);
+      return H;
     }
-    void set(std::size_t k, std::size_t p, const TensorOf<K>& F) const {
-      for (int c = 0; c < components; ++c) entry(k, p, c) = F[c];
+    void set(std::size_t k, std::size_t p, const TensorOf<K>& H) const {
+      for (int c = 0; c < components; ++c) entry(k, p, c) = H[c];
     }
 
    private:
@@ -164,12 +165,12 @@ class DeformationFromPositions {
   }
 
   // U_p and I − F_p⁻¹ of the points of body b; empty if its law is another.
-  static Values displacements(const Body<K>& body, std::size_t b, const PointDeformations& F,
+  static Values displacements(const Body<K>& body, std::size_t b, const PointDeformations& memory,
                               const std::vector<double>& origin) {
     const MaterialPoints<dim>& points = body.points;
     Values values;
     for (std::size_t k = 0; k < points.cells(); ++k) {
-      if (!F.has(k)) continue;
+      if (!memory.has(k)) continue;
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         if (!is_of(body, b, p)) continue;
         if (values.mass.empty()) {
@@ -177,27 +178,31 @@ class DeformationFromPositions {
           values.gradient.resize(points.size());
           values.mass.assign(points.size(), 0);
         }
-        const auto inverse_F = inverse<K>(present_deformation(points, F, k, p));
+        const auto H = present_deformation(points, memory, k, p);
+        const auto gradient = product<K>(inverse<K>(plus_identity<K>(H)), H);  // I − F⁻¹
         const auto number = static_cast<std::size_t>(points.number[p]);
         values.mass[p] = B::window > 1 ? points.volume[p] : points.mass[p];
         for (int i = 0; i < dim; ++i) {
           values.value[p][i] = points.x[i][p] - (B::window > 1 ? points.rest[i][p] : origin[dim * number + i]);
-          for (int j = 0; j < dim; ++j) values.gradient[p][dim * i + j] = (i == j ? 1 : 0) - inverse_F[dim * i + j];
+          for (int j = 0; j < dim; ++j) values.gradient[p][dim * i + j] = gradient[dim * i + j];
         }
       }
     }
     return values;
   }
 
-  // Of a domain by its corners, which show what its point alone does not.
-  static TensorOf<K> present_deformation(const MaterialPoints<dim>& points, const PointDeformations& F, std::size_t k,
-                                         std::size_t p) {
+  // F − I, of a domain by its corners, which show what its point alone does not.
+  static TensorOf<K> present_deformation(const MaterialPoints<dim>& points, const PointDeformations& memory,
+                                         std::size_t k, std::size_t p) {
     if constexpr (B::window > 1) {
       Point<dim> r;
       for (int d = 0; d < dim; ++d) r[d] = points.half[d][p];
-      return Domain<dim>::of(points, p).deformation(r);
+      TensorOf<K> H = Domain<dim>::of(points, p).deformation(r);
+      const TensorOf<K> I = plus_identity<K>({});
+      for (int c = 0; c < components; ++c) H[c] -= I[c];
+      return H;
     } else {
-      return F.at(k, p);
+      return memory.at(k, p);
     }
   }
 

@@ -17,10 +17,11 @@ namespace stillpoint {
 /// Rounding never loses a point: past a face by that alone, it is put back onto it. Nothing passes a face on which a
 /// support or a wall stands: a point that a step leaves behind it, by less than a tenth of a cell, is put back as well
 /// (the nodes follow a wall that sets out at once to the order of the integrator). Further away it has left the grid.
+/// Nor does it pass an axis of symmetry that the body reaches.
 template <int Dim>
 class GridFaces {
  public:
-  GridFaces(const Scene& scene, const Grid<Dim>& grid) : grid_(grid) {
+  GridFaces(const Scene& scene, const Grid<Dim>& grid, bool is_at_axis = false) : grid_(grid) {
     constexpr double rounding = 1e-12;  // some thousand units in the last place of the largest coordinate
     for (std::size_t d = 0; d < Dim; ++d) {
       const Axis& axis = grid.axes[d];
@@ -30,6 +31,7 @@ class GridFaces {
       if (support.face && !holds_by_springs(scene.grid, support)) hold(*support.face);
     }
     for (const WallSpec& wall : scene.walls) hold(wall.face);
+    if (is_at_axis) hold(Face::left);
   }
 
   /// Whether a point may stay at coordinate x, if need be put back. False for a NaN.

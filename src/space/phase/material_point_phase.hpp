@@ -15,6 +15,7 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "scene/controlled_loads.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "space/boundary/axis_of_symmetry.hpp"
 #include "space/boundary/boundary_conditions.hpp"
 #include "space/boundary/load_control.hpp"
 #include "space/boundary/weak_supports.hpp"
@@ -58,6 +59,7 @@ class MaterialPointPhase final : public LagrangianPhase,
         transfer_(scene.phase, !is_undamped(scene.damping.strategy)),
         inertia_(scene.mass, moves_on(scene)),
         boundary_(make_boundary_conditions<B, K>(scene_, grid_, time_scale())),
+        axis_(scene_, grid_, body_, time_scale()),
         weak_supports_(scene_, grid_, time_scale()),
         load_control_(scene, grid_, time_scale()),
         depths_(scene_) {
@@ -198,6 +200,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void extend_into_slivers();
   void begin_phase(double t);
   void place_functions(double t);
+  HeldUnknowns take_hold(double t, const std::vector<char>& reached);
   void make_forces(double t);
   std::vector<double> wave_moduli() const;
   void archive_number_of_points(const StateArchive& state);
@@ -303,6 +306,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   VelocityTransfer<B, K> transfer_;
   NodalInertia<B, K> inertia_;
   BoundaryConditions<B, K> boundary_;
+  AxisOfSymmetry<B, K> axis_;
   WeakSupports<B, K> weak_supports_;
   LoadControl<B, K> load_control_;
   Contact* contact_ = nullptr;  // of one of them

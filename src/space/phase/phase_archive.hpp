@@ -19,7 +19,7 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   if (body_.points.has_domains()) archive_number_of_points(state);
   state("grid_moved", grid_moved_);
   for (std::size_t m = 0; m < body_.materials.size(); ++m)
-    state(fmt::format("material_{}", m), body_.materials[m]->memory());
+    state(fmt::format("memory_of_material_{}", m), body_.materials[m]->memory());
   if (updated_lagrangian()) archive_points(state);
   archive_conditions(state);
   if (state.restores() && updated_lagrangian()) {
@@ -29,7 +29,7 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   }
   state("committed_u", Vec(committed_u_));
   state("committed_t", committed_t_);
-  if (averages_dilatation()) state("committed_averages", Vec(committed_averages_));
+  if (averages_dilatation()) state("committed_effects_of_averages", Vec(committed_averages_));
   state.none_or(grid_u_.size(), "start_velocity", start_velocity_);
   state("looks", looks_);
   state("motion_since_deformation", motion_since_deformation_);

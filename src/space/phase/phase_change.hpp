@@ -49,7 +49,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   Grid<Dim> next_grid = grid_at<Dim>(scene_, grid_moves_to);
   spread(t, u, grid_u_);
   const std::vector<double> grid_v = nodal_velocity(t, v);
-  const GridFaces<Dim> faces(scene_, next_grid);
+  const GridFaces<Dim> faces(scene_, next_grid, axis_.acts());
   const bool some_past_a_face = move_points(next_grid, faces, grid_v);
   motion_since_deformation_ += largest_motion(u);
   end_phase(grid_v);
@@ -83,13 +83,21 @@ template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::place_functions(double t) {
   make_weights();
   std::vector<char> reached = active_functions();
-  held_ = HeldUnknowns(Dim * reached.size(), t);
-  const FaceGaps<B, K> gaps = face_gaps();
-  for (const auto& condition : boundary_) condition->hold(grid_, reached, gaps, held_);
+  held_ = take_hold(t, reached);
   untouched_ = untouched_functions();
   if (dofs_ && reached == reached_ && held_.prescribed() == dofs_->prescribed) return;
   dofs_.emplace(reached, Dim, held_.prescribed(), extension_);
   reached_ = std::move(reached);
+}
+
+// Supports first: what they bear on the axis is theirs.
+template <AxisBasis B, Kinematics K>
+HeldUnknowns MaterialPointPhase<B, K>::take_hold(double t, const std::vector<char>& reached) {
+  HeldUnknowns held(Dim * reached.size(), t);
+  const FaceGaps<B, K> gaps = face_gaps();
+  for (const auto& condition : boundary_) condition->hold(grid_, reached, gaps, held);
+  axis_.hold(grid_, body_.points, weights_, reached, held);
+  return held;
 }
 
 template <AxisBasis B, Kinematics K>

@@ -17,10 +17,8 @@ void MaterialPointPhase<B, K>::extend_into_slivers() {
   const CutCells<Dim> cut(grid_, covered, B::degree);
   if (cut.slivers().empty()) return;
   make_weights();
-  HeldUnknowns held(Dim * static_cast<std::size_t>(Basis::count(grid_)), 0);
   const std::vector<char> reached = active_functions();
-  const FaceGaps<B, K> gaps = face_gaps();
-  for (const auto& condition : boundary_) condition->hold(grid_, reached, gaps, held);
+  const HeldUnknowns held = take_hold(0, reached);
   const auto is_held = [&](int function, int i) {
     const int unknown = Dim * function + i;
     return held.is_prescribed(unknown) || held.is_guided(unknown);

@@ -174,7 +174,7 @@ std::vector<SupportReaction> MaterialPointPhase<B, K>::support_reactions(double 
   };
   for (std::size_t s = 0; s < prescribed; ++s) {
     const auto [function, i] = std::div(held_.prescribed()[s], Dim);
-    const std::size_t owner = place[held_.owner(s)];
+    const std::size_t support = held_.owner(s), owner = support == HeldUnknowns::nobody ? none : place[support];
     if (owner == none || !Basis::is_value(grid_, function)) continue;
     bear(named[owner], i, reactions[s] - F_s[s], [&, number = function] {
       Point<Dim> x;

@@ -1,0 +1,109 @@
+// The axis of an axisymmetric scene: material at r = 0 stays there, u_r(0) = 0, whatever supports the scene has. No
+// energy says so, as a displacement u_r(0) ≠ 0 strains points near the axis by u_r/r, but none at r = 0. A body with a
+// hole, however narrow, has no material there and is free.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "scene/outline.hpp"
+#include "space/boundary/boundary_condition.hpp"
+#include "space/points/body.hpp"
+
+namespace stillpoint {
+
+/// It is no support: nobody's reaction counts what it bears.
+template <AxisBasis B, Kinematics K>
+class AxisOfSymmetry {
+  static constexpr int dim = dimensions(K);
+  using Basis = TensorBasis<B, dim>;
+
+ public:
+  /// Of the body as it was placed.
+  AxisOfSymmetry(const Scene& scene, const Grid<dim>& grid, const Body<K>& body, double time_scale)
+      : rest_(Expression(0.0), time_scale) {
+    if constexpr (K == Kinematics::axisymmetric) {
+      slack_ = rounding * scene.grid.cell_length(0);
+      if (grid.axes[0].min() > slack_) return;
+      for (std::size_t b = 0; b < scene.bodies.size(); ++b) find_touching(scene.bodies[b], b, body);
+    }
+  }
+
+  /// Whether a body reaches the axis.
+  bool acts() const { return !touches_.empty(); }
+
+  /// Takes hold of u_r of the functions that are not 0 on the axis beside material that touched it at first: it still
+  /// does, as nothing comes between. reached: as of BoundaryCondition::hold().
+  void hold(const Grid<dim>& grid, const MaterialPoints<dim>& points, const PointWeights<B, K>& weights,
+            const std::vector<char>& reached, HeldUnknowns& held) const {
+    if (!acts()) return;
+    std::vector<char> at_axis(reached.size(), 0);
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      if (grid.cell_at(points.cell[k])[0] != 0 || !any_touches(points, k)) continue;
+      for (int a = 0; a < PointWeights<B, K>::per_cell; ++a)
+        at_axis[static_cast<std::size_t>(weights.function(k, a))] = 1;
+    }
+    for (const int function : Basis::face_functions(grid, /*axis=*/0, /*upper=*/false)) {
+      const auto f = static_cast<std::size_t>(function);
+      if (at_axis[f] && reached[f] && !held.is_prescribed(dim * function))
+        held.prescribe(dim * function, rest_, HeldUnknowns::nobody);
+    }
+  }
+
+ private:
+  static constexpr double rounding = 1e-9;  // of a cell
+
+  void find_touching(const BodySpec& spec, std::size_t b, const Body<K>& body) {
+    const std::vector<std::pair<double, double>> along = parts_at_axis(spec);
+    for (std::size_t p = 0; p < body.points.size(); ++p) {
+      const int number = body.points.number[p];
+      if (number < body.first_number[b] || number >= body.first_number[b + 1]) continue;
+      const bool touches = spec.shape() == BodyShape::points
+                               ? fills_way_to_axis(body.points, p)
+                               : std::ranges::any_of(along, [z = body.points.x[1][p]](const auto& part) {
+                                   return z >= part.first && z <= part.second;
+                                 });
+      if (!touches) continue;
+      touches_.resize(static_cast<std::size_t>(body.first_number.back()), 0);
+      touches_[static_cast<std::size_t>(number)] = 1;
+    }
+  }
+
+  // From where to where along the axis the body's outline runs on it [m].
+  std::vector<std::pair<double, double>> parts_at_axis(const BodySpec& spec) const {
+    std::vector<std::pair<double, double>> parts;
+    if (spec.shape() == BodyShape::points) return parts;
+    const Polygon outline = outline_of(spec);
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const PlanePoint &a = outline[k], &c = outline[(k + 1) % outline.size()];
+      if (std::max(a[0], c[0]) <= slack_) parts.emplace_back(std::min(a[1], c[1]), std::max(a[1], c[1]));
+    }
+    return parts;
+  }
+
+  // Whether a point of a file, in whose volume it is a ring of a square section, leaves no room for another on the side
+  // of the axis, nor for a hole that could be told from what uneven points leave.
+  static bool fills_way_to_axis(const MaterialPoints<dim>& points, std::size_t p) {
+    constexpr double unevenness = 0.25;  // of its side
+    const double r = points.x[0][p], side = std::sqrt(points.volume[p] / (2 * std::numbers::pi * r));
+    return r <= (0.5 + unevenness) * side;
+  }
+
+  bool any_touches(const MaterialPoints<dim>& points, std::size_t k) const {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      if (touches_[static_cast<std::size_t>(points.number[p])]) return true;
+    }
+    return false;
+  }
+
+  PrescribedMotion rest_;
+  double slack_ = 0;           // [m]
+  std::vector<char> touches_;  // whether there is nothing between a point and the axis, by its number; empty: of none
+};
+
+}  // namespace stillpoint
