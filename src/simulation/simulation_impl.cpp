@@ -14,6 +14,7 @@
 #include "output/run_folder.hpp"
 #include "scene/longest_cell.hpp"
 #include "simulation/multigrid_choice.hpp"
+#include "simulation/viscosity.hpp"
 
 namespace stillpoint {
 namespace {
@@ -239,6 +240,7 @@ void Simulation::Impl::look_for_end() {
                                !motion_->integrator->static_iteration());
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps());
+    if (status_ == RunStatus::equilibrium && creeps()) status_ = RunStatus::running;
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
   if (!done() && options_.stop_test) {
     reason_ = options_.stop_test();
@@ -256,6 +258,8 @@ void Simulation::Impl::watch_plastic_path() {
 }
 
 void Simulation::Impl::look_for_mechanism() {
+bool Simulation::Impl::creeps() const { return !creep(scene_, *model_.phase).empty(); }
+
   // Where K is constant any u will do, and this one has been carried off.
   const ConstVec u = model_.phase->info().nonlinear ? motion_->u() : ConstVec(model_.u);
   const auto found = mechanism_.look(*model_.phase, t_, u, evaluations());

@@ -106,6 +106,7 @@ class Simulation::Impl {
   void measure();
   bool has_distance() const {
     return model_.learns_omega_1 || (model_.omega_1 && !model_.phase->info().updated_lagrangian);
+  bool creeps() const;
   }
   std::optional<double> distance_to_go() const;
   void refresh_distance();
