@@ -52,6 +52,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
       error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
       schedule_(scene_, *model_.phase, scene_.stop.time),
       plastic_path_(scene_, model_),
+      rate_share_(scene_, *model_.phase),
       standstill_(model_.integrator.max_step),
       // What Newton's method does in one step and in the next are not the same.
       thread_choice_(
@@ -111,6 +112,7 @@ void Simulation::Impl::take_step(double t_stop) {
   measured_ = has_residual_ = false;
   motion_->accept(t_);
   if (plastic_path_.due(t_)) watch_plastic_path();
+  if (rate_share_.due(steps())) rate_share_.sample(t_, steps(), *motion_);
   if (options_.stops) watch();
   sample(done());
   report_progress();

@@ -26,6 +26,7 @@
 #include "simulation/plastic_path.hpp"
 #include "simulation/recorder.hpp"
 #include "simulation/standstill.hpp"
+#include "simulation/rate_share.hpp"
 #include "simulation/thread_choice.hpp"
 
 namespace stillpoint {
@@ -70,6 +71,7 @@ class Simulation::Impl {
   PlasticPath plastic_path_;
   Standstill standstill_;
   ThreadChoice thread_choice_;
+  RateShare rate_share_;
   LimitLoad limit_load_{scene_.stop.load_growth};
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::optional<Recorder> recorder_;
