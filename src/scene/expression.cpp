@@ -280,4 +280,8 @@ bool Expression::uses(char variable) const { return source_ && source_->used.fin
 
 const std::string& Expression::text() const { return text_; }
 
+Expression Expression::with_text(const std::string& text) const {
+  return source_ ? Expression(text, source_->constants, source_->variables) : Expression(text, {});
+}
+
 }  // namespace stillpoint

@@ -244,6 +244,11 @@ void Simulation::Impl::look_for_end() {
   if (!done()) status_ = monitor_.check_limits(t_, steps());
     if (status_ == RunStatus::equilibrium && creeps()) status_ = RunStatus::running;
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
+  if (const std::string wrong = status_ == RunStatus::equilibrium ? schedule_.own_load_goes_on(t_) : "";
+      !wrong.empty()) {
+    status_ = RunStatus::failed;
+    reason_ = failure(now(), "body_force.own: " + wrong);
+  }
   if (!done() && options_.stop_test) {
     reason_ = options_.stop_test();
     if (!reason_.empty()) status_ = RunStatus::stop_test;
