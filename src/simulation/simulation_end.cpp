@@ -127,6 +127,7 @@ void Simulation::Impl::finish() {
   if (is_readable_) say_what_moves();
   test_stability();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
+  folder_lock_.reset();
 }
 
 }  // namespace stillpoint

@@ -60,7 +60,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
           threads),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
-  if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);
+  if (options_.records && !options_.out.empty()) folder_lock_ = prepare_folder(options_.out, resumes);
   if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance(), resumes);
   if (recorder_) recorder_->tell_rows(options_.at_row);
   if (resumes) {
@@ -240,9 +240,9 @@ void Simulation::Impl::look_for_end() {
       refresh_distance();
     status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go(),
                                !motion_->integrator->static_iteration());
+    if (status_ == RunStatus::equilibrium && creeps()) status_ = RunStatus::running;
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps());
-    if (status_ == RunStatus::equilibrium && creeps()) status_ = RunStatus::running;
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
   if (const std::string wrong = status_ == RunStatus::equilibrium ? schedule_.own_load_goes_on(t_) : "";
       !wrong.empty()) {
@@ -258,6 +258,8 @@ void Simulation::Impl::look_for_end() {
   if (!done() && scene_.load) look_for_limit_load();
 }
 
+bool Simulation::Impl::creeps() const { return !creep(scene_, *model_.phase).empty(); }
+
 void Simulation::Impl::watch_plastic_path() {
   if (!options_.stops) return;
   measure();
@@ -265,8 +267,6 @@ void Simulation::Impl::watch_plastic_path() {
 }
 
 void Simulation::Impl::look_for_mechanism() {
-bool Simulation::Impl::creeps() const { return !creep(scene_, *model_.phase).empty(); }
-
   // Where K is constant any u will do, and this one has been carried off.
   const ConstVec u = model_.phase->info().nonlinear ? motion_->u() : ConstVec(model_.u);
   const auto found = mechanism_.look(*model_.phase, t_, u, evaluations());
