@@ -24,6 +24,7 @@
 #include <stillpoint/scene.hpp>
 #include <stillpoint/tensor.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace stillpoint {
@@ -101,6 +102,16 @@ class DruckerPrager {
 
   /// The strength of a step is that at its start, which softening takes from the stress at its end.
   bool stress_stays() const { return softening_rate_ == 0; }
+  bool is_viscous() const { return fluidity_ > 0; }
+  /// Of the cone; the cut-off is never overstepped.
+  YieldState yield_state(const History& now) const {
+    const double p = (now[0] + now[1] + now[2]) / 3, x = now[0] - p, y = now[1] - p, z = now[2] - p;
+    double J2 = (x * x + y * y + z * z) / 2;
+    for (int a = 3; a < stresses; ++a) J2 += now[a] * now[a];
+    const auto [eta, k] = cone_at(now[stresses + 1]);
+    const double root_J2 = std::sqrt(J2);
+    return {.f = root_J2 + eta * p - k, .strength = k - eta * p, .root_J2 = root_J2};
+  }
   static Stress<S> cauchy(const History& now) {
     Stress<S> sigma;
     for (int a = 0; a < stresses; ++a) sigma[a] = now[a];
@@ -223,6 +234,15 @@ class DruckerPrager {
     return {P.xx, P.xy, P.xz, P.yx, P.yy, P.yz, P.zx, P.zy, P.zz};
   }
 
+  struct ConeAt {
+    double eta, k;  // [1], [Pa]
+  };
+  // The strength after γᵖ.
+  ConeAt cone_at(double plastic_strain) const {
+    const double lost = plastic_strain * softening_rate_, share = lost < 1 ? lost : 1;
+    return {eta_ + share * eta_change_, k_ + share * k_change_};
+  }
+
   /// Where the return ends: σ = p I + scale s_trial, and what is remembered beside it.
   template <class Number>
   struct Returned {
@@ -235,9 +255,7 @@ class DruckerPrager {
                             double dt) const {
     const Number p_trial = p_n + K_ * (tr_d + gap);
 
-    // The strength
-    const double lost = plastic_strain * softening_rate_, share = lost < 1 ? lost : 1;
-    const double eta = eta_ + share * eta_change_, k = k_ + share * k_change_;
+    const auto [eta, k] = cone_at(plastic_strain);
     const double apex = k / (eta + tiny), p_cut = tension_ < apex ? tension_ : apex;
 
     // On the cone Δγ = f/(G + K η η̄ + 1/(β dt)), on its edge with the cut-off f(p_cut)/(G + 1/(β dt))

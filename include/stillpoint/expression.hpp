@@ -42,6 +42,8 @@ class Expression {
   bool uses_position() const { return uses('x') || uses('y') || uses('z'); }
   bool constant() const { return !uses_position() && !uses('t'); }
   const std::string& text() const;
+  /// A formula of the same variables, and of the constants that this one names. Throws ExpressionError.
+  Expression with_text(const std::string& text) const;
 
  private:
   struct Source;

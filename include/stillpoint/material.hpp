@@ -68,6 +68,13 @@ concept ElasticLaw = requires(const L law, const Gradient<L::state>& H) {
   { law.moduli(H) } -> std::same_as<Moduli<L::state>>;         // ∂P/∂H [Pa]
 };
 
+/// How a committed stress stands to what the material bears in the long run.
+struct YieldState {
+  double f = 0;         // the yield function [Pa]; far above 0 of a viscous law alone
+  double strength = 0;  // √J₂ at which f = 0 under this mean stress [Pa]
+  double root_J2 = 0;   // [Pa]
+};
+
 /// A law that remembers: `history` numbers a point, among them its stress. H = ∂u/∂x since the phase began (f = I + H),
 /// dH the part of it since history was committed, dt the time since then [s], ≥ 0.
 template <class L>
@@ -80,6 +87,9 @@ concept HistoryLaw = requires(const L law, const Gradient<L::state>& H, double d
   { law.cauchy(next) } -> std::same_as<Stress<L::state>>;
   // Whether the committed stress is what an increment of nothing answers, to rounding
   { law.stress_stays() } -> std::same_as<bool>;
+  // Whether the stress may be beyond the strength for a while, as long as the material flows; and how far it is
+  { law.is_viscous() } -> std::same_as<bool>;
+  { law.yield_state(next) } -> std::same_as<YieldState>;
   // ∂P/∂H of first_piola() if H and dH change alike, and of an elastic trial: symmetric, and no trial is stiffer; of
   // the latter δP for one δH too
   { law.moduli(H, H, dt, next) } -> std::same_as<Moduli<L::state>>;

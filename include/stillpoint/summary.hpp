@@ -93,6 +93,9 @@ struct Summary {
   /// of the loads' work W that went into plastic flow out of balance, where equilibrium is asked for. About how far
   /// from a slow path the displacement may be.
   std::optional<double> unbalanced_plastic_work;
+  /// Mean share of damping and inertia in what moving supports, walls and driven loads feel, |∫ Q·v dt| beside their
+  /// work, where something drives the body and no equilibrium is asked for.
+  std::optional<double> rate_share;
   std::optional<double> single_phase_strain;  // largest component of ∂u/∂x, if a body that yields has one phase
   std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;

@@ -2,8 +2,10 @@
 #include <stillpoint/scene.hpp>
 #include <stillpoint/state_archive.hpp>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -211,11 +213,21 @@ int exit_status(int argc, char** argv) {
   }
 }
 
+// What was printed may still wait to be written.
+int status_after_output(int status) {
+  errno = 0;
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (written || status == failed) return status;
+  fmt::print(stderr, "stillpoint: cannot write to the standard output{}{}\n", errno != 0 ? ": " : "",
+             errno != 0 ? std::strerror(errno) : "");
+  return failed;
+}
+
 }  // namespace
 
 // What still works in a thread that nobody waits for must find all that it uses, to the last moment.
 int main(int argc, char** argv) {
-  const int status = exit_status(argc, argv);
+  const int status = status_after_output(exit_status(argc, argv));
   if (!stillpoint::work_was_left()) return status;
   std::fflush(nullptr);
   std::_Exit(status);

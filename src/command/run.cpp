@@ -56,6 +56,9 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
         fmt::format("{:.6g} J", work) +
             (work != 0 ? fmt::format("; kinetic energy is {:.1e} of it", s.kinetic_energy / std::abs(work)) : ""));
   }
+  if (s.rate_share)
+    row("rate",
+        fmt::format("damping and inertia are {:.2g} % of what drives the body, on average", 100 * *s.rate_share));
   for (const auto& [name, fields] : s.probes) {
     std::string values;
     for (const auto& [field, value] : fields) values += fmt::format("{} = {:.9g}  ", field, value);

@@ -30,12 +30,14 @@ void CountLine::finish() const {
 OutputFolder::OutputFolder(const std::filesystem::path& path) : path_(path) {
   try {
     std::filesystem::create_directories(path_);
+    lock_ = lock_folder(path_);
   } catch (const std::filesystem::filesystem_error& error) {
     throw_folder_error(path_, error);
   }
 }
 
 OutputFolder::~OutputFolder() {
+  lock_.reset();
   std::error_code not_empty;
   std::filesystem::remove(path_, not_empty);
 }

@@ -4,6 +4,9 @@
 #include <stillpoint/study_progress.hpp>
 
 #include <filesystem>
+#include <memory>
+
+#include "output/folder_lock.hpp"
 
 namespace stillpoint::command {
 
@@ -22,7 +25,7 @@ class CountLine {
 };
 
 /// The folder to write into, made before anything runs, since one that cannot be made is bad input. It does not stay
-/// if nothing came of it.
+/// if nothing came of it, and nobody else writes into it meanwhile.
 class OutputFolder {
  public:
   explicit OutputFolder(const std::filesystem::path& path);
@@ -32,6 +35,7 @@ class OutputFolder {
 
  private:
   const std::filesystem::path& path_;
+  std::shared_ptr<FolderLock> lock_;
 };
 
 }  // namespace stillpoint::command

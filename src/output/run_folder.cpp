@@ -30,9 +30,10 @@ void throw_unless_of_disk(const fs::path& folder, const fs::filesystem_error& er
   throw_folder_error(folder, error);
 }
 
-void prepare_folder(const fs::path& folder, bool resumes) {
+std::shared_ptr<FolderLock> prepare_folder(const fs::path& folder, bool resumes) {
   try {
     fs::create_directories(folder);
+    std::shared_ptr<FolderLock> lock = lock_folder(folder);
     for (const auto names : {std::span<const char* const>(of_the_end), std::span<const char* const>(gone_on_from)}) {
       for (const char* name : names) {
         require_file(folder / name);
@@ -40,9 +41,10 @@ void prepare_folder(const fs::path& folder, bool resumes) {
       }
     }
     for (const char* name : of_the_end) fs::remove(folder / name);
-    if (resumes) return;
+    if (resumes) return lock;
     for (const char* name : gone_on_from) fs::remove(folder / name);
     fs::remove_all(folder / frames_folder);
+    return lock;
   } catch (const fs::filesystem_error& error) {
     throw_unless_of_disk(folder, error);
   }

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+
+#include "output/folder_lock.hpp"
 
 namespace stillpoint {
 
@@ -11,8 +14,8 @@ namespace stillpoint {
                                        const std::filesystem::filesystem_error& error);
 
 /// Creates it. What an earlier run has left there is not beside the new run's files: it goes, but for `resumes`, which
-/// needs it. Throws SceneError if it cannot be written, or if something else is in the place of a file that a run may
-/// write; nothing is removed then.
-void prepare_folder(const std::filesystem::path& folder, bool resumes);
+/// needs it. Throws SceneError if it cannot be written, if another run writes into it, or if something else is in the
+/// place of a file that a run may write; nothing is removed then.
+[[nodiscard]] std::shared_ptr<FolderLock> prepare_folder(const std::filesystem::path& folder, bool resumes);
 
 }  // namespace stillpoint

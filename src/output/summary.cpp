@@ -99,6 +99,7 @@ std::string to_json(const Summary& s) {
                      {"external_work", number(s.external_work)},
                      {"plastic_overshoot", number(s.plastic_overshoot)},
                      {"unbalanced_plastic_work", number(s.unbalanced_plastic_work)},
+                     {"rate_share", number(s.rate_share)},
                      {"single_phase_strain", number(s.single_phase_strain)},
                      {"mass_error", number(s.mass_error)},
                      {"momentum_error", number(s.momentum_error)},

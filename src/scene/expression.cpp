@@ -32,7 +32,7 @@ struct OwnFunction {
 };
 constexpr std::array<OwnFunction, 2> kOwnFunctions = {{{"bessel_j0", bessel_j0}, {"bessel_j1", bessel_j1}}};
 
-/// Known in every formula, if the scene has no others of these names.
+/// Known in every formula; a scene has no others of these names.
 const Constants& default_constants() {
   static const Constants constants = {{"pi", std::numbers::pi}, {"e", std::numbers::e}};
   return constants;
@@ -135,6 +135,15 @@ const std::vector<std::string>& expression_functions() {
     const mu::Parser parser;
     for (const auto& function : parser.GetFunDef()) found.push_back(function.first);
     for (const OwnFunction& function : kOwnFunctions) found.emplace_back(function.name);
+    return found;
+  }();
+  return names;
+}
+
+const std::vector<std::string>& expression_constants() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> found;
+    for (const auto& constant : default_constants()) found.push_back(constant.first);
     return found;
   }();
   return names;
@@ -270,5 +279,9 @@ double Expression::operator()(std::span<const double> x, double t) const {
 bool Expression::uses(char variable) const { return source_ && source_->used.find(variable) != std::string::npos; }
 
 const std::string& Expression::text() const { return text_; }
+
+Expression Expression::with_text(const std::string& text) const {
+  return source_ ? Expression(text, source_->constants, source_->variables) : Expression(text, {});
+}
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// What the text of a formula holds: the functions that every one may call, and names.
+// What the text of a formula holds: the functions and numbers that every one has, and names.
 #pragma once
 
 #include <string>
@@ -9,6 +9,9 @@ namespace stillpoint {
 
 /// "sin", "sqrt", "max" …: names that no constant can take.
 const std::vector<std::string>& expression_functions();
+
+/// "e" and "pi", which every formula has.
+const std::vector<std::string>& expression_constants();
 
 /// The names in a formula: constants, variables, functions.
 std::vector<std::string> names_in(std::string_view formula);

@@ -11,6 +11,7 @@
 
 #include "scene/throw_scene_error.hpp"
 #include "simulation/formula_positions.hpp"
+#include "simulation/moments_of_change.hpp"
 
 namespace stillpoint {
 namespace {
@@ -35,6 +36,14 @@ std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const
     for (std::size_t k = 0; k < std::max<std::size_t>(1, moments); ++k) {
       const double t = varies ? scene.stop.time * static_cast<double>(k + 1) / static_cast<double>(moments + 1) : 0;
       if (formula(x, t) != 0) return false;
+    }
+  }
+  if (varies) {  // a pulse between these moments
+    constexpr std::size_t most_places = 8;
+    for (std::size_t p = 0; p < std::min(places, most_places); ++p) {
+      const ConstVec x = formula.uses_position() ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
+      const std::vector<double> times = moments_of_change(formula, x, 200, scene.stop.time);
+      if (std::ranges::any_of(times, [&](double t) { return formula(x, t) != 0; })) return false;
     }
   }
   return thoroughly ? std::optional(true) : std::nullopt;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "scene/own_loads.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/formula_positions.hpp"
+#include "simulation/moments_of_change.hpp"
 
 namespace stillpoint {
 namespace {
@@ -52,8 +54,9 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 
 LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end) {
   is_open_ = !(end > 0) && loads_vary(scene);
+  own_ = own_load(scene.own_load);
+  if (own_) look_at_own(scene, phase, end);
   if (!(end > 0)) return;
-  if (const auto own = own_load(scene.own_load)) settled_from_ = std::min(own->about.settles_at, end);
   // All that vary are looked at closely, unless there are more than a thousand.
   long varying = 0;
   scene.for_each_formula([&](const std::string&, const Expression& formula) { varying += formula.uses('t'); });
@@ -69,25 +72,61 @@ LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, dou
   });
 }
 
+// A program says itself when its load has settled, and is taken at its word where that can be.
+void LoadSchedule::look_at_own(const Scene& scene, const LagrangianPhase& phase, double end) {
+  const double settles_at = own_->about.settles_at;
+  if (end > 0) settled_from_ = std::min(settles_at, end);
+  if (!(settles_at < (end > 0 ? end : std::numeric_limits<double>::infinity()))) return;
+  dim_ = scene.dim;
+  x_ = phase.positions();
+  b_settled_.resize(x_.size());
+  own_->b(settles_at, dim_, x_, b_settled_);
+  constexpr double span = 1e3;  // [s], if there is no end
+  for (const double share : {1e-6, 1e-3, 0.0618, 0.382, 0.7639, 1.0}) {
+    const double t = settles_at + share * (end > 0 ? end - settles_at : span);
+    if (const std::string wrong = own_load_goes_on(t); !wrong.empty())
+      throw_scene_error(scene, "body_force.own", wrong);
+  }
+}
+
+std::string LoadSchedule::own_load_goes_on(double t) const {
+  if (b_settled_.empty() || t < own_->about.settles_at) return "";
+  std::vector<double> b(x_.size());
+  own_->b(t, dim_, x_, b);
+  double change = 0, size = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!std::isfinite(b[i]) || !std::isfinite(b_settled_[i])) return "";  // which the step tells
+    change = std::max(change, std::abs(b[i] - b_settled_[i]));
+    size = std::max({size, std::abs(b[i]), std::abs(b_settled_[i])});
+  }
+  constexpr double same = 1e-9;
+  if (change <= same * size) return "";
+  return fmt::format(
+      "the load '{0}' is said to settle at t = {1:.6g}, and is another one at t = {2:.6g}, by up to {3:.3g} m/s2; "
+      "expected settles_at = the time from which on it stays, or infinity",
+      own_->about.name, own_->about.settles_at, t, change);
+}
+
 void LoadSchedule::look_at(const Scene& scene, const std::string& key, const Expression& formula, ConstVec x,
                            int moments, double end) {
-  const auto time = [&](int k) { return k == moments ? end : end * k / moments; };
+  const std::vector<double> times = moments_of_change(formula, x, moments / 2, end);
   std::vector<double> values;
-  for (int k = 0; k <= moments; ++k) {
-    values.push_back(formula(x, time(k)));
+  for (const double t : times) {
+    values.push_back(formula(x, t));
     if (!std::isfinite(values.back()))
       throw_scene_error(
           scene, key,
           fmt::format("the formula is {} at t = {:.6g}; expected a finite number until stop.time = {:.6g}",
-                      std::isnan(values.back()) ? "not a number" : "infinite", time(k), end));
+                      std::isnan(values.back()) ? "not a number" : "infinite", t, end));
   }
   const auto [least, most] = std::ranges::minmax(values);
   const double magnitude = std::max(std::abs(least), std::abs(most));
   const double same = 1e-9 * (most - least) + 1e-14 * magnitude;  // of a change that counts, and of rounding
-  int last = moments;                                             // from here on it is what it will be at the end
-  while (last > 0 && std::abs(values[static_cast<std::size_t>(last) - 1] - values.back()) <= same) --last;
+  settled_from_ = std::max(settled_from_, unresolved_until(formula, x, times, same));
+  std::size_t last = times.size() - 1;  // from here on it is what it will be at the end
+  while (last > 0 && std::abs(values[last - 1] - values.back()) <= same) --last;
   if (last == 0) return;
-  double before = time(last - 1), from = time(last);
+  double before = times[last - 1], from = times[last];
   for (int halving = 0; halving < 30; ++halving) {
     const double middle = (before + from) / 2;
     (std::abs(formula(x, middle) - values.back()) <= same ? from : before) = middle;

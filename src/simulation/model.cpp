@@ -20,6 +20,7 @@
 #include "simulation/multigrid_choice.hpp"
 #include "simulation/notes.hpp"
 #include "simulation/scene_motion.hpp"
+#include "simulation/viscosity.hpp"
 
 namespace stillpoint {
 namespace {
@@ -128,6 +129,7 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
   model.distance_goal = distance_goal_of(scene, model);
   model.equilibrium_must_last = !model.static_method && !residual_bounds_error(scene, model);
   choose_damping_and_step(scene, set_up, model);
+  std::ranges::move(viscosity_notes(scene, model.integrator.max_step), std::back_inserter(model.notes));
   if (model.phase->info().stiffens && !scene.integrator.step) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);
   }

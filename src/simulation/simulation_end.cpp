@@ -8,6 +8,7 @@
 #include "base/stop_request.hpp"
 #include "simulation/memory_need.hpp"
 #include "simulation/simulation_impl.hpp"
+#include "simulation/viscosity.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
@@ -89,7 +90,10 @@ void Simulation::Impl::say_what_moves() {
   const bool is_limit =
       status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
   if (!is_limit || exit_status() == 0) return;
-  if (scene_.stop.wants_equilibrium()) reason_ += "; " + furthest_from_rest(*motion_, t_);
+  if (scene_.stop.wants_equilibrium()) {
+    const std::string creeping = creep(scene_, *model_.phase);
+    reason_ += "; " + (creeping.empty() ? furthest_from_rest(*motion_, t_) : creeping);
+  }
   if (scene_.stop.load_growth > 0) reason_ += "; no limit load: " + limit_load_.description();
 }
 
@@ -123,6 +127,7 @@ void Simulation::Impl::finish() {
   if (is_readable_) say_what_moves();
   test_stability();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
+  folder_lock_.reset();
 }
 
 }  // namespace stillpoint

@@ -15,6 +15,7 @@
 #include "output/run_folder.hpp"
 #include "scene/longest_cell.hpp"
 #include "simulation/multigrid_choice.hpp"
+#include "simulation/viscosity.hpp"
 
 namespace stillpoint {
 namespace {
@@ -52,6 +53,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
       error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
       schedule_(scene_, *model_.phase, scene_.stop.time),
       plastic_path_(scene_, model_),
+      rate_share_(scene_, *model_.phase),
       standstill_(model_.integrator.max_step),
       // What Newton's method does in one step and in the next are not the same.
       thread_choice_(
@@ -59,7 +61,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
           threads),
       t_(model_.t) {
   const bool resumes = !options_.resume.empty();
-  if (options_.records && !options_.out.empty()) prepare_folder(options_.out, resumes);
+  if (options_.records && !options_.out.empty()) folder_lock_ = prepare_folder(options_.out, resumes);
   if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance(), resumes);
   if (recorder_) recorder_->tell_rows(options_.at_row);
   if (resumes) {
@@ -111,6 +113,7 @@ void Simulation::Impl::take_step(double t_stop) {
   measured_ = has_residual_ = false;
   motion_->accept(t_);
   if (plastic_path_.due(t_)) watch_plastic_path();
+  if (rate_share_.due(steps())) rate_share_.sample(t_, steps(), *motion_);
   if (options_.stops) watch();
   sample(done());
   report_progress();
@@ -239,9 +242,15 @@ void Simulation::Impl::look_for_end() {
       refresh_distance();
     status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go(),
                                !motion_->integrator->static_iteration());
+    if (status_ == RunStatus::equilibrium && creeps()) status_ = RunStatus::running;
   }
   if (!done()) status_ = monitor_.check_limits(t_, steps());
   reason_ = status_ == RunStatus::diverged ? failure(now(), monitor_.reason()) : monitor_.reason();
+  if (const std::string wrong = status_ == RunStatus::equilibrium ? schedule_.own_load_goes_on(t_) : "";
+      !wrong.empty()) {
+    status_ = RunStatus::failed;
+    reason_ = failure(now(), "body_force.own: " + wrong);
+  }
   if (!done() && options_.stop_test) {
     reason_ = options_.stop_test();
     if (!reason_.empty()) status_ = RunStatus::stop_test;
@@ -250,6 +259,8 @@ void Simulation::Impl::look_for_end() {
   if (!done()) look_for_standstill();
   if (!done() && scene_.load) look_for_limit_load();
 }
+
+bool Simulation::Impl::creeps() const { return !creep(scene_, *model_.phase).empty(); }
 
 void Simulation::Impl::watch_plastic_path() {
   if (!options_.stops) return;

@@ -4,6 +4,7 @@
 #include <stillpoint/simulation.hpp>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/stopwatch.hpp"
+#include "output/folder_lock.hpp"
 #include "simulation/chatter.hpp"
 #include "simulation/end_request.hpp"
 #include "simulation/equilibrium_stability.hpp"
@@ -24,6 +26,7 @@
 #include "simulation/monitor.hpp"
 #include "simulation/phase_motion.hpp"
 #include "simulation/plastic_path.hpp"
+#include "simulation/rate_share.hpp"
 #include "simulation/recorder.hpp"
 #include "simulation/standstill.hpp"
 #include "simulation/thread_choice.hpp"
@@ -68,10 +71,12 @@ class Simulation::Impl {
   LoadSchedule schedule_;
   Chatter chatter_;
   PlasticPath plastic_path_;
+  RateShare rate_share_;
   Standstill standstill_;
   ThreadChoice thread_choice_;
   LimitLoad limit_load_{scene_.stop.load_growth};
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
+  std::shared_ptr<FolderLock> folder_lock_;  // until the run is over
   std::optional<Recorder> recorder_;
 
   std::optional<PhaseMotion> motion_;  // of the present phase
@@ -101,6 +106,7 @@ class Simulation::Impl {
   void watch();
   void look_for_end();
   bool iterate_is_balanced();
+  bool creeps() const;
   void follow_period();
 
   void measure();

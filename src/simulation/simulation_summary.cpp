@@ -46,6 +46,8 @@ Summary Simulation::Impl::summary() {
   fill_effort(s);
   s.plastic_overshoot = plastic_path_.overshoot();
   add_note(s, note_on_overshoot(s.plastic_overshoot));
+  s.rate_share = rate_share_.share();
+  add_note(s, note_on_rate_share(s.rate_share, scene_));
   s.residual = s.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
   if (is_readable_) fill_state(s);
   return s;

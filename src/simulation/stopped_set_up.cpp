@@ -13,7 +13,7 @@ namespace stillpoint {
 Summary leave_stopped_set_up(const Scene& scene, const SimulationOptions& options, const SetUpStopped& stopped) {
   const bool resumes = !options.resume.empty();
   if (options.records && !options.out.empty()) {
-    prepare_folder(options.out, resumes);
+    const auto lock = prepare_folder(options.out, resumes);
     if (!resumes) History(options.out, {}).finish();
   }
   Summary s;

@@ -56,6 +56,7 @@ Json json_of(const LevelRun& run) {
           {"dofs", level.dofs},
           {"evaluations", level.evaluations},
           {"wall_s", number(level.wall_s)},
+          {"floor", number(run.floor)},
           {"norms", list_of(run.norms)},
           {"no_energy", run.no_energy},
           {"probes", list_of(run.probes)},
@@ -78,6 +79,7 @@ LevelRun run_of(const Json& json) {
   run.level.dofs = json.at("dofs").get<std::size_t>();
   run.level.evaluations = json.at("evaluations").get<long>();
   run.level.wall_s = number_of(json.at("wall_s"));
+  run.floor = number_of(json.at("floor"));
   run.norms = named_of(json.at("norms"));
   run.no_energy = json.at("no_energy").get<std::string>();
   run.probes = named_of(json.at("probes"));

@@ -3,6 +3,7 @@
 #include <stillpoint/exact_solution.hpp>
 #include <stillpoint/simulation.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -73,6 +74,17 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
   run.volume = simulation.phase().point_data().volumes;
 }
 
+// What rounding leaves, of an equilibrium as many digits as its condition number κ = (ω_max/ω₁)² has, and what is out
+// of balance: a solver that stops at a residual r is off by about as much, and by some times more in soft motions.
+double floor_of(const Scene& scene, const Summary& s) {
+  constexpr double rounding = 1e-13, of_unknown_condition = 1e-12, times_more = 10;
+  if (!scene.solve.is_static() && !scene.stop.wants_equilibrium()) return rounding;
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double condition = s.omega_1 && *s.omega_1 > 0 ? s.omega_max / *s.omega_1 * (s.omega_max / *s.omega_1) : 0;
+  return std::max(condition > 0 ? std::max(rounding, epsilon * condition) : of_unknown_condition,
+                  times_more * s.residual);
+}
+
 // Files, and rows that steps land on, are none of a study's.
 Scene without_files(Scene scene) {
   scene.output.snapshots.clear();
@@ -102,6 +114,7 @@ LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::fu
     level.evaluations = s.rhs_evaluations;
     run.notes = s.notes;
     run.is_there = s.exit_status == 0;
+    run.floor = floor_of(own, s);
     level.wall_s = watch.seconds();  // what is read for the study is no part of it
     if (run.is_there) read_end(own, simulation, s, places, run);
   } catch (const SetUpStopped& stopped) {

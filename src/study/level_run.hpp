@@ -15,6 +15,7 @@ namespace stillpoint {
 struct LevelRun {
   ConvergenceLevel level;
   bool is_there = false;                               // whether it came to the end that its scene asks for
+  double floor = 0;                                    // relative size of errors that are not those of the level
   std::vector<std::pair<std::string, double>> norms;   // errors against the exact solution: "u_l2", …
   std::string no_energy;                               // why "u_energy" is none of them
   std::vector<std::pair<std::string, double>> probes;  // "tip.u.x" and its value at the end

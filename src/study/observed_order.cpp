@@ -15,9 +15,11 @@ struct Range {
   std::size_t levels() const { return last - first + 1; }
 };
 
-// The finest levels on end that have an error.
-std::optional<Range> with_errors(ConstVec errors) {
-  const auto has = [&](std::size_t k) { return std::isfinite(errors[k]) && errors[k] > 0; };
+// The finest levels on end that have an error, and one that is more than what the solver leaves.
+std::optional<Range> with_errors(ConstVec errors, ConstVec floors) {
+  const auto has = [&](std::size_t k) {
+    return std::isfinite(errors[k]) && errors[k] > 0 && (floors.empty() || errors[k] > floors[k]);
+  };
   std::size_t end = errors.size();
   while (end > 0 && !has(end - 1)) --end;
   std::size_t begin = end;
@@ -54,8 +56,8 @@ void leave_out_coarse(ConstVec sizes, ConstVec errors, Range& range) {
 }  // namespace
 
 // Of n levels the slope has n − 2 degrees of freedom; 95 % of Student's distribution lie within ± t.
-std::optional<ObservedOrder> observed_order(ConstVec sizes, ConstVec errors) {
-  std::optional<Range> range = with_errors(errors);
+std::optional<ObservedOrder> observed_order(ConstVec sizes, ConstVec errors, ConstVec floors) {
+  std::optional<Range> range = with_errors(errors, floors);
   if (!range) return std::nullopt;
   leave_out_floor(sizes, errors, *range);
   leave_out_coarse(sizes, errors, *range);

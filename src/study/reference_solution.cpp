@@ -44,6 +44,12 @@ struct Found {
   double residual = 0;
 };
 
+// The same scene for Newton's method, in which no time passes: its materials are not viscous.
+Scene without_time(Scene scene) {
+  scene.solve.method = "newton";
+  return scene;
+}
+
 // As near as rounding lets it come. Leaves what it found in the phase.
 std::optional<Found> solve(const Scene& scene, LagrangianPhase& phase, std::vector<std::string>& notes) {
   constexpr double near_enough = 1e4 * reference_residual;
@@ -86,7 +92,7 @@ double ReferenceSolution::error(ConstVec u) const { return mass_norm_of_differen
 
 Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted,
                              SetUpStore& store) {
-  std::unique_ptr<LagrangianPhase> phase = store.phase(scene).phase;
+  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(scene)).phase;
   if (phase->info().updated_lagrangian) {
     throw_scene_error(
         scene, "phase",
@@ -124,7 +130,7 @@ Equilibrium find_equilibrium(const Scene& scene, int threads, const std::functio
 }
 
 std::optional<ReferenceSolution> slow_ramp(const Scene& scene, SetUpStore& store, std::vector<std::string>& notes) {
-  std::unique_ptr<LagrangianPhase> phase = store.phase(scene).phase;
+  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(scene)).phase;
   if (phase->contact()) {
     notes.emplace_back("no slow ramp: Newton's method has no contact");
     return std::nullopt;

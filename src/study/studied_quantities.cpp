@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "simulation/catalogue.hpp"
 #include "study/error_sources.hpp"
@@ -101,7 +102,7 @@ class Gathering {
     StudiedQuantity norm{.name = name};
     for (const LevelRun& run : runs_) norm.values.push_back(value_of(run.norms, name));
     norm.errors = norm.values;
-    norm.order = observed_order(sizes_, norm.errors);
+    norm.order = order_of(name, norm.errors, floors(1));
     norm.theory = theory(name);
     study_.quantities.push_back(std::move(norm));
   }
@@ -119,7 +120,7 @@ class Gathering {
       steps.push_back(between(k, std::min(k + 1, finest)));
     }
     quantity.errors = quantity.values;
-    quantity.order = observed_order(sizes_, steps);
+    quantity.order = order_of(name, steps, floors_of_steps(1));
     quantity.theory = theory(name);
     study_.quantities.push_back(std::move(quantity));
   }
@@ -133,7 +134,9 @@ class Gathering {
     }
     const bool has_exact =
         !same_points_ && std::ranges::any_of(exact_errors, [](double e) { return std::isfinite(e); });
-    probe.order = observed_order(sizes_, has_exact ? exact_errors : differences(probe.values));
+    const double size = size_of_probe(name);
+    probe.order = has_exact ? order_of(name, exact_errors, floors(size))
+                            : order_of(name, differences(probe.values), floors_of_steps(size));
     const std::size_t n = probe.values.size();
     if (probe.order && probe.order->order > 0.2 && n > 1) {
       const double finest = extrapolated(probe.values[n - 2], probe.values[n - 1], study_.ratio, probe.order->order);
@@ -145,6 +148,50 @@ class Gathering {
     }
     probe.theory = theory(name.substr(name.find('.') + 1));
     study_.quantities.push_back(std::move(probe));
+  }
+
+  // What of an error is not that of the level, of a quantity of this size.
+  std::vector<double> floors(double size) const {
+    std::vector<double> of_levels;
+    for (const LevelRun& run : runs_) of_levels.push_back(run.floor * size);
+    return of_levels;
+  }
+  // Of a change from a level to the next.
+  std::vector<double> floors_of_steps(double size) const {
+    std::vector<double> of_steps = floors(size);
+    for (std::size_t k = 0; k + 1 < of_steps.size(); ++k) of_steps[k] = std::max(of_steps[k], of_steps[k + 1]);
+    return of_steps;
+  }
+
+  // Of all components of the field there, as one of them may vanish.
+  double size_of_probe(const std::string& name) const {
+    const std::size_t last = name.rfind('.');
+    const std::string field = last > name.find('.') ? name.substr(0, last + 1) : name;
+    double size = 0;
+    for (const LevelRun& run : runs_)
+      for (const auto& [other, value] : run.probes)
+        if (other.starts_with(field) && std::isfinite(value)) size = std::max(size, std::abs(value));
+    return size;
+  }
+
+  std::optional<ObservedOrder> order_of(const std::string& name, const std::vector<double>& errors,
+                                        const std::vector<double>& floors) {
+    std::vector<std::size_t> at_floor;
+    double floor = 0;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      if (!(errors[k] <= floors[k]) || errors[k] == 0) continue;
+      at_floor.push_back(k + 1);
+      floor = std::max(floor, floors[k]);
+    }
+    const std::optional<ObservedOrder> order = observed_order(sizes_, errors, floors);
+    if (!at_floor.empty())
+      study_.notes.push_back(fmt::format(
+          "{}: {} {} {} left out of its order, as {} are no more than the {:.1e} that rounding and the solver's stop "
+          "leave{}",
+          name, at_floor.size() > 1 ? "levels" : "level", fmt::join(at_floor, ", "), at_floor.size() > 1 ? "are" : "is",
+          at_floor.size() > 1 ? "errors" : "its errors", floor,
+          order ? "" : "; nothing is left of which there is one"));
+    return order;
   }
 
   // For smooth solutions; empty where none is known.

@@ -28,8 +28,10 @@ std::string fault_of_name(const std::string& name) {
   if (names_in(name) != std::vector<std::string>{name})
     return "it is not made of letters, digits and '_' only, or begins with a digit";
   if (name == "x" || name == "y" || name == "z" || name == "t") return "x, y, z and t are the variables of formulas";
-  const auto& functions = expression_functions();
-  if (std::find(functions.begin(), functions.end(), name) != functions.end()) return "a function has this name";
+  if (std::ranges::find(expression_constants(), name) != expression_constants().end())
+    return fmt::format("every formula has a number of this name, {}", fmt::join(expression_constants(), " or "));
+  if (std::ranges::find(expression_functions(), name) != expression_functions().end())
+    return "a function has this name";
   return {};
 }
 

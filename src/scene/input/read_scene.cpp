@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/driven_motion.hpp"
 #include "scene/input/keys.hpp"
 #include "scene/input/toml_source.hpp"
 #include "scene/input/validation.hpp"
@@ -86,6 +87,8 @@ class SceneText {
     Reading reading;
     try {
       if (read_tables(tables_, *root, scene, reading)) validate(scene, reading, catalogue_);
+      if (problems.empty() && reading.problems.empty() && !scene.where.contains("damping.alpha"))
+        scene.damping.alpha = usual_alpha(scene);
     } catch (const EnoughProblems&) {
     }
     problems.insert(problems.end(), reading.problems.begin(), reading.problems.end());

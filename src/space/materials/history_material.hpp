@@ -1,6 +1,7 @@
 // A material law with history applied to blocks of points.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
       : Base(law, begin, count,
              {.history_dependent = true,
               .finite_strain = true,
+              .viscous = law.is_viscous(),
               .stress_stays = law.stress_stays(),
               .history_size = Law::history * count,
               .wave_modulus = law.elastic_moduli({}, law.initial_history({}))[0]}) {
@@ -65,6 +67,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     return kind == Tangent::elastic ? law_.elastic_moduli(H, history(p)) : law_.moduli(H, dH, dt, history(p));
   }
   Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
+  std::optional<YieldState> yield_state(std::size_t p) const override { return law_.yield_state(history(p)); }
 
   void end_phase(const Block&) override {}
   Vec memory() override { return committed_; }

@@ -2,12 +2,15 @@
 
 #include <stillpoint/drucker_prager_cone.hpp>
 
+#include <algorithm>
 #include <limits>
 
 #include "base/growing_table.hpp"
 
 namespace stillpoint {
 namespace {
+
+constexpr const char* fluidity = "fluidity";
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -68,7 +71,7 @@ std::vector<LawInfo> built_in() {
        {plane_strain, axisymmetric, space},
        {youngs_modulus, poissons_ratio, density, optional("phi", "degrees", "angle of internal friction", 90, 0),
         optional("psi", "degrees", "angle of dilatancy", 90, 0), optional("c", "Pa", "cohesion", infinity, 0),
-        optional("fluidity", "1/(Pa s)", "Perzyna's beta; 0: rate-independent", infinity, 0),
+        optional(fluidity, "1/(Pa s)", "Perzyna's beta; 0: rate-independent", infinity, 0),
         optional("tension", "Pa", "largest mean stress; never above the apex", infinity, infinity),
         same_as("phi", optional("phi_residual", "degrees", "phi after softening", 90, 0)),
         same_as("c", optional("c_residual", "Pa", "cohesion after softening", infinity, 0)),
@@ -86,6 +89,19 @@ GrowingTable<LawInfo>& table() {
 }  // namespace
 
 const std::vector<LawInfo>& material_laws() { return table().rows(); }
+
+// A law of the program's own may have a parameter of this name; it remembers nothing.
+bool is_viscous(const MaterialSpec& material) {
+  const auto law = std::ranges::find(material_laws(), material.law, &LawInfo::name);
+  const auto beta = material.parameters.find(fluidity);
+  return law != material_laws().end() && law->history_dependent && beta != material.parameters.end() &&
+         beta->second > 0;
+}
+
+MaterialSpec rate_independent(MaterialSpec material) {
+  if (is_viscous(material)) material.parameters[fluidity] = 0;
+  return material;
+}
 
 void put_law(const LawInfo& about) {
   table().put(about, [&](const LawInfo& other) { return other.name == about.name; });

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +62,7 @@ struct PointBlock {
 struct PointMaterialInfo {
   bool history_dependent = false;
   bool finite_strain = false;
+  bool viscous = false;          // what is beyond its strength flows for a while, at a rate
   bool stress_stays = false;     // under no increment it is the committed one, to rounding
   std::size_t history_size = 0;  // entries of what is kept of the committed state, and of a trial of its own
   double wave_modulus = 0;       // λ + 2μ or its like in the undeformed state [Pa]
@@ -94,6 +96,8 @@ class PointMaterial {
                               std::size_t p) const = 0;
   /// The Cauchy stress of point p under H, of the committed history if there is one.
   virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
+  /// How the committed stress of point p stands to its strength; empty: the law has none.
+  virtual std::optional<YieldState> yield_state(std::size_t /*p*/) const { return std::nullopt; }
   /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite if it is not
   /// finite.
   virtual double stiffness_bound(const PointBlock<K>& block) const = 0;

@@ -74,6 +74,12 @@ struct TransferErrors {
   double added_mass = 0;  // inertia that nodes were given so that none shortens the step, as a share of Σ_p m_p
 };
 
+/// Where the committed stress is furthest beyond the strength, as that of a viscous law may be for a while.
+struct OverStress {
+  double share = 0;       // f/(√J₂ − f), the yield function over the strength; NaN if it is not finite
+  std::size_t point = 0;  // its number
+};
+
 /// A part of the body, which shares no function of the grid with the others, and an axis along which no support holds
 /// it. Bodies that move on from phase to phase may meet, and count as one part.
 struct FreePart {
@@ -124,6 +130,9 @@ class LagrangianPhase : public SemiDiscrete {
   /// What no function of the grid feels of the points' Cauchy stresses: their difference to their least-squares fit by
   /// the grid's functions, body by body, √(Σ V_p |σ_p − σ(x_p)|²/Σ V_p |σ_p|²).
   virtual double null_space_stress(double t, ConstVec u) const = 0;
+
+  /// Empty: no law is viscous.
+  virtual std::optional<OverStress> over_stress() const = 0;
 
   /// u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
   virtual std::vector<double> initial_displacement(double t) const = 0;

@@ -100,6 +100,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void point_history(const std::string& name, Vec out) const override;
   std::unique_ptr<PlaceReader> read_places(double t, ConstVec u, ConstVec v) const override;  // phase_places.hpp
   double null_space_stress(double t, ConstVec u) const override;
+  std::optional<OverStress> over_stress() const override;  // over_stress.hpp
   std::vector<double> initial_displacement(double t) const override;
   std::vector<double> initial_velocity(double t) override;
   std::vector<WallReaction> wall_reactions(double t) const override;

@@ -5,6 +5,7 @@
 
 #include "space/grid/domain_basis.hpp"
 #include "space/phase/null_space_stress.hpp"
+#include "space/phase/over_stress.hpp"
 #include "space/phase/phase_archive.hpp"
 #include "space/phase/phase_bodies.hpp"
 #include "space/phase/phase_change.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "space/materials/material_laws.hpp"
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_order.hpp"
@@ -34,7 +35,8 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }  // namespace detail
 
 /// Places every body of the scene. Points are numbered body by body, in the order in which a body is filled.
-/// updated_lagrangian: whether points will change cells.
+/// updated_lagrangian: whether points will change cells. Of a static solver, in which no time passes, nothing is
+/// viscous.
 template <Kinematics K>
 Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool updated_lagrangian) {
   constexpr int dim = dimensions(K);
@@ -67,8 +69,9 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
       for (std::size_t p = 0; p < part.size(); ++p) points.number.push_back(first_number + static_cast<int>(p));
     }
     const auto begin = static_cast<std::size_t>(points.material_begin.back());
-    body.materials.push_back(make_point_material<K>(scene.materials.at(name), scene.state, begin, points.size() - begin,
-                                                    updated_lagrangian));
+    const MaterialSpec& material = scene.materials.at(name);
+    body.materials.push_back(make_point_material<K>(scene.solve.is_static() ? rate_independent(material) : material,
+                                                    scene.state, begin, points.size() - begin, updated_lagrangian));
     body.material_names.push_back(name);
   }
   points.material_begin.push_back(static_cast<int>(points.size()));

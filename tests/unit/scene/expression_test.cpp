@@ -58,7 +58,7 @@ TEST_CASE("conditions choose between two formulas") {
   CHECK(value("x >= 2 && t == 0 ? 1 : 0", 2, 0) == 1);
 }
 
-TEST_CASE("a scene's own e or pi wins over the number of that name") {
+TEST_CASE("constants that are handed to a formula win over its numbers e and pi, which no scene can name anew") {
   CHECK(Expression("e", {{"e", 0.6}})({}, 0) == 0.6);
 }
 

@@ -1,0 +1,77 @@
+#include "simulation/rate_share.hpp"
+
+#include <stillpoint/damping.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/parallel_loop.hpp"
+#include "scene/driven_motion.hpp"
+#include "simulation/catalogue.hpp"
+
+namespace stillpoint {
+
+RateShare::RateShare(const Scene& scene, const LagrangianPhase& phase) : phase_(phase), watches_(is_driven(scene)) {}
+
+// Reactions shake about their mean, so that signs are taken off strokes of many samples.
+void RateShare::sample(double t, long steps, PhaseMotion& motion) {
+  constexpr long longest_interval = 64, samples_a_stroke = 64;
+  next_ = steps + std::clamp(steps / longest_interval, 1L, longest_interval);
+  const ConstVec v = motion.v();
+  if (!motion.integrator->force_is_current()) motion.system.residual(t, motion.u());
+  Q_.resize(v.size());
+  motion.system.last_out_of_balance(t, Q_);
+  const double power = sum_over(v.size(), [Q = Q_.data(), v = v.data()](std::size_t i) { return Q[i] * v[i]; });
+  unbalanced_ += 0.5 * (power_ + power) * (t - t_);
+  of_stroke_ += work_of_driving(t, motion.system);
+  if (++samples_ % samples_a_stroke == 0) {
+    driving_ += std::abs(of_stroke_);
+    of_stroke_ = 0;
+  }
+  power_ = power;
+  t_ = t;
+}
+
+// Since the last sample; displacements of supports are known at any time, whenever the phase began.
+double RateShare::work_of_driving(double t, const RelaxationSystem& system) const {
+  const ConstVec reactions = system.last_reactions();
+  const std::vector<double> now = phase_.support_displacements(t), before = phase_.support_displacements(t_);
+  double work = 0;
+  for (std::size_t s = 0; s < std::min(reactions.size(), now.size()); ++s) work += reactions[s] * (now[s] - before[s]);
+  for (const WallReaction& wall : phase_.wall_reactions(t)) work += wall.power * (t - t_);
+  return work;
+}
+
+std::optional<double> RateShare::share() const {
+  const double driving = driving_ + std::abs(of_stroke_);
+  if (!watches_ || !(driving > 0)) return std::nullopt;
+  return std::abs(unbalanced_) / driving;
+}
+
+void RateShare::archive(const StateArchive& state) {
+  state("next", next_);
+  state("samples", samples_);
+  state("t", t_);
+  state("power", power_);
+  state("unbalanced", unbalanced_);
+  state("driving", driving_);
+  state("of_stroke", of_stroke_);
+}
+
+std::string note_on_rate_share(std::optional<double> share, const Scene& scene) {
+  constexpr double small = 0.05;
+  if (!(share.value_or(0) > small) || is_undamped(scene.damping.strategy)) return "";
+  const StrategyInfo* strategy = catalogue().strategy(scene.damping.strategy);
+  const std::string less = strategy && strategy->is_local
+                               ? fmt::format(", or less than damping.alpha = {:g}", scene.damping.alpha)
+                           : strategy && strategy->takes("c") ? ", or a smaller damping.c"
+                                                              : "";
+  return fmt::format(
+      "damping and inertia took {:.2g} % of the work of what drives the body: reactions and driven loads are off by "
+      "about as much on average; expected a slower motion{}",
+      100 * *share, less);
+}
+
+}  // namespace stillpoint
