@@ -39,10 +39,11 @@ void wait_for_signals(const sigset_t& heeded) {
   raise(number);
 }
 
-// Share of the way done: of the time to the end, or of the fall of the residual on a logarithmic scale.
+// Share of the way done: of the time to the end, or of the fall of the residual on a logarithmic scale. Of what is left
+// once that is over nobody knows how long it takes.
 std::optional<double> share_done(const Progress& p, double start_residual) {
   if (p.end_time > 0 && p.residual_goal <= 0) return p.t / p.end_time;
-  if (p.residual_goal > 0 && p.residual > 0 && start_residual > p.residual_goal) {
+  if (p.residual_goal > 0 && p.residual > p.residual_goal && start_residual > p.residual_goal) {
     const double fallen = std::log(start_residual / p.residual), whole = std::log(start_residual / p.residual_goal);
     return std::clamp(fallen / whole, 0.0, 0.99);
   }
@@ -70,6 +71,8 @@ void ProgressLine::show(const Progress& p) {
   std::string left;
   if (const auto share = share_done(p, start_residual_); share && *share > 0.02) {
     left = fmt::format("  {:3.0f} %  about {:.0f} s left", 100 * *share, p.wall_s * (1 - *share) / *share);
+  } else if (p.residual_goal > 0 && p.residual <= p.residual_goal && !p.waits_for.empty()) {
+    left = "  waits for: " + p.waits_for;
   }
   const std::string line = fmt::format("t = {:.4g}  steps {}  residual {:.2e}{}", p.t, p.steps, p.residual, left);
   if (terminal_) {

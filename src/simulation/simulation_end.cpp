@@ -8,6 +8,7 @@
 #include "base/stop_request.hpp"
 #include "simulation/memory_need.hpp"
 #include "simulation/simulation_impl.hpp"
+#include "simulation/single_phase.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
@@ -89,8 +90,21 @@ void Simulation::Impl::say_what_moves() {
   const bool is_limit =
       status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
   if (!is_limit || exit_status() == 0) return;
+  if (const std::string slides = creep_.description(t_, motion_->u()); !slides.empty() && !reason_.starts_with(slides))
+    reason_ = fmt::format("{}; {}", slides, reason_);
   if (scene_.stop.wants_equilibrium()) reason_ += "; " + furthest_from_rest(*motion_, t_);
   if (scene_.stop.load_growth > 0) reason_ += "; no limit load: " + limit_load_.description();
+}
+
+// A grid that is squeezed bears what its material may not: an equilibrium that goes some way is told so, one that goes
+// as far as its own size is none.
+void Simulation::Impl::say_how_far_one_phase_went() {
+  if (status_ != RunStatus::equilibrium) return;
+  const std::optional<double> strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
+  const std::string said = note_on_single_phase(strain);
+  if (said.empty()) return;
+  reason_ += "; but " + said;
+  if (*strain > largest_single_phase_strain) status_ = RunStatus::step_limit;
 }
 
 // What claims to be an equilibrium may be one that the least disturbance ends.
@@ -122,6 +136,7 @@ void Simulation::Impl::finish() {
   if (is_readable_ && plastic_path_.watches()) watch_plastic_path();
   if (is_readable_) say_what_moves();
   test_stability();
+  if (is_readable_) say_how_far_one_phase_went();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
 }
 

@@ -12,10 +12,12 @@
 
 #include "base/stopwatch.hpp"
 #include "simulation/chatter.hpp"
+#include "simulation/creep.hpp"
 #include "simulation/end_request.hpp"
 #include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
 #include "simulation/failure.hpp"
+#include "simulation/giving_way.hpp"
 #include "simulation/limit_load.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/matrix_size.hpp"
@@ -47,7 +49,7 @@ class Simulation::Impl {
   }
   std::optional<double> distance() {
     measure();
-    return distance_;
+    return distance_beside_creep();
   }
   ConstVec field(std::string_view name);
   int exit_status() const;
@@ -68,9 +70,11 @@ class Simulation::Impl {
   LoadSchedule schedule_;
   Chatter chatter_;
   PlasticPath plastic_path_;
+  Creep creep_;
   Standstill standstill_;
   ThreadChoice thread_choice_;
   LimitLoad limit_load_{scene_.stop.load_growth};
+  GivingWay giving_way_{scene_, *model_.phase};
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::optional<Recorder> recorder_;
 
@@ -95,6 +99,7 @@ class Simulation::Impl {
   bool watches_chatter() const;
   void watch_chatter(double share, double residual);
   void watch_plastic_path();
+  void watch_creep();
   void look_for_mechanism();
   void look_for_standstill();
   void look_for_limit_load();
@@ -108,6 +113,8 @@ class Simulation::Impl {
     return model_.learns_omega_1 || (model_.omega_1 && !model_.phase->info().updated_lagrangian);
   }
   std::optional<double> distance_to_go() const;
+  std::optional<double> distance_beside_creep() const;
+  bool is_bound() const;
   void refresh_distance();
   void refresh_distance_in_time();
 
@@ -123,6 +130,7 @@ class Simulation::Impl {
   void sample(bool last);
   void report_progress();
   void say_what_moves();
+  void say_how_far_one_phase_went();
   void test_stability();
   void finish();
 
