@@ -60,6 +60,7 @@ void Creep::sample(double t, ConstVec u, bool settled) {
   for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_points[dim * stride_ * (k / dim) + k % dim];
   sum_t_ += t;
   ++samples_;
+  slid_ = slid_ || !giving_way_.sliding_walls(t).empty();
   if (t >= block_end_ - period_ / 8) close_block();
 }
 
@@ -68,15 +69,17 @@ void Creep::begin_block(double t) {
   sum_.assign(dim * ((phase_.points() + stride_ - 1) / stride_), 0.0);
   samples_ = sum_t_ = 0;
   block_end_ = t + period_;
+  slid_ = false;
 }
 
 void Creep::close_block() {
   for (double& value : sum_) value /= samples_;
   way_left_.add(sum_t_ / samples_, static_cast<std::size_t>(phase_.dim()), sum_);
   const double now = giving_way_.plastic_strain();
-  const bool gives = now > plastic_strain_ || !giving_way_.sliding_walls(last_t_).empty() || !giving_way_.shows();
+  const bool gives = now > plastic_strain_ || slid_ || !giving_way_.shows();
   plastic_strain_ = std::max(plastic_strain_, now);
   has_given_ = has_given_ || gives;
+  gives_ = gives;
   if (!gives || !(way_left_.exponent() <= steady_exponent)) {
     steady_since_ = -1;
   } else if (steady_since_ < 0) {
@@ -114,23 +117,26 @@ bool Creep::slides_away() const {
   return may_slide_away_ && steady_since_ >= 0 && now >= 2 * since + 8 * period_ && way_left_.way() > cell_;
 }
 
+// A motion whose way left is not known, and that yields or slides until now.
+bool Creep::slides() const { return watches_ && gives_ && way_left_.exponent() <= 1; }
+
 std::string Creep::description(double t, ConstVec u) const {
-  if (!watches_ || steady_since_ < 0) return "";
+  if (!slides()) return "";
   const auto dim = static_cast<std::size_t>(phase_.dim());
   const std::vector<double> v = way_left_.velocities(), x = current_positions(phase_, t, u);
-  const auto speed = [&](std::size_t k) {
+  const std::size_t points = v.size() / dim;
+  std::vector<double> speed(points);
+  for (std::size_t k = 0; k < points; ++k) {
     double square = 0;
     for (std::size_t i = 0; i < dim; ++i) square += v[dim * k + i] * v[dim * k + i];
-    return std::sqrt(square);
-  };
-  std::size_t fastest = 0, moving = 0;
-  const std::size_t points = v.size() / dim;
-  for (std::size_t k = 1; k < points; ++k)
-    if (speed(k) > speed(fastest)) fastest = k;
+    speed[k] = std::sqrt(square);
+  }
+  const auto fastest = static_cast<std::size_t>(std::ranges::max_element(speed) - speed.begin());
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> low(dim, infinity), high(dim, -infinity);
+  std::size_t moving = 0;
   for (std::size_t k = 0; k < points; ++k) {
-    if (speed(k) < speed(fastest) / 2) continue;
+    if (speed[k] < speed[fastest] / 2) continue;
     ++moving;
     for (std::size_t i = 0; i < dim; ++i) {
       low[i] = std::min(low[i], x[dim * stride_ * k + i]);
@@ -139,13 +145,17 @@ std::string Creep::description(double t, ConstVec u) const {
   }
   std::string walls;
   for (const std::size_t wall : giving_way_.sliding_walls(t))
-    walls += fmt::format("{} wall '{}'", walls.empty() ? "" : " and", scene_.walls[wall].name);
-  return fmt::format(
-      "it slides: {}{:.0f} % of the body, from ({:.3g}) to ({:.3g}), at up to {:.3g} m/s, {}, with a velocity that "
-      "does not decay: over the last {:.3g} s it went {:.3g} m",
-      walls.empty() ? "" : fmt::format("along{} ", walls), 100 * static_cast<double>(moving) / static_cast<double>(points),
-      fmt::join(low, ", "), fmt::join(high, ", "), speed(fastest),
-      to_string(phase_.diagnosis().of_point(stride_ * fastest)), way_left_.span(), way_left_.way());
+    walls += fmt::format("{} wall '{}'", walls.empty() ? "along" : " and", scene_.walls[wall].name);
+  if (!walls.empty()) walls += ", ";
+  const double q = way_left_.exponent();
+  const std::string decay = q <= steady_exponent ? "which does not decay"
+                                                 : fmt::format("which falls by {:.0f} % as the time doubles",
+                                                               100 * (1 - std::pow(2.0, -q)));
+  return fmt::format("it slides: {}{:.0f} % of the body, between ({:.3g}) and ({:.3g}), by {:.3g} m in the last {:.3g} s; "
+                     "fastest is {} at {:.3g} m/s, {}",
+                     walls, 100 * static_cast<double>(moving) / static_cast<double>(points), fmt::join(low, ", "),
+                     fmt::join(high, ", "), way_left_.way(), way_left_.span(),
+                     to_string(phase_.diagnosis().of_point(stride_ * fastest)), speed[fastest], decay);
 }
 
 void Creep::archive(const StateArchive& state) {
@@ -164,6 +174,8 @@ void Creep::archive(const StateArchive& state) {
   state("plastic_strain", plastic_strain_);
   state("begun", begun_);
   state("has_given", has_given_);
+  state("gives", gives_);
+  state("slid", slid_);
   state("steady_since", steady_since_);
   state("begun_at", begun_at_);
 }

@@ -40,6 +40,7 @@ class Creep {
 
  private:
   bool loads_have_changed(double t) const;
+  bool slides() const;
   void begin_block(double t);
   void close_block();
 
@@ -53,7 +54,8 @@ class Creep {
   std::vector<double> sum_;  // of their displacements over the block, (points × dim) [m]
   double samples_ = 0, sum_t_ = 0, block_end_ = 0, next_ = 0, last_t_ = 0;
   double plastic_strain_ = 0;
-  bool begun_ = false, has_given_ = false;
+  bool begun_ = false, has_given_ = false, gives_ = false;  // gives: in the last block
+  bool slid_ = false;                                              // in this one
   double steady_since_ = -1;  // the time from which on the motion gives way and does not slow down [s]; negative: none
   double begun_at_ = 0;
 };

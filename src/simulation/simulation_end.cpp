@@ -103,8 +103,12 @@ void Simulation::Impl::say_how_far_one_phase_went() {
   const std::optional<double> strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
   const std::string said = note_on_single_phase(strain);
   if (said.empty()) return;
-  reason_ += "; but " + said;
-  if (*strain > largest_single_phase_strain) status_ = RunStatus::step_limit;
+  if (*strain <= largest_single_phase_strain) {
+    reason_ += "; but " + said;
+  } else {
+    status_ = RunStatus::step_limit;
+    reason_ = fmt::format("no equilibrium: {}; it ended with {}", said, reason_);
+  }
 }
 
 // What claims to be an equilibrium may be one that the least disturbance ends.
