@@ -15,7 +15,8 @@ namespace stillpoint {
 namespace {
 
 constexpr double usual_way_left = 5e-3;  // the way left that equilibrium takes, relative to the largest displacement
-constexpr double steady_exponent = 0.1;  // the exponent of a motion that is called steady: it slows down by 7 % as its time doubles
+constexpr double steady_exponent =
+    0.1;  // the exponent of a motion that is called steady: it slows down by 7 % as its time doubles
 constexpr std::size_t most_points_looked_at = 20'000;  // that are looked at
 
 // With more than critical damping the slowest mode dies out like e^{−s t},  s ≈ ω₁²/c.
@@ -125,6 +126,7 @@ std::string Creep::description(double t, ConstVec u) const {
   const auto dim = static_cast<std::size_t>(phase_.dim());
   const std::vector<double> v = way_left_.velocities(), x = current_positions(phase_, t, u);
   const std::size_t points = v.size() / dim;
+  if (points == 0) return "";
   std::vector<double> speed(points);
   for (std::size_t k = 0; k < points; ++k) {
     double square = 0;
@@ -148,14 +150,15 @@ std::string Creep::description(double t, ConstVec u) const {
     walls += fmt::format("{} wall '{}'", walls.empty() ? "along" : " and", scene_.walls[wall].name);
   if (!walls.empty()) walls += ", ";
   const double q = way_left_.exponent();
-  const std::string decay = q <= steady_exponent ? "which does not decay"
-                                                 : fmt::format("which falls by {:.0f} % as the time doubles",
-                                                               100 * (1 - std::pow(2.0, -q)));
-  return fmt::format("it slides: {}{:.0f} % of the body, between ({:.3g}) and ({:.3g}), by {:.3g} m in the last {:.3g} s; "
-                     "fastest is {} at {:.3g} m/s, {}",
-                     walls, 100 * static_cast<double>(moving) / static_cast<double>(points), fmt::join(low, ", "),
-                     fmt::join(high, ", "), way_left_.way(), way_left_.span(),
-                     to_string(phase_.diagnosis().of_point(stride_ * fastest)), speed[fastest], decay);
+  const std::string decay =
+      q <= steady_exponent ? "which does not decay"
+                           : fmt::format("which falls by {:.0f} % as the time doubles", 100 * (1 - std::pow(2.0, -q)));
+  return fmt::format(
+      "it slides: {}{:.0f} % of the body, between ({:.3g}) and ({:.3g}), by {:.3g} m in the last {:.3g} s; "
+      "fastest is {} at {:.3g} m/s, {}",
+      walls, 100 * static_cast<double>(moving) / static_cast<double>(points), fmt::join(low, ", "),
+      fmt::join(high, ", "), way_left_.way(), way_left_.span(),
+      to_string(phase_.diagnosis().of_point(stride_ * fastest)), speed[fastest], decay);
 }
 
 void Creep::archive(const StateArchive& state) {
@@ -164,8 +167,9 @@ void Creep::archive(const StateArchive& state) {
   state("period", period_);
   state("sum", sum_);
   const auto dim = static_cast<std::size_t>(phase_.dim());
-  if (!sum_.empty() && sum_.size() != dim * ((phase_.points() + stride_ - 1) / stride_))
-    throw StateError("the creep is that of another number of points");
+  const std::size_t expected = dim * ((phase_.points() + stride_ - 1) / stride_);
+  for (const std::size_t size : {sum_.size(), way_left_.size_of_block()})
+    if (size != 0 && size != expected) throw StateError("the creep is that of another number of points");
   state("samples", samples_);
   state("sum_t", sum_t_);
   state("block_end", block_end_);

@@ -33,7 +33,8 @@ class Creep {
   double allowed() const { return way_left_.small(); }
   /// "it slides: …", at (t, u); empty if it does not, or nobody knows.
   std::string description(double t, ConstVec u) const;
-  /// Whether that has gone on for long enough, and over more than a cell in a single phase: a motion that nothing stops.
+  /// Whether that has gone on for long enough, and over more than a cell in a single phase: a motion that nothing
+  /// stops.
   bool slides_away() const;
 
   void archive(const StateArchive& state);
@@ -50,12 +51,12 @@ class Creep {
   WayLeft way_left_;
   bool watches_, may_slide_away_;
   double period_ = 0, shortest_period_ = 0, cell_ = 0;
-  std::size_t stride_ = 1;  // of the points that are looked at
+  std::size_t stride_ = 1;   // of the points that are looked at
   std::vector<double> sum_;  // of their displacements over the block, (points × dim) [m]
   double samples_ = 0, sum_t_ = 0, block_end_ = 0, next_ = 0, last_t_ = 0;
   double plastic_strain_ = 0;
   bool begun_ = false, has_given_ = false, gives_ = false;  // gives: in the last block
-  bool slid_ = false;                                              // in this one
+  bool slid_ = false;                                       // in this one
   double steady_since_ = -1;  // the time from which on the motion gives way and does not slow down [s]; negative: none
   double begun_at_ = 0;
 };

@@ -56,8 +56,7 @@ bool LimitLoad::reached(const Body& body) {
   giving_.back() = body.plastic_strain > plastic_strain_ || body.slides ? 1 : 0;
   plastic_strain_ = std::max(plastic_strain_, body.plastic_strain);
   const bool has_lasted = flat_since_ > 0 && end_ - piece_ >= confirmed_after * flat_since_;
-  reached_ =
-      has_lasted && residual_ <= largest_residual && inertia() <= largest_inertia && giving() >= least_giving;
+  reached_ = has_lasted && residual_ <= largest_residual && inertia() <= largest_inertia && giving() >= least_giving;
   return reached_;
 }
 

@@ -65,7 +65,7 @@ class LimitLoad {
 
   double asked_;
   double first_q_ = 0, first_factor_ = 0;
-  double flat_since_ = 0;  // the q(t) from which on m is small enough [m]; 0: it is not
+  double flat_since_ = 0;                          // the q(t) from which on m is small enough [m]; 0: it is not
   double last_q_ = 0, last_force_ = 0, work_ = 0;  // q [m] and λP [N] of the last step, W [J]
   double residual_ = 0, plastic_strain_ = 0;       // at the end of the last piece
   bool reached_ = false;

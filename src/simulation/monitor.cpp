@@ -44,7 +44,8 @@ RunStatus Monitor::observe(double t, double residual, double kinetic_energy, dou
   if (options_.residual > 0) tests.push_back(fmt::format("residual {:.3g} <= {:.3g}", residual, options_.residual));
   if (options_.distance > 0 && distance)
     tests.push_back(fmt::format("distance {:.3g} <= {:.3g}", *distance, options_.distance));
-  if (way_left_) tests.push_back(fmt::format("way left {:.3g} <= {:.3g} of the displacement", *way_left_, allowed_way_));
+  if (way_left_)
+    tests.push_back(fmt::format("way left {:.3g} <= {:.3g} of the displacement", *way_left_, allowed_way_));
   if (options_.kinetic_energy > 0 && moves) {
     if (!small) {
       tests.push_back(fmt::format("kinetic energy {:.3g} of the work, which is rounding", kinetic_energy / work_scale));
@@ -64,8 +65,9 @@ std::string Monitor::missing(bool settled, bool near, std::optional<double> dist
   if (!settled) return "the end of the loads";
   if (!near) return distance ? fmt::format("distance {:.2g} > {:.2g}", *distance, options_.distance) : "a distance";
   if (!creeps) return "";
-  return std::isfinite(*way_left_) ? fmt::format("way left {:.2g} > {:.2g} of the displacement", *way_left_, allowed_way_)
-                                   : "a motion that dies out";
+  return std::isfinite(*way_left_)
+             ? fmt::format("way left {:.2g} > {:.2g} of the displacement", *way_left_, allowed_way_)
+             : "a motion that dies out";
 }
 
 RunStatus Monitor::check_limits(double t, long steps) {

@@ -100,15 +100,16 @@ void Simulation::Impl::say_what_moves() {
 // as far as its own size is none.
 void Simulation::Impl::say_how_far_one_phase_went() {
   if (status_ != RunStatus::equilibrium) return;
-  const std::optional<double> strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
-  const std::string said = note_on_single_phase(strain);
+  const auto most = strain_in_single_phase(*model_.phase, t_, motion_->u());
+  const std::string said = most ? note_on_single_phase(most->strain) : "";
   if (said.empty()) return;
-  if (*strain <= largest_single_phase_strain) {
+  if (most->strain <= largest_single_phase_strain) {
     reason_ += "; but " + said;
-  } else {
-    status_ = RunStatus::step_limit;
-    reason_ = fmt::format("no equilibrium: {}; it ended with {}", said, reason_);
+    return;
   }
+  status_ = RunStatus::step_limit;
+  reason_ = fmt::format("no equilibrium: {}; {} is strained most; it ended with {}", said,
+                        to_string(model_.phase->diagnosis().of_point(most->point)), reason_);
 }
 
 // What claims to be an equilibrium may be one that the least disturbance ends.

@@ -345,8 +345,8 @@ void Simulation::Impl::report_progress() {
   constexpr double seconds_between = 0.2;
   if (!options_.progress || wall_.seconds() < next_progress_) return;
   next_progress_ = wall_.seconds() + seconds_between;
-  options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds(),
-                     monitor_.waits_for()});
+  options_.progress(
+      {t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds(), monitor_.waits_for()});
 }
 
 }  // namespace stillpoint

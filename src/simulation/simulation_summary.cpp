@@ -94,7 +94,7 @@ void Simulation::Impl::fill_state(Summary& s) {
   s.way_left = creep_.way_left();
   if (s.distance) s.distance_kind = is_bound() ? "bound" : "estimate";
   add_note(s, distance_note(status_, distance_to_go()));
-  s.single_phase_strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
+  if (const auto most = strain_in_single_phase(*model_.phase, t_, motion_->u())) s.single_phase_strain = most->strain;
   add_note(s, note_on_single_phase(s.single_phase_strain));
   if (plastic_path_.watches()) s.unbalanced_plastic_work = plastic_path_.unbalanced_work(t_, motion_->u());
   add_note(s, note_on_unbalanced_work(s.unbalanced_plastic_work, model_));

@@ -42,10 +42,10 @@ void WayLeft::add(double t, std::size_t dim, ConstVec x) {
   ++count_;
   const double size = longest_of(x, dim);
   if (size == 0) {
-    relative_ = count_ < 3 ? endless : 0;
+    relative_ = last_.size() < 3 ? endless : 0;
   } else {
     const double whole = from_the_whole(size);  // sets the exponent as well
-    relative_ = count_ < 3 ? endless : std::max(from_last_blocks(size), whole) / size;
+    relative_ = last_.size() < 3 ? endless : std::max(from_last_blocks(size), whole) / size;
   }
   if (count_ >= next_kept_) {
     constexpr double ratio = 1.3;
@@ -66,7 +66,7 @@ double WayLeft::from_last_blocks(double size) const {
 double WayLeft::from_the_whole(double size) {
   exponent_ = endless;
   const double age = last_.back().t - begun_;
-  if (count_ < 4) return 0;
+  if (count_ < 4 || kept_.empty()) return 0;
   const Block &B = nearest(begun_ + age / 2), &A = nearest(begun_ + age / 4), &C = last_.back();
   if (!(A.t < B.t && B.t < C.t)) return endless;
   const double d_1 = apart(A, B), d_2 = apart(B, C);
@@ -94,7 +94,7 @@ double WayLeft::apart(const Block& a, const Block& b) const {
 
 std::vector<double> WayLeft::velocities() const {
   std::vector<double> v;
-  if (count_ < 4) return v;
+  if (kept_.empty()) return v;
   const Block &B = nearest(half_way_t_), &C = last_.back();
   for (std::size_t i = 0; i < C.x.size(); ++i)
     v.push_back((static_cast<double>(C.x[i]) - static_cast<double>(B.x[i])) / (C.t - B.t));
@@ -115,10 +115,11 @@ void WayLeft::archive(const StateArchive& state) {
     for (std::size_t k = 0; k < size; ++k) {
       state(fmt::format("{}_{}_t", name, k), (*blocks)[k].t);
       state(fmt::format("{}_{}_x", name, k), (*blocks)[k].x);
-      if ((*blocks)[k].x.size() != blocks->front().x.size())
-        throw StateError("blocks of creep are of different sizes: it was altered");
     }
   }
+  for (const std::deque<Block>* blocks : {&last_, &kept_})
+    for (const Block& block : *blocks)
+      if (block.x.size() != size_of_block()) throw StateError("blocks of creep are of different sizes: it was altered");
   state("relative", relative_);
   state("exponent", exponent_);
   state("span", span_);

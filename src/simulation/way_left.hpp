@@ -24,8 +24,8 @@ namespace stillpoint {
 
 class WayLeft {
  public:
-  /// small: the way left, relative to the largest displacement, that counts as none. A fifth of it, gone in either span,
-  /// is taken for rest, since the velocities of what hardly moves are chance.
+  /// small: the way left, relative to the largest displacement, that counts as none. A fifth of it, gone in either
+  /// span, is taken for rest, since the velocities of what hardly moves are chance.
   explicit WayLeft(double small) : small_(small) { begin(0); }
 
   /// From t on nothing acts on the body but what does then.
@@ -44,6 +44,8 @@ class WayLeft {
   /// And of each point's components the mean velocity in it, (points × dim) [m/s].
   std::vector<double> velocities() const;
 
+  /// Of the last block, (points × dim); 0: there is none.
+  std::size_t size_of_block() const { return last_.empty() ? 0 : last_.back().x.size(); }
   void archive(const StateArchive& state);
 
  private:

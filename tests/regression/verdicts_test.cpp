@@ -1,5 +1,5 @@
-// Verdicts that were given too early, too late or too surely: limit loads of bodies in motion, equilibria of ground that
-// creeps, and slides that ended as a limit of steps.
+// Verdicts that were given too early, too late or too surely: limit loads of bodies in motion, equilibria of ground
+// that creeps, and slides that ended as a limit of steps.
 #include <stillpoint/stillpoint.hpp>
 
 #include <cmath>
@@ -25,7 +25,7 @@ Summary run_text(const std::string& text, const std::vector<std::string>& set = 
 /// Griffiths and Lane's slope of 1999, example 1, with its strength over F: 1.37 to 1.40 is the limit.
 Summary slope(double F, std::vector<std::string> set = {}) {
   set.insert(set.begin(), fmt::format("constants.F={}", F));
-  return run_text(R"(dim = 2
+  return run_text(R"toml(dim = 2
 constants = {gamma = 20e3, g = 9.81, H = 10.0, F = 1.0, phi0 = 20.0, c0 = "0.05*gamma*H"}
 grid = {min = [0, 0], max = [32, 11], cells = [64, 22], basis = "linear"}
 body = {polygon = [[0, 0], [32, 0], [12, 10], [0, 10]], material = "soil", state = "plane-strain", points_per_cell = 4}
@@ -46,16 +46,18 @@ cone = "plane-strain"
 name = "crest"
 at = [12, 10]
 fields = ["u.x", "u.y"]
-)",
+)toml",
                   set);
 }
 
-double crest(const Summary& s) { return std::hypot(scenes::probe(s, "crest", "u.x"), scenes::probe(s, "crest", "u.y")); }
+double crest(const Summary& s) {
+  return std::hypot(scenes::probe(s, "crest", "u.x"), scenes::probe(s, "crest", "u.y"));
+}
 
 /// A block on a wall with the friction 0.3, pushed by `share` of what that bears.
 Summary pushed(double share, std::vector<std::string> set = {}) {
   set.insert(set.begin(), fmt::format("constants.share={}", share));
-  return run_text(R"(dim = 2
+  return run_text(R"toml(dim = 2
 constants = {mu = 0.3, g = 10.0, share = 1.0}
 grid = {min = [0, 0], max = [12, 3], cells = [24, 6], basis = "linear"}
 body = {min = [1, 0], max = [3, 1], material = "rock", state = "plane-strain", points_per_cell = 4}
@@ -65,7 +67,7 @@ body_force.value = ["share*mu*g", "-g"]
 phase.max_motion = "none"
 damping = {strategy = "viscous", c = 10}
 stop = {residual = 1e-6, steps = 200000}
-)",
+)toml",
                   set);
 }
 
@@ -94,10 +96,9 @@ TEST_CASE("a flat factor that is no limit load is told with what is missing, whi
 }
 
 TEST_CASE("a bar, a block and a strut that are elastic have no limit load, though they be driven far") {
-  for (const std::vector<std::string>& set :
-       {std::vector<std::string>{"material.rubber.law=linear-elastic"},
-        {"material.rubber.law=hencky", "phase.max_motion=none"},
-        {"material.rubber.law=linear-elastic", "damping.strategy=cundall"}}) {
+  for (const std::vector<std::string>& set : {std::vector<std::string>{"material.rubber.law=linear-elastic"},
+                                              {"material.rubber.law=hencky", "phase.max_motion=none"},
+                                              {"material.rubber.law=linear-elastic", "damping.strategy=cundall"}}) {
     std::vector<std::string> all = {"traction=[{face='top', value=[0.0, 0.5]}]", "load={displacement='0.5*t/20'}",
                                     "stop={residual=0, time=20, load_growth=0.2}", "probe=[]"};
     all.insert(all.end(), set.begin(), set.end());
@@ -142,9 +143,11 @@ TEST_CASE("a slope that ends because one phase squeezes its grid is no equilibri
 }
 
 TEST_CASE("a block that is pushed by more than its friction slides: which wall, what of it and how fast") {
-  for (const std::vector<std::string>& set :
-       {std::vector<std::string>{}, {"grid.basis=quadratic", "body.points_per_cell=9"}, {"damping.c=20"},
-        {"constants.mu=0.6", "stop.residual=1e-1", "stop.kinetic_energy=1e-1"}, {"damping.strategy=one-sided"}}) {
+  for (const std::vector<std::string>& set : {std::vector<std::string>{},
+                                              {"grid.basis=quadratic", "body.points_per_cell=9"},
+                                              {"damping.c=20"},
+                                              {"constants.mu=0.6", "stop.residual=1e-1", "stop.kinetic_energy=1e-1"},
+                                              {"damping.strategy=one-sided"}}) {
     const Summary s = pushed(1.03, set);
     CAPTURE(set.empty() ? "" : set.front(), s.reason, s.t);
     CHECK(s.exit_status == 3);
@@ -160,8 +163,9 @@ TEST_CASE("a block that is pushed by more than its friction slides: which wall, 
   }
 }
 
-TEST_CASE("a body at rest is found there by auto, in phases and over many steps, whatever its rate of damping is then") {
-  for (const std::string& law : {"hencky", "neo-hookean"}) {
+TEST_CASE(
+    "a body at rest is found there by auto, in phases and over many steps, whatever its rate of damping is then") {
+  for (const std::string law : {"hencky", "neo-hookean"}) {
     for (const double load : {1e-3, 1e-2}) {
       const Summary s = run_text(
           "dim = 2\ngrid = {min = [0, 0], max = [4, 4], cells = [8, 8], basis = \"linear\"}\n"
