@@ -20,12 +20,12 @@ constexpr double steady_exponent =
 constexpr std::size_t most_points_looked_at = 20'000;  // that are looked at
 
 // With more than critical damping the slowest mode dies out like e^{−s t},  s ≈ ω₁²/c.
-double longest_period(const Scene& scene, const Model& model) {
+double longest_period(const Model& model) {
   constexpr double two_pi = 2 * std::numbers::pi, longest = 100;
   if (!model.omega_1) return (model.multigrid ? 5 : 100) * two_pi / model.omega_max;
   const double period = two_pi / *model.omega_1;
-  if (!model.c || scene.damping.strategy != "viscous") return period;
-  return period * std::clamp(2 * *model.c / (*model.omega_1 * two_pi), 1.0, longest);
+  const double c = model.damping->linear().mass;
+  return period * std::clamp(2 * c / (*model.omega_1 * two_pi), 1.0, longest);
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ Creep::Creep(const Scene& scene, const Model& model)
   watches_ = giving_way_.is_possible() && scene.stop.wants_equilibrium() && !model.static_method && !told_not_to_look;
   may_slide_away_ = !phase_.info().updated_lagrangian;
   if (!watches_) return;
-  period_ = shortest_period_ = longest_period(scene, model);
+  period_ = shortest_period_ = longest_period(model);
   cell_ = longest_cell(scene.grid);
   stride_ = (phase_.points() + most_points_looked_at - 1) / most_points_looked_at;
 }

@@ -19,7 +19,8 @@ double longest_of(const Values& x, std::size_t dim) {
   for (std::size_t k = 0; k + dim <= x.size(); k += dim) {
     double square = 0;
     for (std::size_t i = 0; i < dim; ++i) square += static_cast<double>(x[k + i]) * static_cast<double>(x[k + i]);
-    if (!(square <= largest)) largest = square;
+    if (std::isnan(square)) return square;
+    largest = std::max(largest, square);
   }
   return std::sqrt(largest);
 }
