@@ -34,6 +34,7 @@ struct Progress {
   long steps = 0;
   double residual = 0, residual_goal = 0;  // residual_goal 0: not asked for
   double wall_s = 0;
+  std::string waits_for{};  // what equilibrium misses beside the residual; empty: nothing, or nobody asks for it
 };
 
 struct SimulationOptions {

@@ -68,6 +68,10 @@ struct Summary {
   double bytes_per_point = 0;
   double residual = 0, kinetic_energy = 0;
   std::optional<double> distance;  // from equilibrium, the error bound, relative; of one phase with a known omega_1
+  std::string distance_kind;       // "bound", of a linear body without contact, or "estimate"; empty: no distance
+  /// Of a body that yields or slides: the way that its motion would still go as it dies out, relative to the largest
+  /// displacement, an estimate. Infinite, null in JSON: it does not die out.
+  std::optional<double> way_left;
   /// Of an equilibrium whose K(u) was tested: "stable", "neutral" or "unstable"; otherwise empty.
   std::string stability;
   std::optional<double> unstable_omega_squared;  // K(u)'s lowest eigenvalue, < 0 [1/s²]

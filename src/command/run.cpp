@@ -36,7 +36,9 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
                                  s.omega_1 ? fmt::format("{:.6g}", *s.omega_1) : "not needed", s.omega_max));
   row("reached", fmt::format("t = {:.6g} s in {} steps, {} force evaluations", s.t, s.steps, s.rhs_evaluations));
   row("residual", fmt::format("{:.3e}   kinetic energy {:.3e} J{}", s.residual, s.kinetic_energy,
-                              s.distance ? fmt::format("   distance from equilibrium {:.3e}", *s.distance) : ""));
+                              s.distance ? fmt::format("   distance from equilibrium {:.3e}{}", *s.distance,
+                                                       s.distance_kind == "estimate" ? ", an estimate" : "")
+                                         : ""));
   if (s.error) {
     row("error (exact)",
         fmt::format("u {:.3e} (L2), {:.3e} (max){}", s.error->u_rel_l2, s.error->u_rel_max,

@@ -39,10 +39,11 @@ void wait_for_signals(const sigset_t& heeded) {
   raise(number);
 }
 
-// Share of the way done: of the time to the end, or of the fall of the residual on a logarithmic scale.
+// Share of the way done: of the time to the end, or of the fall of the residual on a logarithmic scale. Of what is left
+// once that is over nobody knows how long it takes.
 std::optional<double> share_done(const Progress& p, double start_residual) {
   if (p.end_time > 0 && p.residual_goal <= 0) return p.t / p.end_time;
-  if (p.residual_goal > 0 && p.residual > 0 && start_residual > p.residual_goal) {
+  if (p.residual_goal > 0 && p.residual > p.residual_goal && start_residual > p.residual_goal) {
     const double fallen = std::log(start_residual / p.residual), whole = std::log(start_residual / p.residual_goal);
     return std::clamp(fallen / whole, 0.0, 0.99);
   }
@@ -65,13 +66,11 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void ProgressLine::show(const Progress& p) {
   start_residual_ = std::max(start_residual_, p.residual);
+  lately_.emplace_back(p.wall_s, p.residual);
+  while (lately_.front().first < p.wall_s / 2) lately_.pop_front();
   if (!terminal_ && p.wall_s < next_plain_line_) return;
   next_plain_line_ = p.wall_s + 10;
-  std::string left;
-  if (const auto share = share_done(p, start_residual_); share && *share > 0.02) {
-    left = fmt::format("  {:3.0f} %  about {:.0f} s left", 100 * *share, p.wall_s * (1 - *share) / *share);
-  }
-  const std::string line = fmt::format("t = {:.4g}  steps {}  residual {:.2e}{}", p.t, p.steps, p.residual, left);
+  const std::string line = fmt::format("t = {:.4g}  steps {}  residual {:.2e}{}", p.t, p.steps, p.residual, outlook(p));
   if (terminal_) {
     fmt::print(stderr, "\r\033[K{}", line);
   } else {
@@ -79,6 +78,21 @@ void ProgressLine::show(const Progress& p) {
   }
   std::fflush(stderr);
   shown_ = true;
+}
+
+// A residual that does not fall has no time left that could be told.
+std::string ProgressLine::outlook(const Progress& p) const {
+  const bool by_residual = p.residual_goal > 0;
+  if (by_residual && p.residual <= p.residual_goal) return p.waits_for.empty() ? "" : "  waits for: " + p.waits_for;
+  const auto share = share_done(p, start_residual_);
+  if (!share || !(*share > 0.02)) return "";
+  const std::string done = fmt::format("  {:3.0f} %", 100 * *share);
+  if (!by_residual) return done + fmt::format("  about {:.0f} s left", p.wall_s * (1 - *share) / *share);
+  const auto& [since, before] = lately_.front();
+  const double fallen = std::log(before / p.residual), to_fall = std::log(p.residual / p.residual_goal);
+  constexpr double little = 1e-3;  // of a factor e
+  if (!(fallen > little)) return done + "  the residual does not fall";
+  return done + fmt::format("  about {:.0f} s left", (p.wall_s - since) * to_fall / fallen);
 }
 
 void ProgressLine::finish() {

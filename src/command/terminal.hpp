@@ -3,7 +3,9 @@
 
 #include <stillpoint/simulation.hpp>
 
+#include <deque>
 #include <string>
+#include <utility>
 
 namespace stillpoint::command {
 
@@ -15,10 +17,13 @@ class ProgressLine {
   void finish();
 
  private:
+  std::string outlook(const Progress& progress) const;
+
   bool terminal_;
   bool shown_ = false;
   double next_plain_line_ = 10;  // [s]
   double start_residual_ = 0;
+  std::deque<std::pair<double, double>> lately_;  // wall time [s] and residual, of the last half of the run
 };
 
 /// Whether Ctrl-C was pressed since watch_for_interrupt(), or the process asked to end by SIGTERM or SIGHUP; once more

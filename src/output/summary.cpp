@@ -95,6 +95,8 @@ std::string to_json(const Summary& s) {
                      {"bytes_per_point", number(s.bytes_per_point)},
                      {"residual", number(s.residual)},
                      {"distance", number(s.distance)},
+                     {"distance_kind", text(s.distance_kind)},
+                     {"way_left", number(s.way_left)},
                      {"kinetic_energy", number(s.kinetic_energy)},
                      {"external_work", number(s.external_work)},
                      {"plastic_overshoot", number(s.plastic_overshoot)},

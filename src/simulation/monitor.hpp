@@ -4,6 +4,7 @@
 #include <stillpoint/state_archive.hpp>
 #include <stillpoint/summary.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -19,14 +20,27 @@ struct MonitorOptions {
   bool must_last = true;
   double end_time = 0;  // [s]; 0: none
   long steps = 0;       // 0: no limit
+  double begin = 0;     // of the run [s]
 };
 
 class Monitor {
  public:
-  explicit Monitor(const MonitorOptions& options) : options_(options), next_check_(options.dwell / checks_a_dwell) {}
+  explicit Monitor(const MonitorOptions& options)
+      : options_(options), shortest_dwell_(options.dwell), next_check_(options.dwell / checks_a_dwell) {}
 
-  /// The dwell from now on [s], if a period of the slowest motion shows on the way.
-  void set_dwell(double dwell) { options_.dwell = dwell; }
+  /// The dwell from now on, at t [s], if a period of the slowest motion shows on the way. One that is longer than half
+  /// of the run so far has not been seen yet, and may be noise: the dwell is no longer than that, nor is the next test
+  /// further away than a 32nd of it; but both are as long as they were at the beginning.
+  void set_dwell(double dwell, double t) {
+    constexpr double longest_share = 0.5;
+    options_.dwell = std::min(dwell, std::max(shortest_dwell_, longest_share * (t - options_.begin)));
+  }
+  /// What a body that yields or slides would still go, relative to its displacement, as the next observe() sees it, and
+  /// how much that may be; empty: nothing does. Infinite: that is not known.
+  void set_way_left(std::optional<double> way, double allowed) {
+    way_left_ = way;
+    allowed_way_ = allowed;
+  }
   /// Whether observe() wants residual and kinetic energy at t; in between, asking costs nothing.
   bool due(double t) const { return t >= next_check_; }
   /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
@@ -39,6 +53,8 @@ class Monitor {
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps);
 
+  /// What the last observe() missed beside the residual, as "kinetic energy 0.2 > 0.01 of its peak"; empty: nothing.
+  const std::string& waits_for() const { return waits_for_; }
   /// The inequality that ended the run.
   const std::string& reason() const { return reason_; }
   double peak_kinetic_energy() const { return peak_kinetic_energy_; }
@@ -52,11 +68,16 @@ class Monitor {
  private:
   static constexpr int checks_a_dwell = 16;
 
+  std::string missing(bool settled, bool near, std::optional<double> distance, bool creeps) const;
+
   MonitorOptions options_;
+  double shortest_dwell_;
   double next_check_;
   double balanced_since_ = -1;  // [s]; negative: not in balance
   double peak_kinetic_energy_ = 0;
-  std::string reason_;
+  std::optional<double> way_left_;
+  double allowed_way_ = 0;
+  std::string reason_, waits_for_;
 };
 
 }  // namespace stillpoint

@@ -8,6 +8,7 @@
 #include "base/stop_request.hpp"
 #include "simulation/memory_need.hpp"
 #include "simulation/simulation_impl.hpp"
+#include "simulation/single_phase.hpp"
 #include "simulation/viscosity.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
@@ -90,11 +91,29 @@ void Simulation::Impl::say_what_moves() {
   const bool is_limit =
       status_ == RunStatus::end_time || status_ == RunStatus::step_limit || status_ == RunStatus::time_limit;
   if (!is_limit || exit_status() == 0) return;
+  if (const std::string slides = creep_.description(t_, motion_->u()); !slides.empty() && !reason_.starts_with(slides))
+    reason_ = fmt::format("{}; {}", slides, reason_);
   if (scene_.stop.wants_equilibrium()) {
     const std::string creeping = creep(scene_, *model_.phase);
     reason_ += "; " + (creeping.empty() ? furthest_from_rest(*motion_, t_) : creeping);
   }
   if (scene_.stop.load_growth > 0) reason_ += "; no limit load: " + limit_load_.description();
+}
+
+// A grid that is squeezed bears what its material may not: an equilibrium that goes some way is told so, one that goes
+// as far as its own size is none.
+void Simulation::Impl::say_how_far_one_phase_went() {
+  if (status_ != RunStatus::equilibrium) return;
+  const auto most = strain_in_single_phase(*model_.phase, t_, motion_->u());
+  const std::string said = most ? note_on_single_phase(most->strain) : "";
+  if (said.empty()) return;
+  if (most->strain <= largest_single_phase_strain) {
+    reason_ += "; but " + said;
+    return;
+  }
+  status_ = RunStatus::step_limit;
+  reason_ = fmt::format("no equilibrium: {}; {} is strained most; it ended with {}", said,
+                        to_string(model_.phase->diagnosis().of_point(most->point)), reason_);
 }
 
 // What claims to be an equilibrium may be one that the least disturbance ends.
@@ -126,6 +145,7 @@ void Simulation::Impl::finish() {
   if (is_readable_ && plastic_path_.watches()) watch_plastic_path();
   if (is_readable_) say_what_moves();
   test_stability();
+  if (is_readable_) say_how_far_one_phase_went();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
   folder_lock_.reset();
 }

@@ -1,6 +1,7 @@
 #include "simulation/simulation_impl.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <new>
@@ -28,7 +29,8 @@ MonitorOptions monitor_options(const Scene& scene, const Model& model) {
           .dwell = model.dwell,
           .must_last = model.equilibrium_must_last,
           .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
-          .steps = scene.stop.steps};
+          .steps = scene.stop.steps,
+          .begin = model.t};
 }
 
 RunStatus status_of(StepReport::Status status) {
@@ -54,6 +56,7 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
       schedule_(scene_, *model_.phase, scene_.stop.time),
       plastic_path_(scene_, model_),
       rate_share_(scene_, *model_.phase),
+      creep_(scene_, model_),
       standstill_(model_.integrator.max_step),
       // What Newton's method does in one step and in the next are not the same.
       thread_choice_(
@@ -80,6 +83,7 @@ RunStatus Simulation::Impl::step(double t_stop) {
   if (!std::exchange(started_, true)) {
     motion_->accept(t_);
     if (plastic_path_.due(t_)) watch_plastic_path();
+    if (creep_.due(t_)) watch_creep();
     sample(true);
     if (leaves_checkpoints()) leave_checkpoint();
   }
@@ -114,7 +118,8 @@ void Simulation::Impl::take_step(double t_stop) {
   motion_->accept(t_);
   if (plastic_path_.due(t_)) watch_plastic_path();
   if (rate_share_.due(steps())) rate_share_.sample(t_, steps(), *motion_);
-  if (options_.stops) watch();
+  if (creep_.due(t_)) watch_creep();
+  if (options_.stops && !done()) watch();
   sample(done());
   report_progress();
   if (const double share = done() ? 0 : model_.phase->control().progress(t_, motion_->u()); share >= 1) {
@@ -162,6 +167,7 @@ void Simulation::Impl::next_phase() {
   } catch (const PointLost& lost) {
     status_ = RunStatus::failed;
     reason_ = failure(now(), lost.what());
+    if (const std::string slides = creep_.description(t_, motion_->u()); !slides.empty()) reason_ += "; " + slides;
   } catch (const SceneError& error) {  // no bad input: that was looked at before the run
     status_ = RunStatus::failed;
     reason_ = failure(now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what()));
@@ -215,12 +221,23 @@ void Simulation::Impl::refresh_distance() {
   }
 }
 
-// If omega_1 is not known before, the damping that is found on the way is 2 omega_1, nearly.
+// A tangent knows nothing of what still yields on the way, nor of what slides.
+std::optional<double> Simulation::Impl::distance_beside_creep() const {
+  const std::optional<double> way = creep_.way_left();
+  if (!way || !distance_) return distance_;
+  return std::isfinite(*way) ? std::optional(std::max(*distance_, *way)) : std::nullopt;
+}
+
+// If omega_1 is not known before, the damping that is found on the way is 2 omega_1, nearly; of a body at rest it is
+// the noise of one.
 void Simulation::Impl::follow_period() {
+  constexpr double rest = 1e-12;  // of the largest kinetic energy so far: velocities to six digits
   if (model_.omega_1 || motion_->integrator->static_iteration()) return;
-  if (const auto c = motion_->integrator->damping_rate(); c && *c > 0) {
-    monitor_.set_dwell(scene_.stop.dwell * 4 * std::numbers::pi / *c);
-  }
+  const auto c = motion_->integrator->damping_rate();
+  if (!c || !(*c > 0) || !(kinetic_energy_ > rest * monitor_.peak_kinetic_energy())) return;
+  const double period = 4 * std::numbers::pi / *c;
+  monitor_.set_dwell(scene_.stop.dwell * period, t_);
+  creep_.set_period(period, t_);
 }
 
 void Simulation::Impl::watch() {
@@ -235,8 +252,9 @@ void Simulation::Impl::watch() {
 
 void Simulation::Impl::look_for_end() {
   if (monitor_.due(t_) || iterate_is_balanced()) {
-    follow_period();
     measure();
+    follow_period();
+    monitor_.set_way_left(creep_.way_left(), creep_.allowed());
     const bool may_be_over = scene_.stop.residual <= 0 || residual_ <= scene_.stop.residual;
     if (may_be_over && distance_to_go().value_or(std::numeric_limits<double>::infinity()) <= model_.distance_goal)
       refresh_distance();
@@ -257,6 +275,10 @@ void Simulation::Impl::look_for_end() {
   }
   if (!done() && schedule_.settled(t_)) look_for_mechanism();
   if (!done()) look_for_standstill();
+  if (!done() && creep_.slides_away()) {
+    status_ = RunStatus::step_limit;
+    reason_ = creep_.description(t_, motion_->u());
+  }
   if (!done() && scene_.load) look_for_limit_load();
 }
 
@@ -266,6 +288,10 @@ void Simulation::Impl::watch_plastic_path() {
   if (!options_.stops) return;
   measure();
   plastic_path_.sample(t_, motion_->system, motion_->u_vector, residual_, power_);
+}
+
+void Simulation::Impl::watch_creep() {
+  if (options_.stops) creep_.sample(t_, motion_->u(), schedule_.settled(t_));
 }
 
 void Simulation::Impl::look_for_mechanism() {
@@ -283,10 +309,17 @@ void Simulation::Impl::look_for_standstill() {
   reason_ = failure(now(), standstill_.description(*model_.phase, *motion_, t_));
 }
 
+// What drives the loads is the last of all supports.
 void Simulation::Impl::look_for_limit_load() {
-  if (!limit_load_.observe(*model_.phase->load_state(t_, motion_->u()))) return;
+  const ConstVec reactions = motion_->system.last_reactions();
+  const double force = reactions.empty() ? 0 : reactions.back();
+  if (!limit_load_.observe(*model_.phase->load_state(t_, motion_->u()), force) || scene_.stop.load_growth <= 0) return;
   measure();
-  if (!limit_load_.reached(residual_)) return;
+  const LimitLoad::Body body{.residual = residual_,
+                             .kinetic_energy = kinetic_energy_,
+                             .plastic_strain = giving_way_.plastic_strain(),
+                             .slides = !giving_way_.shows() || !giving_way_.sliding_walls(t_).empty()};
+  if (!limit_load_.reached(body)) return;
   status_ = RunStatus::limit_load;
   reason_ = "the limit load: " + limit_load_.description();
 }
@@ -317,7 +350,7 @@ void Simulation::Impl::sample(bool last) {
   if (!recorder_) return;
   recorder_->sample(t_, *motion_, last, [&]() -> Recorder::Row {
     measure();
-    return {{t_, steps(), evaluations(), residual_, kinetic_energy_}, distance_};
+    return {{t_, steps(), evaluations(), residual_, kinetic_energy_}, distance_beside_creep()};
   });
 }
 
@@ -325,7 +358,8 @@ void Simulation::Impl::report_progress() {
   constexpr double seconds_between = 0.2;
   if (!options_.progress || wall_.seconds() < next_progress_) return;
   next_progress_ = wall_.seconds() + seconds_between;
-  options_.progress({t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds()});
+  options_.progress(
+      {t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds(), monitor_.waits_for()});
 }
 
 }  // namespace stillpoint

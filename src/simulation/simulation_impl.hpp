@@ -14,10 +14,12 @@
 #include "base/stopwatch.hpp"
 #include "output/folder_lock.hpp"
 #include "simulation/chatter.hpp"
+#include "simulation/creep.hpp"
 #include "simulation/end_request.hpp"
 #include "simulation/equilibrium_stability.hpp"
 #include "simulation/error_bound.hpp"
 #include "simulation/failure.hpp"
+#include "simulation/giving_way.hpp"
 #include "simulation/limit_load.hpp"
 #include "simulation/load_schedule.hpp"
 #include "simulation/matrix_size.hpp"
@@ -50,7 +52,7 @@ class Simulation::Impl {
   }
   std::optional<double> distance() {
     measure();
-    return distance_;
+    return distance_beside_creep();
   }
   ConstVec field(std::string_view name);
   int exit_status() const;
@@ -72,9 +74,11 @@ class Simulation::Impl {
   Chatter chatter_;
   PlasticPath plastic_path_;
   RateShare rate_share_;
+  Creep creep_;
   Standstill standstill_;
   ThreadChoice thread_choice_;
   LimitLoad limit_load_{scene_.stop.load_growth};
+  GivingWay giving_way_{scene_, *model_.phase};
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::shared_ptr<FolderLock> folder_lock_;  // until the run is over
   std::optional<Recorder> recorder_;
@@ -100,6 +104,7 @@ class Simulation::Impl {
   bool watches_chatter() const;
   void watch_chatter(double share, double residual);
   void watch_plastic_path();
+  void watch_creep();
   void look_for_mechanism();
   void look_for_standstill();
   void look_for_limit_load();
@@ -114,6 +119,8 @@ class Simulation::Impl {
     return model_.learns_omega_1 || (model_.omega_1 && !model_.phase->info().updated_lagrangian);
   }
   std::optional<double> distance_to_go() const;
+  std::optional<double> distance_beside_creep() const;
+  bool is_bound() const;
   void refresh_distance();
   void refresh_distance_in_time();
 
@@ -129,6 +136,7 @@ class Simulation::Impl {
   void sample(bool last);
   void report_progress();
   void say_what_moves();
+  void say_how_far_one_phase_went();
   void test_stability();
   void finish();
 

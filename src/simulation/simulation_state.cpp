@@ -135,6 +135,7 @@ void Simulation::Impl::archive(const StateArchive& state) {
   chatter_.archive(state.part("chatter"), model_.phase->points() * static_cast<std::size_t>(model_.phase->dim()));
   plastic_path_.archive(state.part("plastic_path"));
   rate_share_.archive(state.part("rate_share"));
+  creep_.archive(state.part("creep"));
   standstill_.archive(state.part("standstill"));
   mechanism_.archive(state.part("mechanism"));
   limit_load_.archive(state.part("limit_load"));

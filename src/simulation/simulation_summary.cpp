@@ -80,6 +80,11 @@ void Simulation::Impl::fill_effort(Summary& s) const {
     s.ns_per_point_step = 1e9 * stepping_s_ / (static_cast<double>(s.steps) * static_cast<double>(s.points));
 }
 
+// A frozen stiffness, and nothing that opens, closes or slides.
+bool Simulation::Impl::is_bound() const {
+  return !model_.phase->info().nonlinear && !model_.learns_omega_1 && !model_.phase->contact() && !creep_.way_left();
+}
+
 // What is asked of the body as it is now.
 void Simulation::Impl::fill_state(Summary& s) {
   s.stability = to_string(stability_.kind);
@@ -87,9 +92,11 @@ void Simulation::Impl::fill_state(Summary& s) {
   s.residual = residual();
   s.kinetic_energy = kinetic_energy_;
   if (scene_.stop.wants_equilibrium()) refresh_distance_in_time();
-  s.distance = distance_;
+  s.distance = distance_beside_creep();
+  s.way_left = creep_.way_left();
+  if (s.distance) s.distance_kind = is_bound() ? "bound" : "estimate";
   add_note(s, distance_note(status_, distance_to_go()));
-  s.single_phase_strain = strain_in_single_phase(*model_.phase, t_, motion_->u());
+  if (const auto most = strain_in_single_phase(*model_.phase, t_, motion_->u())) s.single_phase_strain = most->strain;
   add_note(s, note_on_single_phase(s.single_phase_strain));
   if (plastic_path_.watches()) s.unbalanced_plastic_work = plastic_path_.unbalanced_work(t_, motion_->u());
   add_note(s, note_on_unbalanced_work(s.unbalanced_plastic_work, model_));

@@ -1,6 +1,5 @@
 #include "simulation/single_phase.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -8,13 +7,15 @@
 
 namespace stillpoint {
 
-std::optional<double> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u) {
+std::optional<SinglePhaseStrain> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u) {
   if (phase.info().updated_lagrangian || !phase.history_dependent()) return std::nullopt;
-  std::vector<double> gradient(static_cast<std::size_t>(phase.info().gradient_components) * phase.points());
+  const auto components = static_cast<std::size_t>(phase.info().gradient_components);
+  std::vector<double> gradient(components * phase.points());
   phase.point_strain(t, u, gradient);
-  double largest = 0;
-  for (const double component : gradient) largest = std::max(largest, std::abs(component));
-  return largest;
+  SinglePhaseStrain most;
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    if (std::abs(gradient[k]) > most.strain) most = {std::abs(gradient[k]), k / components};
+  return most;
 }
 
 std::string note_on_single_phase(std::optional<double> strain) {

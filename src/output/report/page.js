@@ -95,8 +95,10 @@ function runVerdict(parent, s, goals) {
   const kind = asked ? "good" : s.exit_status === 3 ? "doubt" : "bad";
   let bound;
   if (s.distance !== null) {
-    bound = `Error bound: it is within ${short(s.distance, 3)} of its equilibrium, ‖u − u*‖/‖u‖ ≤ ${short(s.distance, 3)}. ` +
-      "Of a linear scene that is a bound, of others an estimate by the tangent at the end.";
+    bound = s.distance_kind === "bound"
+      ? `Error bound: it is within ${short(s.distance, 3)} of its equilibrium, ‖u − u*‖/‖u‖ ≤ ${short(s.distance, 3)}.`
+      : `Distance from equilibrium: about ${short(s.distance, 3)} of the displacement, an estimate by the tangent at ` +
+        "the end" + (s.way_left === null ? ", no bound." : " and, as it yields or slides, by the way that its motion would still go; no bound.");
   } else {
     bound = "Error bound: none. " + (s.status === "equilibrium" || goals.residual > 0
       ? "It takes the lowest frequency ω₁ in a single phase, which is not known here; the residual says how far forces are out of balance."

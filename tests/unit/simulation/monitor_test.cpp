@@ -1,6 +1,8 @@
 #include "simulation/monitor.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -137,4 +139,46 @@ TEST_CASE("equilibrium that need not last is declared at the first moment in bal
   CHECK(at_once.observe(1, 1e-2, 0) == stillpoint::RunStatus::running);
   CHECK(at_once.observe(2, 1e-4, 0) == stillpoint::RunStatus::equilibrium);
   CHECK(at_once.reason() == "residual 0.0001 <= 0.001");
+}
+
+// The rate of a damping that finds itself is noise once the body is at rest.
+TEST_CASE("no test is further away than a share of the run, and none has to last for more of it, whatever the period") {
+  for (const double noise : {1e4, 1e10, 1e300}) {
+    Monitor monitor(options);
+    double declared = 0, last_check = 0;
+    for (double t = 1; t < 1000 && declared == 0; t += 1) {
+      if (!monitor.due(t)) continue;
+      CHECK(t - last_check <= 1 + std::max(10.0, t) / 16);
+      last_check = t;
+      monitor.set_dwell(t < 50 ? 20 : noise, t);
+      if (monitor.observe(t, t < 60 ? 1 : 1e-13, t < 60 ? 1 : 0) == RunStatus::equilibrium) declared = t;
+    }
+    CAPTURE(noise);
+    CHECK(declared > 70);
+    CHECK(declared <= 2 * 60 * 1.1);  // the body was in balance from 60 on
+  }
+}
+
+TEST_CASE("a period that was seen is waited for") {
+  Monitor monitor(options);
+  monitor.set_dwell(20, 100);
+  CHECK(monitor.observe(100, 1, 5.0) == RunStatus::running);
+  CHECK(monitor.observe(101, 1e-4, 1e-3) == RunStatus::running);
+  CHECK(monitor.observe(120, 1e-4, 1e-3) == RunStatus::running);
+  CHECK(monitor.waits_for() == "in balance for 19 of 20 s");
+  CHECK(monitor.observe(121, 1e-4, 1e-3) == RunStatus::equilibrium);
+}
+
+TEST_CASE("a body that creeps is in no equilibrium, whatever its residual and its kinetic energy") {
+  const double endless = std::numeric_limits<double>::infinity();
+  for (const double way : {0.1, endless, std::numeric_limits<double>::quiet_NaN()}) {
+    Monitor monitor({.residual = 0.1, .kinetic_energy = 0.1, .dwell = 10});
+    monitor.set_way_left(way, 5e-3);
+    for (int k = 0; k < 100; ++k) CHECK(monitor.observe(k, 1e-12, k == 0 ? 1 : 0) == RunStatus::running);
+    CHECK(monitor.waits_for() == (way == 0.1 ? "way left 0.1 > 0.005 of the displacement" : "a motion that dies out"));
+    monitor.set_way_left(1e-3, 5e-3);
+    CHECK(monitor.observe(100, 1e-12, 0) == RunStatus::running);  // for a period
+    CHECK(monitor.observe(110, 1e-12, 0) == RunStatus::equilibrium);
+    CHECK(monitor.reason().find("way left 0.001 <= 0.005") != std::string::npos);
+  }
 }

@@ -1,0 +1,45 @@
+#include "simulation/giving_way.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel_loop.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr const char* plastic_strain_name = "plastic_strain";
+
+}  // namespace
+
+GivingWay::GivingWay(const Scene& scene, const LagrangianPhase& phase) : phase_(phase) {
+  const std::vector<std::string>& remembered = phase.info().history_names;
+  remembers_ = phase.history_dependent();
+  yields_ = std::ranges::find(remembered, plastic_strain_name) != remembered.end();
+  for (const WallSpec& wall : scene.walls) friction_.push_back(wall.friction);
+  has_friction_ = std::ranges::any_of(friction_, [](double mu) { return mu > 0 && std::isfinite(mu); });
+  if (!yields_) return;
+  volumes_ = phase.point_data().volumes;
+  of_points_.resize(volumes_.size());
+}
+
+double GivingWay::plastic_strain() const {
+  if (!yields_) return 0;
+  phase_.point_history(plastic_strain_name, of_points_);
+  return sum_over(volumes_.size(), [&](std::size_t p) { return volumes_[p] * of_points_[p]; });
+}
+
+std::vector<std::size_t> GivingWay::sliding_walls(double t) const {
+  constexpr double nearly = 0.99;  // of |T|, as a node here and there may stick for a moment
+  std::vector<std::size_t> sliding;
+  if (!has_friction_) return sliding;
+  const std::vector<WallReaction> walls = phase_.wall_reactions(t);
+  for (std::size_t k = 0; k < std::min(walls.size(), friction_.size()); ++k) {
+    const double T = std::hypot(walls[k].shear[0], walls[k].shear[1]), N = std::abs(walls[k].normal);
+    if (friction_[k] > 0 && std::isfinite(friction_[k]) && N > 0 && T >= nearly * friction_[k] * N)
+      sliding.push_back(k);
+  }
+  return sliding;
+}
+
+}  // namespace stillpoint
