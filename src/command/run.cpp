@@ -24,6 +24,15 @@ std::string way_to_rest(const Summary& s) {
   return hosted ? s.damping + ", an iteration of its own" : fmt::format("{}, {} damping", s.integrator, s.damping);
 }
 
+// Empty: not known.
+std::string distance_of(const Summary& s) {
+  std::string said;
+  if (s.distance) said = fmt::format("   distance from equilibrium {:.3e}", *s.distance);
+  if (s.distance_kind == "estimate") said += ", an estimate";
+  if (s.way_left && std::isfinite(*s.way_left)) said += fmt::format("   way left by its motion {:.1e}", *s.way_left);
+  return said;
+}
+
 void print_table(const Summary& s, const std::filesystem::path& out) {
   const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<18}{}\n", what, value); };
   fmt::print("{}\n", s.title.empty() ? s.scene : s.title);
@@ -35,10 +44,7 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   row("frequencies", fmt::format("omega_1 {}, omega_max {:.6g}",
                                  s.omega_1 ? fmt::format("{:.6g}", *s.omega_1) : "not needed", s.omega_max));
   row("reached", fmt::format("t = {:.6g} s in {} steps, {} force evaluations", s.t, s.steps, s.rhs_evaluations));
-  row("residual", fmt::format("{:.3e}   kinetic energy {:.3e} J{}", s.residual, s.kinetic_energy,
-                              s.distance ? fmt::format("   distance from equilibrium {:.3e}{}", *s.distance,
-                                                       s.distance_kind == "estimate" ? ", an estimate" : "")
-                                         : ""));
+  row("residual", fmt::format("{:.3e}   kinetic energy {:.3e} J{}", s.residual, s.kinetic_energy, distance_of(s)));
   if (s.error) {
     row("error (exact)",
         fmt::format("u {:.3e} (L2), {:.3e} (max){}", s.error->u_rel_l2, s.error->u_rel_max,

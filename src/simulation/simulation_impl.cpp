@@ -221,10 +221,11 @@ void Simulation::Impl::refresh_distance() {
   }
 }
 
-// A tangent knows nothing of what still yields on the way, nor of what slides.
+// A tangent knows nothing of what still yields on the way, nor of what slides: what is far from rest by its motion is
+// no nearer, whatever the tangent says.
 std::optional<double> Simulation::Impl::distance_beside_creep() const {
   const std::optional<double> way = creep_.way_left();
-  if (!way || !distance_) return distance_;
+  if (!way || !distance_ || *way <= creep_.allowed()) return distance_;
   return std::isfinite(*way) ? std::optional(std::max(*distance_, *way)) : std::nullopt;
 }
 

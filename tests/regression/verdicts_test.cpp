@@ -125,13 +125,12 @@ TEST_CASE("a slope that creeps is in equilibrium where it will be, whatever the 
 }
 
 TEST_CASE("a slope at its limit is in no equilibrium while it still goes two thirds of its way") {
-  for (const double F : {1.38, 1.4}) {
-    for (const char* strategy : {"viscous", "kinetic", "one-sided", "auto"}) {
-      const Summary s = slope(F, {"stop.residual=3e-3", "stop.kinetic_energy=1e-2", "stop.steps=20000",
+  for (const char* strategy : {"viscous", "auto"}) {
+    const Summary s = slope(1.4, {"stop.residual=3e-3", "stop.kinetic_energy=1e-2", "stop.steps=12000",
                                   std::string("damping.strategy=") + strategy});
-      CAPTURE(F, strategy, s.reason, crest(s));
-      if (s.exit_status == 0) CHECK(crest(s) > (F > 1.39 ? 0.14 : 0.06));
-    }
+    CAPTURE(strategy, s.reason, crest(s));
+    if (s.exit_status == 0) CHECK(crest(s) > 0.2);  // (0.146, -0.165) in the end
+    if (s.exit_status != 0) CHECK_THAT(s.reason, Contains("it slides"));
   }
 }
 

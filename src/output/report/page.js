@@ -98,7 +98,7 @@ function runVerdict(parent, s, goals) {
     bound = s.distance_kind === "bound"
       ? `Error bound: it is within ${short(s.distance, 3)} of its equilibrium, ‖u − u*‖/‖u‖ ≤ ${short(s.distance, 3)}.`
       : `Distance from equilibrium: about ${short(s.distance, 3)} of the displacement, an estimate by the tangent at ` +
-        "the end" + (s.way_left === null ? ", no bound." : " and, as it yields or slides, by the way that its motion would still go; no bound.");
+        "the end" + (s.way_left === null ? ", no bound." : `, no bound. It yields or slides, and by its own decay its motion would still go ${short(s.way_left, 2)} of the displacement at most.`);
   } else {
     bound = "Error bound: none. " + (s.status === "equilibrium" || goals.residual > 0
       ? "It takes the lowest frequency ω₁ in a single phase, which is not known here; the residual says how far forces are out of balance."
