@@ -276,7 +276,7 @@ def on_wall_in_phases(r, all_ways=False):
         ways_of(r, in_time(scene), all_ways, 3),
         answer=answer,
         tolerance=0.02,
-        unique=0.01,
+        unique=0.02,
         components=(1,),
         moved=moved,
         cell=h,
