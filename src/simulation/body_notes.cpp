@@ -84,4 +84,19 @@ std::vector<std::string> BodyNotes::later(const Scene& scene, const LagrangianPh
   return notes;
 }
 
+std::vector<std::string> notes_on_jumps(const Scene& scene, const std::vector<WallReaction>& walls) {
+  constexpr double far = 0.05;  // of a cell
+  std::vector<std::string> notes;
+  for (const WallReaction& wall : walls) {
+    const double cells = wall.put_back / scene.grid.cell_length(static_cast<std::size_t>(wall.axis));
+    if (!(cells > far)) continue;
+    notes.push_back(
+        fmt::format("the wall '{}' moved a node by {:.4g} m ({:.2g} cells) at once: points that jump so far "
+                    "keep stresses that no function of the grid feels; expected initial values outside the "
+                    "wall, and a motion of the wall that takes some time",
+                    wall.name, wall.put_back, cells));
+  }
+  return notes;
+}
+
 }  // namespace stillpoint

@@ -102,6 +102,8 @@ void Simulation::Impl::fill_state(Summary& s) {
   add_note(s, note_on_unbalanced_work(s.unbalanced_plastic_work, model_));
   s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
   if (model_.phase->info().updated_lagrangian) {
+    for (std::string& note : notes_on_jumps(scene_, model_.phase->wall_reactions(t_)))
+      s.notes.push_back(std::move(note));
     const auto transfer = model_.phase->control().transfer_errors();
     s.mass_error = transfer.mass;
     s.momentum_error = transfer.momentum;

@@ -125,7 +125,8 @@ TEST_CASE("a pile bears the same by its material whatever the local damping, onc
   CHECK(share(undamped) < 0.05);
   CHECK_FALSE(says(undamped, told));
   double last = 0;
-  for (const char* damping : {"damping.alpha=0.1", "damping.alpha=0.3", "damping.alpha=0.7", "damping={strategy='cundall', alpha=0.7}"}) {
+  for (const char* damping :
+       {"damping.alpha=0.1", "damping.alpha=0.3", "damping.alpha=0.7", "damping={strategy='cundall', alpha=0.7}"}) {
     const Summary s = end_of(pile, {damping});
     CAPTURE(damping, share(s), bearing(s));
     CHECK(share(s) > 0.05);
@@ -141,8 +142,8 @@ TEST_CASE("a pile bears the same by its material whatever the local damping, onc
 TEST_CASE("by default local damping takes a tenth of what drives a flow at most, at half the speed and at twice it") {
   for (const char* u : {"-0.05*t", "-0.1*t", "-0.2*t"}) {
     for (const char* strategy : {"one-sided", "cundall", "combined"}) {
-      const Summary s = end_of(pile, {fmt::format("support[3].u={}", u), fmt::format("damping.strategy={}", strategy),
-                                      "stop.time=2"});
+      const Summary s = end_of(
+          pile, {fmt::format("support[3].u={}", u), fmt::format("damping.strategy={}", strategy), "stop.time=2"});
       CAPTURE(u, strategy);
       CHECK(share(s) < 0.15);
     }
@@ -150,20 +151,25 @@ TEST_CASE("by default local damping takes a tenth of what drives a flow at most,
 }
 
 TEST_CASE("the share is that of viscous damping and of walls as well, and grows with the speed") {
-  const Summary slow = end_of(press, {"wall[1].motion=-0.02*t", "stop.time=4"}), fast = end_of(press, {"wall[1].motion=-1*t", "stop.time=0.2"});
+  const Summary slow = end_of(press, {"wall[1].motion=-0.02*t", "stop.time=4"}),
+                fast = end_of(press, {"wall[1].motion=-1*t", "stop.time=0.2"});
   CAPTURE(share(slow), share(fast));
   CHECK(share(slow) < share(fast));
   CHECK(share(fast) > 0.05);
   CHECK(says(fast, told));
-  const Summary thick = end_of(press, {"damping={strategy='viscous', c=200}"}), thin = end_of(press, {"damping={strategy='viscous', c=1}"});
+  const Summary thick = end_of(press, {"damping={strategy='viscous', c=200}"}),
+                thin = end_of(press, {"damping={strategy='viscous', c=1}"});
   CAPTURE(share(thick), share(thin));
   CHECK(share(thick) > 5 * share(thin));
 }
 
-TEST_CASE("there is no share where nothing drives, or where equilibrium is asked for, and damping stays as it is there") {
+TEST_CASE(
+    "there is no share where nothing drives, or where equilibrium is asked for, and damping stays as it is there") {
   CHECK_FALSE(end_of(press, {"wall[1].motion=0", "stop.residual=1e-6", "body_force.value=[0,-10]"}).rate_share);
   CHECK_FALSE(end_of(press, {"wall[1].motion=-0.01*min(t,1)", "stop.residual=1e-5", "stop.time=100"}).rate_share);
-  const auto alpha = [](const std::vector<std::string>& set) { return load_scene("driven.toml", pile, set).damping.alpha; };
+  const auto alpha = [](const std::vector<std::string>& set) {
+    return load_scene("driven.toml", pile, set).damping.alpha;
+  };
   CHECK(alpha({}) == 0.05);
   CHECK(alpha({"damping.alpha=0.4"}) == 0.4);
   CHECK(alpha({"stop.residual=1e-6"}) == 0.7);

@@ -60,7 +60,9 @@ std::vector<std::string> both(std::vector<std::string> a, const std::vector<std:
   return a;
 }
 
-Summary end_of(const std::vector<std::string>& set) { return run(load_scene("block.toml", block, set), {.threads = 1}); }
+Summary end_of(const std::vector<std::string>& set) {
+  return run(load_scene("block.toml", block, set), {.threads = 1});
+}
 double settlement(const Summary& s) { return scenes::probe(s, "m", "u.y"); }
 bool says(const Summary& s, const std::string& part) {
   return std::ranges::any_of(s.notes, [&](const std::string& note) { return note.find(part) != std::string::npos; });
@@ -122,13 +124,16 @@ TEST_CASE("a relaxation that creeps beyond its strength is at no equilibrium, an
   CHECK(s.reason.find("the yield function is 1.05 of the strength") != std::string::npos);
 }
 
-TEST_CASE("below the limit a relaxation comes to the rate-independent equilibrium as soon as its over-stress has gone") {
+TEST_CASE(
+    "below the limit a relaxation comes to the rate-independent equilibrium as soon as its over-stress has gone") {
   const double plastic = settlement(end_of(both(in_part, {"solve.method=newton", "solve.load_steps=16"})));
-  const std::vector<std::string> slowly = both(in_part, {"traction=[{line=[[0,1],[1,1]], value=[0,'-2.6e4*min(t/5,1)']}]",
-                                                         "stop.time=2000", "stop.steps=4000000"});
+  const std::vector<std::string> slowly =
+      both(in_part,
+           {"traction=[{line=[[0,1],[1,1]], value=[0,'-2.6e4*min(t/5,1)']}]", "stop.time=2000", "stop.steps=4000000"});
   double last = 0;
   for (const char* fluidity : {"1e-5", "1e-6", "1e-7"}) {
-    const Summary s = end_of(both(slowly, {fmt::format("material.clay.fluidity={}", fluidity), "damping.strategy=viscous"}));
+    const Summary s =
+        end_of(both(slowly, {fmt::format("material.clay.fluidity={}", fluidity), "damping.strategy=viscous"}));
     CAPTURE(fluidity, s.reason, s.t);
     CHECK(s.status == RunStatus::equilibrium);
     CHECK(settlement(s) == Approx(plastic).epsilon(0.02));

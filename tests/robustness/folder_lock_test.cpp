@@ -1,4 +1,6 @@
 // Two runs into one folder at once would each leave half of what it holds.
+#include <stillpoint/scene_error.hpp>
+
 #include "output/folder_lock.hpp"
 
 #include <filesystem>

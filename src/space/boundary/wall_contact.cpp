@@ -153,6 +153,7 @@ void WallContact::hold(Vec Q) const {
 ContactChange WallContact::update(double t, Vec u, Vec v) {
   const double velocity = motion_.velocity(t), wall = motion_.displacement(t) - start_;
   const double rounding = 1e-11 * cell_, near = 1e-3 * cell_;
+  const double way = std::abs(wall + start_ - motion_.displacement(accepted_t_));  // that it took closed nodes along
   step_ = t - accepted_t_;
   accepted_t_ = t;
   ContactChange change = ContactChange::nothing;
@@ -167,6 +168,7 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
     const bool pulls = outward_ * normal_force_[k] > 0;
     const auto put_back = [&] {
       changes(u[n] != touches_at(k, wall), ContactChange::displacement);
+      put_back_ = std::max(put_back_, std::abs(past));
       u[n] = touches_at(k, wall);
     };
     if (begins && closed_[k])
@@ -180,6 +182,7 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
       continue;
     }
     if (begins) changes(close(k, velocity, v), ContactChange::velocity);
+    put_back_ = std::max(put_back_, way);
     if (past < -near || (pulls && past <= rounding)) {
       closed_[k] = 0;
       continue;
@@ -200,7 +203,7 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
 
 // On the wall: minus the forces on the body. Power on the body: Σ F_n w.
 WallReaction WallContact::reaction(double t) const {
-  WallReaction sum{.name = name_, .displacement = motion_.displacement(t)};
+  WallReaction sum{.name = name_, .displacement = motion_.displacement(t), .put_back = put_back_};
   double force = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     sum.normal -= outward_ * normal_force_[k];
@@ -217,6 +220,7 @@ void WallContact::archive(const StateArchive& state) {
   state("slip", slip);
   state("gap", gap_);
   state("closed_across_gap", closed_across_gap_);
+  state("put_back", put_back_);
   state("started", started_);
   state("displacement_at_start", start_);
   state("accepted_t", accepted_t_);

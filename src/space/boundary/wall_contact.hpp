@@ -97,7 +97,8 @@ class WallContact {
   std::vector<Along> slip_;  // d; 0 if it sticks
   std::vector<double> gap_;  // g [m]
   bool closed_across_gap_ = false;
-  double cell_ = 0;  // of the phase [m]
+  double cell_ = 0;      // of the phase [m]
+  double put_back_ = 0;  // the furthest that a node was, at once [m]
   // When the run begins, every node is taken for closed until the first forces show which ones the wall would have to
   // pull: a body that leans on a wall does so from the start, also on one that begins to give way.
   bool started_ = false;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "space/phase/material_point_phase.hpp"
-#include "space/points/body_neighbours.hpp"
+#include "space/phase/body_neighbours.hpp"
 
 namespace stillpoint {
 
