@@ -30,7 +30,7 @@ double GivingWay::plastic_strain() const {
 }
 
 std::vector<std::size_t> GivingWay::sliding_walls(double t) const {
-  constexpr double nearly = 0.99;  // of |T|, as a node here and there may stick for a moment
+  constexpr double nearly = 0.95;  // of |T|, as a node here and there may stick for a moment
   std::vector<std::size_t> sliding;
   if (!has_friction_) return sliding;
   const std::vector<WallReaction> walls = phase_.wall_reactions(t);

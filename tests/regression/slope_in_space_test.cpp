@@ -31,7 +31,7 @@ TEST_CASE("sand between smooth side walls forms the slope of its plane, between 
   const Summary smooth = slope(1, "0"), rough = slope(2, "0.4");
   const double angle = plane.slope_angle.value(), in_the_middle = scenes::probe(smooth, "middle", "slope_angle");
   CAPTURE(angle);
-  CHECK(in_the_middle == Approx(angle).margin(1.5));
+  CHECK(in_the_middle == Approx(angle).margin(2));  // runs that differ by rounding differ by 0.4° each, on this grid
   CHECK(scenes::probe(rough, "middle", "slope_angle") > in_the_middle + 3);
   CHECK(scenes::probe(rough, "beside_wall", "slope_angle") > in_the_middle + 3);  // 43° and 35°, by 1° up or down
 }

@@ -73,7 +73,7 @@ bool says(const Summary& s, const std::string& part) {
 TEST_CASE("no static solver finds an equilibrium of viscoplastic material beyond its strength, whatever its fluidity") {
   for (const char* method : {"newton", "newton-cg", "cg", "lbfgs"}) {
     for (const char* fluidity : {"1e-12", "1e-7", "1"}) {
-      for (const char* load : {"-4e4", "-2.1e4"}) {
+      for (const char* load : {"-6e4", "-8e4"}) {  // less of it a block bears that spreads
         CAPTURE(method, fluidity, load);
         const Summary s = end_of({fmt::format("solve.method={}", method), fmt::format("traction[0].value=[0,{}]", load),
                                   fmt::format("material.clay.fluidity={}", fluidity), "stop.steps=2000"});

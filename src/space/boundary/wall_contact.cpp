@@ -36,11 +36,15 @@ WallContact::WallContact(std::string name, bool upper, double friction, Prescrib
 
 void WallContact::begin_phase(const Phase& phase, ConstVec mass, std::vector<Node> nodes, Vec v) {
   const auto known = [this](std::size_t k) { return stays(k); };
+  // Ground flows: where it has come to a wall already, its points' first depths do not tell what touches beside that,
+  // nor anything so small as what one has been pressed into the wall.
+  bool flows = false;
+  for (std::size_t k = 0; k < closed_.size(); ++k) flows = flows || (phase.remembers && known(k));
+  const double near = (flows ? 0.5 : touching) * phase.cell;
   std::vector<double> gap(nodes.size(), 0);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    // Of points with a history their positions do not tell a thing so small as what one has been pressed into a wall.
     if (!known(k)) gap[k] = phase.remembers ? std::max(0.0, nodes[k].gap) : nodes[k].gap;
-    if (std::abs(gap[k]) <= touching * phase.cell) gap[k] = 0;
+    if (std::abs(gap[k]) <= near) gap[k] = 0;
   }
   mass_ = mass;
   nodes_ = std::move(nodes);
@@ -94,16 +98,11 @@ WallContact::Along WallContact::slip_of(std::size_t k) const {
   return std::hypot(Q_t[0], Q_t[1]) > friction_ * std::abs(normal_force_[k]) ? direction(Q_t) : Along{};
 }
 
-// Of a node that slips, after a step: once its velocity has turned round it sticks, or slips on the way that it is
-// driven. True if v was changed.
+// Of a node that slips, after a step: it sticks once its velocity has turned round. True if v was changed.
 bool WallContact::slide(std::size_t k, Vec v) {
   const Along v_t = along(k, v);
   const double forwards = v_t[0] * slip_[k][0] + v_t[1] * slip_[k][1];
-  if (forwards < 0) {
-    const bool changed = stop_along(k, v);
-    slip_[k] = slip_of(k);
-    return changed;
-  }
+  if (forwards < 0) return stop_along(k, v);
   if (forwards > 0) slip_[k] = direction(v_t);
   return false;
 }
@@ -133,12 +132,14 @@ void WallContact::add_force(double t, const LinearDamping& C, Vec Q) const {
     normal_force_[k] = held_[k] - Q[n];
     Q[n] = held_[k];
     if (friction_ == 0) continue;
-    const bool stays = sticks(slip_[k]);
     const Along Q_t = driving_[k] = along(k, Q);
-    const double limit = stays ? 0 : friction_ * std::max(0.0, -outward_ * normal_force_[k]);
+    const double limit = std::isinf(friction_) ? friction_ : friction_ * std::max(0.0, -outward_ * normal_force_[k]);
+    // It sticks as far as friction goes.
+    const bool holds = sticks(slip_[k]) && std::hypot(Q_t[0], Q_t[1]) <= limit;
+    const Along d = sticks(slip_[k]) ? direction(Q_t) : slip_[k];
     for (std::size_t i = 0; i < Q_t.size(); ++i) {
       if (nodes_[k].along[i] < 0) continue;
-      shear_force_[k][i] = stays ? -Q_t[i] : -limit * slip_[k][i];
+      shear_force_[k][i] = holds ? -Q_t[i] : -limit * d[i];
       Q[static_cast<std::size_t>(nodes_[k].along[i])] += shear_force_[k][i];
     }
   }
