@@ -69,9 +69,10 @@ double LimitLoad::inertia() const {
 }
 
 double LimitLoad::giving() const {
+  const std::size_t first = first_of_last_fifth();
   double sum = 0;
-  for (std::size_t k = first_of_last_fifth(); k < giving_.size(); ++k) sum += giving_[k];
-  return sum / static_cast<double>(q_.size() / 5);
+  for (std::size_t k = first; k < giving_.size(); ++k) sum += giving_[k];
+  return sum / static_cast<double>(giving_.size() - first);
 }
 
 void LimitLoad::close_piece() {
@@ -108,7 +109,7 @@ std::optional<double> LimitLoad::measured_growth() const {
 
 std::string LimitLoad::description() const {
   if (!growth_) return "too few steps to tell how the factor grows";
-  const std::string growth = fmt::format(
+  std::string growth = fmt::format(
       "over the last fifth of the displacement the factor grew {:.3g} times as fast as it (stop.load_growth = {:.3g})",
       *growth_, asked_);
   if (reached_ || !is_flat()) return growth;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "scene/formula_parts.hpp"
 
@@ -111,7 +112,7 @@ class Zeros {
 std::vector<double> merged(std::vector<double> times, std::vector<double> found) {
   std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  std::vector<double> all = times;
+  std::vector<double> all = std::move(times);
   all.insert(all.end(), found.begin(), found.end());
   std::ranges::sort(all);
   std::vector<double> middles;

@@ -1,7 +1,7 @@
 // Two runs into one folder at once would each leave half of what it holds.
-#include <stillpoint/scene_error.hpp>
-
 #include "output/folder_lock.hpp"
+
+#include <stillpoint/scene_error.hpp>
 
 #include <filesystem>
 #include <string>
@@ -44,11 +44,10 @@ Answer answer(const std::vector<std::string>& arguments, const std::filesystem::
 TEST_CASE("a second run into a folder, new or resumed, is refused with the number of the first, which goes on") {
   const testing::TemporaryFolder folder;
   const auto out = folder.path() / "out";
-  Child first(run_of("column.toml", endless, out));
+  Child first(run_of("column", endless, out));
   REQUIRE(first.wait_until([&] { return std::filesystem::exists(out / "checkpoint.h5"); }));
   const std::string number = contents(out / lock);
-  for (const auto& again :
-       {run_of("column.toml", {}, out), std::vector<std::string>{"run", "--resume", out.string()}}) {
+  for (const auto& again : {run_of("column", {}, out), std::vector<std::string>{"run", "--resume", out.string()}}) {
     const Answer second = answer(again, folder.path());
     CHECK(second.status == 2);
     CAPTURE(second.said);
@@ -66,7 +65,7 @@ TEST_CASE("a lock that a process has left that was killed is no obstacle, to a n
   const testing::TemporaryFolder folder;
   const auto out = folder.path() / "out";
   {
-    Child first(run_of("column.toml", endless, out));
+    Child first(run_of("column", endless, out));
     REQUIRE(first.wait_until([&] { return std::filesystem::exists(out / "checkpoint.h5"); }));
     first.send(SIGKILL);
     CHECK_FALSE(first.wait());
@@ -76,7 +75,7 @@ TEST_CASE("a lock that a process has left that was killed is no obstacle, to a n
   REQUIRE(resumed.wait_until([&] { return resumed.heeds(SIGINT); }));
   resumed.send(SIGINT);
   CHECK(resumed.wait() == 3);
-  CHECK(answer(run_of("column.toml", {"stop.steps=3"}, out), folder.path()).status == 3);
+  CHECK(answer(run_of("column", {"stop.steps=3"}, out), folder.path()).status == 3);
   CHECK_FALSE(std::filesystem::exists(out / lock));
 }
 
@@ -106,8 +105,7 @@ TEST_CASE("a thread shares the lock that it has, and any other is refused") {
 TEST_CASE("settings do not go with a run that is resumed") {
   const testing::TemporaryFolder folder;
   const auto out = folder.path() / "out";
-  const Answer first =
-      answer(run_of("column.toml", {"stop.steps=50", "checkpoint.every_steps=20"}, out), folder.path());
+  const Answer first = answer(run_of("column", {"stop.steps=50", "checkpoint.every_steps=20"}, out), folder.path());
   REQUIRE(first.status == 3);
   const std::string before = contents(out / "checkpoint.h5");
   const Answer resumed = answer({"run", "--resume", out.string(), "--set", "damping.c=5", "--quiet"}, folder.path());
