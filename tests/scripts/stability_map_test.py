@@ -202,7 +202,7 @@ ENDS = '#!/bin/bash\nwhile [[ $1 != --out ]]; do shift; done\n%s\n'
 @claim("unlike scenes that are refused or not at rest are right, and no other part of the map runs")
 def _(folder):
     beyond = ["--family", "blocks_with_a_gap"]
-    result = the_unlike_scenes(folder, ENDS % "exit 2", beyond)
+    result = the_unlike_scenes(folder, ENDS % "echo a gap, 2 cells apart >&2; exit 2", beyond)
     assert result.returncode == 0 and "3 unlike scenes of seed 1: 0 wrong" in result.stdout, result
     assert not (folder / "out/map.csv").exists() and (folder / "out/unlike.csv").exists()
     honest = ENDS % """printf '{"status": "step-limit", "reason": "", "notes": []}' >"$2/summary.json"; exit 3"""
