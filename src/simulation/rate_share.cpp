@@ -24,13 +24,17 @@ void RateShare::sample(double t, long steps, PhaseMotion& motion) {
   Q_.resize(v.size());
   motion.system.last_out_of_balance(t, Q_);
   const double power = sum_over(v.size(), [Q = Q_.data(), v = v.data()](std::size_t i) { return Q[i] * v[i]; });
+  const ConstVec F = motion.system.last_external_force();
+  const double loads = sum_over(v.size(), [F = F.data(), v = v.data()](std::size_t i) { return F[i] * v[i]; });
   unbalanced_ += 0.5 * (power_ + power) * (t - t_);
+  of_loads_ += 0.5 * (load_power_ + loads) * (t - t_);
   of_stroke_ += work_of_driving(t, motion.system);
   if (++samples_ % samples_a_stroke == 0) {
-    driving_ += std::abs(of_stroke_);
-    of_stroke_ = 0;
+    driving_ += std::abs(of_stroke_) + std::abs(of_loads_);
+    of_stroke_ = of_loads_ = 0;
   }
   power_ = power;
+  load_power_ = loads;
   t_ = t;
 }
 
@@ -45,7 +49,7 @@ double RateShare::work_of_driving(double t, const RelaxationSystem& system) cons
 }
 
 std::optional<double> RateShare::share() const {
-  const double driving = driving_ + std::abs(of_stroke_);
+  const double driving = driving_ + std::abs(of_stroke_) + std::abs(of_loads_);
   if (!watches_ || !(driving > 0)) return std::nullopt;
   return std::abs(unbalanced_) / driving;
 }
@@ -58,6 +62,8 @@ void RateShare::archive(const StateArchive& state) {
   state("unbalanced", unbalanced_);
   state("driving", driving_);
   state("of_stroke", of_stroke_);
+  state("load_power", load_power_);
+  state("of_loads", of_loads_);
 }
 
 std::string note_on_rate_share(std::optional<double> share, const Scene& scene) {
@@ -69,8 +75,8 @@ std::string note_on_rate_share(std::optional<double> share, const Scene& scene) 
                            : strategy && strategy->takes("c") ? ", or a smaller damping.c"
                                                               : "";
   return fmt::format(
-      "damping and inertia took {:.2g} % of the work of what drives the body: reactions and driven loads are off by "
-      "about as much on average; expected a slower motion{}",
+      "damping and inertia took {:.2g} % of the work of what drives the body: reactions and driven loads may be off by "
+      "as much on average; expected a slower motion{}",
       100 * *share, less);
 }
 

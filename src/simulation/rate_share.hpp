@@ -6,6 +6,7 @@
 // drives the body
 //
 //   share = |∫ Q·v dt| / W,   W = Σ |∫ R_s·v_s dt|  of the supports and walls that move, and of driven loads,
+//                                 + |∫ F·v dt|      of the loads, which drive what falls
 //
 // is the mean share of damping and inertia in what these feel. A pile that is pushed into clay at 0.1 m/s with a local
 // damping of α = 0 to 0.7 does between 8 and 49 times s_u, and 8 without this share, whatever α.
@@ -43,10 +44,11 @@ class RateShare {
   const LagrangianPhase& phase_;
   bool watches_ = false;
   long next_ = 1, samples_ = 0;
-  double t_ = 0, power_ = 0;            // of the last sample; Q·v [W]
-  double unbalanced_ = 0;               // ∫ Q·v dt [J]
-  double driving_ = 0, of_stroke_ = 0;  // W but for the stroke of now, and what that comes to so far [J]
-  std::vector<double> Q_;               // (n) [N]
+  double t_ = 0, power_ = 0, load_power_ = 0;  // of the last sample; Q·v and F·v [W]
+  double unbalanced_ = 0;                      // ∫ Q·v dt [J]
+  double driving_ = 0;                         // W but for the stroke of now [J]
+  double of_stroke_ = 0, of_loads_ = 0;        // what that comes to so far, of what moves and of the loads [J]
+  std::vector<double> Q_;                      // (n) [N]
 };
 
 /// What to say of it; empty: nothing.
