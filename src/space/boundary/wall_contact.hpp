@@ -98,7 +98,7 @@ class WallContact {
   std::vector<double> gap_;  // g [m]
   bool closed_across_gap_ = false;
   double cell_ = 0;      // of the phase [m]
-  double put_back_ = 0;  // the furthest that a node was, at once [m]
+  double put_back_ = 0;  // the furthest way of a node within a step, with the wall or back onto it [m]
   // When the run begins, every node is taken for closed until the first forces show which ones the wall would have to
   // pull: a body that leans on a wall does so from the start, also on one that begins to give way.
   bool started_ = false;

@@ -15,7 +15,7 @@ struct WallReaction {
   std::array<double, 2> shear{};
   double power = 0;         // of the wall on the body [W]
   double displacement = 0;  // of the wall [m]
-  double put_back = 0;      // how far a node was put back onto it at once, the furthest so far [m]
+  double put_back = 0;      // the furthest way of a node within a step so far, with it or back onto it [m]
 };
 
 }  // namespace stillpoint
