@@ -1,8 +1,8 @@
 // The bodies of a phase: which of them the grid moves as one, and which something holds.
 #pragma once
 
-#include "space/phase/material_point_phase.hpp"
 #include "space/phase/body_neighbours.hpp"
+#include "space/phase/material_point_phase.hpp"
 
 namespace stillpoint {
 
