@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -18,21 +20,32 @@
 namespace stillpoint {
 namespace {
 
+using Moments = std::array<double, 8>;
+
+/// Some up to the end; if that is open, of all orders of magnitude.
+Moments some_moments(double end) {
+  constexpr double golden = 0.6180339887498949;  // its multiples fill an interval without a period
+  Moments moments;
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const double share = golden * static_cast<double>(k + 1);
+    moments[k] = end > 0 ? end * (share - std::floor(share)) : std::pow(10.0, -4 + 1.3 * static_cast<double>(k));
+  }
+  return moments;
+}
+
 /// Of the positions, (points × dim), some at which the formula has a course in time of its own: those that differ in
-/// eight moments, or 32 of them.
+/// some moments, or 32 of them.
 std::vector<ConstVec> where_it_differs(const Expression& formula, ConstVec positions, std::size_t dim, double end) {
   constexpr std::size_t most_looked_at = 100'000, most = 32;
-  constexpr double golden = 0.6180339887498949;  // its multiples fill an interval without a period
+  const Moments moments = some_moments(end);
   const std::size_t points = positions.size() / dim;
   std::set<std::array<std::uint64_t, 8>> seen;
   std::vector<ConstVec> found;
   for (std::size_t p = 0; p < points; p += (points + most_looked_at - 1) / most_looked_at) {
     const ConstVec x = positions.subspan(dim * p, dim);
-    std::array<std::uint64_t, 8> course;
-    for (std::size_t k = 0; k < course.size(); ++k) {
-      const double share = golden * static_cast<double>(k + 1);
-      course[k] = std::bit_cast<std::uint64_t>(formula(x, end * (share - std::floor(share))));
-    }
+    std::array<std::uint64_t, std::tuple_size_v<Moments>> course;
+    std::ranges::transform(moments, course.begin(),
+                           [&](double t) { return std::bit_cast<std::uint64_t>(formula(x, t)); });
     if (seen.insert(course).second) found.push_back(x);
   }
   if (found.size() <= most) return found;
@@ -53,10 +66,8 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 }
 
 LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end) {
-  is_open_ = !(end > 0) && loads_vary(scene);
   own_ = own_load(scene.own_load);
   if (own_) look_at_own(scene, phase, end);
-  if (!(end > 0)) return;
   // All that vary are looked at closely, unless there are more than a thousand.
   long varying = 0;
   scene.for_each_formula([&](const std::string&, const Expression& formula) { varying += formula.uses('t'); });
@@ -75,7 +86,8 @@ LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, dou
 // A program says itself when its load has settled, and is taken at its word where that can be.
 void LoadSchedule::look_at_own(const Scene& scene, const LagrangianPhase& phase, double end) {
   const double settles_at = own_->about.settles_at;
-  if (end > 0) settled_from_ = std::min(settles_at, end);
+  is_open_ = !(end > 0) && std::isinf(settles_at);
+  if (!is_open_) settled_from_ = end > 0 ? std::min(settles_at, end) : settles_at;
   if (!(settles_at < (end > 0 ? end : std::numeric_limits<double>::infinity()))) return;
   dim_ = scene.dim;
   x_ = phase.positions();
@@ -109,6 +121,12 @@ std::string LoadSchedule::own_load_goes_on(double t) const {
 
 void LoadSchedule::look_at(const Scene& scene, const std::string& key, const Expression& formula, ConstVec x,
                            int moments, double end) {
+  if (!(end > 0)) {
+    const std::optional<double> found = open_end(formula, x);
+    is_open_ = is_open_ || !found;
+    if (!found || *found == 0) return;
+    end = *found;
+  }
   const std::vector<double> times = moments_of_change(formula, x, moments / 2, end);
   std::vector<double> values;
   for (const double t : times) {

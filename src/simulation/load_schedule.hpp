@@ -21,13 +21,15 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t);
 /// their comparisons switch.
 class LoadSchedule {
  public:
-  /// phase: the first; end: of the run [s], 0 if it is open, and then every moment counts as the end. Throws SceneError
-  /// if a formula is not a finite number in one of these moments, or a load of the program's own changes after it is
-  /// said to have settled.
+  /// phase: the first; end: of the run [s], 0 if it is open: then that of formulas which settle is looked for, and of
+  /// others every moment counts as the end. Throws SceneError if a formula is not a finite number in one of these
+  /// moments, or a load of the program's own changes after it is said to have settled.
   LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end);
 
   bool settled(double t) const { return t >= settled_from_; }
-  /// Not where loads depend on t and the end is open: there they may still change.
+  /// Whether loads go on to depend on t, and no end is known.
+  bool is_open() const { return is_open_; }
+  /// Not where the end is open: there they may still change.
   bool settled_for_good(double t) const { return settled(t) && !is_open_; }
   /// What is wrong with a load of the program's own that is another one at t than when it settled; empty: nothing.
   std::string own_load_goes_on(double t) const;

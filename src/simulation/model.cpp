@@ -16,6 +16,7 @@
 #include "simulation/damping_and_step.hpp"
 #include "simulation/highest_frequency.hpp"
 #include "simulation/load_notes.hpp"
+#include "simulation/load_schedule.hpp"
 #include "simulation/lowest_frequency.hpp"
 #include "simulation/multigrid_choice.hpp"
 #include "simulation/notes.hpp"
@@ -118,9 +119,9 @@ Model make_parts(const Scene& scene, SetUpStore* store, const Begin& begin) {
     model.volume_norm =
         set_up.shared("norm", model.mass, [&] { return volume_norm(scene, *model.phase, has_scaled_mass, model.u); });
   }
-  if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && loads_vary(scene)) {
+  if (scene.stop.wants_equilibrium() && scene.stop.time == 0 && LoadSchedule(scene, *model.phase, 0).is_open()) {
     model.notes.push_back(
-        "loads or supports depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
+        "loads or supports go on to depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
         "equilibrium");
   }
   if (model.static_method && model.static_method->takes_end_of_loads) model.t = scene.stop.time;

@@ -158,6 +158,23 @@ std::vector<double> moments_of_change(const Expression& formula, ConstVec x, int
   return merged(raster(moments, end), std::move(found));
 }
 
+std::optional<double> open_end(const Expression& formula, ConstVec x) {
+  constexpr int decades = 21, a_decade = 40;
+  constexpr double far = 1e-3;  // of the last moment: what bends later may as well go on for ever
+  std::vector<double> times{0};
+  for (int k = 0; k <= decades * a_decade; ++k) times.push_back(std::pow(10.0, -9 + k / double{a_decade}));
+  std::vector<double> found;
+  for (const Expression& part : switching_parts(formula)) Zeros(part, x, found).look(times);
+  times = merged(std::move(times), std::move(found));
+  std::vector<double> values;
+  for (const double t : times) values.push_back(formula(x, t));
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) return std::nullopt;
+  std::size_t last = times.size() - 1;
+  while (last > 0 && values[last - 1] == values.back()) --last;
+  if (times[last] > far * times.back()) return std::nullopt;
+  return 2 * times[last];
+}
+
 double unresolved_until(const Expression& formula, ConstVec x, ConstVec times, double same) {
   double until = 0;
   for (const Comparison& comparison : comparisons_in(formula.text())) {

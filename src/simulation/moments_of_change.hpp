@@ -4,6 +4,7 @@
 #include <stillpoint/expression.hpp>
 #include <stillpoint/types.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace stillpoint {
@@ -16,5 +17,10 @@ std::vector<double> moments_of_change(const Expression& formula, ConstVec x, int
 /// The first moment from which on the formula does not depend on a comparison that switches more often than `times`,
 /// those of moments_of_change(), can tell; 0 if it has none, end if it depends on it to the end.
 double unresolved_until(const Expression& formula, ConstVec x, ConstVec times, double same);
+
+/// Where nothing says how long a run lasts: a time [s] after which the formula at x stays what it is, twice the last at
+/// which it changes of moments from 1e-9 to 1e12 s, each 6 % after the last, and of those at which its comparisons
+/// switch or its functions bend. Nothing if it goes on, or is not a finite number.
+std::optional<double> open_end(const Expression& formula, ConstVec x);
 
 }  // namespace stillpoint

@@ -22,6 +22,19 @@ TEST_CASE("equilibrium is that of the last change of the loads, not of a plateau
   CHECK(scenes::probe(s, "p12", "u") == Approx(u12).epsilon(1e-5));
 }
 
+TEST_CASE("without an end of the run as well equilibrium is that of the last change of loads and supports") {
+  const Summary load =
+      run(scenes::bar({"force[0].value=P0*(0.5 + 0.5*(t > 500))", "stop.residual=1e-6", "damping.c=critical"}));
+  CHECK(load.status == RunStatus::equilibrium);
+  CHECK(load.t >= 500);
+  CHECK(scenes::probe(load, "p12", "u") == Approx(u12).epsilon(1e-5));
+  const Summary support = run(scenes::bar(
+      {"support[0].u=0.001*min(t/700, 1)", "force=[]", "stop.residual=1e-6", "damping.c=critical", "exact={}"}));
+  CHECK(support.status == RunStatus::equilibrium);
+  CHECK(support.t >= 700);
+  CHECK(scenes::probe(support, "p12", "u") == Approx(0.001).epsilon(1e-5));
+}
+
 TEST_CASE("a load that depends on the position is looked at where there are points") {
   const Summary s = run(scenes::bar({"force=[]", "body_force.value=[\"1e-4*(1 - 0.5*(x > 8)*(t > 300)*(t < 350))\"]",
                                      "stop.time=1000", "stop.residual=1e-6", "damping.c=critical", "exact={}"}));

@@ -31,7 +31,8 @@ double settled_from(const std::string& load, double end) {
                  {fmt::format("force[0].value='{}'", load), fmt::format("stop.time={}", end), "stop.residual=1e-6"});
   const auto phase = make_phase(scene);
   const LoadSchedule schedule(scene, *phase, end);
-  double from = 0, to = end;
+  constexpr double long_after = 1e7;
+  double from = 0, to = end > 0 ? end : long_after;
   if (schedule.settled(0)) return 0;
   for (int k = 0; k < 60; ++k) {
     const double middle = (from + to) / 2;
@@ -70,4 +71,28 @@ TEST_CASE("steps as at random, in step with any raster, have not settled before 
 
 TEST_CASE("what is switched as at random and then left out has settled when it is left out") {
   CHECK(settled_from("0.001*(1+(sin(1e6*t)>0.999999)*(t<7))", 40) == Approx(7).epsilon(1e-3));
+}
+
+TEST_CASE("a run without an end waits for the last change of loads that settle, early, late or short") {
+  CHECK(settled_from("0.001+0.001*(t>=149.6)", 0) == Approx(149.6).epsilon(1e-7));
+  CHECK(settled_from("0.001+0.001*(t>=12345)*(t<12345.01)", 0) == Approx(12345.01).epsilon(1e-9));
+  CHECK(settled_from("0.001*min(t/500,1)", 0) == Approx(500).epsilon(1e-6));
+  CHECK(settled_from("0.001*(1-exp(-t/3))", 0) == Approx(3 * std::log(1e9)).epsilon(0.01));  // a billionth is left
+  CHECK(settled_from("0.001*(1+0*t)", 0) == 0);
+}
+
+TEST_CASE("loads that never settle leave a run without an end open, those that do and steady ones do not") {
+  const auto is_open = [](const char* load) {
+    const Scene scene = load_scene(STILLPOINT_PROBLEMS "/bar.toml",
+                                   {fmt::format("force[0].value='{}'", load), "stop.time=0", "stop.residual=1e-6"});
+    return LoadSchedule(scene, *make_phase(scene), 0).is_open();
+  };
+  for (const char* load : {"1e-9*t", "0.001*sin(t)", "0.001*(sin(t)>0.5)", "0.001*sqrt(4-t)", "0.001*log(1+t)"}) {
+    CAPTURE(load);
+    CHECK(is_open(load));
+  }
+  for (const char* load : {"0.001", "0.001*min(t/5,1)", "0.001*(t>3)*(t<1e6)", "0.001*tanh(t)"}) {
+    CAPTURE(load);
+    CHECK_FALSE(is_open(load));
+  }
 }
