@@ -113,6 +113,7 @@ class RelaxationSystem {
   LinearDamping linear_;
   VectorSpace vectors_;
   std::unique_ptr<TrialState> trial_;  // of the last evaluation
+  bool is_committed_ = false;          // it
   Vector F_, R_, Q_;
   std::optional<Vector> Q_last_;  // of remember_force()
   bool force_remembered_ = false;

@@ -99,6 +99,7 @@ bool RelaxationSystem::evaluate(double t, ConstVec u) {
     load_norm_.reset();
   }
   last_t_ = t;
+  is_committed_ = false;
   return system_.internal_force(t, u, R_.span(), *trial_);
 }
 
@@ -144,7 +145,7 @@ ContactChange RelaxationSystem::accept(double t, Vec y, bool force_is_current) {
   if (!system_.history_dependent() && !contact) return ContactChange::nothing;
   const Vec u = first_half(y);
   if (!force_is_current && !balance(t, u, Q_.span())) throw std::logic_error("an accepted state cannot be evaluated");
-  system_.commit(*trial_);
+  if (!std::exchange(is_committed_, true)) system_.commit(*trial_);
   return contact ? contact->update(t, u, second_half(y)) : ContactChange::nothing;
 }
 
