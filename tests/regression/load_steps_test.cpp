@@ -32,6 +32,19 @@ TEST_CASE("the load in eight shares ends three times as near to that in 64 as in
   }
 }
 
+TEST_CASE("a cylinder of clay near its limit has its answer by any number of shares, whose first steps are elastic") {
+  for (const char* method : {"newton", "newton-cg", "cg"}) {
+    for (const int shares : {1, 3, 5, 10, 30}) {
+      CAPTURE(method, shares);
+      const Summary s = run(scenes::load(
+          "hard/clay_cylinder", {fmt::format("solve.method={}", method), fmt::format("solve.load_steps={}", shares)}));
+      CAPTURE(s.reason);
+      CHECK(s.status == RunStatus::equilibrium);
+      CHECK(scenes::probe(s, "outside", "u.x") == Approx(1.5582e-6).epsilon(5e-4));
+    }
+  }
+}
+
 TEST_CASE("shares of the load are refused where they have no part") {
   CHECK_THAT(scenes::refusal("footing", {"solve.load_steps=4"}), Contains("solve.load_steps"));
   CHECK_THAT(scenes::refusal("footing", {"solve.method=newton", "solve.load_steps=0"}), Contains("solve.load_steps"));

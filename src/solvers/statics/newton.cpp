@@ -60,6 +60,7 @@ class Newton {
       step.to = load.to();
       std::ranges::copy(u_, u.begin());
       if (load_step(step, u)) {
+        remember_way(step, u);
         std::ranges::copy(u, u_.begin());
         report_.load_factor = step.to;
         if (system_.history_dependent()) system_.commit(balance_.trial());
@@ -89,12 +90,32 @@ class Newton {
   bool load_step(LoadStep& step, Vec u) {
     const std::vector<double> start(u.begin(), u.end());
     full_steps_ = false;
+    if (goes_on(step, u)) {
+      if (iterate(step, u)) return true;
+      std::ranges::copy(start, u.begin());
+      step.residuals.clear();
+    }
     if (iterate(step, u)) return true;
     if (!crawling()) return false;
     std::ranges::copy(start, u.begin());
     step.residuals.clear();
     full_steps_ = true;
     return iterate(step, u);
+  }
+
+  // Points that yield lie on their yield surface when the load is increased, and resist the first step as elastic ones
+  // do: that step leads far from where they would flow to. Going on as they did in the last increment they flow.
+  bool goes_on(const LoadStep& step, Vec u) const {
+    if (way_.empty()) return false;
+    const double share = (step.to - step.from) / way_of_;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += share * way_[i];
+    return true;
+  }
+  void remember_way(const LoadStep& step, ConstVec u) {
+    if (!system_.history_dependent()) return;
+    way_of_ = step.to - step.from;
+    way_.resize(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) way_[i] = u[i] - u_[i];
   }
 
   bool crawling() const { return short_steps_ >= most_short_steps && !system_.history_dependent(); }
@@ -272,6 +293,8 @@ class Newton {
   const NewtonOptions& options_;
   StaticBalance balance_;
   std::vector<double> trial_, du_;
+  std::vector<double> way_;                   // of the last increment, where points remember
+  double way_of_ = 0;                         // the load factor's share that it took
   SparseMatrix factorised_;                   // K of the factor
   std::optional<SemidefiniteFactor> factor_;  // kept where the next K may be the same
   bool is_used_again_ = false;                // whether K was
