@@ -152,6 +152,25 @@ TEST_CASE("a bar held at one end and pushed in at the other relaxes to uniform c
   CHECK(*s.error->stress_rel_l2 < 1e-7);
 }
 
+TEST_CASE("a support that sets out long after the body has come to rest takes it along by every strategy") {
+  for (const char* motion : {"0.01*(1 + min(max(0, t - 600)/50, 1))", "0.01*(1 + (t >= 900))", "0.01*(1 + tanh(t/300))",
+                             "0.01*(1 + min(max(0, t - 300)/500, 1))"}) {
+    for (const char* strategy : {"auto", "viscous", "adaptive", "one-sided"}) {
+      for (const char* residual : {"0", "1e-7"}) {
+        CAPTURE(motion, strategy, residual);
+        const Summary s =
+            run(scenes::bar({std::string("support=[{at=0.0}, {at=10.0, u='") + motion + "'}]", "force=[]", "exact={}",
+                             "grid.basis=linear", "grid.cells=8", "mass.kind=lumped",
+                             std::string("damping={strategy='") + strategy + "'}",
+                             std::string("stop.residual=") + residual, "stop.time=4000", "stop.steps=1000000"}));
+        CAPTURE(s.reason);
+        CHECK(s.exit_status == 0);
+        CHECK(scenes::probe(s, "p12", "u") == Approx(0.02 * 11.5 / 24).epsilon(1e-4));
+      }
+    }
+  }
+}
+
 TEST_CASE("a moving support gives the same answer in any units of time") {
   // The same bar in seconds and in microseconds: rho is scaled by 1e-12, times by 1e-6.
   for (const char* basis : {"hermite", "linear"}) {

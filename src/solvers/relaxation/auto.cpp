@@ -156,13 +156,18 @@ class Auto final : public StaggeredIteration {
 
   double unbalanced() const { return std::sqrt(std::max(0.0, dot(Q(), a()))); }  // √(QᵀM⁻¹Q)
 
-  // At equilibrium the quotient is rounding and may be anything: an instability also grows.
+  // At equilibrium the quotient is rounding and may be anything: an instability also grows. Where a support sets out,
+  // or a load comes, a body at rest shows it for a step, of a force that its motion has no part in: an instability
+  // stays.
   bool is_unstable(double quotient, double h, double unbalanced) {
     constexpr double most = 4 * 0.925, aim = 4 * 0.85;  // of h² ω²
-    constexpr double growth = 10;
+    constexpr double growth = 10, least_share = 0.5;
+    constexpr long in_a_row = 3;
     const double reached = h * h * quotient;
-    if (reached <= most || unbalanced < growth * least_) return false;
-    share_ *= std::sqrt(aim / reached);
+    beyond_ = reached <= most || unbalanced < growth * least_ ? 0 : beyond_ + 1;
+    if (beyond_ < in_a_row) return false;
+    beyond_ = 0;
+    share_ *= std::max(least_share, std::sqrt(aim / reached));
     halt();
     return true;
   }
@@ -177,6 +182,7 @@ class Auto final : public StaggeredIteration {
     state("apart", apart_);
     if (descent_) descent_->archive(state.part("descent"));
     state("least", least_);
+    state("beyond", beyond_);
     state("steps_taken", steps_);
     state("halted_at", halted_at_);
     state("watched_from", watched_from_);
@@ -224,6 +230,7 @@ class Auto final : public StaggeredIteration {
   double share_;  // of the step given
   bool kinetic_ = false;
   double least_ = std::numeric_limits<double>::infinity();  // √(QᵀM⁻¹Q) so far
+  long beyond_ = 0;                                         // steps in a row that look unstable
   long steps_ = 0, halted_at_ = 0, watched_from_ = 0;
   double goal_ = std::numeric_limits<double>::infinity();     // the √(QᵀM⁻¹Q) to come below next
   double slowest_ = std::numeric_limits<double>::infinity();  // least quotient since the watch began [1/s²]
