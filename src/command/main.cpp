@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include "base/gpl.hpp"
@@ -223,10 +224,21 @@ int status_after_output(int status) {
   return failed;
 }
 
+// What one phase gives back the next one takes again: handed to the system in between, each page would have to be
+// zeroed anew, which took 7 % of a slope's time.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int of_one_array = 4 << 20, unused_at_the_end = 64 << 20;  // [bytes]
+  mallopt(M_MMAP_THRESHOLD, of_one_array);
+  mallopt(M_TRIM_THRESHOLD, unused_at_the_end);
+#endif
+}
+
 }  // namespace
 
 // What still works in a thread that nobody waits for must find all that it uses, to the last moment.
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const int status = status_after_output(exit_status(argc, argv));
   if (!stillpoint::work_was_left()) return status;
   std::fflush(nullptr);
