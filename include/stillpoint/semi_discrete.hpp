@@ -57,6 +57,8 @@ class Contact {
   /// After an accepted step whose forces were the last ones evaluated: opens and closes contacts, and puts back what
   /// has gone too far; u, v: (n).
   virtual ContactChange update(double t, Vec u, Vec v) = 0;
+  /// Whether what touches the body is where it is to be, and not on its way there yet.
+  virtual bool is_settled() const { return true; }
   /// Sum + Σ (contact forces)² of the last add_force() [N²].
   virtual double squared_forces(double sum) const = 0;
 };

@@ -57,6 +57,6 @@ std::optional<double> Simulation::distance() {
   const ThreadScope threads(impl_->thread_choice_.threads());
   return impl_->distance();
 }
-bool Simulation::loads_settled() const { return impl_->schedule_.settled(impl_->t_); }
+bool Simulation::loads_settled() const { return impl_->loads_settled(); }
 
 }  // namespace stillpoint

@@ -259,7 +259,7 @@ void Simulation::Impl::look_for_end() {
     const bool may_be_over = scene_.stop.residual <= 0 || residual_ <= scene_.stop.residual;
     if (may_be_over && distance_to_go().value_or(std::numeric_limits<double>::infinity()) <= model_.distance_goal)
       refresh_distance();
-    status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, schedule_.settled(t_), distance_to_go(),
+    status_ = monitor_.observe(t_, residual_, kinetic_energy_, work_scale_, loads_settled(), distance_to_go(),
                                !motion_->integrator->static_iteration());
     if (status_ == RunStatus::equilibrium && creeps()) status_ = RunStatus::running;
   }
@@ -274,13 +274,18 @@ void Simulation::Impl::look_for_end() {
     reason_ = options_.stop_test();
     if (!reason_.empty()) status_ = RunStatus::stop_test;
   }
-  if (!done() && schedule_.settled(t_)) look_for_mechanism();
+  if (!done() && loads_settled()) look_for_mechanism();
   if (!done()) look_for_standstill();
   if (!done() && creep_.slides_away()) {
     status_ = RunStatus::step_limit;
     reason_ = creep_.description(t_, motion_->u());
   }
   if (!done() && scene_.load) look_for_limit_load();
+}
+
+bool Simulation::Impl::loads_settled() const {
+  const Contact* const contact = model_.phase->contact();
+  return schedule_.settled(t_) && (!contact || contact->is_settled());
 }
 
 bool Simulation::Impl::creeps() const { return !creep(scene_, *model_.phase).empty(); }
@@ -292,7 +297,7 @@ void Simulation::Impl::watch_plastic_path() {
 }
 
 void Simulation::Impl::watch_creep() {
-  if (options_.stops) creep_.sample(t_, motion_->u(), schedule_.settled(t_));
+  if (options_.stops) creep_.sample(t_, motion_->u(), loads_settled());
 }
 
 void Simulation::Impl::look_for_mechanism() {
@@ -326,7 +331,7 @@ void Simulation::Impl::look_for_limit_load() {
 }
 
 bool Simulation::Impl::watches_chatter() const {
-  return options_.stops && scene_.stop.wants_equilibrium() && scene_.phase.max_motion && schedule_.settled(t_);
+  return options_.stops && scene_.stop.wants_equilibrium() && scene_.phase.max_motion && loads_settled();
 }
 
 void Simulation::Impl::watch_chatter(double share, double residual) {

@@ -60,6 +60,8 @@ class Simulation::Impl {
   void save(const std::filesystem::path& to);  // simulation_state.cpp
   Moment now() const { return {t_, steps(), phases_}; }
   long steps() const { return earlier_steps_ + motion_->integrator->steps(); }
+  /// All that acts on the body, walls that are still on their way included.
+  bool loads_settled() const;
   long evaluations() const { return earlier_evaluations_ + motion_->system.evaluations(); }
 
   Scene scene_;
@@ -137,6 +139,7 @@ class Simulation::Impl {
   void report_progress();
   void say_what_moves();
   void say_how_far_one_phase_went();
+  void say_what_phases_left();
   void test_stability();
   void finish();
 

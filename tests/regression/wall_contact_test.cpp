@@ -7,6 +7,7 @@
 #include "driven.hpp"
 #include "largest.hpp"
 #include "scenes.hpp"
+#include "slab.hpp"
 #include "statics.hpp"
 
 using namespace stillpoint;
@@ -72,6 +73,31 @@ TEST_CASE("a block slides down a slope that is steeper than its friction with a 
     const double friction = g * mu * std::cos(0.4) * 0.5, expected = g * std::sin(0.4) * 0.5 - friction;
     CAPTURE((expected - motion.mean_velocity(0)) / friction);
     CHECK_THAT(motion.mean_velocity(0), WithinAbs(expected, 0.07 * friction + 1e-9));
+  }
+}
+
+TEST_CASE("a damped block that slides in space, however slowly, bears its friction at every instant to two per cent") {
+  constexpr double mu = 0.3;
+  for (const char* c : {"20", "200", "2000"}) {
+    for (const char* method : {"leapfrog", "symplectic-euler", "erk:rk4"}) {
+      CAPTURE(c, method);
+      Scene scene = scenes::slab(block({"wall[0].friction=0.3", std::string("damping.c=") + c,
+                                        std::string("integrator.method=") + method, "grid.cells=[16, 4]"}),
+                                 2);
+      scene.supports.clear();
+      scene.grid.cells.back() = 4;
+      driven::Motion motion(scene);
+      double least = mu, most = 0;
+      motion.run_to(0.3, [&] {
+        if (motion.t() < 0.1) return;
+        const WallReaction wall = motion.wall();
+        const double share = std::hypot(wall.shear[0], wall.shear[1]) / wall.normal;
+        least = std::min(least, share), most = std::max(most, share);
+      });
+      CHECK(least >= 0.98 * mu);  // 0.65 where the way of the last step counts
+      CHECK(most <= mu * (1 + 1e-12));
+      CHECK(motion.mean_velocity(0) > 0);
+    }
   }
 }
 

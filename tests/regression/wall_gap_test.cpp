@@ -1,4 +1,5 @@
 // Where bodies lie beside walls and supports: a block on a smooth floor, above it, or above a face that is held.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 using namespace stillpoint;
 using Catch::Contains;
 using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
 
 namespace {
 
@@ -91,6 +93,75 @@ TEST_CASE("a wall is where its motion says, whether that is constant, begins els
   }
 }
 
+TEST_CASE("in phases a wall that jumps takes an elastic body along to where it belongs, and says that it came later") {
+  for (const char* motion : {"0.2", "0.2*(t>=1)", "-0.2*(t>=1)", "0.3*(t>=1) - 0.1*(t>=20)"}) {
+    for (const char* basis : {"linear", "quadratic", "cubic"}) {
+      for (const char* strategy : {"viscous", "auto", "cundall"}) {
+        CAPTURE(motion, basis, strategy);
+        const Summary s =
+            run(on_floor(strategy, {"material.block.law=hencky", "phase.max_motion=0.1", "grid.follow=floor",
+                                    std::string("wall[0].motion='") + motion + "'", std::string("grid.basis=") + basis,
+                                    "body.min=[0,0]", "body.max=[4,2]",
+                                    "support=[{face='left', kind='roller'}, "
+                                    "{face='right', kind='roller'}]"}));
+        CAPTURE(s.reason);
+        CHECK(s.status == RunStatus::equilibrium);
+        const double end = motion[0] == '-' ? -0.2 : 0.2;
+        CHECK_THAT(scenes::probe(s, "base", "u.y"), WithinAbs(end, 2e-3 * cell));  // a place, which phases carry on
+        CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinAbs(end + top, 2e-3 * cell));
+        CHECK(std::ranges::any_of(s.notes, [](const std::string& note) { return note.find("at once") != note.npos; }));
+      }
+    }
+  }
+}
+
+TEST_CASE("a wall that comes to a body at rest from cells away, or goes and comes again, presses it in phases") {
+  const std::vector<std::string> motions{
+      "-(2 + s)*min(t/20, 1)",                                                                  // from four cells
+      "-(2 + s)*(t>=1)",                                                                        // at once
+      "-2*min(t/20, 1) + 0.9*min(max(0, t - 25)/10, 1) - (0.9 + s)*min(max(0, t - 45)/10, 1)",  // and again
+  };
+  for (const std::string& motion : motions) {
+    for (const char* basis : {"linear", "quadratic", "cubic"}) {
+      for (const char* strategy : {"one-sided", "auto", "viscous"}) {
+        CAPTURE(motion, basis, strategy);
+        const Summary s = run(
+            scenes::load("hard/wall_that_comes", {"wall[0].motion='" + motion + "'", std::string("grid.basis=") + basis,
+                                                  "body.points_per_cell=9", by(strategy)}));
+        CAPTURE(s.reason);
+        CHECK(s.status == RunStatus::equilibrium);
+        CHECK_THAT(scenes::probe(s, "end", "u.x"), WithinAbs(-0.2, 2e-3 * cell));
+        const double pressed = -1000 * std::log(0.9) / 0.9;
+        CHECK_THAT(s.reactions.at("side").at(0), WithinRel(pressed, 0.02));
+      }
+    }
+  }
+}
+
+TEST_CASE("what a wall has pushed out of itself by a good part of a cell is no equilibrium in phases") {
+  const Summary s = run(on_floor("viscous", {"material.block.law=hencky", "phase.max_motion=0.3",
+                                             "body.points_per_cell=9", "initial.u=[0, -0.2]"}));
+  CHECK(s.exit_status == 3);
+  CHECK_THAT(s.reason, Contains("0.4 cells") && Contains("floor"));
+}
+
+TEST_CASE("a body that falls in phases onto a face that is held lies on it from then on") {
+  for (const auto& [basis, gap] :
+       {std::pair{"linear", "1.2"}, std::pair{"quadratic", "1"}, std::pair{"cubic", "1.1"}}) {
+    for (const char* strategy : {"one-sided", "fire2", "kinetic"}) {
+      CAPTURE(basis, gap, strategy);
+      const Summary s =
+          run(scenes::load("hard/above_a_held_face",
+                           {std::string("constants.gap=") + gap, by(strategy), std::string("grid.basis=") + basis,
+                            "material.block.law=hencky", "phase.max_motion=0.3", "stop.residual=1e-6"}));
+      CAPTURE(s.reason);
+      CHECK(s.status == RunStatus::equilibrium);
+      const double height = 3 - std::stod(gap), settled = 1e-3 * height * height / 2;
+      CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinAbs(-std::stod(gap) - settled, 5e-3 * cell));
+    }
+  }
+}
+
 TEST_CASE("a body that falls in phases comes to rest on the wall, neither above it nor beyond") {
   for (const char* gap : {"1", "0.4", "0.07", "1.23"}) {
     for (const char* basis : {"linear", "quadratic", "cubic"}) {
@@ -143,6 +214,12 @@ TEST_CASE("a support on a face holds nothing across a gap, which is refused with
     }
   }
   CHECK(why_refused("hard/above_a_held_face", {"constants.gap=0", "stop.steps=10"}).empty());
+}
+
+TEST_CASE("of bodies that share functions across a gap one that is held along no axis of its load is refused") {
+  const Settings rollers{"support=[{face='left'}, {face='bottom', kind='roller'}, {face='top', kind='roller'}]"};
+  const std::string along_x = why_refused("hard/gap_between_blocks", rollers);
+  CHECK_THAT(along_x, Contains("nothing holds it along x"));
 }
 
 TEST_CASE("of bodies that share functions across a gap the one that nothing else holds is refused") {

@@ -26,13 +26,14 @@ class HeldUnknowns {
   /// t: when the phase begins [s].
   HeldUnknowns(std::size_t unknowns, double t) : start_(t), by_(unknowns, nothing) {}
 
-  /// It follows the motion, which outlives this object; owner: the number of the support in its scene, or
-  /// nobody.
-  void prescribe(int unknown, const PrescribedMotion& motion, std::size_t owner) {
+  /// It follows the motion, which outlives this object, from another place than the grid's if that is `from` [m];
+  /// owner: the number of the support in its scene, or nobody.
+  void prescribe(int unknown, const PrescribedMotion& motion, std::size_t owner, double from = 0) {
     by_[static_cast<std::size_t>(unknown)] = support;
     prescribed_.push_back(unknown);
     motions_.push_back(&motion);
     owners_.push_back(owner);
+    from_.push_back(from);
   }
   /// It stays free, and a wall acts along it.
   void guide(int unknown) {
@@ -48,7 +49,7 @@ class HeldUnknowns {
   double start() const { return start_; }  // when the phase begins [s]
   /// Since the phase began; in the first one, from the undeformed body.
   double displacement(std::size_t s, double t) const {
-    return motion(s).displacement(t) - (start_ > 0 ? motion(s).displacement(start_) : 0);
+    return motion(s).displacement(t) - (start_ > 0 ? motion(s).displacement(start_) : 0) + from_[s];
   }
 
  private:
@@ -59,6 +60,7 @@ class HeldUnknowns {
   std::vector<int> prescribed_;
   std::vector<const PrescribedMotion*> motions_;
   std::vector<std::size_t> owners_;
+  std::vector<double> from_;
 };
 
 /// What a phase consists of, for its boundary conditions.
@@ -111,8 +113,8 @@ class BoundaryCondition {
   /// reactions are looked at.
   virtual void add_load_on_supports(const Parts&, double /*t*/, const double* /*u*/, Vec /*F_s*/) const {}
 
-  /// Whether the phase should end, as what it touches lies elsewhere than its weights say.
-  virtual bool asks_for_next_phase() const { return false; }
+  /// Whether the phase should end with u, (n), as what it touches lies elsewhere than its weights say.
+  virtual bool asks_for_next_phase(ConstVec /*u*/) const { return false; }
   /// The phase ends with u.
   virtual void end_phase(const double* /*u*/) {}
 

@@ -24,6 +24,7 @@ class Supports final : public BoundaryCondition<B, K> {
   static constexpr int dim = dimensions(K);
   using Basis = TensorBasis<B, dim>;
   using typename BoundaryCondition<B, K>::GridOf;
+  using typename BoundaryCondition<B, K>::Parts;
 
  public:
   Supports(const Scene& scene, double time_scale) : scene_(scene), rest_(Expression(0.0), time_scale) {
@@ -42,12 +43,34 @@ class Supports final : public BoundaryCondition<B, K> {
       }
     }
   }
+  void begin_phase(const Parts& phase, Vec /*F*/) override {
+    waiting_.clear();
+    for (std::size_t s = 0; s < touched_.size(); ++s) {
+      if (!scene_.supports[s].face) continue;
+      const int axis = axis_of(*scene_.supports[s].face);
+      for (const auto& [function, gap] : touched_[s].waiting()) {
+        const int dof = phase.dofs.number[static_cast<std::size_t>(dim * function + axis)];
+        if (phase.dofs.is_free(dof)) waiting_.push_back({static_cast<std::size_t>(dof), outward(s), gap});
+      }
+    }
+  }
   bool varies() const override { return false; }
+  // What comes to a face lies on it from then on.
+  bool asks_for_next_phase(ConstVec u) const override {
+    return std::ranges::any_of(waiting_, [u](const Waiting& one) { return one.outward * u[one.dof] >= one.gap; });
+  }
   void archive(const StateArchive& state) override {
     for (std::size_t s = 0; s < touched_.size(); ++s) touched_[s].archive(state.part(fmt::format("support_{}", s)));
   }
 
  private:
+  struct Waiting {
+    std::size_t dof;
+    double outward, gap;  // [m]
+  };
+
+  double outward(std::size_t s) const { return is_upper(*scene_.supports[s].face) ? 1 : -1; }
+
   void hold_position(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {
     const std::string key = fmt::format("support[{}].at", s);
     const SupportSpec& support = scene_.supports[s];
@@ -92,7 +115,8 @@ class Supports final : public BoundaryCondition<B, K> {
         const bool named = component == support.component;
         if ((!named && support.roller) || held.is_prescribed(unknown)) continue;
         const bool moves = named && std::ranges::binary_search(values, function);
-        held.prescribe(unknown, moves ? motion_at(s, grid, function) : rest_, s);
+        const double from = component == axis ? outward(s) * touched_[s].gap_of_come(function) : 0;
+        held.prescribe(unknown, moves ? motion_at(s, grid, function) : rest_, s, from);
       }
     }
   }
@@ -122,8 +146,9 @@ class Supports final : public BoundaryCondition<B, K> {
 
   const Scene& scene_;
   PrescribedMotion rest_;
-  std::vector<PrescribedMotion> motions_;                             // of each support
-  std::vector<TouchedFunctions> touched_;                             // of each, on its face
+  std::vector<PrescribedMotion> motions_;  // of each support
+  std::vector<TouchedFunctions> touched_;  // of each, on its face
+  std::vector<Waiting> waiting_;           // normals of functions whose material has not come to a face yet
   std::map<std::pair<std::size_t, int>, PrescribedMotion> at_nodes_;  // of those that vary, and each of their functions
 };
 

@@ -11,12 +11,6 @@
 namespace stillpoint {
 namespace {
 
-/// x/|x|, or 0 if that is 0.
-std::array<double, 2> direction(const std::array<double, 2>& x) {
-  const double length = std::hypot(x[0], x[1]);
-  return length > 0 ? std::array{x[0] / length, x[1] / length} : std::array{0.0, 0.0};
-}
-
 std::vector<double> components_of(const std::vector<std::array<double, 2>>& of_nodes) {
   std::vector<double> components;
   for (const auto& node : of_nodes) components.insert(components.end(), node.begin(), node.end());
@@ -31,7 +25,7 @@ std::vector<std::array<double, 2>> in_nodes(const std::vector<double>& component
 
 }  // namespace
 
-WallContact::WallContact(std::string name, bool upper, double friction, PrescribedMotion motion)
+WallContact::WallContact(std::string name, bool upper, double friction, WallMotion motion)
     : name_(std::move(name)), outward_(upper ? 1 : -1), friction_(friction), motion_(std::move(motion)) {}
 
 void WallContact::begin_phase(const Phase& phase, ConstVec mass, std::vector<Node> nodes, Vec v) {
@@ -50,15 +44,15 @@ void WallContact::begin_phase(const Phase& phase, ConstVec mass, std::vector<Nod
   nodes_ = std::move(nodes);
   gap_ = std::move(gap);
   closed_.resize(nodes_.size(), 0);
-  slip_.resize(nodes_.size(), Along{});
+  sliding_.resize(nodes_.size(), Along{});
   normal_force_.assign(nodes_.size(), 0);
   shear_force_.assign(nodes_.size(), Along{});
-  driving_.assign(nodes_.size(), Along{});
+  brakes_.assign(nodes_.size(), 0);
   held_.assign(nodes_.size(), 0);
   closed_across_gap_ = false;
   cell_ = phase.cell;
   start_ = phase.face_at;
-  accepted_t_ = phase.t;
+  motion_.begin_phase(phase.t, phase.most);
   const double velocity = motion_.velocity(phase.t);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const bool may_touch = nodes_[k].normal >= 0 && gap_[k] <= 0;
@@ -88,22 +82,19 @@ bool WallContact::stop_along(std::size_t k, Vec v) {
   for (const int dof : nodes_[k].along) {
     if (dof >= 0) v[static_cast<std::size_t>(dof)] = 0;
   }
-  slip_[k] = {};
+  sliding_[k] = {};
   return moved;
 }
 
-// F_t = −Q_t would hold it; what exceeds the limit makes it slip the way of Q_t. 0 if it sticks.
-WallContact::Along WallContact::slip_of(std::size_t k) const {
-  const Along& Q_t = driving_[k];
-  return std::hypot(Q_t[0], Q_t[1]) > friction_ * std::abs(normal_force_[k]) ? direction(Q_t) : Along{};
-}
-
-// Of a node that slips, after a step: it sticks once its velocity has turned round. True if v was changed.
+// Of a node after a step. One that friction brings to rest is at rest, unless the step was shorter than the one before
+// it. True if v was changed.
 bool WallContact::slide(std::size_t k, Vec v) {
-  const Along v_t = along(k, v);
-  const double forwards = v_t[0] * slip_[k][0] + v_t[1] * slip_[k][1];
-  if (forwards < 0) return stop_along(k, v);
-  if (forwards > 0) slip_[k] = direction(v_t);
+  constexpr double hardly = 1e-6;
+  const Along v_t = along(k, v), before = sliding_[k];
+  const double forwards = v_t[0] * before[0] + v_t[1] * before[1];
+  const bool rests = forwards <= hardly * (before[0] * before[0] + before[1] * before[1]);
+  if (brakes_[k] && rests) return stop_along(k, v);
+  sliding_[k] = v_t;
   return false;
 }
 
@@ -111,17 +102,16 @@ bool WallContact::close(std::size_t k, double velocity, Vec v) {
   const auto normal = static_cast<std::size_t>(nodes_[k].normal);
   bool changed = v[normal] != velocity;
   v[normal] = velocity;
-  const bool was_closed = closed_[k] != 0;
   closed_[k] = 1;
   if (friction_ == 0) return changed;
-  if (std::isinf(friction_) || (was_closed && sticks(slip_[k]))) return stop_along(k, v) || changed;
-  slip_[k] = direction(along(k, v));
+  if (std::isinf(friction_)) return stop_along(k, v) || changed;
+  sliding_[k] = along(k, v);
   return changed;
 }
 
 void WallContact::add_force(double t, const LinearDamping& C, Vec Q) const {
-  const double w = step_ > 0 ? motion_.velocity_over(t, step_) : motion_.velocity(t);
-  const double a = step_ > 0 ? motion_.acceleration_over(t, step_) : motion_.acceleration(t);
+  const double w = motion_.velocity_over_step(t), a = motion_.acceleration_over_step(t);
+  const double over_h = motion_.step() > 0 ? 1 / motion_.step() : 0;
   const ConstVec m = mass_;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     normal_force_[k] = 0;
@@ -132,14 +122,20 @@ void WallContact::add_force(double t, const LinearDamping& C, Vec Q) const {
     normal_force_[k] = held_[k] - Q[n];
     Q[n] = held_[k];
     if (friction_ == 0) continue;
-    const Along Q_t = driving_[k] = along(k, Q);
+    const Along Q_t = along(k, Q);
     const double limit = std::isinf(friction_) ? friction_ : friction_ * std::max(0.0, -outward_ * normal_force_[k]);
-    // It sticks as far as friction goes.
-    const bool holds = sticks(slip_[k]) && std::hypot(Q_t[0], Q_t[1]) <= limit;
-    const Along d = sticks(slip_[k]) ? direction(Q_t) : slip_[k];
-    for (std::size_t i = 0; i < Q_t.size(); ++i) {
+    Along S{};
+    for (std::size_t i = 0; i < S.size(); ++i) {
+      const int dof = nodes_[k].along[i];
+      if (dof < 0) continue;
+      const double inertia = m[static_cast<std::size_t>(dof)];
+      S[i] = Q_t[i] + std::max(0.0, over_h * inertia - (C.mass * inertia + C.identity) / 2) * sliding_[k][i];
+    }
+    const double needed = std::hypot(S[0], S[1]), share = needed > limit ? limit / needed : 1;
+    brakes_[k] = share == 1;
+    for (std::size_t i = 0; i < S.size(); ++i) {
       if (nodes_[k].along[i] < 0) continue;
-      shear_force_[k][i] = holds ? -Q_t[i] : -limit * d[i];
+      shear_force_[k][i] = -share * S[i];
       Q[static_cast<std::size_t>(nodes_[k].along[i])] += shear_force_[k][i];
     }
   }
@@ -152,11 +148,9 @@ void WallContact::hold(Vec Q) const {
 }
 
 ContactChange WallContact::update(double t, Vec u, Vec v) {
-  const double velocity = motion_.velocity(t), wall = motion_.displacement(t) - start_;
+  motion_.step_to(t);
+  const double velocity = motion_.velocity(t), wall = motion_.displacement() - start_;
   const double rounding = 1e-11 * cell_, near = 1e-3 * cell_;
-  const double way = std::abs(wall + start_ - motion_.displacement(accepted_t_));  // that it took closed nodes along
-  step_ = t - accepted_t_;
-  accepted_t_ = t;
   ContactChange change = ContactChange::nothing;
   const auto changes = [&](bool changed, ContactChange what) {
     if (changed) change = std::max(change, what);
@@ -185,8 +179,10 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
       continue;
     }
     if (begins) changes(close(k, velocity, v), ContactChange::velocity);
-    put_back_ = std::max(put_back_, way);
-    if (past < -near || (pulls && past <= rounding)) {
+    // What is pressed against it stays where a step ends a little beside the wall: let go, it would fly off and come
+    // back.
+    const bool is_left = past < -(pulls ? near : 10 * near);
+    if (is_left || (pulls && past <= rounding)) {
       closed_[k] = 0;
       continue;
     }
@@ -195,19 +191,25 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
       changes(close(k, velocity, v), ContactChange::velocity);
     }
     if (std::isinf(friction_) || friction_ == 0) continue;
-    if (!sticks(slip_[k])) {
-      changes(slide(k, v), ContactChange::velocity);
-      continue;
-    }
-    slip_[k] = slip_of(k);
+    changes(slide(k, v), ContactChange::velocity);
   }
   return change;
+}
+
+bool WallContact::asks_for_next_phase() const {
+  constexpr double far = 0.5;  // of a cell, within which functions of the face reach material
+  if (closed_across_gap_) return true;
+  return std::abs(motion_.displacement() - start_) > far * cell_ &&
+         std::ranges::none_of(closed_, [](int closed) { return closed != 0; });
 }
 
 // On the wall: minus the forces on the body, without nodes that are about to open, which it would have to pull. Power
 // on the body: Σ F_n w.
 WallReaction WallContact::reaction(double t) const {
-  WallReaction sum{.name = name_, .displacement = motion_.displacement(t), .put_back = put_back_};
+  WallReaction sum{.name = name_,
+                   .displacement = motion_.displacement(),
+                   .furthest_behind = motion_.furthest_behind(),
+                   .put_back = put_back_};
   double force = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     if (outward_ * normal_force_[k] > 0) continue;
@@ -221,27 +223,26 @@ WallReaction WallContact::reaction(double t) const {
 
 void WallContact::archive(const StateArchive& state) {
   state("closed", closed_);
-  std::vector<double> slip = components_of(slip_), shear_force = components_of(shear_force_);
-  state("slip", slip);
+  std::vector<double> sliding = components_of(sliding_), shear_force = components_of(shear_force_);
+  state("sliding", sliding);
   state("gap", gap_);
   state("closed_across_gap", closed_across_gap_);
   state("put_back", put_back_);
   state("started", started_);
   state("displacement_at_start", start_);
-  state("accepted_t", accepted_t_);
-  state("step", step_);
+  motion_.archive(state);
   state("held", held_);
   state("normal_force", normal_force_);
   state("shear_force", shear_force);
   if (!state.restores()) return;
-  slip_ = in_nodes(slip);
+  sliding_ = in_nodes(sliding);
   shear_force_ = in_nodes(shear_force);
   const std::size_t saved = closed_.size();
-  for (const std::size_t size : {slip_.size(), gap_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
+  for (const std::size_t size : {sliding_.size(), gap_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
     if (size != saved) throw StateError(fmt::format("of the wall '{}' the numbers of nodes differ", name_));
   // The nodes are those of the phase that is restored, or before it begins some others.
   closed_.resize(nodes_.size(), 0);
-  for (auto* const components : {&slip_, &shear_force_}) components->resize(nodes_.size(), Along{});
+  for (auto* const components : {&sliding_, &shear_force_}) components->resize(nodes_.size(), Along{});
   for (auto* const values : {&gap_, &held_, &normal_force_}) values->resize(nodes_.size(), 0);
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (nodes_[k].normal < 0) closed_[k] = 0;

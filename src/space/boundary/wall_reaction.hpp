@@ -13,9 +13,10 @@ struct WallReaction {
   int axis = 0;  // of the normal
   double normal = 0;
   std::array<double, 2> shear{};
-  double power = 0;         // of the wall on the body [W]
-  double displacement = 0;  // of the wall [m]
-  double put_back = 0;      // the furthest way of a node within a step so far, with it or back onto it [m]
+  double power = 0;            // of the wall on the body [W]
+  double displacement = 0;     // of the wall [m]
+  double furthest_behind = 0;  // the furthest so far that it has been behind its prescribed motion [m]
+  double put_back = 0;         // the furthest so far that a node has been put back onto it [m]
 };
 
 }  // namespace stillpoint

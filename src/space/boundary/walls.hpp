@@ -29,7 +29,8 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
   /// The scene outlives it.
   Walls(const Scene& scene, double time_scale) : scene_(scene) {
     for (const WallSpec& wall : scene.walls) {
-      walls_.push_back({wall.face, {}, {}, {wall.name, is_upper(wall.face), wall.friction, {wall.motion, time_scale}}});
+      walls_.push_back(
+          {wall.face, {}, {}, {wall.name, is_upper(wall.face), wall.friction, WallMotion({wall.motion, time_scale})}});
     }
   }
 
@@ -64,12 +65,13 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
       wall.contact.begin_phase({.t = t,
                                 .face_at = moved(wall.face, phase.grid),
                                 .cell = cell_width(phase.grid, wall.face),
+                                .most = furthest_in_step(cell_width(phase.grid, wall.face)),
                                 .remembers = phase.remembers},
                                phase.mass.diagonal(), std::move(nodes), v);
     }
   }
   bool varies() const override { return false; }
-  bool asks_for_next_phase() const override {
+  bool asks_for_next_phase(ConstVec /*u*/) const override {
     return std::ranges::any_of(walls_, [](const Wall& wall) { return wall.contact.asks_for_next_phase(); });
   }
 
@@ -98,6 +100,9 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
     ContactChange change = ContactChange::nothing;
     for (Wall& wall : walls_) change = std::max(change, wall.contact.update(t, u, v));
     return change;
+  }
+  bool is_settled() const override {
+    return std::ranges::all_of(walls_, [](const Wall& wall) { return wall.contact.is_settled(); });
   }
   double squared_forces(double sum) const override {
     for (const Wall& wall : walls_) sum += wall.contact.square_of_forces();
@@ -141,6 +146,11 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
     if (asked.empty()) return;
     const std::vector<double> found = gaps.of(wall.face, asked);
     for (std::size_t k = 0; k < place.size(); ++k) wall.gaps[place[k]] = found[k];
+  }
+  // Of the way to an equilibrium alone; elsewhere the motion is what is asked for.
+  double furthest_in_step(double cell) const {
+    constexpr double share = 0.02;
+    return has_phases(scene_) && scene_.stop.wants_equilibrium() ? share * cell : WallMotion::unlimited;
   }
   // How far the grid's face has moved since the start [m].
   double moved(Face face, const GridOf& grid) const {

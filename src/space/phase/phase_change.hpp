@@ -14,7 +14,7 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   if (!updated_lagrangian()) return 0;
   if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
   for (const auto& condition : boundary_)
-    if (condition->asks_for_next_phase()) return 1;
+    if (condition->asks_for_next_phase(u)) return 1;
   double share = 0;
   if (scene_.phase.max_motion) {
     const bool committed = history_dependent_ && t == committed_t_;
