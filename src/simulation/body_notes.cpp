@@ -1,6 +1,7 @@
 #include "simulation/body_notes.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -30,17 +31,52 @@ std::vector<std::size_t> touching_groups(std::size_t bodies, const std::vector<B
   return group;
 }
 
-// A gap across which alone a body is held, and the body.
-std::optional<std::pair<BodyGap, std::size_t>> held_by_gap(const std::vector<BodyGap>& pairs,
-                                                           const std::vector<char>& held) {
+// Whether loads or moving supports act along each axis.
+HeldAxes driven_axes(const Scene& scene) {
+  const auto acts = [](const Expression& formula) { return !formula.constant() || formula({}, 0) != 0; };
+  HeldAxes driven{};
+  const auto add = [&](const std::vector<Expression>& components) {
+    for (std::size_t axis = 0; axis < components.size(); ++axis) driven[axis] = driven[axis] || acts(components[axis]);
+  };
+  add(scene.body_force);
+  for (const PointForceSpec& force : scene.forces) add(force.value);
+  for (const TractionSpec& traction : scene.tractions) {
+    add(traction.value);
+    if (traction.pressure) driven.fill(true);
+  }
+  if (!scene.own_load.empty()) driven.fill(true);
+  for (const SupportSpec& support : scene.supports)
+    if (acts(support.motion)) driven[static_cast<std::size_t>(support.component)] = true;
+  for (const WallSpec& wall : scene.walls)
+    if (acts(wall.motion)) driven[static_cast<std::size_t>(axis_of(wall.face))] = true;
+  if (scene.state == StressState::axisymmetric) driven[0] = false;  // a ring holds itself
+  return driven;
+}
+
+// What a body is held by alone along an axis.
+struct HeldByGap {
+  BodyGap gap;
+  std::size_t body;
+  std::string along;  // " along x"; empty: along none
+};
+
+// Something has to hold it, and along each axis along which anything is driven.
+std::optional<HeldByGap> held_by_gap(const Scene& scene, const std::vector<BodyGap>& pairs,
+                                     const std::vector<HeldAxes>& held) {
   const std::vector<std::size_t> group = touching_groups(held.size(), pairs);
-  std::vector<char> group_is_held(held.size(), 0);
+  std::vector<HeldAxes> group_is_held(held.size(), HeldAxes{});
   for (std::size_t body = 0; body < held.size(); ++body)
-    if (held[body]) group_is_held[group[body]] = 1;
+    for (std::size_t axis = 0; axis < held[body].size(); ++axis)
+      group_is_held[group[body]][axis] = group_is_held[group[body]][axis] || held[body][axis];
+  const HeldAxes driven = driven_axes(scene);
   for (const BodyGap& pair : pairs) {
     if (!is_gap(pair) || group[pair.a] == group[pair.b]) continue;
-    for (const std::size_t body : {pair.b, pair.a})
-      if (!group_is_held[group[body]]) return std::pair(pair, body);
+    for (const std::size_t body : {pair.b, pair.a}) {
+      const HeldAxes& axes = group_is_held[group[body]];
+      if (std::ranges::none_of(axes, std::identity())) return HeldByGap{pair, body, ""};
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.dim); ++axis)
+        if (driven[axis] && !axes[axis]) return HeldByGap{pair, body, std::string(" along ") + "xyz"[axis]};
+    }
   }
   return std::nullopt;
 }
@@ -52,12 +88,12 @@ std::vector<std::string> BodyNotes::at_start(const Scene& scene, const Lagrangia
   const std::vector<BodyGap> pairs = phase.body_gaps();
   if (pairs.empty()) return notes;
   const bool may_move = phase.info().updated_lagrangian || !scene.stop.wants_equilibrium();
-  if (const auto found = may_move ? std::nullopt : held_by_gap(pairs, phase.held_bodies())) {
-    throw_scene_error(scene, fmt::format("body[{}]", found->second),
-                      fmt::format("nothing holds it: {}, and only functions of the grid that reach both carry forces "
+  if (const auto found = may_move ? std::nullopt : held_by_gap(scene, pairs, phase.held_bodies())) {
+    throw_scene_error(scene, fmt::format("body[{}]", found->body),
+                      fmt::format("nothing holds it{}: {}, and only functions of the grid that reach both carry forces "
                                   "across the gap; expected a support, bodies that touch, or stop.residual = 0 and "
                                   "stop.time",
-                                  apart(found->first)));
+                                  found->along, apart(found->gap)));
   }
   for (const BodyGap& pair : pairs) {
     known_.insert({pair.a, pair.b});
@@ -80,21 +116,6 @@ std::vector<std::string> BodyNotes::later(const Scene& scene, const LagrangianPh
         fmt::format("{} when they have come to share functions of the grid, which push them apart, or hold "
                     "them together, before they touch; expected smaller cells where they meet",
                     apart(pair)));
-  }
-  return notes;
-}
-
-std::vector<std::string> notes_on_jumps(const Scene& scene, const std::vector<WallReaction>& walls) {
-  constexpr double far = 0.05;  // of a cell
-  std::vector<std::string> notes;
-  for (const WallReaction& wall : walls) {
-    const double cells = wall.put_back / scene.grid.cell_length(static_cast<std::size_t>(wall.axis));
-    if (!(cells > far)) continue;
-    notes.push_back(
-        fmt::format("the wall '{}' moved a node by {:.4g} m ({:.2g} cells) at once: points that jump so far "
-                    "keep stresses that no function of the grid feels; expected initial values outside the "
-                    "wall, and a motion of the wall that takes some time",
-                    wall.name, wall.put_back, cells));
   }
   return notes;
 }

@@ -25,8 +25,4 @@ class BodyNotes {
   std::set<std::pair<std::size_t, std::size_t>> known_;
 };
 
-/// Walls that move nodes by a good part of a cell within a step while the body moves on from phase to phase: points
-/// that jump so far keep stresses that no function of the grid feels. A note for each.
-std::vector<std::string> notes_on_jumps(const Scene& scene, const std::vector<WallReaction>& walls);
-
 }  // namespace stillpoint

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -65,6 +66,24 @@ std::optional<std::string> locking_note(const Scene& scene) {
         material.name, nu->second, degree_of(scene.grid.basis) > 2 ? "splines" : "cells");
   }
   return std::nullopt;
+}
+
+// In pure bending a bilinear cell of length a and height b has to shear: it is 1 + (1 − ν)/2 (a/b)² times as stiff as
+// it should be [Cook, Malkus, Plesha and Witt 2002, section 6.6]; of n cells across the body each takes a 1/n² of that.
+std::optional<std::string> slender_cells_note(const Scene& scene) {
+  constexpr double slender = 10;
+  if (scene.dim == 1 || scene.grid.basis != BasisKind::linear) return std::nullopt;
+  double longest = 0, shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.dim); ++axis) {
+    longest = std::max(longest, scene.grid.cell_length(axis));
+    shortest = std::min(shortest, scene.grid.cell_length(axis));
+  }
+  if (longest < slender * shortest) return std::nullopt;
+  return fmt::format(
+      "the cells are {:.3g} times as long as wide: those of a linear basis are far too stiff where the body bends "
+      "along "
+      "them; expected a quadratic or cubic basis, or cells nearer to cubes",
+      longest / shortest);
 }
 
 }  // namespace stillpoint

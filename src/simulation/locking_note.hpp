@@ -10,5 +10,7 @@ namespace stillpoint {
 
 /// Of a material that is nearly incompressible, or flows plastically, and no remedy chosen.
 std::optional<std::string> locking_note(const Scene& scene);
+/// Long cells of a linear basis, which lock where the body bends; nothing if they are not that long.
+std::optional<std::string> slender_cells_note(const Scene& scene);
 
 }  // namespace stillpoint

@@ -124,19 +124,6 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
   return notes;
 }
 
-// A point in the middle of an eight-noded cell is strained by none of its 12 hourglass motions. In the plane, where a
-// cell has two of them, one side that is held rules them out, and one point a cell is a remedy against locking.
-std::optional<std::string> hourglass_note(const Scene& scene) {
-  if (scene.dim != 3 || scene.grid.basis != BasisKind::linear) return std::nullopt;
-  const bool one_a_cell = std::ranges::any_of(scene.bodies, [](const BodySpec& body) {
-    return body.file.empty() && std::ranges::all_of(body.points_per_cell, [](int along) { return along == 1; });
-  });
-  if (!one_a_cell) return std::nullopt;
-  return "one material point a cell lets the cells of a linear basis move in hourglass motions that strain no point: "
-         "an "
-         "answer is the one in which these have no part, and it bends too easily; expected points_per_cell = 8";
-}
-
 // A function that a loaded surface has just come into is loaded by its value there, and resisted by its gradient at the
 // nearest point alone: that point's stress takes what makes the two agree. Where a point crosses a line of the grid its
 // share of a linear function's gradient changes sign: what an elastic body settles over many phases comes out too large
@@ -229,26 +216,28 @@ std::string no_error_bound_note() {
          "error bound; stop.distance asks for one";
 }
 
+// A point in the middle of an eight-noded cell is strained by none of its 12 hourglass motions. In the plane, where a
+// cell has two of them, one side that is held rules them out, and one point a cell is a remedy against locking.
+std::optional<std::string> hourglass_note(const Scene& scene) {
+  if (scene.dim != 3 || scene.grid.basis != BasisKind::linear) return std::nullopt;
+  const bool one_a_cell = std::ranges::any_of(scene.bodies, [](const BodySpec& body) {
+    return body.file.empty() && std::ranges::all_of(body.points_per_cell, [](int along) { return along == 1; });
+  });
+  if (!one_a_cell) return std::nullopt;
+  return "one material point a cell lets the cells of a linear basis move in hourglass motions that strain no point: "
+         "an "
+         "answer is the one in which these have no part, and it bends too easily; expected points_per_cell = 8";
+}
+
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
   std::vector<std::string> notes = quadrature_notes(scene, phase, scaled);
   std::ranges::move(support_notes(scene), std::back_inserter(notes));
   std::ranges::move(phase_notes(scene, phase), std::back_inserter(notes));
   std::ranges::move(damping_notes(scene, phase), std::back_inserter(notes));
   if (std::optional<std::string> note = locking_note(scene)) notes.push_back(std::move(*note));
+  if (std::optional<std::string> note = slender_cells_note(scene)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = hourglass_note(scene)) notes.push_back(std::move(*note));
   return notes;
-}
-
-// Where points yield or part, stresses vary as fast as they like.
-std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress) {
-  constexpr double much = 0.05;
-  if (phase.history_dependent() || null_space_stress <= much) return std::nullopt;
-  const char* remedy = scene.grid.basis == BasisKind::linear ? "take a quadratic basis"
-                       : scene.phase.deformation == DeformationRule::accumulated
-                           ? "take phase.deformation = \"positions\""
-                           : "take more points per cell or smaller cells";
-  return fmt::format("{:.2g} of the points' stresses varies faster than the grid's functions, which do not feel it: {}",
-                     null_space_stress, remedy);
 }
 
 // The slowest mode dies out like e^{−s t},  s² − c s + ω₁² = 0.

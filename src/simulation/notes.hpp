@@ -15,6 +15,9 @@ namespace stillpoint {
 /// Of a run that goes without omega_1, as a factor of its stiffness costs too much.
 std::string no_error_bound_note();
 
+/// Where the grid has motions of its own in space that strain no point.
+std::optional<std::string> hourglass_note(const Scene& scene);
+
 /// A sentence each: on what the points integrate, on supports outside the body, on phases. scaled: whether the mass has
 /// been scaled by Gershgorin's bound though the scene does not say so.
 std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled);
@@ -32,8 +35,5 @@ std::optional<std::string> distance_note(RunStatus status, std::optional<double>
 
 /// After a run in phases, if the displacements are no more than what positions are rounded to.
 std::optional<std::string> lost_motion_note(const LagrangianPhase& phase, double t, ConstVec u, long phases);
-
-/// After a run of elastic bodies in phases, if much of the points' stresses is more than the grid's functions feel.
-std::optional<std::string> null_space_note(const Scene& scene, const LagrangianPhase& phase, double null_space_stress);
 
 }  // namespace stillpoint

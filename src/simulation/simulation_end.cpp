@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/stop_request.hpp"
+#include "simulation/left_in_points.hpp"
 #include "simulation/memory_need.hpp"
+#include "simulation/notes.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/single_phase.hpp"
 #include "simulation/viscosity.hpp"
@@ -116,6 +118,17 @@ void Simulation::Impl::say_how_far_one_phase_went() {
                         to_string(model_.phase->diagnosis().of_point(most->point)), reason_);
 }
 
+void Simulation::Impl::say_what_phases_left() {
+  if (status_ != RunStatus::equilibrium || !model_.phase->info().updated_lagrangian) return;
+  if (const std::string fault = fault_of_push(scene_, model_.phase->wall_reactions(t_)); !fault.empty()) {
+    status_ = RunStatus::step_limit;
+    reason_ = fmt::format("no equilibrium: {}; it ended with {}", fault, reason_);
+    return;
+  }
+  const double unfelt = model_.phase->null_space_stress(t_, motion_->u());
+  if (const auto note = null_space_note(scene_, *model_.phase, unfelt)) reason_ += "; but " + *note;
+}
+
 // What claims to be an equilibrium may be one that the least disturbance ends.
 void Simulation::Impl::test_stability() {
   const bool writes = recorder_ && !options_.out.empty();
@@ -134,6 +147,19 @@ void Simulation::Impl::test_stability() {
   // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
   const bool softened_away = neutral && has_distance() && !distance_to_go();
   if (neutral && !softened_away) model_.notes.push_back(description(stability_));
+  // Linear ways to rest from u = 0 never enter a null space that the load does not drive.
+  const bool is_local = !model_.static_method && model_.damping->is_local();
+  const bool strays = is_local || (neutral && model_.phase->info().nonlinear);
+  if (strays && !model_.phase->history_dependent() && hourglass_note(scene_)) {
+    status_ = RunStatus::step_limit;
+    reason_ = fmt::format(
+        "no equilibrium: with one material point a cell the grid moves in hourglass motions that strain no point, "
+        "which "
+        "nothing resists, and how far the body goes along them is by chance where strains are large or damping is "
+        "local; expected points_per_cell = 8; it ended with {}",
+        reason_);
+    return;
+  }
   if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
   status_ = RunStatus::unstable_equilibrium;
   reason_ = fmt::format("{}; {}", reason_, description(stability_));
@@ -146,6 +172,7 @@ void Simulation::Impl::finish() {
   if (is_readable_) say_what_moves();
   test_stability();
   if (is_readable_) say_how_far_one_phase_went();
+  if (is_readable_) say_what_phases_left();
   if (recorder_) recorder_->finish(t_, is_readable_ ? &*motion_ : nullptr);
   folder_lock_.reset();
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "output/exact_error.hpp"
+#include "simulation/left_in_points.hpp"
 #include "simulation/notes.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/single_phase.hpp"
@@ -102,7 +103,7 @@ void Simulation::Impl::fill_state(Summary& s) {
   add_note(s, note_on_unbalanced_work(s.unbalanced_plastic_work, model_));
   s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
   if (model_.phase->info().updated_lagrangian) {
-    for (std::string& note : notes_on_jumps(scene_, model_.phase->wall_reactions(t_)))
+    for (std::string& note : notes_on_late_walls(scene_, model_.phase->wall_reactions(t_)))
       s.notes.push_back(std::move(note));
     const auto transfer = model_.phase->control().transfer_errors();
     s.mass_error = transfer.mass;

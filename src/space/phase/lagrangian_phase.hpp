@@ -151,8 +151,8 @@ class LagrangianPhase : public SemiDiscrete {
   virtual std::vector<FreePart> free_parts() const = 0;
   /// The bodies of the scene that share a function of the grid, pair by pair.
   virtual std::vector<BodyGap> body_gaps() const = 0;
-  /// Whether a support, a spring or a wall acts at a function that reaches it, of each body of the scene.
-  virtual std::vector<char> held_bodies() const = 0;
+  /// Of each body of the scene: along which axes a support, a spring or a wall acts at a function that reaches it.
+  virtual std::vector<HeldAxes> held_bodies() const = 0;
   /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
   /// Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;

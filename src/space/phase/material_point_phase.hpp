@@ -110,7 +110,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::optional<LoadState> load_state(double t, ConstVec u) const override;
   std::vector<FreePart> free_parts() const override;
   std::vector<BodyGap> body_gaps() const override;  // phase_bodies.hpp
-  std::vector<char> held_bodies() const override;
+  std::vector<HeldAxes> held_bodies() const override;
   double stiffening(double t, ConstVec u) const override;
   PhaseControl& control() override { return *this; }
   const PhaseControl& control() const override { return *this; }

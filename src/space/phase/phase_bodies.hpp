@@ -13,17 +13,20 @@ std::vector<BodyGap> MaterialPointPhase<B, K>::body_gaps() const {
 }
 
 template <AxisBasis B, Kinematics K>
-std::vector<char> MaterialPointPhase<B, K>::held_bodies() const {
-  std::vector<char> held(scene_.bodies.size(), 0);
-  std::vector<char> is_held(reached_.size(), 0);  // a function, by a support, a wall or a spring
-  for (std::size_t f = 0; f < is_held.size(); ++f) is_held[f] = !untouched_[f];
+std::vector<HeldAxes> MaterialPointPhase<B, K>::held_bodies() const {
+  std::vector<HeldAxes> held(scene_.bodies.size(), HeldAxes{});
+  std::vector<char> is_sprung(Dim * reached_.size(), 0);
   for (const Springs::Weight& weight : weak_supports_.springs().weights())
-    is_held[static_cast<std::size_t>(weight.unknown / Dim)] = 1;
+    is_sprung[static_cast<std::size_t>(weight.unknown)] = 1;
   const auto bodies =
       BodyNeighbours<B, K>(scene_, grid_, body_.points, weights_, body_.first_number).bodies_of_functions();
-  for (std::size_t f = 0; f < bodies.size(); ++f)
-    for (const std::size_t body : bodies[f])
-      if (is_held[f]) held[body] = 1;
+  for (std::size_t f = 0; f < bodies.size(); ++f) {
+    for (std::size_t axis = 0; axis < Dim; ++axis) {
+      const auto unknown = static_cast<int>(Dim * f + axis);
+      if (!held_.is_prescribed(unknown) && !held_.is_guided(unknown) && !is_sprung[Dim * f + axis]) continue;
+      for (const std::size_t body : bodies[f]) held[body][axis] = true;
+    }
+  }
   return held;
 }
 

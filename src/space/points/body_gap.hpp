@@ -1,6 +1,7 @@
 // How far two bodies that share functions of the grid are apart.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace stillpoint {
@@ -11,5 +12,8 @@ struct BodyGap {
   double gap = 0;    // the least between them [m]; 0 if they touch
   double cells = 0;  // the same in cells
 };
+
+/// Along which axes something holds a body.
+using HeldAxes = std::array<bool, 3>;
 
 }  // namespace stillpoint
