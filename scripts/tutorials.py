@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """tutorials.py [--accept] [FILE…]: runs what tutorials say to run, and compares what comes of it with what they show.
 
-In a tutorial, a Markdown file (all of problems/tutorials, if none is named),
+In a tutorial, a Markdown file (README.md and all of problems/manual and problems/tutorials, if none is named),
 
     ```console          has commands, behind '$ ', and below each what it prints,
     ```toml NAME        and the like, with a name behind the language, has a file that is written before,
-    ![…](NAME.png)      has to be left by the commands.
+    ![…](NAME.png)      has to be left by the commands; a picture in another folder has not.
 
 Commands of a tutorial run in bash, in one empty folder that has links to problems/, scripts/ and build/release, with that
 before everything on the PATH, and its Python package. In what they print '…' stands for anything in a line, a line of it for any
@@ -26,7 +26,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 FENCE = re.compile(r"^```(\w+) *(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-PICTURE = re.compile(r"!\[[^\]]*\]\(([^)\s]+)\)")
+PICTURE = re.compile(r"!\[[^\]]*\]\(([^)\s/]+)\)")
 ANYTHING = "…"
 
 
@@ -148,7 +148,9 @@ def parse():
     parser.add_argument("--accept", action="store_true", help="write what was printed and drawn into the tutorials")
     parser.add_argument("--binaries", type=Path, default=ROOT / "build/release", help="instead of build/release")
     options = parser.parse_args()
-    options.tutorials = options.tutorials or sorted((ROOT / "problems/tutorials").glob("*.md"))
+    folders = (ROOT / "problems/manual", ROOT / "problems/tutorials")
+    documents = [ROOT / "README.md", *(file for folder in folders for file in sorted(folder.glob("*.md")))]
+    options.tutorials = options.tutorials or documents
     for tutorial in options.tutorials:
         if not tutorial.is_file():
             parser.error(f"there is no {tutorial}")

@@ -95,15 +95,27 @@ def _(folder):
     raised(OSError, whole.save, folder / "no/such/folder/state.h5")
 
 
-@claim("the snippets of the README run as they stand, one after the other")
-def _(folder):
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    snippets = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+def run_snippets(page, folder):
+    """The ```python blocks of a page one after the other, beside the bar and the scenes that it shows."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    snippets = re.findall(r"^```python\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
     assert snippets
     shutil.copy(BAR, folder / "bar.toml")
+    for name, scene in re.findall(r"^```toml (\S+)\n(.*?)^```$", text, re.DOTALL | re.MULTILINE):
+        (folder / name).write_text(scene, encoding="utf-8")
     program = f"import sys; sys.path.insert(0, {sys.argv[3]!r})\n" + "\n".join(snippets)
     result = subprocess.run(["/usr/bin/python3", "-c", program], capture_output=True, text=True, cwd=folder)
     assert result.returncode == 0, result.stderr
+
+
+@claim("the snippets of the README run as they stand, one after the other")
+def _(folder):
+    run_snippets("README.md", folder)
+
+
+@claim("the snippets of the manual's chapter on programs run as they stand, one after the other")
+def _(folder):
+    run_snippets("problems/manual/programs.md", folder)
 
 
 @claim("the installed package runs from where it was put, with its multigrid")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""tutorials_test.py ROOT CLAIM: one claim about scripts/tutorials.py of the source tree ROOT."""
+"""tutorials_test.py ROOT CLAIM: one claim about scripts/tutorials.py of the source tree ROOT, or about the pages it follows."""
 
+import re
 import sys
 
 from claims import ROOT, call, check_the_claim, claim
@@ -55,6 +56,23 @@ def _(folder):
     assert followed(folder, text % "it").returncode == 0 and not (folder / "it.png").exists()
     followed(folder, text % "it", "--accept")
     assert (folder / "it.png").read_text() == "drawn\n"
+
+
+@claim("a picture of another folder need not be left by a command")
+def _(folder):
+    result = followed(folder, "![it](../it.png)\n```console\n$ echo drawn\ndrawn\n```\n")
+    assert result.returncode == 0 and "nothing differs" in result.stdout, result
+
+
+@claim("every scene that the README and the manual show has a name, and a command of the page runs it")
+def _(_folder):
+    scenes = 0
+    for page in (ROOT / "README.md", *sorted((ROOT / "problems/manual").glob("*.md"))):
+        text = page.read_text(encoding="utf-8")
+        for name in re.findall(r"^```toml *(.*)$", text, re.MULTILINE):
+            assert name and f"\n$ stillpoint run {name}" in text, (page, name)
+            scenes += 1
+    assert scenes >= 4
 
 
 if __name__ == "__main__":
