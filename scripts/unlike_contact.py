@@ -12,6 +12,9 @@ from unlike_scene import (
 )  # fmt: skip
 
 FLOOR = "floor"
+# What the points of a body that is thrown about keep from phase to phase differs from way to way: measured up to 3.9 %,
+# or 0.0013 of a cell.
+IN_PHASES, OF_CELL = 0.05, 2e-3
 NOT_IF_A_WALL_MOVES = {"kinetic", "fire", "fire2", "nesterov"}  # set velocities to 0, the wall's too: refused
 
 
@@ -264,6 +267,8 @@ def on_wall_in_phases(r, all_ways=False):
     scene["support"] = [{"face": "left", "kind": "roller"}, {"face": "right", "kind": "roller"}]
     scene["wall"] = [{"name": FLOOR, "face": "bottom"}]
     kind, moved = disturb(r, scene, m, g, height, h, 1)
+    if "u" in scene.get("initial", {}):
+        scene["phase"]["max_motion"] = 0.3  # which has room for it
     if "motion" in scene["wall"][0]:
         scene["grid"]["follow"] = FLOOR
     scene["probe"] = [{"name": "base", "at": [rounded(size[0] / 2, 10), 0.0], "fields": ["u.y"]}]
@@ -275,12 +280,13 @@ def on_wall_in_phases(r, all_ways=False):
         scene,
         ways_of(r, in_time(scene), all_ways, 3),
         answer=answer,
-        tolerance=0.02,
-        unique=0.02,
+        tolerance=IN_PHASES,
+        unique=IN_PHASES,
+        of_cell=OF_CELL,
         components=(1,),
         moved=moved,
         cell=h,
-        notes="cross the cells of a linear basis|out of balance|inertia carried",
+        notes="cross the cells of a linear basis|out of balance|inertia carried|varies faster",
         needed=True,
     )
 

@@ -78,10 +78,12 @@ def known_answer(program, unlike, folder, name):
     return (lambda X: answer_at(X, ended.last)), ""
 
 
-def off(u, right):
-    """‖u − right‖/‖right‖; where that is 0, ‖u‖."""
-    scale = np.linalg.norm(right)
-    return float(np.linalg.norm(u - right) / (scale if scale > 0 else 1))
+def off(u, right, unlike=None):
+    """‖u − right‖/‖right‖; where that is 0, ‖u‖. 0 if it is no more than what the scene allows of a cell."""
+    distance, scale = np.linalg.norm(u - right), np.linalg.norm(right)
+    if unlike and distance <= unlike.of_cell * unlike.cell * math.sqrt(u.size):
+        return 0.0
+    return float(distance / (scale if scale > 0 else 1))
 
 
 def beside_the_wall(unlike, u):
@@ -158,7 +160,7 @@ def wrong_answer(unlike, ended, answer):
 
 def off_answer(unlike, ended, answer):
     u = ended.last["u"]
-    return off(beside_the_wall(unlike, u), beside_the_wall(unlike, answer(ended.last["place"] - u)))
+    return off(beside_the_wall(unlike, u), beside_the_wall(unlike, answer(ended.last["place"] - u)), unlike)
 
 
 def compared(unlike, ended):
@@ -195,7 +197,7 @@ def compare_ways(unlike, found):
     claims = [one for one in found if one.outcome == "right"]
     if not unlike.unique or unlike.factor is not None or len(claims) < 2:
         return
-    apart = [[np.nan_to_num(off(one.u, other.u), nan=np.inf) for other in claims] for one in claims]
+    apart = [[np.nan_to_num(off(one.u, other.u, unlike), nan=np.inf) for other in claims] for one in claims]
     middle = int(np.argmin([np.median(row) for row in apart]))
     for k, one in enumerate(claims):
         distance = apart[k][middle]

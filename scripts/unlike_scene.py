@@ -26,6 +26,7 @@ class Unlike:
     exact: Callable | None = None  # u (n, 3) of the points by their places X (n, 3) at the start
     tolerance: float = 1e-6  # of u against the answer, over what it is beside `moved`
     unique: float = 1e-6  # of u among the ways; 0: they need not agree
+    of_cell: float = 0.0  # what u may be off by whatever it is, as a root of the mean square, over the cell's width
     components: tuple[int, ...] = (0, 1, 2)  # of u that are judged
     moved: float = 0.0  # along the last coordinate: a rigid motion that is none of the displacement that is judged
     cell: float = 1.0  # along it
