@@ -180,3 +180,20 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("with one point a cell in space nothing but a linear way to rest of a linear body ends in an equilibrium") {
+  const auto by = [](const std::vector<std::string>& set) { return run(scenes::load("hard/one_point_in_space", set)); };
+  for (const char* strategy : {"auto", "kinetic", "fire"}) {
+    CAPTURE(strategy);
+    const Summary linear = by({std::string("damping.strategy=") + strategy});
+    CHECK(linear.status == RunStatus::equilibrium);
+    CHECK(scenes::probe(linear, "end", "u.y") == Approx(-0.5328).epsilon(1e-3));
+    const Summary large = by({std::string("damping.strategy=") + strategy, "material.beam.law=neo-hookean",
+                              "body_force.value=[0, -0.05, 0]"});
+    CHECK(large.exit_status == 3);
+    if (large.steps < 20000) CHECK_THAT(large.reason, Contains("hourglass motions"));
+  }
+  const Summary local = by({"damping.strategy=cundall"});
+  CHECK(local.exit_status == 3);
+  CHECK_THAT(local.reason, Contains("hourglass motions"));
+}

@@ -146,7 +146,7 @@ class Auto final : public StaggeredIteration {
     const double h = share_ * step;
     const double quotient = global_quotient(v(), last_Q(), Q(), h, energy(), work());
     c_ = kinetic_ ? 0 : 2 * std::sqrt(quotient);
-    set_rate(c_);
+    set_rate(std::min(c_, 4 / h));  // 2 ω of the shortest mode
     const double unbalanced = this->unbalanced();
     least_ = std::min(least_, unbalanced);
     if (is_unstable(quotient, h, unbalanced)) return;
@@ -157,17 +157,18 @@ class Auto final : public StaggeredIteration {
   double unbalanced() const { return std::sqrt(std::max(0.0, dot(Q(), a()))); }  // √(QᵀM⁻¹Q)
 
   // At equilibrium the quotient is rounding and may be anything: an instability also grows. Where a support sets out,
-  // or a load comes, a body at rest shows it for a step, of a force that its motion has no part in: an instability
-  // stays.
+  // or a load comes, a body at rest shows a far larger one for a step, of a force that its motion has no part in.
   bool is_unstable(double quotient, double h, double unbalanced) {
-    constexpr double most = 4 * 0.925, aim = 4 * 0.85;  // of h² ω²
-    constexpr double growth = 10, least_share = 0.5;
-    constexpr long in_a_row = 3;
+    constexpr double most = 4 * 0.925, aim = 4 * 0.85, doubtful = 16;  // of h² ω²
+    constexpr double growth = 10;
     const double reached = h * h * quotient;
-    beyond_ = reached <= most || unbalanced < growth * least_ ? 0 : beyond_ + 1;
-    if (beyond_ < in_a_row) return false;
-    beyond_ = 0;
-    share_ *= std::max(least_share, std::sqrt(aim / reached));
+    if (reached <= most || unbalanced < growth * least_) {
+      is_in_doubt_ = false;
+      return false;
+    }
+    if (!steady_ && reached > doubtful && !std::exchange(is_in_doubt_, true)) return false;
+    is_in_doubt_ = false;
+    share_ *= std::sqrt(aim / reached);
     halt();
     return true;
   }
@@ -182,7 +183,7 @@ class Auto final : public StaggeredIteration {
     state("apart", apart_);
     if (descent_) descent_->archive(state.part("descent"));
     state("least", least_);
-    state("beyond", beyond_);
+    state("is_in_doubt", is_in_doubt_);
     state("steps_taken", steps_);
     state("halted_at", halted_at_);
     state("watched_from", watched_from_);
@@ -230,7 +231,7 @@ class Auto final : public StaggeredIteration {
   double share_;  // of the step given
   bool kinetic_ = false;
   double least_ = std::numeric_limits<double>::infinity();  // √(QᵀM⁻¹Q) so far
-  long beyond_ = 0;                                         // steps in a row that look unstable
+  bool is_in_doubt_ = false;                                // whether the last step looked unstable, by far
   long steps_ = 0, halted_at_ = 0, watched_from_ = 0;
   double goal_ = std::numeric_limits<double>::infinity();     // the √(QᵀM⁻¹Q) to come below next
   double slowest_ = std::numeric_limits<double>::infinity();  // least quotient since the watch began [1/s²]
