@@ -20,8 +20,9 @@ struct SinglePhaseStrain {
 /// Beyond the limit load of a body that yields no equilibrium is left, and the residual ends at the share of the load
 /// that it does not bear; but the frozen grid stiffens as it is squeezed, and bears any load in the end.
 std::optional<SinglePhaseStrain> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u);
-/// Beyond this a run of one phase ends in no equilibrium: the material has gone as far as its own size.
-inline constexpr double largest_single_phase_strain = 1;
+/// Beyond this a run of one phase ends in no equilibrium: the material has gone nearly as far as its own size, which
+/// twice the load that it bears takes it to.
+inline constexpr double largest_single_phase_strain = 0.9;
 /// What to say of it; empty: nothing.
 std::string note_on_single_phase(std::optional<double> strain);
 

@@ -1,6 +1,7 @@
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -91,8 +92,9 @@ class Newton {
     const std::vector<double> start(u.begin(), u.end());
     full_steps_ = false;
     if (goes_on(step, u)) {
-      if (iterate(step, u)) return true;
+      if (iterate(step, u) && went_as_before(step, start, u)) return true;
       std::ranges::copy(start, u.begin());
+      step.converged = false;
       step.residuals.clear();
     }
     if (iterate(step, u)) return true;
@@ -110,6 +112,16 @@ class Newton {
     const double share = (step.to - step.from) / way_of_;
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += share * way_[i];
     return true;
+  }
+  // No further than a few times as far for its share of the load: what is far away lies beyond a limit load.
+  bool went_as_before(const LoadStep& step, ConstVec start, ConstVec u) const {
+    constexpr double most = 4;
+    double went = 0, before = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      went += (u[i] - start[i]) * (u[i] - start[i]);
+      before += way_[i] * way_[i];
+    }
+    return std::sqrt(went) <= most * (step.to - step.from) / way_of_ * std::sqrt(before);
   }
   void remember_way(const LoadStep& step, ConstVec u) {
     if (!system_.history_dependent()) return;
