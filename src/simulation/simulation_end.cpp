@@ -15,6 +15,17 @@
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
+namespace {
+
+// Whether the points have fewer strains than the body has unknowns, so that K is singular.
+bool has_too_few_points(const LagrangianPhase& phase) {
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  const std::size_t strains =
+      dim * (dim + 1) / 2 + (phase.info().gradient_components > phase.dim() * phase.dim() ? 1 : 0);
+  return phase.points() * strains < phase.size();
+}
+
+}  // namespace
 
 // --- for good ---
 
@@ -150,14 +161,15 @@ void Simulation::Impl::test_stability() {
   // Linear ways to rest from u = 0 never enter a null space that the load does not drive.
   const bool is_local = !model_.static_method && model_.damping->is_local();
   const bool strays = is_local || (neutral && model_.phase->info().nonlinear);
-  if (strays && !model_.phase->history_dependent() && hourglass_note(scene_)) {
+  const bool has_hourglasses = hourglass_note(scene_).has_value();
+  if (strays && !model_.phase->history_dependent() && (has_hourglasses || has_too_few_points(*model_.phase))) {
     status_ = RunStatus::step_limit;
     reason_ = fmt::format(
-        "no equilibrium: with one material point a cell the grid moves in hourglass motions that strain no point, "
-        "which "
-        "nothing resists, and how far the body goes along them is by chance where strains are large or damping is "
-        "local; expected points_per_cell = 8; it ended with {}",
-        reason_);
+        "no equilibrium: with {} the grid moves in ways that strain no point{}, which nothing resists, and how far the "
+        "body goes along them is by chance where strains are large or damping is local; expected {}; it ended with {}",
+        has_hourglasses ? "one material point a cell" : "so few material points",
+        has_hourglasses ? ", hourglass motions" : "",
+        has_hourglasses ? "points_per_cell = 8" : "more material points per cell", reason_);
     return;
   }
   if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
