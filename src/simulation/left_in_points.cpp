@@ -31,9 +31,8 @@ std::string fault_of_push(const Scene& scene, const std::vector<WallReaction>& w
     if (!(cells > far)) continue;
     return fmt::format(
         "the wall '{}' has pushed out at once what lay in it, or flew into it within a step, by {:.4g} m ({:.2g} "
-        "cells): "
-        "points that jump so far keep stresses and places that no function of the grid feels; expected initial values "
-        "outside the wall, a slower motion, or a single phase",
+        "cells): points that jump so far keep stresses and places that no function of the grid feels; expected initial "
+        "values outside the wall, a slower motion, or a single phase",
         wall.name, wall.put_back, cells);
   }
   return "";

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -20,7 +19,9 @@
 namespace stillpoint {
 namespace {
 
-using Moments = std::array<double, 8>;
+constexpr std::size_t moments_of_a_course = 8;
+using Moments = std::array<double, moments_of_a_course>;
+using Course = std::array<std::uint64_t, moments_of_a_course>;  // the bits of a formula's values there
 
 /// Some up to the end; if that is open, of all orders of magnitude.
 Moments some_moments(double end) {
@@ -39,11 +40,11 @@ std::vector<ConstVec> where_it_differs(const Expression& formula, ConstVec posit
   constexpr std::size_t most_looked_at = 100'000, most = 32;
   const Moments moments = some_moments(end);
   const std::size_t points = positions.size() / dim;
-  std::set<std::array<std::uint64_t, 8>> seen;
+  std::set<Course> seen;
   std::vector<ConstVec> found;
   for (std::size_t p = 0; p < points; p += (points + most_looked_at - 1) / most_looked_at) {
     const ConstVec x = positions.subspan(dim * p, dim);
-    std::array<std::uint64_t, std::tuple_size_v<Moments>> course;
+    Course course;
     std::ranges::transform(moments, course.begin(),
                            [&](double t) { return std::bit_cast<std::uint64_t>(formula(x, t)); });
     if (seen.insert(course).second) found.push_back(x);

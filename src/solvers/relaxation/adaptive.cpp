@@ -34,7 +34,7 @@ class Adaptive final : public StaggeredIteration {
             ? global_quotient(v(), last_Q(), Q(), h, energy(), work())
             : diagonal_quotient(u(), v(), last_Q(), Q(), h, mass_norm_squared(u().span()), work());
     c_ = 2 * std::sqrt(omega_squared);
-    set_rate(std::min(c_, 4 / h));  // 2 ω of the shortest mode
+    set_rate(c_, h);
   }
 
   void archive_strategy(const StateArchive& state) override { state("c", c_); }

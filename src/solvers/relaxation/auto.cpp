@@ -146,7 +146,7 @@ class Auto final : public StaggeredIteration {
     const double h = share_ * step;
     const double quotient = global_quotient(v(), last_Q(), Q(), h, energy(), work());
     c_ = kinetic_ ? 0 : 2 * std::sqrt(quotient);
-    set_rate(std::min(c_, 4 / h));  // 2 ω of the shortest mode
+    set_rate(c_, h);
     const double unbalanced = this->unbalanced();
     least_ = std::min(least_, unbalanced);
     if (is_unstable(quotient, h, unbalanced)) return;

@@ -46,7 +46,7 @@ class Papadrakakis final : public StaggeredIteration {
           -(ratio * ratio - (1 + now_.beta) * ratio + now_.beta) / (now_.gamma * h * h * ratio);
       if (omega_squared > 0) {
         rate_ = 2 * std::sqrt(omega_squared);
-        set_rate(std::min(*rate_, 4 / h));
+        set_rate(*rate_, h);
         forget();
         return;
       }

@@ -122,8 +122,10 @@ void StaggeredIteration::stop() {
   last_step_ = 0;
 }
 
-void StaggeredIteration::set_rate(double c) {
-  system().set_damping_rate(c);
+// That of a force which the motion has no part in, as where a support sets out, has no bound: no more than 2 ω of the
+// shortest mode.
+void StaggeredIteration::set_rate(double c, double h) {
+  system().set_damping_rate(std::min(c, 4 / h));
   // What holds a contact, and what a moving support does through a consistent mass, depend on c.
   if (!system().system().contact() && system().system().mass().is_lumped()) return;
   system().last_out_of_balance(t_, Q_.span());

@@ -68,7 +68,7 @@ class StaggeredIteration : public SteppingIntegrator {
   /// v = 0, and half a kick next.
   void stop();
   /// c, if one is in force: supports and walls that move take it along.
-  void set_rate(double c);
+  void set_rate(double c, double h);
 
   // The present state, (n) each; valid from on_restart() on.
   Vector& u() { return *u_; }

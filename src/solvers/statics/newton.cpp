@@ -1,7 +1,6 @@
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "linalg/power_iteration.hpp"
 #include "linalg/row_product.hpp"
 #include "linalg/sparse_lu.hpp"
+#include "solvers/statics/last_increment.hpp"
 #include "solvers/statics/load_increments.hpp"
 #include "solvers/statics/semidefinite_factor.hpp"
 #include "solvers/statics/subtract_product.hpp"
@@ -61,7 +61,7 @@ class Newton {
       step.to = load.to();
       std::ranges::copy(u_, u.begin());
       if (load_step(step, u)) {
-        remember_way(step, u);
+        if (system_.history_dependent()) last_.remember(step.to - step.from, u_, u);
         std::ranges::copy(u, u_.begin());
         report_.load_factor = step.to;
         if (system_.history_dependent()) system_.commit(balance_.trial());
@@ -91,8 +91,10 @@ class Newton {
   bool load_step(LoadStep& step, Vec u) {
     const std::vector<double> start(u.begin(), u.end());
     full_steps_ = false;
-    if (goes_on(step, u)) {
-      if (iterate(step, u) && went_as_before(step, start, u)) return true;
+    if (last_.is_known()) {
+      const double share = step.to - step.from;
+      last_.extrapolate(share, u);
+      if (iterate(step, u) && last_.is_like(share, start, u)) return true;
       std::ranges::copy(start, u.begin());
       step.converged = false;
       step.residuals.clear();
@@ -103,31 +105,6 @@ class Newton {
     step.residuals.clear();
     full_steps_ = true;
     return iterate(step, u);
-  }
-
-  // Points that yield lie on their yield surface when the load is increased, and resist the first step as elastic ones
-  // do: that step leads far from where they would flow to. Going on as they did in the last increment they flow.
-  bool goes_on(const LoadStep& step, Vec u) const {
-    if (way_.empty()) return false;
-    const double share = (step.to - step.from) / way_of_;
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] += share * way_[i];
-    return true;
-  }
-  // No further than a few times as far for its share of the load: what is far away lies beyond a limit load.
-  bool went_as_before(const LoadStep& step, ConstVec start, ConstVec u) const {
-    constexpr double most = 4;
-    double went = 0, before = 0;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      went += (u[i] - start[i]) * (u[i] - start[i]);
-      before += way_[i] * way_[i];
-    }
-    return std::sqrt(went) <= most * (step.to - step.from) / way_of_ * std::sqrt(before);
-  }
-  void remember_way(const LoadStep& step, ConstVec u) {
-    if (!system_.history_dependent()) return;
-    way_of_ = step.to - step.from;
-    way_.resize(u.size());
-    for (std::size_t i = 0; i < u.size(); ++i) way_[i] = u[i] - u_[i];
   }
 
   bool crawling() const { return short_steps_ >= most_short_steps && !system_.history_dependent(); }
@@ -305,8 +282,7 @@ class Newton {
   const NewtonOptions& options_;
   StaticBalance balance_;
   std::vector<double> trial_, du_;
-  std::vector<double> way_;                   // of the last increment, where points remember
-  double way_of_ = 0;                         // the load factor's share that it took
+  LastIncrement last_;                        // known where points remember
   SparseMatrix factorised_;                   // K of the factor
   std::optional<SemidefiniteFactor> factor_;  // kept where the next K may be the same
   bool is_used_again_ = false;                // whether K was
