@@ -30,10 +30,10 @@ double longest_period(const Model& model) {
 
 }  // namespace
 
-Creep::Creep(const Scene& scene, const Model& model)
+Creep::Creep(const Scene& scene, const Model& model, const GivingWay& giving_way)
     : scene_(scene),
       phase_(*model.phase),
-      giving_way_(scene, *model.phase),
+      giving_way_(giving_way),
       way_left_(scene.stop.distance > 0 ? scene.stop.distance : usual_way_left) {
   const bool told_not_to_look = scene.stop.distance == 0 && scene.where.contains("stop.distance");
   watches_ = giving_way_.is_possible() && scene.stop.wants_equilibrium() && !model.static_method && !told_not_to_look;

@@ -16,8 +16,8 @@ namespace stillpoint {
 
 class Creep {
  public:
-  /// The model and the scene outlive it.
-  Creep(const Scene& scene, const Model& model);
+  /// All outlive it.
+  Creep(const Scene& scene, const Model& model, const GivingWay& giving_way);
 
   /// Whether it wants a sample: four times in a block of time, a period of the body.
   bool due(double t) const { return watches_ && t >= next_; }
@@ -47,7 +47,7 @@ class Creep {
 
   const Scene& scene_;
   const LagrangianPhase& phase_;
-  GivingWay giving_way_;
+  const GivingWay& giving_way_;
   WayLeft way_left_;
   bool watches_, may_slide_away_;
   double period_ = 0, shortest_period_ = 0, cell_ = 0;

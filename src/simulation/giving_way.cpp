@@ -18,15 +18,14 @@ GivingWay::GivingWay(const Scene& scene, const LagrangianPhase& phase) : phase_(
   yields_ = std::ranges::find(remembered, plastic_strain_name) != remembered.end();
   for (const WallSpec& wall : scene.walls) friction_.push_back(wall.friction);
   has_friction_ = std::ranges::any_of(friction_, [](double mu) { return mu > 0 && std::isfinite(mu); });
-  if (!yields_) return;
-  volumes_ = phase.point_data().volumes;
-  of_points_.resize(volumes_.size());
+  if (yields_) volumes_ = phase.point_data().volumes;
 }
 
 double GivingWay::plastic_strain() const {
   if (!yields_) return 0;
-  phase_.point_history(plastic_strain_name, of_points_);
-  return sum_over(volumes_.size(), [&](std::size_t p) { return volumes_[p] * of_points_[p]; });
+  std::vector<double> of_points(volumes_.size());  // not kept: memory counts more than the time of a sample
+  phase_.point_history(plastic_strain_name, of_points);
+  return sum_over(volumes_.size(), [&](std::size_t p) { return volumes_[p] * of_points[p]; });
 }
 
 std::vector<std::size_t> GivingWay::sliding_walls(double t) const {

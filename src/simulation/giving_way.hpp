@@ -28,8 +28,7 @@ class GivingWay {
   const LagrangianPhase& phase_;
   std::vector<double> friction_;  // of each wall
   bool remembers_, yields_, has_friction_;
-  std::vector<double> volumes_;            // (P) [m³]
-  mutable std::vector<double> of_points_;  // (P)
+  std::vector<double> volumes_;  // (P) [m³]
 };
 
 }  // namespace stillpoint

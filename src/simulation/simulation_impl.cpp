@@ -56,7 +56,8 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
       schedule_(scene_, *model_.phase, scene_.stop.time),
       plastic_path_(scene_, model_),
       rate_share_(scene_, *model_.phase),
-      creep_(scene_, model_),
+      giving_way_(scene_, *model_.phase),
+      creep_(scene_, model_, giving_way_),
       standstill_(model_.integrator.max_step),
       // What Newton's method does in one step and in the next are not the same.
       thread_choice_(

@@ -76,11 +76,11 @@ class Simulation::Impl {
   Chatter chatter_;
   PlasticPath plastic_path_;
   RateShare rate_share_;
+  GivingWay giving_way_;
   Creep creep_;
   Standstill standstill_;
   ThreadChoice thread_choice_;
   LimitLoad limit_load_{scene_.stop.load_growth};
-  GivingWay giving_way_{scene_, *model_.phase};
   MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
   std::shared_ptr<FolderLock> folder_lock_;  // until the run is over
   std::optional<Recorder> recorder_;

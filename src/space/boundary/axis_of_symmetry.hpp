@@ -18,10 +18,9 @@
 namespace stillpoint {
 
 /// It is no support: nobody's reaction counts what it bears.
-template <AxisBasis B, Kinematics K>
+template <Kinematics K>
 class AxisOfSymmetry {
   static constexpr int dim = dimensions(K);
-  using Basis = TensorBasis<B, dim>;
 
  public:
   /// Of the body as it was placed.
@@ -39,16 +38,16 @@ class AxisOfSymmetry {
 
   /// Takes hold of u_r of the functions that are not 0 on the axis beside material that touched it at first: it still
   /// does, as nothing comes between. reached: as of BoundaryCondition::hold().
-  void hold(const Grid<dim>& grid, const MaterialPoints<dim>& points, const PointWeights<B, K>& weights,
+  void hold(const GridFunctions<dim>& functions, const MaterialPoints<dim>& points, const PointFunctions<dim>& weights,
             const std::vector<char>& reached, HeldUnknowns& held) const {
     if (!acts()) return;
     std::vector<char> at_axis(reached.size(), 0);
     for (std::size_t k = 0; k < points.cells(); ++k) {
-      if (grid.cell_at(points.cell[k])[0] != 0 || !any_touches(points, k)) continue;
-      for (int a = 0; a < PointWeights<B, K>::per_cell; ++a)
+      if (weights.cell_at(k)[0] != 0 || !any_touches(points, k)) continue;
+      for (int a = 0; a < weights.functions_of_cell(); ++a)
         at_axis[static_cast<std::size_t>(weights.function(k, a))] = 1;
     }
-    for (const int function : Basis::face_functions(grid, /*axis=*/0, /*upper=*/false)) {
+    for (const int function : functions.on_face(/*axis=*/0, /*upper=*/false)) {
       const auto f = static_cast<std::size_t>(function);
       if (at_axis[f] && reached[f] && !held.is_prescribed(dim * function))
         held.prescribe(dim * function, rest_, HeldUnknowns::nobody);

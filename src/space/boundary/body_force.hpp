@@ -12,17 +12,17 @@
 
 namespace stillpoint {
 
-template <AxisBasis B, Kinematics K>
-class BodyForce final : public BoundaryCondition<B, K> {
-  static constexpr int dim = dimensions(K);
-  using typename BoundaryCondition<B, K>::Parts;
+template <int Dim>
+class BodyForce final : public BoundaryCondition<Dim> {
+  static constexpr std::size_t dim = Dim;
+  using typename BoundaryCondition<Dim>::Parts;
 
  public:
   explicit BodyForce(const Scene& scene) : b_(scene.body_force) {}
 
   void begin_phase(const Parts& phase, Vec F) override {
     if (varies()) return;
-    if (B::partition_of_unity &&
+    if (phase.functions.partition_of_unity() &&
         std::ranges::none_of(b_, &Expression::uses_position)) {  // it acts on the nodes' masses
       std::array<double, dim> b;
       for (std::size_t i = 0; i < dim; ++i) b[i] = b_[i]({}, 0);

@@ -12,7 +12,8 @@
 #include "space/boundary/prescribed_motion.hpp"
 #include "space/boundary/wall_reaction.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
-#include "space/kernels/point_weights.hpp"
+#include "space/kernels/point_functions.hpp"
+#include "space/points/material_points.hpp"
 
 namespace stillpoint {
 
@@ -64,11 +65,12 @@ class HeldUnknowns {
 };
 
 /// What a phase consists of, for its boundary conditions.
-template <AxisBasis B, Kinematics K>
+template <int Dim>
 struct PhaseParts {
-  const Grid<dimensions(K)>& grid;
-  const MaterialPoints<dimensions(K)>& points;
-  const PointWeights<B, K>& weights;
+  const Grid<Dim>& grid;
+  const GridFunctions<Dim>& functions;
+  const MaterialPoints<Dim>& points;
+  const PointFunctions<Dim>& weights;
   const HeldUnknowns& held;
   const DegreesOfFreedom& dofs;
   const std::vector<double>& node_mass;  // m_i, (functions) [kg]
@@ -81,18 +83,18 @@ using MatrixEntries = std::vector<Eigen::Triplet<double>>;
 
 /// All boundary conditions of one kind that a scene has. F: (n) [N]; u: over the grid's functions, component i at
 /// [Dim function + i] [m].
-template <AxisBasis B, Kinematics K>
+template <int Dim>
 class BoundaryCondition {
  public:
-  using Parts = PhaseParts<B, K>;
-  using GridOf = Grid<dimensions(K)>;
+  using Parts = PhaseParts<Dim>;
+  using Functions = GridFunctions<Dim>;
 
   virtual ~BoundaryCondition() = default;
 
   // A phase begins, in this order:
   /// Takes hold of unknowns. reached: whether material reaches a function, (functions); gaps: how far it is from a face
   /// of the grid. Before the first phase it may be asked twice.
-  virtual void hold(const GridOf&, const std::vector<char>& /*reached*/, const FaceGaps<B, K>& /*gaps*/,
+  virtual void hold(const Functions&, const std::vector<char>& /*reached*/, const FaceGaps<Dim>& /*gaps*/,
                     HeldUnknowns&) {}
   /// F += the forces that depend on neither t nor u.
   virtual void begin_phase(const Parts&, Vec /*F*/) {}

@@ -35,103 +35,113 @@ inline bool has_phases(const Scene& scene) { return scene.phase.max_motion || sc
 ///   point that is.
 /// - Where points stand for domains, the position is Σ_c ω_c x_c of the corners of one of them for good, and
 ///   w_a = Σ_c ω_c N_a(x_c): a load on a face of domains is in equilibrium with a stress in them.
-template <AxisBasis B, Kinematics K>
+template <int Dim>
 struct CarriedPoint {
-  static constexpr int dim = dimensions(K);
-  using Basis = TensorBasis<B, dim>;
-  static constexpr int per_cell = Basis::per_cell;
-  static constexpr int entries = 2 * per_cell;  // functions of two cells, which may be the same one
+  struct Entry {
+    int function = -1;  // of the grid; −1: none that material reaches
+    double w = 0;       // weight
+    Point<Dim> dN{};    // of the displacement's gradient there [1/m]
+  };
 
-  Point<dim> x;                                     // when the phase begins [m]
-  Point<dim> X;                                     // undeformed, of one that belongs to a domain [m]
-  std::size_t carrier;                              // number of the point whose domain that is
-  std::array<int, entries> function;                // −1: nothing
-  std::array<double, entries> w;                    // weights
-  std::array<std::array<double, entries>, dim> dN;  // of the displacement's gradient there, [j][a] [1/m]
+  Point<Dim> x;                // when the phase begins [m]
+  Point<Dim> X;                // undeformed, of one that belongs to a domain [m]
+  std::size_t carrier;         // number of the point whose domain that is
+  std::vector<Entry> entries;  // of a cell's functions, or of those of two cells, which may be the same one
 
   /// By the functions of a cell. Σ_a w_a of those that material reaches.
-  double freeze(const std::array<int, dim>& cell, const PhaseParts<B, K>& phase) {
-    clear();
-    const auto values = Basis::evaluate(phase.grid, cell, x);
-    const double reached = take_functions(0, cell, values.N, phase);
-    for (int j = 0; j < dim; ++j) std::ranges::copy(values.dN[j], dN[j].begin());
+  double freeze(const std::array<int, Dim>& cell, const PhaseParts<Dim>& phase) {
+    const int per_cell = phase.functions.per_cell();
+    entries.assign(static_cast<std::size_t>(per_cell), {});
+    const auto values = phase.functions.evaluate(cell, x);
+    const double reached = take_functions(0, values, phase);
+    for (int a = 0; a < per_cell; ++a) {
+      for (int j = 0; j < Dim; ++j) entry(a).dN[j] = values.dN[per_cell * j + a];
+    }
     return reached;
   }
   /// By a material point. A position further than a cell's width away has lost its surface, and is brought back to
   /// there.
-  void freeze(const PointInCell& nearest, const PhaseParts<B, K>& phase) {
-    clear();
+  void freeze(const PointInCell& nearest, const PhaseParts<Dim>& phase) {
+    const int per_cell = phase.functions.per_cell();
+    entries.assign(static_cast<std::size_t>(2 * per_cell), {});
     const auto [k, p] = nearest;
-    const Point<dim> x_p = phase.points.position(p);
+    const Point<Dim> x_p = phase.points.position(p);
     const auto at = phase.grid.cell_at(phase.points.cell[k]);
-    Point<dim> d, mirror;
-    for (int j = 0; j < dim; ++j) {
+    Point<Dim> d, mirror;
+    for (int j = 0; j < Dim; ++j) {
       const auto& nodes = phase.grid.axes[j].nodes;
       const double width = nodes[static_cast<std::size_t>(at[j]) + 1] - nodes[static_cast<std::size_t>(at[j])];
       x[j] = std::clamp(x[j], x_p[j] - width, x_p[j] + width);
       d[j] = x[j] - x_p[j];
       mirror[j] = x_p[j] - d[j];
     }
-    const auto gradients = phase.weights.dN(k, p);
+    typename PointFunctions<Dim>::Slopes gradients;
+    phase.weights.slopes(k, p, gradients);
     for (int a = 0; a < per_cell; ++a) {
-      function[a] = phase.weights.function(k, a);
-      for (int j = 0; j < dim; ++j) {
-        dN[j][a] = gradients[per_cell * j + a];
-        w[a] += 2 * d[j] * dN[j][a];
+      Entry& of_point = entry(a);
+      of_point.function = phase.weights.function(k, a);
+      for (int j = 0; j < Dim; ++j) {
+        of_point.dN[j] = gradients[per_cell * j + a];
+        of_point.w += 2 * d[j] * of_point.dN[j];
       }
     }
-    const auto cell = phase.grid.cell_of(mirror);
-    const double reached = take_functions(per_cell, cell, Basis::evaluate(phase.grid, cell, mirror).N, phase);
+    const auto at_mirror = phase.functions.evaluate(phase.grid.cell_of(mirror), mirror);
+    const double reached = take_functions(per_cell, at_mirror, phase);
     if (reached > 1 - 1e-13) return;
     // There is no material at the mirror image: to first order.
-    const auto N = phase.weights.N(k, p);
+    typename PointFunctions<Dim>::Numbers N;
+    phase.weights.values(k, p, N);
     for (int a = 0; a < per_cell; ++a) {
-      function[per_cell + a] = -1;
-      w[a] = N[a] + w[a] / 2;
+      entry(per_cell + a).function = -1;
+      entry(a).w = N[a] + entry(a).w / 2;
     }
   }
 
   /// Belongs to the domain of a point from now on, which is still undeformed.
-  void attach(const PointInCell& nearest, const MaterialPoints<dim>& points) {
+  void attach(const PointInCell& nearest, const MaterialPoints<Dim>& points) {
     carrier = static_cast<std::size_t>(points.number[nearest.p]);
     X = x;
   }
   /// In the domain of point p, −1 to 1.
-  Point<dim> position_in(std::size_t p, const MaterialPoints<dim>& points) const {
-    Point<dim> xi;
-    for (int j = 0; j < dim; ++j) xi[j] = (X[j] - points.rest[j][p]) / points.half[j][p];
+  Point<Dim> position_in(std::size_t p, const MaterialPoints<Dim>& points) const {
+    Point<Dim> xi;
+    for (int j = 0; j < Dim; ++j) xi[j] = (X[j] - points.rest[j][p]) / points.half[j][p];
     return xi;
   }
   /// By the corners of that domain.
-  void freeze_in_domain(const PointInCell& of, const PhaseParts<B, K>& phase) {
-    clear();
+  void freeze_in_domain(const PointInCell& of, const PhaseParts<Dim>& phase) {
+    const int per_cell = phase.functions.per_cell();
+    entries.assign(static_cast<std::size_t>(per_cell), {});
     const auto [k, p] = of;
     const auto cell = phase.grid.cell_at(phase.points.cell[k]);
-    const auto domain = Domain<dim>::of(phase.points, p), in_grid = Domain<dim>::in_grid(phase.points, p, phase.grid);
-    const auto share = Domain<dim>::weights(position_in(p, phase.points));
+    const auto domain = Domain<Dim>::of(phase.points, p), in_grid = Domain<Dim>::in_grid(phase.points, p, phase.grid);
+    const auto share = Domain<Dim>::weights(position_in(p, phase.points));
     x.fill(0);
     for (int c = 0; c < domain.corners; ++c) {
-      const auto N = Basis::evaluate(phase.grid, cell, in_grid.x[c]).N;
-      for (int a = 0; a < per_cell; ++a) w[a] += share[c] * N[a];
-      for (int j = 0; j < dim; ++j) x[j] += share[c] * domain.x[c][j];
+      const auto N = phase.functions.evaluate(cell, in_grid.x[c]).N;
+      for (int a = 0; a < per_cell; ++a) entry(a).w += share[c] * N[a];
+      for (int j = 0; j < Dim; ++j) x[j] += share[c] * domain.x[c][j];
     }
-    const auto gradients = phase.weights.dN(k, p);
+    typename PointFunctions<Dim>::Slopes gradients;
+    phase.weights.slopes(k, p, gradients);
     for (int a = 0; a < per_cell; ++a) {
-      for (int j = 0; j < dim; ++j) {
-        dN[j][a] = gradients[per_cell * j + a];
+      Entry& of_domain = entry(a);
+      for (int j = 0; j < Dim; ++j) {
+        of_domain.dN[j] = gradients[per_cell * j + a];
         // Where the domain was shrunk: the moment is still that of x.
-        for (int c = 0; c < domain.corners; ++c) w[a] += share[c] * (domain.x[c][j] - in_grid.x[c][j]) * dN[j][a];
+        for (int c = 0; c < domain.corners; ++c)
+          of_domain.w += share[c] * (domain.x[c][j] - in_grid.x[c][j]) * of_domain.dN[j];
       }
-      const bool acts = phase.dofs.number[static_cast<std::size_t>(dim * phase.weights.function(k, a))] >= 0;
-      if (acts) function[a] = phase.weights.function(k, a);
+      const bool acts = phase.dofs.number[static_cast<std::size_t>(Dim * phase.weights.function(k, a))] >= 0;
+      if (acts) of_domain.function = phase.weights.function(k, a);
     }
   }
 
   /// The phase ends with u.
   void move(const double* u) {
-    for (int i = 0; i < dim; ++i) {
-      for (int a = 0; a < entries; ++a) {
-        if (function[a] >= 0) x[i] += w[a] * u[dim * function[a] + i];
+    for (int i = 0; i < Dim; ++i) {
+      for (const Entry& a : entries) {
+        if (a.function >= 0) x[i] += a.w * u[Dim * a.function + i];
       }
     }
   }
@@ -139,7 +149,7 @@ struct CarriedPoint {
   /// visit(entry, component, free degree of freedom, its share of the entry's function)
   template <class Visit>
   void for_free(const DegreesOfFreedom& dofs, const Visit& visit) const {
-    for_sources(dofs, [&](int a, int i, int dof, double share) {
+    for_sources(dofs, [&](const Entry& a, int i, int dof, double share) {
       if (dofs.is_free(dof)) visit(a, i, dof, share);
     });
   }
@@ -147,7 +157,7 @@ struct CarriedPoint {
   /// visit(entry, component, number of the prescribed unknown, its share)
   template <class Visit>
   void for_prescribed(const DegreesOfFreedom& dofs, const Visit& visit) const {
-    for_sources(dofs, [&](int a, int i, int dof, double share) {
+    for_sources(dofs, [&](const Entry& a, int i, int dof, double share) {
       if (!dofs.is_free(dof)) visit(a, i, static_cast<std::size_t>(dof) - dofs.size(), share);
     });
   }
@@ -155,39 +165,34 @@ struct CarriedPoint {
  private:
   template <class Visit>
   void for_sources(const DegreesOfFreedom& dofs, const Visit& visit) const {
-    for (int a = 0; a < entries; ++a) {
-      if (function[a] < 0) continue;
-      for (int i = 0; i < dim; ++i) {
-        dofs.for_sources(dim * function[a] + i, [&](int, int dof, double share) { visit(a, i, dof, share); });
+    for (const Entry& a : entries) {
+      if (a.function < 0) continue;
+      for (int i = 0; i < Dim; ++i) {
+        dofs.for_sources(Dim * a.function + i, [&](int, int dof, double share) { visit(a, i, dof, share); });
       }
     }
   }
-  void clear() {
-    function.fill(-1);
-    w.fill(0);
-    for (auto& along : dN) along.fill(0);
-  }
+  Entry& entry(int a) { return entries[static_cast<std::size_t>(a)]; }
   // The functions of a cell that material reaches, with weights N, from an entry on. Σ N of these.
-  double take_functions(int first, const std::array<int, dim>& cell, const std::array<double, per_cell>& N,
-                        const PhaseParts<B, K>& phase) {
-    const auto offset = Basis::offsets(phase.grid);
+  double take_functions(int first, const typename GridFunctions<Dim>::Values& values, const PhaseParts<Dim>& phase) {
     double reached = 0;
-    for (int a = 0; a < per_cell; ++a) {
-      const int number = Basis::first(phase.grid, cell) + offset[a];
-      w[first + a] = N[a];
-      if (phase.dofs.number[static_cast<std::size_t>(dim * number)] < 0) continue;
-      function[first + a] = number;
-      reached += N[a];
+    for (int a = 0; a < phase.functions.per_cell(); ++a) {
+      entry(first + a).w = values.N[a];
+      if (phase.dofs.number[static_cast<std::size_t>(Dim * values.function[a])] < 0) continue;
+      entry(first + a).function = values.function[a];
+      reached += values.N[a];
     }
     return reached;
   }
 };
 
 /// The cell whose functions are taken at a position of the grid.
-template <AxisBasis B, int Dim>
-std::array<int, Dim> cell_with_functions_at(const Grid<Dim>& grid, const Point<Dim>& x) {
+template <int Dim>
+std::array<int, Dim> cell_with_functions_at(const GridFunctions<Dim>& functions, const Point<Dim>& x) {
+  const Grid<Dim>& grid = functions.grid();
   auto cell = grid.cell_of(x);
-  for (int d = 0; d < Dim; ++d) cell[d] = std::clamp(cell[d], 0, std::max(grid.axes[d].cells() - B::window, 0));
+  for (int d = 0; d < Dim; ++d)
+    cell[d] = std::clamp(cell[d], 0, std::max(grid.axes[d].cells() - functions.window(), 0));
   return cell;
 }
 
@@ -215,14 +220,14 @@ std::vector<PointInCell> carriers_of(Loads& loads, const PositionOf& at_of, cons
 }
 
 /// Lets material points carry the positions at_of(load) in the phase that begins.
-template <AxisBasis B, Kinematics K, class Loads, class PositionOf>
-void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const PhaseParts<B, K>& phase) {
-  if constexpr (B::window == 1) {
-    const NearestPoint<dimensions(K)> nearest(phase.points, phase.grid);
+template <int Dim, class Loads, class PositionOf>
+void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const PhaseParts<Dim>& phase) {
+  if (phase.functions.window() == 1) {
+    const NearestPoint<Dim> nearest(phase.points, phase.grid);
     for (auto& load : loads) at_of(load).freeze(nearest.to(at_of(load).x), phase);
   } else {
     if (is_first) {
-      const NearestPoint<dimensions(K)> nearest(phase.points, phase.grid);
+      const NearestPoint<Dim> nearest(phase.points, phase.grid);
       for (auto& load : loads) at_of(load).attach(nearest.to(at_of(load).x), phase.points);
     }
     const std::vector<PointInCell> carriers = carriers_of(loads, at_of, phase.points);

@@ -16,8 +16,7 @@
 #include <limits>
 #include <vector>
 
-#include "space/grid/basis.hpp"
-#include "space/kernels/point_weights.hpp"
+#include "space/kernels/point_functions.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_domains.hpp"
 #include "space/points/surface_depths.hpp"
@@ -31,19 +30,15 @@ double cell_width(const Grid<Dim>& grid, Face face) {
   return is_upper(face) ? nodes.back() - nodes[nodes.size() - 2] : nodes[1] - nodes[0];
 }
 
-template <AxisBasis B, Kinematics K>
+template <int Dim>
 class FaceGaps {
-  static constexpr int dim = dimensions(K);
-  static constexpr int per_cell = PointWeights<B, K>::per_cell;
-  using Basis = TensorBasis<B, dim>;
-
  public:
   static constexpr double nothing = std::numeric_limits<double>::infinity();
 
   /// All outlive it, and are of the phase that begins.
-  FaceGaps(const Grid<dim>& grid, const MaterialPoints<dim>& points, const PointWeights<B, K>& weights,
-           SurfaceDepths<dim>& depths)
-      : grid_(grid), points_(points), weights_(weights), depths_(depths) {}
+  FaceGaps(const GridFunctions<Dim>& functions, const MaterialPoints<Dim>& points, const PointFunctions<Dim>& weights,
+           SurfaceDepths<Dim>& depths)
+      : window_(functions.window()), grid_(functions.grid()), points_(points), weights_(weights), depths_(depths) {}
 
   /// Of each of these functions of a face, ascending [m]; `nothing` if no material reaches it, 0 where it is not known.
   std::vector<double> of(Face face, const std::vector<int>& functions) const {
@@ -54,11 +49,15 @@ class FaceGaps {
     std::vector<double> gaps(functions.size(), nothing);
     for (std::size_t k = 0; k < points_.cells(); ++k) {
       const int from_face = upper ? cells - 1 - weights_.cell_at(k)[axis] : weights_.cell_at(k)[axis];
-      if (from_face >= B::window) continue;
+      if (from_face >= window_) continue;
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
         double gap = nothing;
-        for (int a = 0; a < per_cell; ++a) {
-          if (!reaches(k, p, a)) continue;
+        // Those of its cell that are zero at a point are so on a grid line alone; a domain need not reach into the next
+        // cell.
+        typename PointFunctions<Dim>::Numbers N;
+        if (window_ > 1) weights_.values(k, p, N);
+        for (int a = 0; a < weights_.functions_of_cell(); ++a) {
+          if (window_ > 1 && std::abs(N[a]) <= rounding) continue;
           const auto found = std::ranges::lower_bound(functions, weights_.function(k, a));
           if (found == functions.end() || *found != weights_.function(k, a)) continue;
           if (gap == nothing) gap = of_point(p, face, at);
@@ -80,12 +79,8 @@ class FaceGaps {
   double cell_at(Face face) const { return cell_width(grid_, face); }
 
  private:
-  // Those of its cell that are zero at a point are so on a grid line alone; a domain need not reach into the next cell.
-  bool reaches([[maybe_unused]] std::size_t k, [[maybe_unused]] std::size_t p, [[maybe_unused]] int a) const {
-    constexpr double rounding = 1e-12;
-    if constexpr (B::window == 1) return true;
-    return std::abs(weights_.N(k, p)[a]) > rounding;
-  }
+  static constexpr double rounding = 1e-12;
+
   double position_of(Face face) const {
     const Axis& across = grid_.axes[axis_of(face)];
     return is_upper(face) ? across.max() : across.min();
@@ -95,17 +90,18 @@ class FaceGaps {
     const double outward = is_upper(face) ? 1 : -1;
     if (points_.has_domains()) {
       double least = nothing;
-      for (const auto& corner : Domain<dim>::of(points_, p).x) least = std::min(least, outward * (at - corner[axis]));
+      for (const auto& corner : Domain<Dim>::of(points_, p).x) least = std::min(least, outward * (at - corner[axis]));
       return least;
     }
     const auto depth = depths_.along(face, points_.number[p], points_.position(p));
     return depth ? outward * (at - points_.x[axis][p]) - *depth : 0;
   }
 
-  const Grid<dim>& grid_;
-  const MaterialPoints<dim>& points_;
-  const PointWeights<B, K>& weights_;
-  SurfaceDepths<dim>& depths_;
+  int window_;
+  const Grid<Dim>& grid_;
+  const MaterialPoints<Dim>& points_;
+  const PointFunctions<Dim>& weights_;
+  SurfaceDepths<Dim>& depths_;
 };
 
 }  // namespace stillpoint

@@ -11,10 +11,10 @@
 
 namespace stillpoint {
 
-template <AxisBasis B, Kinematics K>
-class OwnBodyForceCondition final : public BoundaryCondition<B, K> {
-  static constexpr int dim = dimensions(K);
-  using typename BoundaryCondition<B, K>::Parts;
+template <int Dim>
+class OwnBodyForceCondition final : public BoundaryCondition<Dim> {
+  static constexpr std::size_t dim = Dim;
+  using typename BoundaryCondition<Dim>::Parts;
 
  public:
   explicit OwnBodyForceCondition(const Scene& scene) : own_(own_load(scene.own_load)) {
@@ -45,7 +45,7 @@ class OwnBodyForceCondition final : public BoundaryCondition<B, K> {
   }
 
  private:
-  void ask(double t) const { own_->b(t, dim, x_, b_); }
+  void ask(double t) const { own_->b(t, Dim, x_, b_); }
   auto at_points() const {
     return [this](std::size_t p, int i) { return b_[dim * p + static_cast<std::size_t>(i)]; };
   }

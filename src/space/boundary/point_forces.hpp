@@ -17,21 +17,20 @@
 
 namespace stillpoint {
 
-template <AxisBasis B, Kinematics K>
-class PointForces final : public BoundaryCondition<B, K> {
-  static constexpr int dim = dimensions(K);
-  using typename BoundaryCondition<B, K>::Parts;
+template <int Dim>
+class PointForces final : public BoundaryCondition<Dim> {
+  using typename BoundaryCondition<Dim>::Parts;
 
  public:
   explicit PointForces(const Scene& scene) : scene_(scene) {
-    for (const PointForceSpec& force : scene.forces) std::copy_n(force.at.begin(), dim, at_.emplace_back().x.begin());
+    for (const PointForceSpec& force : scene.forces) std::copy_n(force.at.begin(), Dim, at_.emplace_back().x.begin());
   }
 
   void begin_phase(const Parts& phase, Vec F) override {
     find(phase);
     varying_.clear();
     for (std::size_t f = 0; f < at_.size(); ++f) {
-      for (int i = 0; i < dim; ++i) {
+      for (int i = 0; i < Dim; ++i) {
         const Expression& value = scene_.forces[f].value[static_cast<std::size_t>(i)];
         Varying load{&value, weights_of(at_[f], i, phase.dofs)};
         if (value.uses('t')) {
@@ -48,8 +47,8 @@ class PointForces final : public BoundaryCondition<B, K> {
   }
   void add_load_on_supports(const Parts& phase, double t, const double*, Vec F_s) const override {
     for (std::size_t f = 0; f < at_.size(); ++f) {
-      at_[f].for_prescribed(phase.dofs, [&](int a, int i, std::size_t s, double share) {
-        F_s[s] += at_[f].w[a] * share * scene_.forces[f].value[static_cast<std::size_t>(i)]({}, t);
+      at_[f].for_prescribed(phase.dofs, [&](const auto& entry, int i, std::size_t s, double share) {
+        F_s[s] += entry.w * share * scene_.forces[f].value[static_cast<std::size_t>(i)]({}, t);
       });
     }
   }
@@ -74,32 +73,32 @@ class PointForces final : public BoundaryCondition<B, K> {
 
   void find(const Parts& phase) {
     for (std::size_t f = 0; f < at_.size() && !has_begun_; ++f) {
-      at_[f].freeze(cell_with_functions_at<B, dim>(phase.grid, at_[f].x), phase);
-      for (std::size_t a = 0; a < at_[f].w.size(); ++a) {
-        if (at_[f].function[a] < 0 && std::abs(at_[f].w[a]) > 1e-12)
+      at_[f].freeze(cell_with_functions_at<Dim>(phase.functions, at_[f].x), phase);
+      for (const auto& entry : at_[f].entries) {
+        if (entry.function < 0 && std::abs(entry.w) > 1e-12)
           throw_scene_error(scene_, fmt::format("force[{}].at", f), "there is no material at this place");
       }
     }
     if (has_phases(scene_)) {
-      freeze_carried<B, K>(
-          at_, [](CarriedPoint<B, K> & at) -> auto& { return at; }, !has_begun_, phase);
+      freeze_carried(
+          at_, [](CarriedPoint<Dim> & at) -> auto& { return at; }, !has_begun_, phase);
     }
     has_begun_ = true;
   }
 
-  static std::vector<std::pair<int, double>> weights_of(const CarriedPoint<B, K>& at, int component,
+  static std::vector<std::pair<int, double>> weights_of(const CarriedPoint<Dim>& at, int component,
                                                         const DegreesOfFreedom& dofs) {
     std::vector<std::pair<int, double>> weights;
-    at.for_free(dofs, [&](int a, int i, int dof, double share) {
-      if (i == component && at.w[a] != 0) weights.emplace_back(dof, at.w[a] * share);
+    at.for_free(dofs, [&](const auto& entry, int i, int dof, double share) {
+      if (i == component && entry.w != 0) weights.emplace_back(dof, entry.w * share);
     });
     return weights;
   }
 
   const Scene& scene_;
-  std::vector<CarriedPoint<B, K>> at_;  // of each force
-  bool has_begun_ = false;              // the first phase
-  std::vector<Varying> varying_;        // of the present phase
+  std::vector<CarriedPoint<Dim>> at_;  // of each force
+  bool has_begun_ = false;             // the first phase
+  std::vector<Varying> varying_;       // of the present phase
 };
 
 }  // namespace stillpoint

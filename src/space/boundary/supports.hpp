@@ -19,12 +19,10 @@
 
 namespace stillpoint {
 
-template <AxisBasis B, Kinematics K>
-class Supports final : public BoundaryCondition<B, K> {
-  static constexpr int dim = dimensions(K);
-  using Basis = TensorBasis<B, dim>;
-  using typename BoundaryCondition<B, K>::GridOf;
-  using typename BoundaryCondition<B, K>::Parts;
+template <int Dim>
+class Supports final : public BoundaryCondition<Dim> {
+  using typename BoundaryCondition<Dim>::Functions;
+  using typename BoundaryCondition<Dim>::Parts;
 
  public:
   Supports(const Scene& scene, double time_scale) : scene_(scene), rest_(Expression(0.0), time_scale) {
@@ -32,14 +30,14 @@ class Supports final : public BoundaryCondition<B, K> {
     touched_.resize(motions_.size());
   }
 
-  void hold(const GridOf& grid, const std::vector<char>& reached, const FaceGaps<B, K>& gaps,
+  void hold(const Functions& functions, const std::vector<char>& reached, const FaceGaps<Dim>& gaps,
             HeldUnknowns& held) override {
     for (std::size_t s = 0; s < motions_.size(); ++s) {
       if (holds_by_springs(scene_.grid, scene_.supports[s])) continue;
       if (scene_.supports[s].face) {
-        hold_face(s, grid, reached, gaps, held);
+        hold_face(s, functions, reached, gaps, held);
       } else {
-        hold_position(s, grid, reached, held);
+        hold_position(s, functions, reached, held);
       }
     }
   }
@@ -49,7 +47,7 @@ class Supports final : public BoundaryCondition<B, K> {
       if (!scene_.supports[s].face) continue;
       const int axis = axis_of(*scene_.supports[s].face);
       for (const auto& [function, gap] : touched_[s].waiting()) {
-        const int dof = phase.dofs.number[static_cast<std::size_t>(dim * function + axis)];
+        const int dof = phase.dofs.number[static_cast<std::size_t>(Dim * function + axis)];
         if (phase.dofs.is_free(dof)) waiting_.push_back({static_cast<std::size_t>(dof), outward(s), gap});
       }
     }
@@ -71,17 +69,18 @@ class Supports final : public BoundaryCondition<B, K> {
 
   double outward(std::size_t s) const { return is_upper(*scene_.supports[s].face) ? 1 : -1; }
 
-  void hold_position(std::size_t s, const GridOf& grid, const std::vector<char>& reached, HeldUnknowns& held) const {
+  void hold_position(std::size_t s, const Functions& functions, const std::vector<char>& reached,
+                     HeldUnknowns& held) const {
     const std::string key = fmt::format("support[{}].at", s);
     const SupportSpec& support = scene_.supports[s];
-    Point<dim> at;
-    std::copy_n(support.at.begin(), dim, at.begin());
-    const auto function = Basis::interpolating_function(grid, at);
+    Point<Dim> at;
+    std::copy_n(support.at.begin(), Dim, at.begin());
+    const auto function = functions.interpolating(at);
     if (!function) {
       throw_scene_error(scene_, key,
                         "the basis has no value of its own here; expected a stiffness, by which a spring holds");
     }
-    const int unknown = dim * *function + support.component;
+    const int unknown = Dim * *function + support.component;
     if (!reached[static_cast<std::size_t>(*function)])
       throw_scene_error(scene_, key, "no material reaches this support");
     if (held.is_prescribed(unknown)) throw_scene_error(scene_, key, "this place is supported already");
@@ -90,55 +89,54 @@ class Supports final : public BoundaryCondition<B, K> {
 
   // Every function that is not zero on the face and whose material lies on it, of a part those of its nodes: values
   // move with the support, slopes along it stay.
-  void hold_face(std::size_t s, const GridOf& grid, const std::vector<char>& reached, const FaceGaps<B, K>& gaps,
+  void hold_face(std::size_t s, const Functions& functions, const std::vector<char>& reached, const FaceGaps<Dim>& gaps,
                  HeldUnknowns& held) {
     const SupportSpec& support = scene_.supports[s];
     const int axis = axis_of(*support.face);
-    const std::vector<int> values = Basis::face_values(grid, axis, is_upper(*support.face));
-    std::vector<int> functions = Basis::face_functions(grid, axis, is_upper(*support.face));
-    std::erase_if(functions, [&](int function) {
-      return !reached[static_cast<std::size_t>(function)] || !is_in_part(support, grid, function);
+    const std::vector<int> values = functions.values_on_face(axis, is_upper(*support.face));
+    std::vector<int> on_face = functions.on_face(axis, is_upper(*support.face));
+    std::erase_if(on_face, [&](int function) {
+      return !reached[static_cast<std::size_t>(function)] || !is_in_part(support, functions, function);
     });
     const bool is_first = held.start() == 0;
-    const int count = Basis::count(grid);
-    const std::vector<int> touched = is_first ? touched_[s].first(*support.face, functions, gaps, count)
-                                              : touched_[s].next(*support.face, functions, gaps, count);
-    if (is_first && touched.empty() && !functions.empty()) {
+    const int count = functions.count();
+    const std::vector<int> touched = is_first ? touched_[s].first(*support.face, on_face, gaps, count)
+                                              : touched_[s].next(*support.face, on_face, gaps, count);
+    if (is_first && touched.empty() && !on_face.empty()) {
       throw_scene_error(scene_, fmt::format("support[{}].face", s),
                         gap_message("the nearest material", touched_[s].least(), gaps.cell_at(*support.face)) +
                             ", and a support holds what lies on it; expected a body that reaches the face, or a grid "
                             "that begins where the body does");
     }
     for (const int function : touched) {
-      for (int component = 0; component < dim; ++component) {
-        const int unknown = dim * function + component;
+      for (int component = 0; component < Dim; ++component) {
+        const int unknown = Dim * function + component;
         const bool named = component == support.component;
         if ((!named && support.roller) || held.is_prescribed(unknown)) continue;
         const bool moves = named && std::ranges::binary_search(values, function);
         const double from = component == axis ? outward(s) * touched_[s].gap_of_come(function) : 0;
-        held.prescribe(unknown, moves ? motion_at(s, grid, function) : rest_, s, from);
+        held.prescribe(unknown, moves ? motion_at(s, functions, function) : rest_, s, from);
       }
     }
   }
 
   // Of a formula of the position that at the function's node, where the value is its own (support_kind.hpp).
-  const PrescribedMotion& motion_at(std::size_t s, const GridOf& grid, int function) {
+  const PrescribedMotion& motion_at(std::size_t s, const Functions& functions, int function) {
     if (!motions_[s].varies_in_space()) return motions_[s];
-    std::vector<double> X(dim);
-    for (int d = 0; d < dim; ++d)
-      X[static_cast<std::size_t>(d)] = B::centre(grid.axes[d], Basis::index_along(grid, function, d));
+    std::vector<double> X(Dim);
+    for (int d = 0; d < Dim; ++d) X[static_cast<std::size_t>(d)] = functions.centre(function, d);
     const PrescribedMotion& motion =
         at_nodes_.insert_or_assign({s, function}, motions_[s].at(std::move(X))).first->second;
     check_motion(scene_, s, motion);
     return motion;
   }
 
-  bool is_in_part(const SupportSpec& support, const GridOf& grid, int function) const {
-    if (dim == 1 || !support.on_part()) return true;
+  bool is_in_part(const SupportSpec& support, const Functions& functions, int function) const {
+    if (Dim == 1 || !support.on_part()) return true;
     constexpr double rounding = 1e-9;  // of a cell
     return std::ranges::all_of(held_part(scene_.grid, support), [&](const FaceInterval& part) {
       const auto along = part.along;
-      const double x = B::centre(grid.axes[along], Basis::index_along(grid, function, static_cast<int>(along)));
+      const double x = functions.centre(function, static_cast<int>(along));
       const double slack = rounding * scene_.grid.cell_length(along);
       return x >= part.from - slack && x <= part.to + slack;
     });

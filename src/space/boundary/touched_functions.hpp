@@ -34,8 +34,8 @@ class TouchedFunctions {
   /// Of these functions of a face, ascending, which material reaches, those that are touched, as the first phase
   /// begins: nothing is held across a gap. Of a body that touches the face in a position between its points, those
   /// nearest to it.
-  template <AxisBasis B, Kinematics K>
-  std::vector<int> first(Face face, const std::vector<int>& reached, const FaceGaps<B, K>& gaps, int functions) {
+  template <int Dim>
+  std::vector<int> first(Face face, const std::vector<int>& reached, const FaceGaps<Dim>& gaps, int functions) {
     functions_ = functions;
     const std::vector<double> gap = gaps.of(face, reached);
     least_ = gap.empty() ? 0 : *std::ranges::min_element(gap);
@@ -54,8 +54,8 @@ class TouchedFunctions {
   }
   /// The same as a later phase begins. What was held stays so; what has come to the face is held from now on. Where the
   /// number of functions is another one, the grid's lines have moved.
-  template <AxisBasis B, Kinematics K>
-  std::vector<int> next(Face face, const std::vector<int>& reached, const FaceGaps<B, K>& gaps, int functions) {
+  template <int Dim>
+  std::vector<int> next(Face face, const std::vector<int>& reached, const FaceGaps<Dim>& gaps, int functions) {
     constexpr double near = 0.01;  // of a cell
     if (!std::exchange(is_restored_, false)) come_.clear();
     const std::vector<Apart> waited = std::exchange(waiting_, {});

@@ -22,11 +22,12 @@ namespace stillpoint {
 /// Dead ones, t(X, t) dA per undeformed area, and pressures that follow the deformed surface, −p(X, t) n da =
 /// −p cof(f) N dA. X: the undeformed position.
 /// They act on pieces of the border, which carry the undeformed area.
-template <AxisBasis B, Kinematics K>
-class Tractions final : public BoundaryCondition<B, K> {
+template <Kinematics K>
+class Tractions final : public BoundaryCondition<dimensions(K)> {
   static constexpr int dim = dimensions(K);
-  using typename BoundaryCondition<B, K>::GridOf;
-  using typename BoundaryCondition<B, K>::Parts;
+  using GridOf = Grid<dim>;
+  using typename BoundaryCondition<dim>::Parts;
+  using Entry = typename CarriedPoint<dim>::Entry;
 
  public:
   Tractions(const Scene& scene, const GridOf& grid) : scene_(scene) {
@@ -40,7 +41,7 @@ class Tractions final : public BoundaryCondition<B, K> {
 
   void begin_phase(const Parts& phase, Vec) override {
     if (has_phases(scene_)) {
-      freeze_carried<B, K>(
+      freeze_carried(
           pieces_, [](Piece & piece) -> auto& { return piece.at; }, !has_begun_, phase);
       has_begun_ = true;
       return;
@@ -49,8 +50,8 @@ class Tractions final : public BoundaryCondition<B, K> {
       const double reached = piece.at.freeze(cell_inside(piece, phase.grid), phase);
       if (!(reached > 1e-12)) throw_scene_error(scene_, "traction", "there is no material at this face");
       // Detached from some of the cell's nodes, it loads the others with all of its force.
-      if constexpr (B::partition_of_unity) {
-        for (double& w : piece.at.w) w /= reached;
+      if (phase.functions.partition_of_unity()) {
+        for (Entry& entry : piece.at.entries) entry.w /= reached;
       }
     }
   }
@@ -77,7 +78,7 @@ class Tractions final : public BoundaryCondition<B, K> {
     for (const Piece& piece : pieces_) {
       const auto force = force_of(piece, u);
       piece.at.for_prescribed(
-          phase.dofs, [&](int a, int i, std::size_t s, double share) { F_s[s] += force[i] * piece.at.w[a] * share; });
+          phase.dofs, [&](const Entry& a, int i, std::size_t s, double share) { F_s[s] += force[i] * a.w * share; });
     }
   }
   // Unsymmetric.
@@ -86,10 +87,10 @@ class Tractions final : public BoundaryCondition<B, K> {
     for (const Piece& piece : pieces_) {
       if (!piece.traction->pressure) continue;
       const double p = piece.value[0];
-      piece.at.for_free(phase.dofs, [&](int b, int j, int column, double share_b) {
+      piece.at.for_free(phase.dofs, [&](const Entry& b, int j, int column, double share_b) {
         const auto change = area_derivative(piece, u, b, j);
-        piece.at.for_free(phase.dofs, [&](int a, int i, int row, double share_a) {
-          K_F.emplace_back(row, column, -p * change[i] * share_b * piece.at.w[a] * share_a);
+        piece.at.for_free(phase.dofs, [&](const Entry& a, int i, int row, double share_a) {
+          K_F.emplace_back(row, column, -p * change[i] * share_b * a.w * share_a);
         });
       });
     }
@@ -113,13 +114,13 @@ class Tractions final : public BoundaryCondition<B, K> {
     const TractionSpec* traction;
     Point<dim> X;                           // undeformed [m]
     mutable std::array<double, dim> value;  // at the time of the last evaluation: the traction, or the pressure [Pa]
-    CarriedPoint<B, K> at;
+    CarriedPoint<dim> at;
     double area;                     // undeformed [m²]
     std::array<double, dim> vector;  // n da when the phase begins [m²]
   };
 
   void add_piece(const TractionSpec& traction, const Point<dim>& x, double area, const Point<dim>& normal) {
-    CarriedPoint<B, K> at{};
+    CarriedPoint<dim> at{};
     at.x = x;
     Piece& piece =
         pieces_.emplace_back(Piece{.traction = &traction, .X = x, .value = {}, .at = at, .area = area, .vector = {}});
@@ -147,14 +148,14 @@ class Tractions final : public BoundaryCondition<B, K> {
       return times_normal(ChangeOfVolume<K>::cofactor(deformation(piece, u)), piece);
     }
   }
-  // Of that by component j of local function b.
-  std::array<double, dim> area_derivative(const Piece& piece, const double* u, int b, int j) const {
+  // Of that by component j of a function.
+  std::array<double, dim> area_derivative(const Piece& piece, const double* u, const Entry& b, int j) const {
     if constexpr (dim == 1) {
       return {};
     } else {
       TensorOf<K> df{};
-      for (int i = 0; i < dim; ++i) df[dim * j + i] = piece.at.dN[i][b];
-      if (j == 0 && has_hoop(piece)) df[hoop] = piece.at.w[b] / piece.at.x[0];
+      for (int i = 0; i < dim; ++i) df[dim * j + i] = b.dN[i];
+      if (j == 0 && has_hoop(piece)) df[hoop] = b.w / piece.at.x[0];
       return times_normal(ChangeOfVolume<K>::cofactor_rate(deformation(piece, u), df), piece);
     }
   }
@@ -172,12 +173,12 @@ class Tractions final : public BoundaryCondition<B, K> {
   static TensorOf<K> deformation(const Piece& piece, const double* u) {
     TensorOf<K> f = plus_identity<K>({});
     double u_r = 0;
-    for (int a = 0; a < piece.at.entries; ++a) {
-      if (piece.at.function[a] < 0) continue;
-      const double* of_function = u + dim * piece.at.function[a];
-      u_r += piece.at.w[a] * of_function[0];
+    for (const Entry& a : piece.at.entries) {
+      if (a.function < 0) continue;
+      const double* of_function = u + dim * a.function;
+      u_r += a.w * of_function[0];
       for (int i = 0; i < dim; ++i) {
-        for (int j = 0; j < dim; ++j) f[dim * i + j] += of_function[i] * piece.at.dN[j][a];
+        for (int j = 0; j < dim; ++j) f[dim * i + j] += of_function[i] * a.dN[j];
       }
     }
     if (has_hoop(piece)) f[hoop] += u_r / piece.at.x[0];
@@ -230,8 +231,8 @@ class Tractions final : public BoundaryCondition<B, K> {
     return force;
   }
   static void add_force(const Piece& piece, const DegreesOfFreedom& dofs, const std::array<double, dim>& force, Vec F) {
-    piece.at.for_free(dofs, [&](int a, int i, int dof, double share) {
-      F[static_cast<std::size_t>(dof)] += force[i] * piece.at.w[a] * share;
+    piece.at.for_free(dofs, [&](const Entry& a, int i, int dof, double share) {
+      F[static_cast<std::size_t>(dof)] += force[i] * a.w * share;
     });
   }
 

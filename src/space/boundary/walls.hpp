@@ -18,12 +18,10 @@
 
 namespace stillpoint {
 
-template <AxisBasis B, Kinematics K>
-class Walls final : public BoundaryCondition<B, K>, private Contact {
-  static constexpr int dim = dimensions(K);
-  using Basis = TensorBasis<B, dim>;
-  using typename BoundaryCondition<B, K>::GridOf;
-  using typename BoundaryCondition<B, K>::Parts;
+template <int Dim>
+class Walls final : public BoundaryCondition<Dim>, private Contact {
+  using typename BoundaryCondition<Dim>::Functions;
+  using typename BoundaryCondition<Dim>::Parts;
 
  public:
   /// The scene outlives it.
@@ -34,12 +32,12 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
     }
   }
 
-  void hold(const GridOf& grid, const std::vector<char>& reached, const FaceGaps<B, K>& gaps,
+  void hold(const Functions& functions, const std::vector<char>& reached, const FaceGaps<Dim>& gaps,
             HeldUnknowns& held) override {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
-      wall.functions = Basis::face_values(grid, axis_of(wall.face), is_upper(wall.face));
-      for (const int function : wall.functions) held.guide(dim * function + axis_of(wall.face));
+      wall.functions = functions.values_on_face(axis_of(wall.face), is_upper(wall.face));
+      for (const int function : wall.functions) held.guide(Dim * function + axis_of(wall.face));
       if (!has_phases(scene_)) check_gaps(w, gaps);
       take_gaps(wall, reached, gaps);
     }
@@ -54,10 +52,10 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
       const int normal = axis_of(wall.face);
       std::vector<WallContact::Node> nodes;
       for (const int function : wall.functions) {
-        WallContact::Node node{.normal = free_dof(dim * function + normal), .gap = wall.gaps[nodes.size()]};
-        for (int axis = 0, k = 0; axis < dim; ++axis) {
+        WallContact::Node node{.normal = free_dof(Dim * function + normal), .gap = wall.gaps[nodes.size()]};
+        for (int axis = 0, k = 0; axis < Dim; ++axis) {
           if (axis == normal) continue;
-          const int along = dim * function + axis;
+          const int along = Dim * function + axis;
           node.along[static_cast<std::size_t>(k++)] = phase.held.is_guided(along) ? -1 : free_dof(along);
         }
         nodes.push_back(node);
@@ -118,7 +116,7 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
 
   // In a single phase functions stay what they are: what does not lie on a wall when the run begins touches it through
   // a layer without material, or not at all.
-  void check_gaps(std::size_t w, const FaceGaps<B, K>& gaps) const {
+  void check_gaps(std::size_t w, const FaceGaps<Dim>& gaps) const {
     const Face face = walls_[w].face;
     const double cell = gaps.cell_at(face), nearest = gaps.least_of_bodies(face);
     const auto refuse = [&](const std::string& what, double gap) {
@@ -134,7 +132,7 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
     }
   }
   // Of the functions that are not closed where their material touches.
-  static void take_gaps(Wall& wall, const std::vector<char>& reached, const FaceGaps<B, K>& gaps) {
+  static void take_gaps(Wall& wall, const std::vector<char>& reached, const FaceGaps<Dim>& gaps) {
     wall.gaps.assign(wall.functions.size(), 0);
     std::vector<int> asked;
     std::vector<std::size_t> place;
@@ -153,7 +151,7 @@ class Walls final : public BoundaryCondition<B, K>, private Contact {
     return has_phases(scene_) && scene_.stop.wants_equilibrium() ? share * cell : WallMotion::unlimited;
   }
   // How far the grid's face has moved since the start [m].
-  double moved(Face face, const GridOf& grid) const {
+  double moved(Face face, const Grid<Dim>& grid) const {
     const auto axis = static_cast<std::size_t>(axis_of(face));
     return is_upper(face) ? grid.axes[axis].max() - scene_.grid.max[axis]
                           : grid.axes[axis].min() - scene_.grid.min[axis];

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -153,11 +154,14 @@ class NeighbourMatrix {
   std::vector<double> entry_;             // (functions × Dim × neighbours × Dim): column, component, row, component
 };
 
+template <AxisBasis B, Kinematics K>
+using AddCell = std::function<void(std::size_t k, CellMatrix<dimensions(K), PointWeights<B, K>::per_cell>& matrix)>;
+
 /// Σ_cells of add_cell(cell k, cell matrix).
-template <AxisBasis B, Kinematics K, class AddCell>
+template <AxisBasis B, Kinematics K>
 SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
                                  const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs,
-                                 const AddCell& add_cell) {
+                                 const AddCell<B, K>& add_cell) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   NeighbourMatrix<B, dim> sum(grid);
   for (std::size_t k = 0; k < points.cells(); ++k) {
@@ -174,9 +178,10 @@ SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const Material
 template <AxisBasis B, Kinematics K, class AddPoint>
 SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
                            const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs, const AddPoint& add_point) {
-  return assemble_whole_cells<B, K>(grid, points, weights, dofs, [&](std::size_t k, auto& matrix) {
-    for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
-  });
+  return assemble_whole_cells<B, K>(
+      grid, points, weights, dofs, [&](std::size_t k, CellMatrix<dimensions(K), PointWeights<B, K>::per_cell>& matrix) {
+        for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
+      });
 }
 
 /// M_ij = Σ_p m_p N_ip N_jp for each component.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/lanes.hpp"
+#include "space/kernels/mean_dilatation.hpp"
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
 
@@ -95,5 +96,12 @@ class CellSums {
   const MaterialPoints<dimensions(K)>& points_;
   const double* volume_share_;
 };
+
+template <Kinematics K>
+using MeanOverCells = MeanDilatation<K, CellSums<K>>;
+
+extern template class MeanDilatation<Kinematics::plane, CellSums<Kinematics::plane>>;
+extern template class MeanDilatation<Kinematics::axisymmetric, CellSums<Kinematics::axisymmetric>>;
+extern template class MeanDilatation<Kinematics::space, CellSums<Kinematics::space>>;
 
 }  // namespace stillpoint

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -53,13 +54,18 @@ class NodalForce {
 
   const CornerSum& corner_sum() const { return corner_sum_; }
 
+  // Called once a block of up to 128 points, so that the call costs nothing, and the loops around it are compiled once.
+  // What captures more than two words is handed over by std::ref(), or it would be copied to the heap.
+  using Answer = std::function<double(std::size_t material, Block& block)>;
+  using Visit = std::function<void(std::size_t material, Block& block)>;
+
   /// answer(material number, block) turns block.H (and dH, of u − u_before, if Increments) into block.VP and returns
   /// 0, or NaN if it cannot. u, u_before and, if Directed, the direction that goes to block.direction: over the
   /// grid's functions, component i at [dim function + i].
   /// R: forces at the free degrees of freedom, (n); reactions: at the prescribed ones, unless
   /// Directed.
   /// False if an answer was NaN.
-  template <bool Increments, bool Directed = false, class Answer>
+  template <bool Increments, bool Directed = false>
   bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
                 Vec reactions, const double* direction = nullptr) {
     double bad = 0;
@@ -105,7 +111,7 @@ class NodalForce {
 
   /// visit(material number, block) with block.H filled (and dH, and direction, as in evaluate()), which it may change,
   /// in parallel.
-  template <bool Increments = false, bool Directed = false, class Visit>
+  template <bool Increments = false, bool Directed = false>
   void visit(const double* u, const Visit& visit, const double* u_before = nullptr,
              const double* direction = nullptr) const {
 #pragma omp parallel if (points_->size() > points_for_threads)

@@ -19,9 +19,10 @@ namespace stillpoint {
 /// At P points, in their present order.
 template <int Components, int Dim>
 struct PointValues {
-  std::vector<std::array<double, Components>> value;           // w_p
-  std::vector<std::array<double, Components * Dim>> gradient;  // g_p, ∂w_i/∂x_j at [Dim i + j] [1/m]
-  std::vector<double> mass;                                    // m_p, 0 at points that have no part
+  std::vector<std::array<double, Components>> value;  // w_p
+  // g_p, ∂w_i/∂x_j at [Dim i + j] [1/m]; none: not known, as 0.
+  std::vector<std::array<double, Components * Dim>> gradient;
+  std::vector<double> mass;  // m_p, 0 at points that have no part
 };
 
 struct PointFitOptions {
@@ -90,6 +91,9 @@ class PointFit {
   }
 
  private:
+  std::array<double, Components * dim> known_gradient(std::size_t p) const {
+    return values_.gradient.empty() ? std::array<double, Components * dim>{} : values_.gradient[p];
+  }
   // Σ_a z_a ∂N_ap/∂x_j, component i at [dim i + j]
   std::array<double, Components * dim> gradient(const std::vector<double>& z, std::size_t k, std::size_t p) const {
     const auto dN = weights_.dN(k, p);
@@ -134,7 +138,7 @@ class PointFit {
       return a;
     };
     return moments([&](std::size_t k, std::size_t p) { return minus(values_.value[p], value(z, k, p)); },
-                   [&](std::size_t k, std::size_t p) { return minus(values_.gradient[p], gradient(z, k, p)); });
+                   [&](std::size_t k, std::size_t p) { return minus(known_gradient(p), gradient(z, k, p)); });
   }
 
   // Σ_p m_p term(N_ip, β Σ_j h_j² (∂N_ip/∂x_j)²), (functions)
@@ -171,10 +175,11 @@ class PointFit {
         if (values_.mass[p] == 0) continue;
         const auto N = weights_.N(k, p);
         const Point<dim> x = points_.position(p);
+        const auto g = known_gradient(p);
         for (int a = 0; a < per_cell; ++a) {
           for (int i = 0; i < Components; ++i) {
             double w = values_.value[p][i];
-            for (int j = 0; j < dim; ++j) w += values_.gradient[p][dim * i + j] * (centre[j][a] - x[j]);
+            for (int j = 0; j < dim; ++j) w += g[dim * i + j] * (centre[j][a] - x[j]);
             corner[Components * a + i] += values_.mass[p] * N[a] * w;
           }
         }

@@ -12,7 +12,7 @@
 #include "base/memory_report.hpp"
 #include "base/parallel_loop.hpp"
 #include "space/grid/basis.hpp"
-#include "space/grid/degrees_of_freedom.hpp"
+#include "space/kernels/point_functions.hpp"
 #include "space/materials/deformation.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_domains.hpp"
@@ -28,7 +28,7 @@ namespace stillpoint {
 /// functions in space the factors along each axis are kept, 18 numbers for 27 functions and their gradients, of which
 /// they are products.
 template <AxisBasis B, Kinematics K>
-class PointWeights {
+class PointWeights final : public PointFunctions<dimensions(K)> {
  public:
   static constexpr int dim = dimensions(K);
   using Basis = TensorBasis<B, dim>;
@@ -44,6 +44,8 @@ class PointWeights {
     Point<dim> left, side, inverse_side;  // [m], [m], [1/m]
   };
 
+  PointWeights() : PointFunctions<dim>(per_cell) {}
+
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
     rebuild(grid, points, [](std::size_t) {});
   }
@@ -51,7 +53,7 @@ class PointWeights {
   template <class After>
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points, const After& after) {
     points_ = &points;
-    offset_ = Basis::offsets(grid);
+    std::ranges::copy(Basis::offsets(grid), offset_.begin());
     first_.resize(points.cells());
     at_.resize(points.cells());
     if constexpr (from_positions) {
@@ -84,10 +86,6 @@ class PointWeights {
     });
   }
 
-  /// Where occupied cell k is in the grid.
-  const std::array<int, dim>& cell_at(std::size_t k) const { return at_[k]; }
-  /// Grid number of local function a in occupied cell k.
-  int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
   /// N_a, [a] (per_cell), of point p in occupied cell k.
   auto N([[maybe_unused]] std::size_t k, std::size_t p) const {
     if constexpr (from_positions && dim == 3) {
@@ -156,22 +154,12 @@ class PointWeights {
   const double* factor(int axis, int a) const { return factor_[number_of_factor(axis, a)].data(); }
   const double* slope(int axis, int a) const { return factor_[number_of_factor(axis, B::per_cell + a)].data(); }
 
-  /// F_a += N_ap value, in one component, at the free degrees of freedom; F: (n).
-  void add_at_functions(std::size_t k, std::size_t p, int component, double value, const DegreesOfFreedom& dofs,
-                        Vec F) const {
-    const auto values = N(k, p);
-    for (int a = 0; a < per_cell; ++a) {
-      dofs.for_sources(dim * function(k, a) + component, [&](int, int dof, double share) {
-        if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += value * share * values[a];
-      });
-    }
-  }
   /// Σ_a N_ap u_a at point p of cell k; u over the grid's functions, component i at [dim function + i].
   std::array<double, dim> value(const double* u, std::size_t k, std::size_t p) const {
     const auto values = N(k, p);
     std::array<double, dim> sum{};
     for (int a = 0; a < per_cell; ++a) {
-      for (int i = 0; i < dim; ++i) sum[i] += u[dim * function(k, a) + i] * values[a];
+      for (int i = 0; i < dim; ++i) sum[i] += u[dim * this->function(k, a) + i] * values[a];
     }
     return sum;
   }
@@ -180,13 +168,22 @@ class PointWeights {
     const auto gradients = dN(k, p);
     TensorOf<K> H{};
     for (int a = 0; a < per_cell; ++a) {
-      const double* of_function = u + dim * function(k, a);
+      const double* of_function = u + dim * this->function(k, a);
       for (int i = 0; i < dim; ++i) {
         for (int j = 0; j < dim; ++j) H[dim * i + j] += of_function[i] * gradients[per_cell * j + a];
       }
       if constexpr (rows > dim) H[dim * dim] += of_function[0] * gradients[per_cell * dim + a];
     }
     return H;
+  }
+
+  void values(std::size_t k, std::size_t p, typename PointFunctions<dim>::Numbers& of_point) const override {
+    const auto found = N(k, p);
+    for (int a = 0; a < per_cell; ++a) of_point[a] = found[a];
+  }
+  void slopes(std::size_t k, std::size_t p, typename PointFunctions<dim>::Slopes& of_point) const override {
+    const auto found = dN(k, p);
+    for (int i = 0; i < dim * per_cell; ++i) of_point[i] = found[i];
   }
 
  private:
@@ -291,10 +288,11 @@ class PointWeights {
     }
   }
 
+  using PointFunctions<dim>::offset_;
+  using PointFunctions<dim>::at_;
+  using PointFunctions<dim>::first_;
+
   const MaterialPoints<dim>* points_ = nullptr;
-  std::array<int, per_cell> offset_;
-  std::vector<std::array<int, dim>> at_;  // (occupied cells)
-  std::vector<int> first_;                // (occupied cells)
   // Either the functions,
   std::vector<double> N_;   // (P × per_cell)
   std::vector<double> dN_;  // (P × rows × per_cell) [1/m]

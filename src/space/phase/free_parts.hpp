@@ -1,75 +1,25 @@
 // Parts of the body that nothing holds along an axis: what could move off as a whole.
 #pragma once
 
-#include <map>
-#include <numeric>
-#include <utility>
 #include <vector>
 
-#include "space/kernels/point_weights.hpp"
+#include "space/kernels/point_functions.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
 
-/// sprung: whether a spring of a support acts on an unknown of the grid. as_one: whether what shares no function counts
-/// as one part all the same.
-template <AxisBasis B, Kinematics K>
-std::vector<FreePart> find_free_parts(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
-                                      const DegreesOfFreedom& dofs, const std::vector<char>& sprung, bool as_one) {
-  constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
-  constexpr int first_axis = K == Kinematics::axisymmetric ? 1 : 0;  // all points move outwards against hoop stress
-  constexpr int nowhere = -1;
-  // Functions of one cell are of one part: each points to another of its part, the first to itself.
-  std::vector<int> next(dofs.number.size() / dim);
-  std::iota(next.begin(), next.end(), 0);
-  const auto first_of = [&next](int f) {
-    while (next[static_cast<std::size_t>(f)] != f) {
-      int& to = next[static_cast<std::size_t>(f)];
-      f = to = next[static_cast<std::size_t>(to)];
-    }
-    return f;
-  };
-  int last = nowhere;
-  for (std::size_t k = 0; k < points.cells(); ++k) {
-    if (!as_one) last = nowhere;
-    for (int a = 0; a < per_cell; ++a) {
-      const int f = weights.function(k, a);
-      dofs.for_sources(dim * f, [&](int unknown, int, double) {
-        const int source = unknown / dim;
-        if (last != nowhere) next[static_cast<std::size_t>(first_of(source))] = first_of(last);
-        last = source;
-      });
-    }
-  }
+/// What of a phase tells parts of its body apart.
+template <int Dim>
+struct BodyOnGrid {
+  const GridFunctions<Dim>& functions;
+  const MaterialPoints<Dim>& points;
+  const PointFunctions<Dim>& weights;
+};
 
-  using Basis = TensorBasis<B, dim>;
-  struct Found {
-    FreePart part;
-    bool held = false;
-  };
-  std::map<std::pair<int, int>, Found> all;  // by first function and axis
-  std::vector<char> seen(dofs.number.size(), 0);
-  for (std::size_t k = 0; k < points.cells(); ++k) {
-    for (int a = 0; a < per_cell; ++a) {
-      const int f = weights.function(k, a);
-      for (int i = first_axis; i < dim && Basis::is_value(a); ++i) {
-        const auto unknown = static_cast<std::size_t>(dim * f + i);
-        const int dof = dofs.number[unknown];
-        if (dof < 0 || dofs.is_extended(dof) || std::exchange(seen[unknown], 1)) continue;
-        auto [found, is_new] = all.try_emplace({first_of(f), i});
-        FreePart& part = found->second.part;
-        if (is_new) part.axis = i, part.point = static_cast<std::size_t>(points.number[points.begin(k)]);
-        if (!dofs.is_free(dof) || sprung[unknown]) found->second.held = true;
-        part.unknowns.push_back(static_cast<std::size_t>(dof));
-      }
-    }
-  }
-  std::vector<FreePart> free;
-  for (auto& [key, found] : all) {
-    found.part.is_whole = all.begin()->first.first == all.rbegin()->first.first;
-    if (!found.held) free.push_back(std::move(found.part));
-  }
-  return free;
-}
+/// first_axis: 1 if axisymmetric, as all points move outwards against hoop stress. sprung: whether a spring of a
+/// support acts on an unknown of the grid. as_one: whether what shares no function counts as one part all the same.
+template <int Dim>
+std::vector<FreePart> find_free_parts(const BodyOnGrid<Dim>& body, int first_axis, const DegreesOfFreedom& dofs,
+                                      const std::vector<char>& sprung, bool as_one);
 
 }  // namespace stillpoint

@@ -65,7 +65,7 @@ class LawGradients {
     }
     std::array<double, Block::size + CellSums<K>::slack> share{};
     CellSums<K>::take_shares(points, block_.first, end, share.data());
-    MeanDilatation<K, CellSums<K>>({points, share.data()}, finite).average(block_);
+    MeanOverCells<K>({points, share.data()}, finite).average(block_);
   }
 
   const Body<K>& body_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -20,6 +21,7 @@
 #include "space/boundary/load_control.hpp"
 #include "space/boundary/weak_supports.hpp"
 #include "space/grid/extended_functions.hpp"
+#include "space/grid/grid_functions.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/elastic_cells.hpp"
@@ -58,7 +60,7 @@ class MaterialPointPhase final : public LagrangianPhase,
         body_(make_body<K>(scene, grid_, moves_on(scene))),
         transfer_(scene.phase, !is_undamped(scene.damping.strategy)),
         inertia_(scene.mass, moves_on(scene)),
-        boundary_(make_boundary_conditions<B, K>(scene_, grid_, time_scale())),
+        boundary_(make_boundary_conditions<K>(scene_, grid_, time_scale())),
         axis_(scene_, grid_, body_, time_scale()),
         weak_supports_(scene_, grid_, time_scale()),
         load_control_(scene, grid_, time_scale()),
@@ -210,7 +212,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void take_saved_grid();
   void resume_phase(double t);
   void make_weights();
-  FaceGaps<B, K> face_gaps() { return {grid_, body_.points, weights_, depths_}; }
+  FaceGaps<Dim> face_gaps() { return {functions_, body_.points, weights_, depths_}; }
   std::vector<char> active_functions() const;
   bool follows_positions();
   void weigh_motion();
@@ -247,8 +249,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   double spread_and_measure(double t, ConstVec u, std::vector<double>& grid) const;
   double largest_strain(const double* grid_u) const;
 
-  PhaseParts<B, K> parts() const {
-    return {grid_, body_.points, weights_, held_, *dofs_, inertia_.mass(), *mass_, history_dependent_};
+  PhaseParts<Dim> parts() const {
+    return {grid_, functions_, body_.points, weights_, held_, *dofs_, inertia_.mass(), *mass_, history_dependent_};
   }
 
   // --- values at the grid's functions and at the points --------------------------------------------
@@ -303,13 +305,14 @@ class MaterialPointPhase final : public LagrangianPhase,
   bool history_dependent_ = false;
   double grid_moved_ = 0;  // by the wall that it follows [m]
   Grid<Dim> grid_;
+  const FunctionsOfBasis<B, Dim> functions_{grid_};
   Body<K> body_;
   VelocityTransfer<B, K> transfer_;
   NodalInertia<B, K> inertia_;
-  BoundaryConditions<B, K> boundary_;
-  AxisOfSymmetry<B, K> axis_;
-  WeakSupports<B, K> weak_supports_;
-  LoadControl<B, K> load_control_;
+  BoundaryConditions<Dim> boundary_;
+  AxisOfSymmetry<K> axis_;
+  WeakSupports<K> weak_supports_;
+  LoadControl<K> load_control_;
   Contact* contact_ = nullptr;  // of one of them
   PointOrder<Dim> order_;
   // Positions at the start of the run, in the points' order of then, (P × Dim); none if points stay where they are.

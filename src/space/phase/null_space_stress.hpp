@@ -17,7 +17,6 @@ double MaterialPointPhase<B, K>::null_space_stress(double t, ConstVec u) const {
   const MaterialPoints<Dim>& points = body_.points;
   typename Fit::Values of_points;
   of_points.value.resize(points.size());
-  of_points.gradient.resize(points.size());  // not known
   const auto shared = shared_dilatation(grid_u_.data());
   LawGradients<B, K> gradients(body_, weights_, shared, grid_u_.data());
   for_points([&](std::size_t k, std::size_t p, std::size_t) {

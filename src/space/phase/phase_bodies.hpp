@@ -9,7 +9,7 @@ namespace stillpoint {
 template <AxisBasis B, Kinematics K>
 std::vector<BodyGap> MaterialPointPhase<B, K>::body_gaps() const {
   if (scene_.bodies.size() < 2) return {};
-  return BodyNeighbours<B, K>(scene_, grid_, body_.points, weights_, body_.first_number).find(phase_ == 0);
+  return BodyNeighbours<Dim>(scene_, functions_, body_.points, weights_, body_.first_number).find(phase_ == 0);
 }
 
 template <AxisBasis B, Kinematics K>
@@ -19,7 +19,7 @@ std::vector<HeldAxes> MaterialPointPhase<B, K>::held_bodies() const {
   for (const Springs::Weight& weight : weak_supports_.springs().weights())
     is_sprung[static_cast<std::size_t>(weight.unknown)] = 1;
   const auto bodies =
-      BodyNeighbours<B, K>(scene_, grid_, body_.points, weights_, body_.first_number).bodies_of_functions();
+      BodyNeighbours<Dim>(scene_, functions_, body_.points, weights_, body_.first_number).bodies_of_functions();
   for (std::size_t f = 0; f < bodies.size(); ++f) {
     for (std::size_t axis = 0; axis < Dim; ++axis) {
       const auto unknown = static_cast<int>(Dim * f + axis);

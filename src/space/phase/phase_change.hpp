@@ -94,9 +94,9 @@ void MaterialPointPhase<B, K>::place_functions(double t) {
 template <AxisBasis B, Kinematics K>
 HeldUnknowns MaterialPointPhase<B, K>::take_hold(double t, const std::vector<char>& reached) {
   HeldUnknowns held(Dim * reached.size(), t);
-  const FaceGaps<B, K> gaps = face_gaps();
-  for (const auto& condition : boundary_) condition->hold(grid_, reached, gaps, held);
-  axis_.hold(grid_, body_.points, weights_, reached, held);
+  const FaceGaps<Dim> gaps = face_gaps();
+  for (const auto& condition : boundary_) condition->hold(functions_, reached, gaps, held);
+  axis_.hold(functions_, body_.points, weights_, reached, held);
   return held;
 }
 

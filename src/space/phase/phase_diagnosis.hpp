@@ -104,7 +104,8 @@ std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
   };
   std::vector<double> R(size()), reactions(dofs_->prescribed.size());
   take_means(trial.arrays->u.data());
-  nodal_force_.template evaluate<true>(trial.arrays->u.data(), committed_u_.data(), look, *dofs_, R, reactions);
+  nodal_force_.template evaluate<true>(trial.arrays->u.data(), committed_u_.data(), std::cref(look), *dofs_, R,
+                                       reactions);
   if (all.empty()) return "a stress that is not finite";
   const auto& points = body_.points;
   const Bad worst = *std::ranges::min_element(

@@ -26,7 +26,7 @@ auto MaterialPointPhase<B, K>::with_means(std::size_t m, [[maybe_unused]] const 
     MeanDilatation<K, SplinePass<B, K>> mean({splines_, body_.points.volume.data(), known}, finite);
     return use(mean);
   }
-  MeanDilatation<K, CellSums<K>> mean({body_.points, volume_share_.data() + block.first}, finite);
+  MeanOverCells<K> mean({body_.points, volume_share_.data() + block.first}, finite);
   return use(mean);
 }
 
@@ -109,7 +109,7 @@ bool MaterialPointPhase<B, K>::add_shared_forces([[maybe_unused]] const double* 
     };
     shared_forces_.resize(R.size() + dofs_->prescribed.size());
     const Vec forces = Vec(shared_forces_).first(R.size()), at_supports = Vec(shared_forces_).subspan(R.size());
-    const bool finite = nodal_force_.template evaluate<false>(u, nullptr, push, *dofs_, forces, at_supports);
+    const bool finite = nodal_force_.template evaluate<false>(u, nullptr, std::cref(push), *dofs_, forces, at_supports);
     for_each_index(R.size(), [R, forces](std::size_t i) { R[i] += forces[i]; });
     for (std::size_t s = 0; s < std::min(reactions.size(), at_supports.size()); ++s) reactions[s] += at_supports[s];
     return finite;

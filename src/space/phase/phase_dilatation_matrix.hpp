@@ -110,8 +110,8 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_means(Tangent kind, double dt) 
     const auto add_cell = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {
       for_parts_of_cell(k, block, [&] {
         const auto m = static_cast<std::size_t>(body_.points.material_of_cell(k));
-        MeanDilatation<K, CellSums<K>> mean({body_.points, volume_share_.data() + block.first},
-                                            body_.materials[m]->info().finite_strain);
+        MeanOverCells<K> mean({body_.points, volume_share_.data() + block.first},
+                              body_.materials[m]->info().finite_strain);
         const auto direct = [&](int column) { take_unit(k, column / Dim, column % Dim, block); };
         const auto take = [&](int column, const auto& force) {
           for (int row = 0; row < Dim * per_cell; ++row) matrix[row][column] += force[row];

@@ -107,8 +107,8 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
     const auto answer = [this, dt, history = trial.arrays->history.data(), averages](std::size_t m, Block& block) {
       return stress<true>(m, block, dt, history[m].data(), averages);
     };
-    trial.evaluated =
-        nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), answer, *dofs_, R, trial.reactions);
+    trial.evaluated = nodal_force_.template evaluate<true>(grid_u.data(), committed_u_.data(), std::cref(answer),
+                                                           *dofs_, R, trial.reactions);
   } else if (elastic_cells_.empty()) {
     const auto answer = [this](std::size_t m, Block& block) { return stress<false>(m, block, 0, nullptr, nullptr); };
     trial.evaluated = nodal_force_.template evaluate<false>(grid_u.data(), nullptr, answer, *dofs_, R, trial.reactions);
@@ -162,7 +162,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
     tangent(kind, m, block, dt);
     return 0.0;
   };
-  nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), answer, *dofs_, dR, {},
+  nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), std::cref(answer), *dofs_, dR, {},
                                              grid_du_.data());
   add_shared_forces(grid_u_.data(), dR, {});
   add_springs_product(dR);

@@ -4,46 +4,47 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "space/grid/degrees_of_freedom.hpp"
-#include "space/grid/sliver_extension.hpp"
-#include "space/kernels/point_weights.hpp"
-#include "space/phase/law_gradients.hpp"
+#include "space/grid/grid_functions.hpp"
 #include "space/phase/place_reader.hpp"
 #include "space/points/body.hpp"
 #include "space/points/points_around.hpp"
 
 namespace stillpoint {
 
-template <AxisBasis B, Kinematics K>
+/// The displacement gradient that the law of point p in occupied cell k answers to.
+template <Kinematics K>
+using GradientOfPoint = std::function<TensorOf<K>(std::size_t k, std::size_t p)>;
+
+template <Kinematics K>
 class PhasePlaces final : public PlaceReader {
   static constexpr int dim = dimensions(K);
-  using Spline = typename BasisOfOneCell<B>::type;
-  using Basis = TensorBasis<Spline, dim>;
-  static constexpr int per_cell = Basis::per_cell;
-  static constexpr int degree = std::max(1, Spline::degree - 1);  // of fits
   static constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
   using Cell = std::array<int, dim>;
 
  public:
-  /// u since the phase began and v, (functions × dim). What is referred to outlives this.
-  PhasePlaces(const Grid<dim>& grid, const Body<K>& body, const PointWeights<B, K>& weights,
-              const DegreesOfFreedom& dofs, SharedDilatation<B, K> dilatation, std::vector<double> u,
-              std::vector<double> v)
-      : grid_(grid),
+  /// functions: those of single cells; degree: theirs. gradient: of u. u since the phase began and v, (functions ×
+  /// dim). What is referred to outlives this.
+  PhasePlaces(std::unique_ptr<const GridFunctions<dim>> functions, int degree, const Body<K>& body,
+              const DegreesOfFreedom& dofs, GradientOfPoint<K> gradient, std::vector<double> u, std::vector<double> v)
+      : functions_(std::move(functions)),
+        degree_(std::max(1, degree - 1)),
+        grid_(functions_->grid()),
         body_(body),
-        weights_(weights),
         dofs_(dofs),
-        dilatation_(std::move(dilatation)),
+        gradient_(std::move(gradient)),
         u_(std::move(u)),
         v_(std::move(v)),
-        occupied_(static_cast<std::size_t>(grid.cells()), 0),
-        around_(grid, body.points) {
+        occupied_(static_cast<std::size_t>(grid_.cells()), 0),
+        around_(grid_, body.points) {
     mark_occupied();
   }
 
@@ -67,14 +68,16 @@ class PhasePlaces final : public PlaceReader {
     const auto cell = cell_for(at);
     if (!cell) return;
     std::ranges::fill(out, 0.0);
-    const auto values = Basis::evaluate(grid_, *cell, at);
+    const auto values = functions_->evaluate(*cell, at);
+    const int per_cell = functions_->per_cell();
     double u_r = 0;
-    for_functions(*cell, u_, [&](int a, const double* u) {
+    for (int a = 0; a < per_cell; ++a) {
+      const double* u = u_.data() + dim * values.function[a];
       u_r += values.N[a] * u[0];
       for (int i = 0; i < dim; ++i) {
-        for (int j = 0; j < dim; ++j) out[dim * i + j] += u[i] * values.dN[j][a];
+        for (int j = 0; j < dim; ++j) out[dim * i + j] += u[i] * values.dN[per_cell * j + a];
       }
-    });
+    }
     // ∂u_r/∂r is the limit of u_r/r on the axis
     if constexpr (K == Kinematics::axisymmetric) out[dim * dim] = at[0] > 0 ? u_r / at[0] : out[0];
   }
@@ -83,17 +86,16 @@ class PhasePlaces final : public PlaceReader {
     const Point<dim> at = point_at(x);
     if (!cell_for(at)) return;
     std::ranges::fill(out, 0.0);
-    LawGradients<B, K> gradients(body_, weights_, dilatation_, u_.data());
-    for (const auto& share : around_.fit(at, degree)) {
+    for (const auto& share : around_.fit(at, degree_)) {
       const auto& material = *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(share.k))];
-      const auto of_point = material.cauchy(gradients.at(share.k, share.p), share.p);
+      const auto of_point = material.cauchy(gradient_(share.k, share.p), share.p);
       for (std::size_t i = 0; i < of_point.size(); ++i) out[i] += share.weight * of_point[i];
     }
   }
   double history(const std::string& name, ConstVec x) const override {
     const Point<dim> at = point_at(x);
     if (!cell_for(at)) return no_value;
-    const auto shares = around_.fit(at, degree);
+    const auto shares = around_.fit(at, degree_);
     const auto material = static_cast<std::size_t>(body_.points.material_of_cell(shares.front().k));  // of all
     const auto begin = static_cast<std::size_t>(body_.points.material_begin[material]);
     for (const auto& [shown, values] : body_.materials[material]->shown_history()) {
@@ -128,7 +130,7 @@ class PhasePlaces final : public PlaceReader {
   // A cell with material points; of domains one that they are partly in.
   void mark_occupied() {
     const MaterialPoints<dim>& points = body_.points;
-    if constexpr (B::window == 1) {
+    if (!points.has_domains()) {
       for (const int cell : points.cell) occupied_[static_cast<std::size_t>(cell)] = 1;
     } else {
       constexpr double within = 1 - 1e-6;  // of the way to a corner, which may be on a line
@@ -145,10 +147,9 @@ class PhasePlaces final : public PlaceReader {
   // All functions of a cell that count at x are reached by material.
   bool is_whole(const Cell& cell, const Point<dim>& x) const {
     constexpr double rounding = 1e-12;
-    const auto values = Basis::evaluate(grid_, cell, x);
-    const auto offset = Basis::offsets(grid_);
-    for (int a = 0; a < per_cell; ++a) {
-      const int unknown = dim * (Basis::first(grid_, cell) + offset[a]);
+    const auto values = functions_->evaluate(cell, x);
+    for (int a = 0; a < functions_->per_cell(); ++a) {
+      const int unknown = dim * values.function[a];
       if (dofs_.number[static_cast<std::size_t>(unknown)] < 0 && std::abs(values.N[a]) > rounding) return false;
     }
     return true;
@@ -182,32 +183,33 @@ class PhasePlaces final : public PlaceReader {
     return cell;
   }
 
-  /// visit(local function, its values)
-  template <class Visit>
-  void for_functions(const Cell& cell, const std::vector<double>& nodal, const Visit& visit) const {
-    const auto offset = Basis::offsets(grid_);
-    for (int a = 0; a < per_cell; ++a) visit(a, nodal.data() + dim * (Basis::first(grid_, cell) + offset[a]));
-  }
   void vector_at(ConstVec x, const std::vector<double>& nodal, Vec out) const {
     std::ranges::fill(out, no_value);
     const Point<dim> at = point_at(x);
     const auto cell = cell_for(at);
     if (!cell) return;
     std::ranges::fill(out, 0.0);
-    const auto values = Basis::evaluate(grid_, *cell, at);
-    for_functions(*cell, nodal, [&](int a, const double* of_function) {
-      for (int i = 0; i < dim; ++i) out[i] += values.N[a] * of_function[i];
-    });
+    const auto values = functions_->evaluate(*cell, at);
+    for (int a = 0; a < functions_->per_cell(); ++a) {
+      for (int i = 0; i < dim; ++i)
+        out[i] += values.N[a] * nodal[static_cast<std::size_t>(dim * values.function[a] + i)];
+    }
   }
 
+  std::unique_ptr<const GridFunctions<dim>> functions_;
+  int degree_;  // of fits
   const Grid<dim>& grid_;
   const Body<K>& body_;
-  const PointWeights<B, K>& weights_;
   const DegreesOfFreedom& dofs_;
-  SharedDilatation<B, K> dilatation_;  // of u
+  GradientOfPoint<K> gradient_;
   std::vector<double> u_, v_;
   std::vector<char> occupied_;  // cells of the grid whose functions a point takes
   PointsAround<dim> around_;
 };
+
+extern template class PhasePlaces<Kinematics::line>;
+extern template class PhasePlaces<Kinematics::plane>;
+extern template class PhasePlaces<Kinematics::axisymmetric>;
+extern template class PhasePlaces<Kinematics::space>;
 
 }  // namespace stillpoint

@@ -89,10 +89,21 @@ void MaterialPointPhase<B, K>::point_field(PointQuantity quantity, double t, Con
 
 template <AxisBasis B, Kinematics K>
 std::unique_ptr<PlaceReader> MaterialPointPhase<B, K>::read_places(double t, ConstVec u, ConstVec v) const {
+  using Spline = typename BasisOfOneCell<B>::type;
   std::vector<double> grid_u(grid_u_.size(), 0);
   spread(t, u, grid_u);
-  return std::make_unique<PhasePlaces<B, K>>(grid_, body_, weights_, *dofs_, shared_dilatation(grid_u.data()),
-                                             std::move(grid_u), nodal_velocity(t, v));
+  struct Gradients {
+    Gradients(const MaterialPointPhase& phase, const std::vector<double>& of)
+        : u(of), shared(phase.shared_dilatation(u.data())), of_points(phase.body_, phase.weights_, shared, u.data()) {}
+    std::vector<double> u;
+    SharedDilatation<B, K> shared;
+    LawGradients<B, K> of_points;
+  };
+  const auto gradients = std::make_shared<Gradients>(*this, grid_u);
+  return std::make_unique<PhasePlaces<K>>(
+      std::make_unique<FunctionsOfBasis<Spline, Dim>>(grid_), Spline::degree, body_, *dofs_,
+      [gradients](std::size_t k, std::size_t p) { return gradients->of_points.at(k, p); }, std::move(grid_u),
+      nodal_velocity(t, v));
 }
 
 template <AxisBasis B, Kinematics K>
@@ -210,7 +221,8 @@ std::vector<FreePart> MaterialPointPhase<B, K>::free_parts() const {
   std::vector<char> sprung(dofs_->number.size(), 0);
   for (const Springs::Weight& weight : weak_supports_.springs().weights())
     sprung[static_cast<std::size_t>(weight.unknown)] = 1;
-  return find_free_parts<B, K>(body_.points, weights_, *dofs_, sprung, /*as_one=*/updated_lagrangian());
+  return find_free_parts<Dim>({functions_, body_.points, weights_}, K == Kinematics::axisymmetric ? 1 : 0, *dofs_,
+                              sprung, /*as_one=*/updated_lagrangian());
 }
 
 template <AxisBasis B, Kinematics K>
@@ -279,10 +291,10 @@ std::vector<double> MaterialPointPhase<B, K>::project(const std::vector<Expressi
   std::vector<double> u(size(), 0.0);
   if (field.empty()) return u;
   for_points([&](std::size_t k, std::size_t p, std::size_t) {
-    for (int i = 0; i < Dim; ++i) {
-      const double moment = body_.points.mass[p] * field[static_cast<std::size_t>(i)](body_.points.position(p), 0);
-      weights_.add_at_functions(k, p, i, moment, *dofs_, u);
-    }
+    const auto moment = [&](int i) {
+      return body_.points.mass[p] * field[static_cast<std::size_t>(i)](body_.points.position(p), 0);
+    };
+    weights_.add_at_functions(k, p, moment, *dofs_, u);
   });
   std::optional<SplitMatrix> of_points;
   if (!consistent_) of_points = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);

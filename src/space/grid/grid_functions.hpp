@@ -1,0 +1,107 @@
+// The functions of a grid, whatever their basis: for what is done once a phase, or at few positions, and need not be
+// compiled for each basis. Kernels have the basis as a template parameter instead, see basis.hpp.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "space/grid/basis.hpp"
+#include "space/grid/grid.hpp"
+
+namespace stillpoint {
+
+/// Of a cell at most: as many as cubic splines have there, of the plane those that a domain reaches.
+constexpr int most_functions_of_cell(int dim) { return dim == 3 ? power(4, dim) : power(5, dim); }
+
+template <int Dim>
+class GridFunctions {
+ public:
+  using Cell = std::array<int, Dim>;
+
+  /// The local functions of a cell at a position; entries from per_cell() on are left as they are.
+  struct Values {
+    std::array<int, most_functions_of_cell(Dim)> function;  // their numbers in the grid
+    std::array<double, most_functions_of_cell(Dim)> N;
+    std::array<double, Dim * most_functions_of_cell(Dim)> dN;  // ∂N_a/∂x_j at [per_cell j + a] [1/m]
+  };
+
+  virtual ~GridFunctions() = default;
+
+  const Grid<Dim>& grid() const { return grid_; }
+  int per_cell() const { return per_cell_; }
+  /// Of a cell along one axis.
+  int per_axis() const { return per_axis_; }
+  /// As of AxisBasis.
+  int window() const { return window_; }
+  bool partition_of_unity() const { return partition_of_unity_; }
+
+  virtual int count() const = 0;
+  virtual Values evaluate(const Cell& cell, const Point<Dim>& x) const = 0;
+  /// Where a function has its centre along an axis [m].
+  virtual double centre(int function, int axis) const = 0;
+  /// Whether it is a value along each axis, and not a slope.
+  virtual bool is_value(int function) const = 0;
+  /// Those that are not zero on a face of the grid, ascending.
+  virtual std::vector<int> on_face(int axis, bool upper) const = 0;
+  /// The one that alone carries the value at x; none inside a spline.
+  virtual std::optional<int> interpolating(const Point<Dim>& x) const = 0;
+
+  std::vector<int> values_on_face(int axis, bool upper) const {
+    std::vector<int> values = on_face(axis, upper);
+    std::erase_if(values, [&](int function) { return !is_value(function); });
+    return values;
+  }
+
+ protected:
+  /// The grid outlives this.
+  GridFunctions(const Grid<Dim>& grid, int per_axis, int window, bool partition_of_unity)
+      : grid_(grid),
+        per_axis_(per_axis),
+        per_cell_(power(per_axis, Dim)),
+        window_(window),
+        partition_of_unity_(partition_of_unity) {}
+
+ private:
+  const Grid<Dim>& grid_;
+  int per_axis_, per_cell_, window_;
+  bool partition_of_unity_;
+};
+
+template <AxisBasis B, int Dim>
+class FunctionsOfBasis final : public GridFunctions<Dim> {
+  using Basis = TensorBasis<B, Dim>;
+  using typename GridFunctions<Dim>::Cell;
+  using typename GridFunctions<Dim>::Values;
+  static_assert(Basis::per_cell <= most_functions_of_cell(Dim));
+
+ public:
+  explicit FunctionsOfBasis(const Grid<Dim>& grid)
+      : GridFunctions<Dim>(grid, B::per_cell, B::window, B::partition_of_unity) {}
+
+  int count() const override { return Basis::count(this->grid()); }
+  Values evaluate(const Cell& cell, const Point<Dim>& x) const override {
+    const auto of_cell = Basis::evaluate(this->grid(), cell, x);
+    const auto offset = Basis::offsets(this->grid());
+    const int first = Basis::first(this->grid(), cell);
+    Values values;
+    for (int a = 0; a < Basis::per_cell; ++a) {
+      values.function[a] = first + offset[a];
+      values.N[a] = of_cell.N[a];
+      for (int j = 0; j < Dim; ++j) values.dN[Basis::per_cell * j + a] = of_cell.dN[j][a];
+    }
+    return values;
+  }
+  double centre(int function, int axis) const override {
+    return B::centre(this->grid().axes[axis], Basis::index_along(this->grid(), function, axis));
+  }
+  bool is_value(int function) const override { return Basis::is_value(this->grid(), function); }
+  std::vector<int> on_face(int axis, bool upper) const override {
+    return Basis::face_functions(this->grid(), axis, upper);
+  }
+  std::optional<int> interpolating(const Point<Dim>& x) const override {
+    return Basis::interpolating_function(this->grid(), x);
+  }
+};
+
+}  // namespace stillpoint

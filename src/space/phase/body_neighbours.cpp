@@ -1,0 +1,158 @@
+#include "space/phase/body_neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace stillpoint {
+namespace {
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+}  // namespace
+
+template <int Dim>
+std::vector<BodyGap> BodyNeighbours<Dim>::find(bool at_start) const {
+  const std::vector<std::vector<std::size_t>> bodies = bodies_of_functions();
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (const auto& together : bodies)
+    for (std::size_t j = 1; j < together.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) pairs.insert(std::minmax(together[i], together[j]));
+  std::vector<BodyGap> found;
+  if (pairs.empty()) return found;
+  std::vector<BodyDepth> shapes;
+  for (const BodySpec& body : scene_.bodies) shapes.emplace_back(body);
+  for (const auto& [a, b] : pairs) {
+    const bool surfaces = at_start && shapes[a].is_known() && shapes[b].is_known();
+    found.push_back(gap_between(a, b, surfaces ? &shapes : nullptr));
+  }
+  return found;
+}
+
+template <int Dim>
+std::vector<std::vector<std::size_t>> BodyNeighbours<Dim>::bodies_of_functions() const {
+  std::vector<std::vector<std::size_t>> bodies(static_cast<std::size_t>(functions_.count()));
+  for (std::size_t k = 0; k < points_.cells(); ++k) {
+    std::size_t last = none;
+    for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
+      const std::size_t body = body_of(p);
+      if (std::exchange(last, body) == body) continue;
+      for (int a = 0; a < functions_.per_cell(); ++a) {
+        auto& of_function = bodies[static_cast<std::size_t>(weights_.function(k, a))];
+        const auto place = std::ranges::lower_bound(of_function, body);
+        if (place == of_function.end() || *place != body) of_function.insert(place, body);
+      }
+    }
+  }
+  return bodies;
+}
+
+template <int Dim>
+std::size_t BodyNeighbours<Dim>::body_of(std::size_t p) const {
+  return static_cast<std::size_t>(std::ranges::upper_bound(first_number_, points_.number[p]) - first_number_.begin()) -
+         1;
+}
+
+// From each point of a to the nearest ones of b, over the cells that share functions.
+template <int Dim>
+BodyGap BodyNeighbours<Dim>::gap_between(std::size_t a, std::size_t b, const std::vector<BodyDepth>* shapes) const {
+  std::unordered_map<int, std::vector<std::size_t>> of_b;
+  for (std::size_t k = 0; k < points_.cells(); ++k)
+    for (std::size_t p = points_.begin(k); p < points_.end(k); ++p)
+      if (body_of(p) == b) of_b[points_.cell[k]].push_back(p);
+  BodyGap found{.a = a, .b = b, .gap = std::numeric_limits<double>::infinity()};
+  const int reach = functions_.per_axis() - 1;
+  for (std::size_t k = 0; k < points_.cells(); ++k) {
+    std::vector<std::size_t> near;
+    visit_around(grid_.cell_at(points_.cell[k]), reach, [&](int cell) {
+      if (const auto there = of_b.find(cell); there != of_b.end())
+        near.insert(near.end(), there->second.begin(), there->second.end());
+    });
+    if (near.empty()) continue;
+    for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
+      if (body_of(p) != a) continue;
+      const std::size_t q = *std::ranges::min_element(near, {}, [&](std::size_t at) { return distance(p, at); });
+      const double gap =
+          shapes ? gap_along(p, q, (*shapes)[a], (*shapes)[b]) : distance(p, q) - half_spacing(a) - half_spacing(b);
+      if (gap >= found.gap) continue;
+      found.gap = std::max(0.0, gap);
+      found.cells = 0;
+      const double share = found.gap / distance(p, q);
+      for (int d = 0; d < Dim; ++d)
+        found.cells = std::max(found.cells, share * std::abs(points_.x[d][p] - points_.x[d][q]) /
+                                                scene_.grid.cell_length(static_cast<std::size_t>(d)));
+    }
+    if (found.cells <= touching) break;
+  }
+  return found;
+}
+
+template <int Dim>
+double BodyNeighbours<Dim>::distance(std::size_t p, std::size_t q) const {
+  double square = 0;
+  for (int d = 0; d < Dim; ++d) square += (points_.x[d][p] - points_.x[d][q]) * (points_.x[d][p] - points_.x[d][q]);
+  return std::sqrt(square);
+}
+
+// Half the spacing of the points that a body was filled with, along the widest of its sides.
+template <int Dim>
+double BodyNeighbours<Dim>::half_spacing(std::size_t body) const {
+  const std::vector<int>& along = scene_.bodies[body].points_per_cell;
+  double widest = 0;
+  for (std::size_t d = 0; d < Dim; ++d)
+    widest = std::max(widest, scene_.grid.cell_length(d) / (d < along.size() ? along[d] : 1));
+  return widest / 2;
+}
+
+// On the way from p, in a, to q, in b: from where a ends to where b begins. 0 if they touch there.
+template <int Dim>
+double BodyNeighbours<Dim>::gap_along(std::size_t p, std::size_t q, const BodyDepth& a, const BodyDepth& b) const {
+  const double way = distance(p, q);
+  const auto at = [&](double share) {
+    Point<Dim> x;
+    for (int d = 0; d < Dim; ++d) x[d] = points_.x[d][p] + share * (points_.x[d][q] - points_.x[d][p]);
+    return x;
+  };
+  // The last share of the way from one side that its body holds.
+  const auto last_in = [&](const BodyDepth& body, bool from_p) {
+    constexpr int halvings = 48;
+    double inside = 0, outside = 1;
+    for (int halving = 0; halving < halvings; ++halving) {
+      const double middle = (inside + outside) / 2;
+      (body.contains(at(from_p ? middle : 1 - middle)) ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  const double rounding = 1e-12 * way;
+  const double gap = way * (1 - last_in(a, true) - last_in(b, false));
+  return gap <= rounding ? 0 : gap;
+}
+
+template <int Dim>
+template <class Visit>
+void BodyNeighbours<Dim>::visit_around(const std::array<int, Dim>& here, int reach, const Visit& visit) const {
+  std::array<int, Dim> low, high;
+  for (int d = 0; d < Dim; ++d) {
+    low[d] = std::max(here[d] - reach, 0);
+    high[d] = std::min(here[d] + reach, grid_.axes[d].cells() - 1);
+  }
+  std::array<int, Dim> cell = low;
+  while (cell[Dim - 1] <= high[Dim - 1]) {
+    visit(grid_.cell_number(cell));
+    int d = 0;
+    while (++cell[d] > high[d] && d < Dim - 1) {
+      cell[d] = low[d];
+      ++d;
+    }
+  }
+}
+
+template class BodyNeighbours<1>;
+template class BodyNeighbours<2>;
+template class BodyNeighbours<3>;
+
+}  // namespace stillpoint
