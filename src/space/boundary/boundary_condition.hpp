@@ -6,12 +6,11 @@
 
 #include <vector>
 
-#include <Eigen/SparseCore>
-
 #include "space/boundary/face_gaps.hpp"
 #include "space/boundary/prescribed_motion.hpp"
 #include "space/boundary/wall_reaction.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
+#include "space/grid/matrix_entries.hpp"
 #include "space/kernels/point_functions.hpp"
 #include "space/points/material_points.hpp"
 
@@ -77,9 +76,6 @@ struct PhaseParts {
   const Mass& mass;
   bool remembers;  // whether some of its points have a history
 };
-
-/// Entries of a matrix over the free degrees of freedom; those of equal row and column are summed.
-using MatrixEntries = std::vector<Eigen::Triplet<double>>;
 
 /// All boundary conditions of one kind that a scene has. F: (n) [N]; u: over the grid's functions, component i at
 /// [Dim function + i] [m].

@@ -16,7 +16,7 @@
 #include <map>
 #include <vector>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include "space/grid/basis.hpp"
 #include "space/grid/cut_cells.hpp"
@@ -34,6 +34,12 @@ template <int Degree>
 struct BasisOfOneCell<DomainBSpline<Degree>> {
   using type = BSpline<Degree>;
 };
+
+template <int n>
+using SmallMatrix = Eigen::Matrix<double, n, n>;
+/// A⁻¹ B
+template <int n>
+SmallMatrix<n> solved(const SmallMatrix<n>& A, const SmallMatrix<n>& B);
 
 template <AxisBasis B, int Dim>
 class SliverExtension {
@@ -148,7 +154,7 @@ class SliverExtension {
       row[static_cast<std::size_t>(local)] = 1;
       return row;
     }
-    Eigen::Matrix<double, n, n> here, continued;
+    SmallMatrix<n> here, continued;
     const double left = axis.nodes[static_cast<std::size_t>(cell)];
     const double right = axis.nodes[static_cast<std::size_t>(cell) + 1];
     for (int l = 0; l < n; ++l) {
@@ -159,7 +165,7 @@ class SliverExtension {
       Spline::evaluate(axis, host, x, N.data(), dN.data());
       for (int a = 0; a < n; ++a) continued(l, a) = N[static_cast<std::size_t>(a)];
     }
-    const Eigen::Matrix<double, n, n> W = here.partialPivLu().solve(continued);
+    const SmallMatrix<n> W = solved<n>(here, continued);
     for (int a = 0; a < n; ++a) row[static_cast<std::size_t>(a)] = W(local, a);
     return row;
   }

@@ -10,15 +10,10 @@
 
 #include "base/stop_request.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
+#include "space/grid/matrix_entries.hpp"
 #include "space/kernels/point_weights.hpp"
 
 namespace stillpoint {
-
-/// A matrix over all degrees of freedom, split at the free ones.
-struct SplitMatrix {
-  Eigen::SparseMatrix<double> free;        // (n × n)
-  Eigen::SparseMatrix<double> prescribed;  // (n × supports): how supports act on free degrees of freedom
-};
 
 /// Row and column [Dim a + i]: local function a, component i.
 template <int Dim, int PerCell>
@@ -61,12 +56,9 @@ class NeighbourMatrix {
     }
   }
 
-  /// Over the free unknowns u = E_f u_f + E_p u_p of which those of extended functions are made, E_fᵀ A E_f and
-  /// E_fᵀ A E_p.
+  /// Over the free unknowns, of which those of extended functions are made.
   SplitMatrix extended(const DegreesOfFreedom& dofs) const {
-    using Entries = std::vector<Eigen::Triplet<double>>;
-    Entries of_all, of_free, of_prescribed;
-    const auto n = static_cast<int>(dofs.size());
+    MatrixEntries of_all;
     for (std::size_t unknown = 0; unknown < dofs.number.size(); ++unknown) {
       heed_stop_request();
       const int column = dofs.number[unknown];
@@ -75,25 +67,8 @@ class NeighbourMatrix {
         const int row = dofs.number[static_cast<std::size_t>(row_unknown)];
         if (row >= 0) of_all.emplace_back(row, column, value);
       });
-      dofs.for_sources(static_cast<int>(unknown), [&](int, int dof, double weight) {
-        if (dof < n) {
-          of_free.emplace_back(column, dof, weight);
-        } else {
-          of_prescribed.emplace_back(column, dof - n, weight);
-        }
-      });
     }
-    const auto matrix = [&](const Entries& entries, std::size_t columns) {
-      Eigen::SparseMatrix<double> made(static_cast<Eigen::Index>(dofs.with_all_others()),
-                                       static_cast<Eigen::Index>(columns));
-      made.setFromTriplets(entries.begin(), entries.end());
-      return made;
-    };
-    const Eigen::SparseMatrix<double> A = matrix(of_all, dofs.with_all_others());
-    const Eigen::SparseMatrix<double> E_f = matrix(of_free, dofs.size());
-    const Eigen::SparseMatrix<double> E_p = matrix(of_prescribed, dofs.prescribed.size());
-    const Eigen::SparseMatrix<double> A_E_f = A * E_f, A_E_p = A * E_p;
-    return {E_f.transpose() * A_E_f, E_f.transpose() * A_E_p};
+    return over_free_unknowns(of_all, dofs);
   }
 
   /// The columns of the given unknowns, the rows of the free ones.

@@ -16,12 +16,10 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "scene/controlled_loads.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "space/boundary/axis_of_symmetry.hpp"
-#include "space/boundary/boundary_conditions.hpp"
-#include "space/boundary/load_control.hpp"
-#include "space/boundary/weak_supports.hpp"
+#include "space/boundary/conditions.hpp"
 #include "space/grid/extended_functions.hpp"
 #include "space/grid/grid_functions.hpp"
+#include "space/grid/layout_of_unknowns.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/elastic_cells.hpp"
@@ -30,6 +28,7 @@
 #include "space/kernels/nodal_totals.hpp"
 #include "space/kernels/spline_means.hpp"
 #include "space/kernels/velocity_transfer.hpp"
+#include "space/phase/body_account.hpp"
 #include "space/phase/deformation_from_positions.hpp"
 #include "space/phase/free_parts.hpp"
 #include "space/phase/grid_faces.hpp"
@@ -60,22 +59,16 @@ class MaterialPointPhase final : public LagrangianPhase,
         body_(make_body<K>(scene, grid_, moves_on(scene))),
         transfer_(scene.phase, !is_undamped(scene.damping.strategy)),
         inertia_(scene.mass, moves_on(scene)),
-        boundary_(make_boundary_conditions<K>(scene_, grid_, time_scale())),
-        axis_(scene_, grid_, body_, time_scale()),
-        weak_supports_(scene_, grid_, time_scale()),
-        load_control_(scene, grid_, time_scale()),
+        conditions_(scene_, scene, grid_, body_, account().shortest_time()),
         depths_(scene_) {
-    describe();
+    info_ = account().describe(conditions_.hold_by_springs());
+    history_dependent_ =
+        std::ranges::any_of(body_.materials, [](const auto& law) { return law->info().history_dependent; });
     depths_.begin(body_.first_number, origin_);
-    for (const auto& condition : boundary_) {
-      Contact* found = condition->contact();
-      if (found && contact_) throw std::logic_error("two kinds of boundary conditions have contact");
-      if (found) contact_ = found;
-    }
     extend_into_slivers();
-    if (updated_lagrangian()) origin_ = point_positions();
-    if (scene_.geostatic) set_geostatic_stress();
-    if (updated_lagrangian()) set_initial_point_velocity();
+    if (updated_lagrangian()) origin_ = account().positions(points());
+    if (scene_.geostatic) set_geostatic_stress(scene_, body_);
+    if (updated_lagrangian()) set_initial_velocity(scene_, body_);
     begin_phase(0);
   }
 
@@ -83,7 +76,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::size_t size() const override { return dofs_->size(); }
   const Mass& mass() const override { return *mass_; }
   void external_force(double t, ConstVec u, Vec F) const override;
-  bool loads_are_constant() const override;
+  bool loads_are_constant() const override { return conditions_.loads_are_constant(); }
   std::unique_ptr<TrialState> make_trial() const override;
   bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const override;
   void commit(TrialState& trial) override;
@@ -91,25 +84,37 @@ class MaterialPointPhase final : public LagrangianPhase,
   const Tangents& tangents() const override { return *this; }
   const PhaseDiagnosis& diagnosis() const override { return *this; }
   void add_support_inertia(double t, double c, Vec Q) const override;
-  const Contact* contact() const override { return contact_; }
-  Contact* contact() override { return contact_; }
+  const Contact* contact() const override { return conditions_.contact(); }
+  Contact* contact() override { return conditions_.contact(); }
 
   // --- LagrangianPhase, see phase_points.hpp -------------------------------------------------------
   Discretisation discretisation() const override;
-  NodalLayout layout() const override;
-  PointData point_data() const override;
+  NodalLayout layout() const override { return layout_of(functions_, *dofs_); }
+  PointData point_data() const override { return account().point_data(points(), origin_); }
   void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const override;
-  void point_history(const std::string& name, Vec out) const override;
+  void point_history(const std::string& name, Vec out) const override { account().history(name, out); }
   std::unique_ptr<PlaceReader> read_places(double t, ConstVec u, ConstVec v) const override;  // phase_places.hpp
   double null_space_stress(double t, ConstVec u) const override;
   std::optional<OverStress> over_stress() const override;  // over_stress.hpp
   std::vector<double> initial_displacement(double t) const override;
   std::vector<double> initial_velocity(double t) override;
-  std::vector<WallReaction> wall_reactions(double t) const override;
-  std::vector<double> support_displacements(double t) const override;
-  std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const override;
-  std::vector<WeakSupport> weak_supports(double t, ConstVec u) const override;
-  std::optional<LoadState> load_state(double t, ConstVec u) const override;
+  std::vector<WallReaction> wall_reactions(double t) const override { return conditions_.wall_reactions(t); }
+  std::vector<double> support_displacements(double t) const override {
+    return conditions_.support_displacements(held_, t);
+  }
+  std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const override {
+    spread(t, u, grid_u_);
+    return conditions_.support_reactions(parts(), t, grid_u_.data(), reactions);
+  }
+  std::vector<WeakSupport> weak_supports(double t, ConstVec u) const override {
+    spread(t, u, grid_u_);
+    return conditions_.weak_supports(t, grid_u_.data());
+  }
+  std::optional<LoadState> load_state(double t, ConstVec u) const override {
+    if (!conditions_.are_driven()) return std::nullopt;
+    spread(t, u, grid_u_);
+    return conditions_.load_state(t, grid_u_.data());
+  }
   std::vector<FreePart> free_parts() const override;
   std::vector<BodyGap> body_gaps() const override;  // phase_bodies.hpp
   std::vector<HeldAxes> held_bodies() const override;
@@ -177,7 +182,6 @@ class MaterialPointPhase final : public LagrangianPhase,
   void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const override;
   SparseMatrix matrix(Tangent kind, double t, ConstVec u) const override;
   SparseMatrix of_loads(double t, ConstVec u) const override;
-  void add_springs_product(Vec dR) const;
 
   // --- PhaseControl, see phase_change.hpp ----------------------------------------------------------
   double progress(double t, ConstVec u) override;
@@ -193,31 +197,28 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::string refusal(TrialState& trial) const override;
   PlaceInBody of_unknown(std::size_t k) const override;
   PlaceInBody of_point(std::size_t number) const override;
-  PlaceInBody place(std::size_t k, std::size_t p) const;
   std::string refusal_of_motion(ConstVec u) const;
   std::string refusal_at_points(Trial& trial) const;
 
   static bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
   bool updated_lagrangian() const { return info_.updated_lagrangian; }
-  void describe();
+  BodyAccount<K> account() const { return {scene_, grid_, body_}; }
   void extend_into_slivers();
   void begin_phase(double t);
   void place_functions(double t);
-  HeldUnknowns take_hold(double t, const std::vector<char>& reached);
   void make_forces(double t);
   std::vector<double> wave_moduli() const;
-  void archive_number_of_points(const StateArchive& state);
-  void archive_points(const StateArchive& state);
-  void archive_conditions(const StateArchive& state);
   void take_saved_grid();
   void resume_phase(double t);
   void make_weights();
-  FaceGaps<Dim> face_gaps() { return {functions_, body_.points, weights_, depths_}; }
+  HeldUnknowns take_hold(double t, const std::vector<char>& reached) {
+    const FaceGaps<Dim> gaps(functions_, body_.points, weights_, depths_);
+    return conditions_.hold(t, functions_, body_.points, weights_, reached, gaps);
+  }
   std::vector<char> active_functions() const;
   bool follows_positions();
   void weigh_motion();
   void take_deformation_from_positions();
-  double time_scale() const;
 
   std::vector<double> bound_of_functions() const;
   void make_mass();
@@ -226,12 +227,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   bool projects() const { return !scene_.initial_u.empty() || !scene_.initial_v.empty(); }
   std::vector<double> project(const std::vector<Expression>& field, const std::vector<double>& held) const;
 
-  void set_geostatic_stress();
-  void set_initial_point_velocity();
   std::vector<double> velocity_from_points(double t);
-  void begin_motion(double t, Vec v) {
-    for (const auto& condition : boundary_) condition->begin_motion(parts(), t, v);
-  }
+  void begin_motion(double t, Vec v) { conditions_.begin_motion(parts(), t, v); }
 
   std::vector<double> nodal_velocity(double t, ConstVec v) const;
   bool is_free() const;
@@ -299,7 +296,6 @@ class MaterialPointPhase final : public LagrangianPhase,
       for (std::size_t i = 0; i < value.size(); ++i) out[value.size() * number + i] += share * value[i];
     });
   }
-  std::vector<double> point_positions() const;
 
   const Scene scene_;
   bool history_dependent_ = false;
@@ -309,11 +305,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   Body<K> body_;
   VelocityTransfer<B, K> transfer_;
   NodalInertia<B, K> inertia_;
-  BoundaryConditions<Dim> boundary_;
-  AxisOfSymmetry<K> axis_;
-  WeakSupports<K> weak_supports_;
-  LoadControl<K> load_control_;
-  Contact* contact_ = nullptr;  // of one of them
+  Conditions<K> conditions_;
   PointOrder<Dim> order_;
   // Positions at the start of the run, in the points' order of then, (P × Dim); none if points stay where they are.
   std::vector<double> origin_;

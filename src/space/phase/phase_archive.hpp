@@ -16,16 +16,19 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   double t = held_.start();
   state("began_at", t);
   state("phase", phase_);
-  if (body_.points.has_domains()) archive_number_of_points(state);
+  if (body_.points.has_domains()) {
+    if (const std::vector<int> from = archive_number_of_points(state, body_.points); !from.empty())
+      take_materials(from);
+  }
   state("grid_moved", grid_moved_);
   for (std::size_t m = 0; m < body_.materials.size(); ++m)
     state(fmt::format("memory_of_material_{}", m), body_.materials[m]->memory());
-  if (updated_lagrangian()) archive_points(state);
-  archive_conditions(state);
+  if (updated_lagrangian()) archive_points(state, body_.points);
+  conditions_.archive(state);
   if (state.restores() && updated_lagrangian()) {
     take_saved_grid();
     resume_phase(t);
-    archive_conditions(state);  // what they remember, in place of what a phase begins with
+    conditions_.archive(state);  // what they remember, in place of what a phase begins with
   }
   state("committed_u", Vec(committed_u_));
   state("committed_t", committed_t_);
@@ -35,56 +38,6 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   state("motion_since_deformation", motion_since_deformation_);
   inertia_.archive(state);
   transfer_.conservation().archive(state);
-}
-
-// Domains that were halved are more than there were when the body was placed.
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::archive_number_of_points(const StateArchive& state) {
-  MaterialPoints<Dim>& points = body_.points;
-  const std::vector<int> before = points.material_begin;
-  state("material_begin", points.material_begin);
-  if (points.material_begin.size() != before.size() || points.material_begin.front() != 0 ||
-      !std::ranges::is_sorted(points.material_begin))
-    throw StateError("'material_begin' is not that of the materials of this scene");
-  if (points.material_begin == before) return;
-  std::vector<int> number;
-  state("number", number);
-  if (number.size() != static_cast<std::size_t>(points.material_begin.back()))
-    throw StateError("'material_begin' is not that of its points");
-  std::vector<int> from;  // any of the same material: what they are is restored with the rest
-  for (std::size_t m = 0; m + 1 < before.size(); ++m)
-    from.resize(static_cast<std::size_t>(points.material_begin[m + 1]), before[m]);
-  take_points(points, from);
-  take_materials(from);
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::archive_points(const StateArchive& state) {
-  MaterialPoints<Dim>& points = body_.points;
-  for (int d = 0; d < Dim; ++d) {
-    state(fmt::format("x_{}", d), Vec(points.x[d]));
-    state(fmt::format("v_{}", d), Vec(points.v[d]));
-  }
-  for (std::size_t ij = 0; ij < points.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), Vec(points.B_apic[ij]));
-  if (points.has_domains()) {
-    for (std::size_t c = 0; c < points.corner.size(); ++c) state(fmt::format("corner_{}", c), Vec(points.corner[c]));
-    for (std::size_t d = 0; d < points.half.size(); ++d) {
-      state(fmt::format("half_{}", d), Vec(points.half[d]));
-      state(fmt::format("rest_{}", d), Vec(points.rest[d]));
-    }
-  }
-  state("volume", Vec(points.volume));
-  state("mass", Vec(points.mass));
-  state("number", points.number);
-  state("cell", points.cell);
-  state("cell_begin", points.cell_begin);
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::archive_conditions(const StateArchive& state) {
-  for (std::size_t k = 0; k < boundary_.size(); ++k) boundary_[k]->archive(state.part(fmt::format("condition_{}", k)));
-  weak_supports_.archive(state.part("weak_supports"));
-  load_control_.archive(state.part("load"));
 }
 
 // Where the points and the wall that it follows were when the phase began.

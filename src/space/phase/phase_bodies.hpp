@@ -15,9 +15,7 @@ std::vector<BodyGap> MaterialPointPhase<B, K>::body_gaps() const {
 template <AxisBasis B, Kinematics K>
 std::vector<HeldAxes> MaterialPointPhase<B, K>::held_bodies() const {
   std::vector<HeldAxes> held(scene_.bodies.size(), HeldAxes{});
-  std::vector<char> is_sprung(Dim * reached_.size(), 0);
-  for (const Springs::Weight& weight : weak_supports_.springs().weights())
-    is_sprung[static_cast<std::size_t>(weight.unknown)] = 1;
+  const std::vector<char> is_sprung = conditions_.are_sprung(Dim * reached_.size());
   const auto bodies =
       BodyNeighbours<Dim>(scene_, functions_, body_.points, weights_, body_.first_number).bodies_of_functions();
   for (std::size_t f = 0; f < bodies.size(); ++f) {

@@ -13,8 +13,7 @@ template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   if (!updated_lagrangian()) return 0;
   if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
-  for (const auto& condition : boundary_)
-    if (condition->asks_for_next_phase(u)) return 1;
+  if (conditions_.ask_for_next_phase(u)) return 1;
   double share = 0;
   if (scene_.phase.max_motion) {
     const bool committed = history_dependent_ && t == committed_t_;
@@ -49,7 +48,7 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   Grid<Dim> next_grid = grid_at<Dim>(scene_, grid_moves_to);
   spread(t, u, grid_u_);
   const std::vector<double> grid_v = nodal_velocity(t, v);
-  const GridFaces<Dim> faces(scene_, next_grid, axis_.acts());
+  const GridFaces<Dim> faces(scene_, next_grid, conditions_.act_on_axis());
   const bool some_past_a_face = move_points(next_grid, faces, grid_v);
   motion_since_deformation_ += largest_motion(u);
   end_phase(grid_v);
@@ -90,16 +89,6 @@ void MaterialPointPhase<B, K>::place_functions(double t) {
   reached_ = std::move(reached);
 }
 
-// Supports first: what they bear on the axis is theirs.
-template <AxisBasis B, Kinematics K>
-HeldUnknowns MaterialPointPhase<B, K>::take_hold(double t, const std::vector<char>& reached) {
-  HeldUnknowns held(Dim * reached.size(), t);
-  const FaceGaps<Dim> gaps = face_gaps();
-  for (const auto& condition : boundary_) condition->hold(functions_, reached, gaps, held);
-  axis_.hold(functions_, body_.points, weights_, reached, held);
-  return held;
-}
-
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::make_weights() {
   totals_.begin(grid_, body_.points, weights_, wave_moduli());
@@ -120,10 +109,8 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
   take_elastic_moments();
   make_mass();
   constant_force_.assign(size(), 0);
-  for (const auto& condition : boundary_) condition->begin_phase(parts(), constant_force_);
-  const auto bound = [this] { return bound_of_functions(); };
-  weak_supports_.begin_phase(parts(), bound);
-  load_control_.begin_phase(parts(), bound);
+  conditions_.begin_phase(
+      parts(), [this] { return bound_of_functions(); }, constant_force_);
 }
 
 template <AxisBasis B, Kinematics K>
@@ -165,48 +152,6 @@ std::vector<char> MaterialPointPhase<B, K>::active_functions() const {
   return reached;
 }
 
-// A wave's time through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max [s].
-template <AxisBasis B, Kinematics K>
-double MaterialPointPhase<B, K>::time_scale() const {
-  double h = std::numeric_limits<double>::infinity(), shortest = h;
-  for (const Axis& axis : grid_.axes) {
-    for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
-  }
-  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
-    const double density = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
-    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->info().wave_modulus));
-  }
-  return shortest;
-}
-
-// σ_yy = −ρ b_y (surface − y)  from  ∂σ_yy/∂y + ρ b_y = 0,  σ_xx = σ_zz = K0 σ_yy
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::set_geostatic_stress() {
-  if constexpr (Dim > 1) {
-    const double b_y = scene_.body_force.at(1)({}, 0);
-    for (std::size_t m = 0; m < body_.materials.size(); ++m) {
-      const double rho = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
-      std::vector<std::array<double, stillpoint::stress_components(K)>> stress;
-      for (int p = body_.points.material_begin[m]; p < body_.points.material_begin[m + 1]; ++p) {
-        const double depth = scene_.geostatic->surface - body_.points.x[1][static_cast<std::size_t>(p)];
-        const double vertical = rho * b_y * std::max(0.0, depth), side = scene_.geostatic->K0 * vertical;
-        stress.push_back({side, vertical, side});
-      }
-      body_.materials[m]->set_stress(stress);
-    }
-  }
-}
-
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::set_initial_point_velocity() {
-  if (scene_.initial_v.empty()) return;
-  for (std::size_t p = 0; p < points(); ++p) {
-    for (int i = 0; i < Dim; ++i) {
-      body_.points.v[i][p] = scene_.initial_v[static_cast<std::size_t>(i)](body_.points.position(p), 0);
-    }
-  }
-}
-
 // Where grid_u_ and grid_v take the points, before anything changes: a run that ends here shows the state it had.
 // Throws PointLost if that is out of the next grid. Whether one has to be put back onto a face.
 template <AxisBasis B, Kinematics K>
@@ -231,7 +176,7 @@ bool MaterialPointPhase<B, K>::move_points(const Grid<Dim>& next_grid, const Gri
         if (faces.keeps(d, x)) continue;
         throw PointLost(fmt::format(
             "{} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected a larger grid, a support or a wall",
-            to_string(place(k, p)), "xyz"[d], x, axis.min(), axis.max()));
+            to_string(account().place(k, p)), "xyz"[d], x, axis.min(), axis.max()));
       }
     }
   }
@@ -258,9 +203,7 @@ void MaterialPointPhase<B, K>::end_phase(const std::vector<double>& grid_v) {
     });
   }
   body_.points.x.swap(transfer_.motion().x);
-  for (const auto& condition : boundary_) condition->end_phase(grid_u_.data());
-  weak_supports_.end_phase(grid_u_.data());
-  load_control_.end_phase(grid_u_.data());
+  conditions_.end_phase(grid_u_.data());
 }
 
 // Largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.

@@ -5,21 +5,11 @@
 
 namespace stillpoint {
 
-// Point p in occupied cell k.
-template <AxisBasis B, Kinematics K>
-PlaceInBody MaterialPointPhase<B, K>::place(std::size_t k, std::size_t p) const {
-  const auto x = body_.points.position(p);
-  PlaceInBody at{.what = fmt::format("material point {}", body_.points.number[p] + 1),
-                 .position = {x.begin(), x.end()}};
-  for (const int c : grid_.cell_at(body_.points.cell[k])) at.cell.push_back(c + 1);
-  return at;
-}
-
 template <AxisBasis B, Kinematics K>
 PlaceInBody MaterialPointPhase<B, K>::of_point(std::size_t number) const {
   PlaceInBody at;
   for_points([&](std::size_t k, std::size_t p, std::size_t n) {
-    if (n == number) at = place(k, p);
+    if (n == number) at = account().place(k, p);
   });
   return at;
 }
@@ -36,7 +26,7 @@ PlaceInBody MaterialPointPhase<B, K>::of_unknown(std::size_t unknown) const {
     for (int a = 0; a < per_cell; ++a) {
       if (weights_.function(k, a) != function || !(std::abs(N[a]) > largest)) continue;
       largest = std::abs(N[a]);
-      const PlaceInBody point = place(k, p);
+      const PlaceInBody point = account().place(k, p);
       at.material_point = point.what;
       at.cell = point.cell;
     }
@@ -112,7 +102,7 @@ std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
       all, [](const Bad& a, const Bad& b) { return std::pair(a.det_f, a.number) < std::pair(b.det_f, b.number); });
   std::size_t k = 0;
   while (points.end(k) <= worst.p) ++k;
-  const std::string at = to_string(place(k, worst.p));
+  const std::string at = to_string(account().place(k, worst.p));
   const std::string others = all.size() > 1 ? fmt::format(" (and at {} other points)", all.size() - 1) : "";
   if (!std::isfinite(worst.det_f)) return "the displacement is not finite at " + at + others;
   if (worst.det_f <= 0) {

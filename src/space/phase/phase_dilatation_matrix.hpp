@@ -11,6 +11,7 @@
 #include "space/kernels/mean_dilatation.hpp"
 #include "space/materials/moduli_of.hpp"
 #include "space/phase/material_point_phase.hpp"
+#include "space/phase/matrix_with_means.hpp"
 
 namespace stillpoint {
 
@@ -125,20 +126,15 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_means(Tangent kind, double dt) 
   }
 }
 
-// With c = G D u the coefficients of the means, D_A = Σ_p V_p N_pA ∂J_p/∂u, and R = R(u, c) + Dᵀ G Σ_p N_p y_p:
-//
-//   K = K_uu + K_uc G D + (G D)ᵀ (K_cu + K_cc G D)
-//
-// where K_uc = ∂R/∂c, K_cu and K_cc are derivatives of Σ_p N_p y_p, and K_uu that of R(u, c) and of D at its shares.
+// See matrix_with_means().
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix_of_spline_means(Tangent kind, double dt) const {
   constexpr int unknowns = Dim * per_cell, splines = SplineMeans<B, K>::per_cell;
-  using Entries = std::vector<Eigen::Triplet<double>>;
   take_means(grid_u_.data());
   take_shares(grid_u_.data(), dt);
   const MaterialPoints<Dim>& points = body_.points;
   const SplinePass<B, K> pass(splines_, points.volume.data(), {.means = &means_, .shares = &shares_});
-  Entries force_of_mean, share_of_u, mean_of_u, share_of_mean;
+  MatrixEntries force_of_mean, share_of_u, mean_of_u, share_of_mean;
   Block block;
   const auto add_cell = [&](std::size_t k, CellMatrix<Dim, per_cell>& matrix) {
     MixedCellMatrix<unknowns, splines> mixed;
@@ -194,16 +190,7 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_spline_means(Tangent kind, doub
     }
   };
   const SparseMatrix K_uu = assemble_whole_cells<B, K>(grid_, points, weights_, *dofs_, add_cell).free;
-  const auto made = [](Eigen::Index rows, Eigen::Index columns, const Entries& entries) {
-    SparseMatrix matrix(rows, columns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-  };
-  const auto n = static_cast<Eigen::Index>(size()), s = static_cast<Eigen::Index>(splines_.functions());
-  const SparseMatrix K_uc = made(n, s, force_of_mean), K_cu = made(s, n, share_of_u), D = made(s, n, mean_of_u);
-  const SparseMatrix K_cc = made(s, s, share_of_mean), G = splines_.matrix(), GD = G * D;
-  const SparseMatrix of_shares = K_cu + K_cc * GD, of_means = K_uc * GD, given = GD.transpose() * of_shares;
-  return K_uu + of_means + given;
+  return matrix_with_means(K_uu, splines_.matrix(), {force_of_mean, share_of_u, mean_of_u, share_of_mean});
 }
 
 }  // namespace stillpoint

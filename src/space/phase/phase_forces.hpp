@@ -9,30 +9,17 @@ namespace stillpoint {
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::external_force(double t, ConstVec u, Vec F) const {
   for_each_index(F.size(), [F, constant = constant_force_.data()](std::size_t i) { F[i] = constant[i]; });
-  for (const auto& condition : boundary_) condition->add_load(parts(), t, F);
-  for (const auto& condition : boundary_) {
-    if (!condition->follows()) continue;
-    spread(t, u, grid_u_);
-    condition->add_following_force(parts(), t, grid_u_.data(), F);
-  }
-}
-
-template <AxisBasis B, Kinematics K>
-bool MaterialPointPhase<B, K>::loads_are_constant() const {
-  return std::ranges::none_of(boundary_,
-                              [](const auto& condition) { return condition->varies() || condition->follows(); });
+  conditions_.add_loads(parts(), t, F);
+  if (!conditions_.loads_follow()) return;
+  spread(t, u, grid_u_);
+  conditions_.add_following_loads(parts(), t, grid_u_.data(), F);
 }
 
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::of_loads(double t, ConstVec u) const {
-  MatrixEntries entries;
   spread(t, u, grid_u_);
-  for (const auto& condition : boundary_) condition->add_following_tangent(parts(), t, grid_u_.data(), entries);
-  const auto n = static_cast<Eigen::Index>(u.size());
-  SparseMatrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
+  return conditions_.tangent_of_loads(parts(), t, grid_u_.data());
+}
 
 // Phases that follow one upon the other use the same arrays, whose pages are there already.
 template <AxisBasis B, Kinematics K>
@@ -40,8 +27,7 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   auto trial = std::make_unique<Trial>();
   trial->of = this;
   trial->phase = phase_;
-  trial->reactions.assign(dofs_->prescribed.size() + weak_supports_.springs().size() + load_control_.springs().size(),
-                          0);
+  trial->reactions.assign(dofs_->prescribed.size() + conditions_.springs(), 0);
   if (!spare_) spare_ = std::make_shared<TrialArrays>();
   trial->arrays = spare_.use_count() == 1 ? spare_ : std::make_shared<TrialArrays>();
   trial->arrays->u.assign(grid_u_.size(), 0);
@@ -116,9 +102,7 @@ bool MaterialPointPhase<B, K>::internal_force(double t, ConstVec u, Vec R, Trial
     trial.evaluated = nodal_force_.template evaluate_cells<false>(of_elastic_cells(grid_u), *dofs_, R, trial.reactions);
   }
   if (trial.evaluated) trial.evaluated = add_shared_forces(grid_u.data(), R, trial.reactions);
-  const std::size_t of_supports = trial.reactions.size() - load_control_.springs().size();
-  weak_supports_.springs().add_force(t, grid_u.data(), R, Vec(trial.reactions).first(of_supports));
-  load_control_.springs().add_force(t, grid_u.data(), R, trial.reactions);
+  conditions_.add_springs(t, grid_u.data(), R, trial.reactions);
   return trial.evaluated;
 }
 
@@ -136,13 +120,6 @@ void MaterialPointPhase<B, K>::commit(TrialState& any) {
   committed_motion_ = trial.motion;
 }
 
-// For grid_du_.
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::add_springs_product(Vec dR) const {
-  weak_supports_.springs().add_product(grid_du_.data(), dR);
-  load_control_.springs().add_product(grid_du_.data(), dR);
-}
-
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const {
   if (kind == Tangent::stable) throw std::logic_error("the stable tangent is a matrix alone");
@@ -152,7 +129,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   dofs_->extend(grid_du_.data());
   if (!elastic_cells_.empty()) {
     nodal_force_.template evaluate_cells<true>(of_elastic_cells(grid_du_), *dofs_, dR, {});
-    return add_springs_product(dR);
+    return conditions_.add_springs_product(grid_du_.data(), dR);
   }
   const double dt = t - committed_t_;
   take_means(grid_u_.data());
@@ -165,7 +142,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   nodal_force_.template evaluate<true, true>(grid_u_.data(), committed_u_.data(), std::cref(answer), *dofs_, dR, {},
                                              grid_du_.data());
   add_shared_forces(grid_u_.data(), dR, {});
-  add_springs_product(dR);
+  conditions_.add_springs_product(grid_du_.data(), dR);
 }
 
 // K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
@@ -198,7 +175,7 @@ SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u
   SparseMatrix matrix = averages_dilatation()
                             ? matrix_of_means(kind, t - committed_t_)
                             : assemble_cells<B, K>(grid_, body_.points, weights_, *dofs_, add_point).free;
-  weak_supports_.springs().add_matrix(matrix);  // that of driven loads would be full, and static solvers have none
+  conditions_.add_springs_matrix(matrix);
   return matrix;
 }
 
@@ -218,7 +195,7 @@ void MaterialPointPhase<B, K>::add_support_inertia(double t, double c, Vec Q) co
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
   if (!info_.stiffens) return 1;
-  if (history_dependent_) return weak_supports_.growth();
+  if (history_dependent_) return conditions_.growth_of_springs();
   const auto largest_bound = [&] {
     double largest = 0;
     take_means(grid_u_.data());
@@ -237,8 +214,8 @@ double MaterialPointPhase<B, K>::stiffening(double t, ConstVec u) const {
   spread(t, u, grid_u_);
   const double stiffening = largest_bound() / undeformed_bound_;
   // Springs do not soften with the material.
-  if (weak_supports_.empty() || stiffening > weak_supports_.growth()) return stiffening;
-  return std::isnan(stiffening) ? stiffening : weak_supports_.growth();
+  if (!conditions_.hold_by_springs() || stiffening > conditions_.growth_of_springs()) return stiffening;
+  return std::isnan(stiffening) ? stiffening : conditions_.growth_of_springs();
 }
 
 }  // namespace stillpoint

@@ -121,7 +121,7 @@ std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec 
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::is_free() const {
   return scene_.supports.empty() && scene_.walls.empty() && scene_.forces.empty() && scene_.tractions.empty() &&
-         !scene_.has_body_force() && !scene_.load && !axis_.acts() && is_undamped(scene_.damping.strategy);
+         !scene_.has_body_force() && !scene_.load && !conditions_.act_on_axis() && is_undamped(scene_.damping.strategy);
 }
 
 // What the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim): by the inertia that

@@ -15,6 +15,7 @@
 #include "space/boundary/boundary_conditions.hpp"
 #include "space/grid/domain_basis.hpp"
 #include "space/grid/scene_grid.hpp"
+#include "space/kernels/point_weights.hpp"
 #include "space/points/body.hpp"
 
 using namespace stillpoint;
@@ -56,7 +57,7 @@ class LoadedBlock {
       : scene_(std::move(scene)),
         grid_(grid_at<2>(scene_, 0)),
         body_(make_body<K>(scene_, grid_, true)),
-        loads_(make_boundary_conditions<B, K>(scene_, grid_, 1)) {
+        loads_(make_boundary_conditions<K>(scene_, grid_, 1)) {
     begin_phase();
   }
 
@@ -146,12 +147,15 @@ class LoadedBlock {
     constant_force_.assign(dofs_->size(), 0);
     for (const auto& load : loads_) load->begin_phase(parts(), constant_force_);
   }
-  PhaseParts<B, K> parts() const { return {grid_, body_.points, weights_, held_, *dofs_, node_mass_, *mass_, false}; }
+  PhaseParts<2> parts() const {
+    return {grid_, functions_, body_.points, weights_, held_, *dofs_, node_mass_, *mass_, false};
+  }
 
   const Scene scene_;
   Grid<2> grid_;
+  const FunctionsOfBasis<B, 2> functions_{grid_};
   Body<K> body_;
-  BoundaryConditions<B, K> loads_;
+  BoundaryConditions<2> loads_;
   PointOrder<2> order_;
   PointWeights<B, K> weights_;
   HeldUnknowns held_;

@@ -1,0 +1,188 @@
+#include "space/boundary/conditions.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace stillpoint {
+
+template <Kinematics K>
+Conditions<K>::Conditions(const Scene& scene, const Scene& whole, const Grid<dim>& grid, const Body<K>& body,
+                          double time_scale)
+    : scene_(scene),
+      all_(make_boundary_conditions<K>(scene, grid, time_scale)),
+      axis_(scene, grid, body, time_scale),
+      weak_supports_(scene, grid, time_scale),
+      load_control_(whole, grid, time_scale) {
+  for (const auto& condition : all_) {
+    Contact* found = condition->contact();
+    if (found && contact_) throw std::logic_error("two kinds of boundary conditions have contact");
+    if (found) contact_ = found;
+  }
+}
+
+// Supports first: what they bear on the axis is theirs.
+template <Kinematics K>
+HeldUnknowns Conditions<K>::hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
+                                 const PointFunctions<dim>& weights, const std::vector<char>& reached,
+                                 const FaceGaps<dim>& gaps) {
+  HeldUnknowns held(dim * reached.size(), t);
+  for (const auto& condition : all_) condition->hold(functions, reached, gaps, held);
+  axis_.hold(functions, points, weights, reached, held);
+  return held;
+}
+
+template <Kinematics K>
+void Conditions<K>::begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound, Vec F) {
+  for (const auto& condition : all_) condition->begin_phase(phase, F);
+  weak_supports_.begin_phase(phase, stiffness_bound);
+  load_control_.begin_phase(phase, stiffness_bound);
+}
+
+template <Kinematics K>
+void Conditions<K>::begin_motion(const Parts& phase, double t, Vec v) {
+  for (const auto& condition : all_) condition->begin_motion(phase, t, v);
+}
+
+template <Kinematics K>
+bool Conditions<K>::loads_are_constant() const {
+  return std::ranges::none_of(all_, [](const auto& condition) { return condition->varies() || condition->follows(); });
+}
+
+template <Kinematics K>
+bool Conditions<K>::loads_follow() const {
+  return std::ranges::any_of(all_, [](const auto& condition) { return condition->follows(); });
+}
+
+template <Kinematics K>
+void Conditions<K>::add_loads(const Parts& phase, double t, Vec F) const {
+  for (const auto& condition : all_) condition->add_load(phase, t, F);
+}
+
+template <Kinematics K>
+void Conditions<K>::add_following_loads(const Parts& phase, double t, const double* u, Vec F) const {
+  for (const auto& condition : all_)
+    if (condition->follows()) condition->add_following_force(phase, t, u, F);
+}
+
+template <Kinematics K>
+SparseMatrix Conditions<K>::tangent_of_loads(const Parts& phase, double t, const double* u) const {
+  MatrixEntries entries;
+  for (const auto& condition : all_) condition->add_following_tangent(phase, t, u, entries);
+  const auto n = static_cast<Eigen::Index>(phase.dofs.size());
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
+
+template <Kinematics K>
+void Conditions<K>::add_springs(double t, const double* u, Vec R, Vec reactions) const {
+  const std::size_t of_supports = reactions.size() - load_control_.springs().size();
+  weak_supports_.springs().add_force(t, u, R, reactions.first(of_supports));
+  load_control_.springs().add_force(t, u, R, reactions);
+}
+
+template <Kinematics K>
+void Conditions<K>::add_springs_product(const double* du, Vec dR) const {
+  weak_supports_.springs().add_product(du, dR);
+  load_control_.springs().add_product(du, dR);
+}
+
+template <Kinematics K>
+std::vector<char> Conditions<K>::are_sprung(std::size_t unknowns) const {
+  std::vector<char> sprung(unknowns, 0);
+  for (const Springs::Weight& weight : weak_supports_.springs().weights())
+    sprung[static_cast<std::size_t>(weight.unknown)] = 1;
+  return sprung;
+}
+
+template <Kinematics K>
+bool Conditions<K>::ask_for_next_phase(ConstVec u) const {
+  return std::ranges::any_of(all_, [u](const auto& condition) { return condition->asks_for_next_phase(u); });
+}
+
+template <Kinematics K>
+void Conditions<K>::end_phase(const double* u) {
+  for (const auto& condition : all_) condition->end_phase(u);
+  weak_supports_.end_phase(u);
+  load_control_.end_phase(u);
+}
+
+template <Kinematics K>
+void Conditions<K>::archive(const StateArchive& state) {
+  for (std::size_t k = 0; k < all_.size(); ++k) all_[k]->archive(state.part(fmt::format("condition_{}", k)));
+  weak_supports_.archive(state.part("weak_supports"));
+  load_control_.archive(state.part("load"));
+}
+
+template <Kinematics K>
+std::vector<WallReaction> Conditions<K>::wall_reactions(double t) const {
+  std::vector<WallReaction> reactions;
+  for (const auto& condition : all_) condition->report(t, reactions);
+  return reactions;
+}
+
+template <Kinematics K>
+std::vector<double> Conditions<K>::support_displacements(const HeldUnknowns& held, double t) const {
+  std::vector<double> moved;
+  for (std::size_t s = 0; s < held.prescribed().size(); ++s) moved.push_back(held.displacement(s, t));
+  for (const Springs* springs : {&weak_supports_.springs(), &load_control_.springs()}) {
+    for (std::size_t s = 0; s < springs->size(); ++s)
+      moved.push_back(springs->support_displacement(s, t, held.start()));
+  }
+  return moved;
+}
+
+// R_s − F_s at the prescribed values, −k g of springs. A slope has a moment, which is no force.
+template <Kinematics K>
+std::vector<SupportReaction> Conditions<K>::support_reactions(const Parts& phase, double t, const double* u,
+                                                              ConstVec reactions) const {
+  std::vector<SupportReaction> named;
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place(scene_.supports.size(), none);
+  for (std::size_t s = 0; s < place.size(); ++s) {
+    if (scene_.supports[s].name.empty()) continue;
+    place[s] = named.size();
+    named.push_back({scene_.supports[s].name, {}});
+  }
+  if (named.empty()) return named;
+  const HeldUnknowns& held = phase.held;
+  const std::size_t prescribed = held.prescribed().size();
+  std::vector<double> F_s(prescribed, 0);
+  for (const auto& condition : all_) condition->add_load_on_supports(phase, t, u, F_s);
+  load_control_.add_load_on_supports(phase, t, u, F_s);
+  // f along axis i at x, with its moment x × f e_i.
+  const auto bear = [&](SupportReaction& support, int i, double f, [[maybe_unused]] const auto& place_of) {
+    support.force[static_cast<std::size_t>(i)] += f;
+    if constexpr (dim == 3) {
+      const Point<dim> x = place_of();
+      const auto next = static_cast<std::size_t>((i + 1) % 3), last = static_cast<std::size_t>((i + 2) % 3);
+      support.moment[next] += x[last] * f;
+      support.moment[last] -= x[next] * f;
+    }
+  };
+  for (std::size_t s = 0; s < prescribed; ++s) {
+    const int function = held.prescribed()[s] / dim, i = held.prescribed()[s] % dim;
+    const std::size_t support = held.owner(s), owner = support == HeldUnknowns::nobody ? none : place[support];
+    if (owner == none || !phase.functions.is_value(function)) continue;
+    bear(named[owner], i, reactions[s] - F_s[s], [&] {
+      Point<dim> x;
+      for (int d = 0; d < dim; ++d) x[d] = phase.functions.centre(function, d) + u[dim * function + d];
+      return x;
+    });
+  }
+  for (std::size_t s = 0; s < weak_supports_.springs().size(); ++s) {
+    if (const std::size_t owner = place[weak_supports_.owner(s)]; owner != none)
+      bear(named[owner], weak_supports_.component(s), reactions[prescribed + s],
+           [&] { return weak_supports_.place(s, u); });
+  }
+  return named;
+}
+
+template class Conditions<Kinematics::line>;
+template class Conditions<Kinematics::plane>;
+template class Conditions<Kinematics::axisymmetric>;
+template class Conditions<Kinematics::space>;
+
+}  // namespace stillpoint

@@ -1,0 +1,178 @@
+#include "space/phase/body_account.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/parallel_loop.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// visit(occupied cell, point, number of the point)
+template <int Dim, class Visit>
+void for_points(const MaterialPoints<Dim>& points, const Visit& visit) {
+  for (std::size_t k = 0; k < points.cells(); ++k) {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p)
+      visit(k, p, static_cast<std::size_t>(points.number[p]));
+  }
+}
+
+}  // namespace
+
+template <Kinematics K>
+PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
+  std::set<std::string> names;
+  bool remembers = false, finite_strain = false;
+  for (const auto& material : body_.materials) {
+    remembers = remembers || material->info().history_dependent;
+    finite_strain = finite_strain || material->info().finite_strain;
+    for (const auto& [name, values] : material->shown_history()) names.insert(name);
+  }
+  std::vector<double> m(body_.points.size());  // in the order of the points' numbers, which does not change
+  for_points(body_.points, [&](std::size_t, std::size_t p, std::size_t number) { m[number] = body_.points.mass[p]; });
+  return {.dim = dim,
+          .gradient_components = stillpoint::gradient_components(K),
+          .stress_components = stillpoint::stress_components(K),
+          .points = m.size(),
+          .total_mass = sum_over(m.size(), [&](std::size_t p) { return m[p]; }),
+          .history_names = {names.begin(), names.end()},
+          .updated_lagrangian = moves_on(),
+          .nonlinear = finite_strain || remembers,
+          // With history the elastic part is small, and what it yields only softens; but springs go with it.
+          .stiffens = finite_strain && (!remembers || (moves_on() && held_by_springs))};
+}
+
+template <Kinematics K>
+std::vector<PointArray> BodyAccount<K>::arrays(std::size_t P, const std::vector<PointArray>& of_phase) const {
+  constexpr double real = sizeof(double);
+  std::vector<PointArray> arrays = {
+      {"position", dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
+  std::ranges::copy(of_phase, std::back_inserter(arrays));
+  if (moves_on()) {
+    arrays.push_back({"velocity", dim * real});
+    arrays.push_back({"position at the start", dim * real});
+    if (scene_.phase.transfer == Transfer::apic) arrays.push_back({"affine velocity", dim * dim * real});
+    if (body_.points.has_domains()) arrays.push_back({"domain", ((dim << dim) + 2 * dim) * real});
+  }
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+    const double share = (body_.points.material_begin[m + 1] - body_.points.material_begin[m]) / static_cast<double>(P);
+    for (PointArray array : body_.materials[m]->arrays()) {
+      array.bytes_per_point *= share;
+      arrays.push_back(array);
+    }
+  }
+  return arrays;
+}
+
+template <Kinematics K>
+std::vector<double> BodyAccount<K>::positions(std::size_t P) const {
+  const auto& points = body_.points;
+  std::vector<double> out(dim * P, 0);
+  if (points.size() == P) {
+    for_points(points, [&](std::size_t, std::size_t p, std::size_t number) {
+      for (std::size_t d = 0; d < dim; ++d) out[dim * number + d] = points.x[d][p];
+    });
+    return out;
+  }
+  std::vector<double> mass(P, 0);
+  for_points(points, [&](std::size_t, std::size_t p, std::size_t number) { mass[number] += points.mass[p]; });
+  for_points(points, [&](std::size_t, std::size_t p, std::size_t number) {
+    const double share = points.mass[p] / mass[number];
+    for (std::size_t d = 0; d < dim; ++d) out[dim * number + d] += share * points.x[d][p];
+  });
+  return out;
+}
+
+template <Kinematics K>
+PointData BodyAccount<K>::point_data(std::size_t P, const std::vector<double>& origin) const {
+  const std::vector<double> of_point(P);
+  const std::vector<double> positions = this->positions(P);
+  PointData data{positions, origin.empty() ? positions : origin, of_point, of_point, std::vector<int>(P)};
+  for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t number) {
+    data.volumes[number] += body_.points.volume[p];
+    data.masses[number] += body_.points.mass[p];
+    data.materials[number] = body_.points.material_of_cell(k);
+  });
+  return data;
+}
+
+template <Kinematics K>
+void BodyAccount<K>::history(const std::string& name, Vec out) const {
+  std::ranges::fill(out, 0.0);
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+    const auto begin = static_cast<std::size_t>(body_.points.material_begin[m]);
+    for (const auto& [shown, values] : body_.materials[m]->shown_history()) {
+      if (shown != name) continue;
+      for (std::size_t k = 0; k < values.size(); ++k)
+        out[static_cast<std::size_t>(body_.points.number[begin + k])] = values[k];
+    }
+  }
+}
+
+template <Kinematics K>
+PlaceInBody BodyAccount<K>::place(std::size_t k, std::size_t p) const {
+  const auto x = body_.points.position(p);
+  PlaceInBody at{.what = fmt::format("material point {}", body_.points.number[p] + 1),
+                 .position = {x.begin(), x.end()}};
+  for (const int c : grid_.cell_at(body_.points.cell[k])) at.cell.push_back(c + 1);
+  return at;
+}
+
+template <Kinematics K>
+double BodyAccount<K>::shortest_time() const {
+  double h = std::numeric_limits<double>::infinity(), shortest = h;
+  for (const Axis& axis : grid_.axes) {
+    for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
+  }
+  for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+    const double density = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
+    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->info().wave_modulus));
+  }
+  return shortest;
+}
+
+template <Kinematics K>
+void set_geostatic_stress(const Scene& scene, Body<K>& body) {
+  if constexpr (dimensions(K) > 1) {
+    const double b_y = scene.body_force.at(1)({}, 0);
+    for (std::size_t m = 0; m < body.materials.size(); ++m) {
+      const double rho = scene.materials.at(body.material_names[m]).parameters.at("rho");
+      std::vector<std::array<double, stress_components(K)>> stress;
+      for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
+        const double depth = scene.geostatic->surface - body.points.x[1][static_cast<std::size_t>(p)];
+        const double vertical = rho * b_y * std::max(0.0, depth), side = scene.geostatic->K0 * vertical;
+        stress.push_back({side, vertical, side});
+      }
+      body.materials[m]->set_stress(stress);
+    }
+  }
+}
+
+template <Kinematics K>
+void set_initial_velocity(const Scene& scene, Body<K>& body) {
+  if (scene.initial_v.empty()) return;
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
+    for (std::size_t i = 0; i < dimensions(K); ++i)
+      body.points.v[i][p] = scene.initial_v[i](body.points.position(p), 0);
+  }
+}
+
+template class BodyAccount<Kinematics::line>;
+template class BodyAccount<Kinematics::plane>;
+template class BodyAccount<Kinematics::axisymmetric>;
+template class BodyAccount<Kinematics::space>;
+template void set_geostatic_stress(const Scene&, Body<Kinematics::line>&);
+template void set_geostatic_stress(const Scene&, Body<Kinematics::plane>&);
+template void set_geostatic_stress(const Scene&, Body<Kinematics::axisymmetric>&);
+template void set_geostatic_stress(const Scene&, Body<Kinematics::space>&);
+template void set_initial_velocity(const Scene&, Body<Kinematics::line>&);
+template void set_initial_velocity(const Scene&, Body<Kinematics::plane>&);
+template void set_initial_velocity(const Scene&, Body<Kinematics::axisymmetric>&);
+template void set_initial_velocity(const Scene&, Body<Kinematics::space>&);
+
+}  // namespace stillpoint
