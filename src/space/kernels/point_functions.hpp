@@ -16,6 +16,8 @@ namespace stillpoint {
 template <int Dim>
 class PointFunctions {
  public:
+  virtual ~PointFunctions() = default;
+
   static constexpr int most_per_cell = most_functions_of_cell(Dim);
   using Numbers = std::array<double, most_per_cell>;
   using Slopes = std::array<double, Dim * most_per_cell>;
@@ -48,9 +50,6 @@ class PointFunctions {
 
  protected:
   explicit PointFunctions(int functions_of_cell) : functions_of_cell_(functions_of_cell) {}
-  PointFunctions(const PointFunctions&) = default;
-  PointFunctions& operator=(const PointFunctions&) = default;
-  ~PointFunctions() = default;
 
   std::array<int, most_per_cell> offset_{};
   std::vector<std::array<int, Dim>> at_;  // (occupied cells)

@@ -18,8 +18,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rounding = 1e-11;  // of moments of order one
-constexpr int highest_degree = 9;   // past what any basis here can use
+constexpr double rounding_of_moments = 1e-11;  // of moments of order one
+constexpr int highest_degree = 9;              // past what any basis here can use
 
 // Powers (k_1, ..., k_Dim) by (largest, total): the groups in which degrees are tried.
 std::map<std::pair<int, int>, std::vector<std::vector<int>>> power_groups(int dim, int degree) {
@@ -69,8 +69,8 @@ class Legendre {
 ConstrainedFit nearest_nonnegative(const MatrixXd& A, const VectorXd& b, const VectorXd& target) {
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(A);
   const VectorXd w = target + decomposition.solve(b - A * target);
-  if ((A * w - b).lpNorm<Eigen::Infinity>() > rounding) return {};
-  if (w.minCoeff() >= -rounding) return {w.cwiseMax(0), true};
+  if ((A * w - b).lpNorm<Eigen::Infinity>() > rounding_of_moments) return {};
+  if (w.minCoeff() >= -rounding_of_moments) return {w.cwiseMax(0), true};
 
   // w + Z z ≥ 0 with the smallest z, Z an orthonormal basis of the null space of A: problem LDP, solved through NNLS
   // with E = [Zᵀ; −wᵀ], f = e_last; no residual means that no such z exists.
@@ -160,7 +160,7 @@ MomentFit equal_weights(const MatrixXd& xi) {
   for (const auto& [degree, powers] : power_groups(static_cast<int>(xi.rows()), highest_degree)) {
     const int largest = degree.first;
     if (largest == 0) continue;
-    if ((legendre.products(powers) * fit.weights).lpNorm<Eigen::Infinity>() > rounding) {
+    if ((legendre.products(powers) * fit.weights).lpNorm<Eigen::Infinity>() > rounding_of_moments) {
       fit.degree = largest - 1;
       break;
     }

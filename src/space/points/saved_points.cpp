@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "space/points/domain_halving.hpp"
+#include "space/points/point_order.hpp"
 
 namespace stillpoint {
 namespace {
