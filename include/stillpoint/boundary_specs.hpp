@@ -1,6 +1,7 @@
 // What holds or loads a body, as a scene says it.
 #pragma once
 
+#include <stillpoint/choice.hpp>
 #include <stillpoint/expression.hpp>
 #include <stillpoint/scene_options.hpp>
 
@@ -17,11 +18,12 @@ struct SupportSpec {                  // [[support]]: u = motion(X, t) at a posi
   std::optional<Face> face{};         // of the grid
   std::vector<double> from{}, to{};   // the part of the face that is held, along its axes [m]; empty: to its ends
   bool roller = false;                // on a face: only `component` is held, otherwise the others too (at 0)
-  int component = 0;                  // that moves; on a face its normal, unless another is named
+  Choice<int> component{};            // that moves; on a face its normal, unless another is asked for, and held alone
   Expression motion{};                // of the position before the motion and of t [m]; 0: fixed
   std::optional<double> stiffness{};  // of a spring that holds: at a position [N/m], on a face per area [N/m³]
 
   bool on_part() const { return !from.empty() || !to.empty(); }
+  bool holds_one_component() const { return face && (roller || component.is_asked()); }
 };
 
 struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, that pushes and never pulls

@@ -11,7 +11,7 @@
 
 namespace stillpoint {
 
-struct Scene;
+struct Problem;
 
 /// A number that a law or an exact solution takes; allowed if lower < value < upper, and at lower itself if
 /// lower_allowed.
@@ -95,7 +95,7 @@ struct SolutionInfo {
   std::vector<std::string_view> laws{};  // for which it holds; empty: for all, at small strain
   bool has_stress = true;
   /// Of a scene whose parameters are each in their range; null: nothing can be wrong then.
-  std::optional<SolutionFault> (*fault)(const Scene&) = nullptr;
+  std::optional<SolutionFault> (*fault)(const Problem&) = nullptr;
 };
 
 struct Catalogue {

@@ -2,7 +2,7 @@
 // and against the Chebyshev estimate ½ √κ ln(2/ε).
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/study_progress.hpp>
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // Convergence studies: one scene on ever finer levels, its errors, and their observed orders.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/study_progress.hpp>
 #include <stillpoint/summary.hpp>
 

@@ -21,7 +21,7 @@
 
 #include <stillpoint/drucker_prager_cone.hpp>
 #include <stillpoint/dual.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/tensor.hpp>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // The exact solution of a scene: formulas of its own, or one that the program knows (`stillpoint list solutions`).
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <memory>
 #include <span>
@@ -20,8 +20,8 @@ class ExactSolution {
   virtual void stress(std::span<const double> X, double t, std::span<double> sigma) const = 0;
 };
 
-/// Of a scene that was read; null if it has none. The scene outlives it. Evaluating is not for several threads at once.
-/// Throws std::domain_error if the parameters of a solution have none.
-std::unique_ptr<ExactSolution> exact_solution(const Scene& scene);
+/// Of a scene that was read; null if it has none. The problem outlives it. Evaluating is not for several threads at
+/// once. Throws std::domain_error if the parameters of a solution have none.
+std::unique_ptr<ExactSolution> exact_solution(const Problem& problem);
 
 }  // namespace stillpoint

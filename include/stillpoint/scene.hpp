@@ -1,231 +1,35 @@
-// A scene: the plain data of one problem, read from TOML and validated as a whole.
+// A scene: a problem that is written down in a TOML file, read and validated as a whole.
 //
-// SI units unless a scene says that it is dimensionless. Vectors have Dim entries; in one dimension a scene may write a
-// plain number. Every number may also be a string: a formula in the scene's constants.
+// In one dimension a scene may write a plain number for a vector. Every number may also be a string: a formula in the
+// scene's constants.
 #pragma once
 
-#include <stillpoint/boundary_specs.hpp>
-#include <stillpoint/expression.hpp>
-#include <stillpoint/scene_error.hpp>
-#include <stillpoint/scene_options.hpp>
+#include <stillpoint/problem.hpp>
 
-#include <array>
 #include <filesystem>
 #include <map>
-#include <memory>
-#include <optional>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace stillpoint {
-
-struct GridSpec {                // [grid]
-  std::vector<double> min, max;  // [m]
-  std::vector<int> cells;
-  BasisKind basis = BasisKind::linear;
-  std::string follow;  // the [[wall]] whose face of the grid moves with it; empty: the grid stays where it is
-
-  /// Of the grid at the start, along an axis [m].
-  double cell_length(std::size_t axis) const { return (max[axis] - min[axis]) / cells[axis]; }
-};
-
-struct PointOutline {                                     // of points in the plane
-  std::vector<std::vector<std::array<double, 2>>> loops;  // closed, what they enclose on the left [m]
-  double spacing = 0;                                     // of the points, the widest [m]
-};
-
-class TriangleSolid;
-
-struct StlSolid {                              // what was read of an STL file
-  std::filesystem::path file;                  // it
-  std::shared_ptr<const TriangleSolid> solid;  // all bodies and copies of the scene have the same
-};
-
-struct BodySpec {                // [body], or several [[body]]: material points in a shape or from a file
-  std::vector<double> min, max;  // the box [m], inside the grid; of another shape what of it is in there, and its box
-  // Another shape:
-  std::vector<std::vector<double>> polygon;   // corners in order, (corners × 2) [m]; in space a prism:
-  int axis = 2;                               // along which it is drawn out, from min to max
-  std::vector<double> sphere;                 // its centre [m]
-  std::vector<std::vector<double>> cylinder;  // the centres of its ends, (2 × 3) [m]
-  double radius = 0, inner_radius = 0;        // of these two [m]; inner: 0 if it is solid
-  std::filesystem::path stl;                  // a closed surface of triangles
-  std::filesystem::path file;                 // CSV of points: x, y, volume (with thickness); empty: filled with points
-  PointOutline outline;                       // of these points, if a load acts on it
-  std::string material;                       // a [material.<name>]
-  std::optional<StressState> state;           // as written; Scene::state holds for all bodies
-  double area = 1;                            // cross-section in one dimension [m²], thickness in two [m]
-  Placement placement = Placement::uniform;
-  std::vector<int> points_per_cell = {2};  // along each coordinate
-  double jitter = 0;                       // each point is moved by up to this share of half its spacing, seeded
-  VolumeRule volumes = VolumeRule::consistent;
-  unsigned long seed = 1;  // of placement = "random" and of jitter
-
-  StlSolid from_stl{};  // of stl, from when the scene was checked, so that it is read once
-
-  BodyShape shape() const {
-    if (!polygon.empty()) return BodyShape::polygon;
-    if (!sphere.empty()) return BodyShape::sphere;
-    if (!cylinder.empty()) return BodyShape::cylinder;
-    if (!stl.empty()) return BodyShape::triangles;
-    return file.empty() ? BodyShape::box : BodyShape::points;
-  }
-  bool is_box() const { return shape() == BodyShape::box; }
-  /// Another shape than a box, that is filled with points.
-  bool has_shape() const { return !is_box() && shape() != BodyShape::points; }
-};
-
-struct MaterialSpec {  // [material.<name>]
-  std::string name, law;
-  std::map<std::string, double> parameters;    // complete: defaults filled in
-  std::map<std::string, std::string> choices;  // likewise, those that are words (cone = "mean")
-};
-
-struct ExactSpec {                   // [exact]: the exact solution, if it is known
-  std::vector<Expression> u{};       // of x, y, z, t [m]; empty: not known by formulas
-  std::vector<Expression> stress{};  // Cauchy's, likewise, (stress components) [Pa]
-  std::string solution{};            // or the name of one that the program knows; its material is that of the bodies
-  std::map<std::string, double> parameters{};    // of that: complete
-  std::map<std::string, std::string> choices{};  // likewise
-
-  bool known() const { return !u.empty() || !solution.empty(); }
-};
-
-struct SolveSpec {                    // [solve]
-  std::string method = "relaxation";  // or a static solver: "newton", "newton-cg", "cg", "lbfgs"
-  int load_steps = 1;                 // of a static solver: equal shares of the load, each remembered at its end
-  bool is_static() const { return method != "relaxation"; }
-};
-
-struct DampingSpec {  // [damping]
-  std::string strategy = "viscous";
-  std::optional<double> c;  // empty: "critical", 2 ω₁
-  double alpha = 0.7;
-  Peak peak = Peak::half_step;           // of kinetic
-  Quotient quotient = Quotient::global;  // of adaptive
-};
-
-struct IntegratorSpec {  // [integrator]
-  std::string method = "leapfrog";
-  DampingTreatment treatment = DampingTreatment::automatic;
-  std::optional<double> step;            // [s]
-  double step_fraction = 0.9;            // of the critical step, if step is not given; the cap of an adaptive step
-  std::optional<double> rtol;            // if given, the step is adaptive
-  std::optional<double> atol_u, atol_v;  // [m], [m/s]; default: rtol times the scene's own scale
-  std::string unstable_reason;           // why a step past the critical one is wanted
-};
-
-struct StopSpec {          // [stop]: a test set to 0 is off
-  double residual = 1e-6;  // ‖F − R‖/‖F‖
-  double distance = 0;     // ‖u − u*‖_V/‖u‖_V (ErrorBound), certified; not written: see Model::distance_goal
-  double kinetic_energy = 1e-6;  // share of the largest kinetic energy so far; goes with these two
-  double dwell = 1;              // both held for this many periods 2π/ω₁
-  double load_growth = 0;        // (q − q₀)/(λ − λ₀) dλ/dq of driven loads at their limit (LimitLoad)
-  double time = 0;               // end time [s]
-  long steps = 10'000'000;
-  double wall_time = 0;  // [s]
-
-  bool wants_equilibrium() const { return residual > 0 || distance > 0; }
-};
-
-struct OutputSpec {               // [output]
-  double every = 0;               // time between rows of the history [s]; 0: chosen
-  std::vector<double> snapshots;  // times at which the fields of all points are written [s]
-  double fields_every = 0;        // or the time between them [s]; 0: at the stages only
-};
-
-struct CheckpointSpec {  // [checkpoint]: when the state is saved, so that the run can be resumed
-  double every = 0;      // time on the clock [s]; 0: not by it
-  long every_steps = 0;  // 0: not by them
-
-  bool wanted() const { return every > 0 || every_steps > 0; }
-};
-
-struct PhaseSpec {  // [phase]: when the points move on and the grid starts again
-  /// A phase ends once some point has moved by this share of a cell; 0: after every step (classical MPM); empty: never.
-  std::optional<double> max_motion;
-  std::optional<double> max_strain;  // or once some component of ∂u/∂x exceeds this; empty: not asked
-  Transfer transfer = Transfer::flip;
-  double flip_share = 1;  // of "flip": 1 takes increments of the nodal velocity, 0 the velocity itself
-  int xpic_order = 5;     // of "xpic": m
-  DeformationRule deformation = DeformationRule::positions;
-  Quadrature quadrature = Quadrature::points;
-  Dilatation dilatation = Dilatation::points;
-};
-
-struct MassSpec {  // [mass]
-  MassKind kind = MassKind::consistent;
-  MassScaling scaling = MassScaling::uniform;
-  double factor = 1;  // of the inertia, not of the weight
-};
-
-struct GeostaticSpec {  // [initial.geostatic]: stress under a level surface
-  double K0 = 0;        // σ_yy = −ρ b_y (surface − y) with the body force b, σ_xx = σ_zz = K0 σ_yy
-  double surface = 0;   // [m]
-};
-
-/// What a place belongs to: the material, with which it moves, or space, where it stays.
-enum class ProbeFrame { material, space };
-enum class ProbeKind { point, slope_angle, mean, body };
-
-struct ProbeSpec {  // [[probe]]
-  std::string name;
-  ProbeKind kind = ProbeKind::point;
-  // of a point:
-  std::optional<int> point;  // 1-based number of a material point, in order of position
-  std::vector<double> at;    // or a place, at the start [m]
-  ProbeFrame frame = ProbeFrame::material;
-  // of a mean:
-  std::vector<double> min, max;  // the box in which its material points are at the start [m]
-  // of all but the angle of the slope:
-  std::vector<std::string> fields;  // of probe_fields(dim); of the body of body_fields(dim)
-};
-/// The fields that a probe of a point may name, or a mean: "u", "v", "strain", "stress" in one dimension, their
-/// components in two.
-std::vector<std::string> probe_fields(int dim);
-/// What a probe of the whole body may name: "volume", "momentum" with its components, "angular_momentum".
-std::vector<std::string> body_fields(int dim);
 
 struct VariantSpec {  // [[variant]]: the same scene with other values, drawn beside it
   std::string name;
   std::vector<std::string> set;  // "key=value" as for --set
 };
 
-struct Scene : BoundarySpecs {
-  std::string name;  // the file's stem
-  std::string title;
+struct Scene : Problem {
   std::filesystem::path file;
   std::string text;                    // of the file
   std::vector<std::string> overrides;  // laid over it
-  int dim = 1;
-  Constants constants;
-  GridSpec grid;
-  StressState state = StressState::uniaxial_stress;
-  std::vector<BodySpec> bodies;
-  std::map<std::string, MaterialSpec> materials;
-  MassSpec mass;
-  PhaseSpec phase;
-  std::vector<Expression> initial_u, initial_v;  // of x, y, z [m], [m/s]; empty: 0
-  std::optional<GeostaticSpec> geostatic;
-  ExactSpec exact;
-  SolveSpec solve;
-  DampingSpec damping;
-  IntegratorSpec integrator;
-  StopSpec stop;
-  OutputSpec output;
-  CheckpointSpec checkpoint;
-  std::vector<ProbeSpec> probes;
   std::vector<VariantSpec> variants;
   std::map<std::string, Location> where;  // of each key written ("support[0].at"), for what is found wrong later
 
   /// Location of a key, or of the nearest table around it that was written.
   Location location(const std::string& key) const;
+  /// The error with the places in the file of those keys that it names without one.
+  SceneError located(const SceneError& error) const;
 };
-
-/// Whether a load, a support or a wall of the scene depends on t.
-bool loads_vary(const Scene& scene);
 
 /// Reads, checks and completes a scene; overrides are "dotted.key=value" with a TOML value (a bare word is a string).
 /// Throws SceneError with every problem.

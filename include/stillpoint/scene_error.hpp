@@ -16,19 +16,20 @@ struct Location {
 std::string to_string(const Location& where);
 
 /// One thing that is wrong with a scene.
-struct Problem {
+struct Mistake {
   Location where;
   std::string message;  // what, and what was expected
+  std::string key{};    // that it is said of, if nobody knows yet where that stands; the message is without it
 };
 
 /// All that is wrong with a scene, found at once. what() has a line for each problem.
 class SceneError : public std::runtime_error {
  public:
-  explicit SceneError(std::vector<Problem> problems);
-  const std::vector<Problem>& problems() const { return problems_; }
+  explicit SceneError(std::vector<Mistake> problems);
+  const std::vector<Mistake>& problems() const { return problems_; }
 
  private:
-  std::vector<Problem> problems_;
+  std::vector<Mistake> problems_;
 };
 
 }  // namespace stillpoint

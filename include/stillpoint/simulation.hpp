@@ -86,6 +86,8 @@ class Simulation {
   /// SetUpStopped if it is to end before it has begun; a factorisation that cannot be stopped may then go on in a
   /// thread of its own until it is done.
   explicit Simulation(Scene scene, SimulationOptions options = {});
+  /// The same of a problem that a program has made or changed, which is resolved first.
+  explicit Simulation(Problem problem, SimulationOptions options = {});
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();

@@ -1,4 +1,6 @@
 // stillpoint check: what would be modelled; nothing runs and nothing is written.
+#include <stillpoint/scene.hpp>
+
 #include <algorithm>
 #include <array>
 #include <optional>

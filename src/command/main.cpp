@@ -1,5 +1,5 @@
 // stillpoint: the command. Exit status: 0 as asked, 2 bad input, 3 not in equilibrium within the limits, 4 failed.
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/state_archive.hpp>
 
 #include <cerrno>

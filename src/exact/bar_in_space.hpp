@@ -13,11 +13,11 @@
 namespace stillpoint {
 
 /// The body has to be the bar that it is said to be: boxes that reach from `from` to `from + size` along an axis.
-inline std::optional<SolutionFault> fault_of_extent(const Scene& scene, const char* key, std::size_t axis, double from,
-                                                    double size) {
+inline std::optional<SolutionFault> fault_of_extent(const Problem& problem, const char* key, std::size_t axis,
+                                                    double from, double size) {
   constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
   double low = infinity, high = -infinity;
-  for (const BodySpec& body : scene.bodies) {
+  for (const BodySpec& body : problem.bodies) {
     if (!body.file.empty() || body.min.size() <= axis || body.max.size() <= axis) return std::nullopt;
     low = std::min(low, body.min[axis]);
     high = std::max(high, body.max[axis]);
@@ -28,10 +28,10 @@ inline std::optional<SolutionFault> fault_of_extent(const Scene& scene, const ch
 }
 
 /// The section |y − y0| ≤ depth/2, |z − z0| ≤ width/2.
-inline std::optional<SolutionFault> fault_of_section(const Scene& scene) {
-  const double depth = parameter(scene, "depth"), width = parameter(scene, "width");
-  if (auto fault = fault_of_extent(scene, "depth", 1, parameter(scene, "y0") - depth / 2, depth)) return fault;
-  return fault_of_extent(scene, "width", 2, parameter(scene, "z0") - width / 2, width);
+inline std::optional<SolutionFault> fault_of_section(const Problem& problem) {
+  const double depth = parameter(problem, "depth"), width = parameter(problem, "width");
+  if (auto fault = fault_of_extent(problem, "depth", 1, parameter(problem, "y0") - depth / 2, depth)) return fault;
+  return fault_of_extent(problem, "width", 2, parameter(problem, "z0") - width / 2, width);
 }
 
 }  // namespace stillpoint

@@ -58,14 +58,14 @@ constexpr std::array<ColumnLaw, 3> kColumnLaws = {{
 
 class Column final : public ExactSolution {
  public:
-  explicit Column(const Scene& scene)
-      : of_(elastic_constants(scene)),
-        law_(*std::ranges::find(kColumnLaws, material_of(scene).law, &ColumnLaw::name)),
-        vertical_(dimension_info(scene.dim).vertical),
-        base_(parameter(scene, "base")),
-        height_(parameter(scene, "height")),
-        weight_(of_.rho * parameter(scene, "g")) {
-    if (scene.state == StressState::uniaxial_stress) of_.lambda = 0, of_.mu = of_.E / 2;  // nothing is confined
+  explicit Column(const Problem& problem)
+      : of_(elastic_constants(problem)),
+        law_(*std::ranges::find(kColumnLaws, material_of(problem).law, &ColumnLaw::name)),
+        vertical_(dimension_info(problem.dim).vertical),
+        base_(parameter(problem, "base")),
+        height_(parameter(problem, "height")),
+        weight_(of_.rho * parameter(problem, "g")) {
+    if (problem.state == StressState::uniaxial_stress) of_.lambda = 0, of_.mu = of_.E / 2;  // nothing is confined
     at_base_ = settlement(weight_ * height_);
   }
 
@@ -104,12 +104,12 @@ class Column final : public ExactSolution {
 };
 
 // It has to be the column that it is said to be: boxes and polygons from its base to its top.
-std::optional<SolutionFault> fault_of_height(const Scene& scene) {
+std::optional<SolutionFault> fault_of_height(const Problem& problem) {
   constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
-  const std::size_t vertical = dimension_info(scene.dim).vertical;
-  const double base = parameter(scene, "base"), height = parameter(scene, "height");
+  const std::size_t vertical = dimension_info(problem.dim).vertical;
+  const double base = parameter(problem, "base"), height = parameter(problem, "height");
   double low = infinity, high = -infinity;
-  for (const BodySpec& body : scene.bodies) {
+  for (const BodySpec& body : problem.bodies) {
     if (!body.file.empty() || body.min.size() <= vertical || body.max.size() <= vertical) return std::nullopt;
     low = std::min(low, body.min[vertical]);
     high = std::max(high, body.max[vertical]);
@@ -122,13 +122,13 @@ std::optional<SolutionFault> fault_of_height(const Scene& scene) {
                             low, high, base, base + height)};
 }
 
-std::optional<SolutionFault> column_fault(const Scene& scene) {
-  const auto law = std::ranges::find(kColumnLaws, material_of(scene).law, &ColumnLaw::name);
-  if (scene.state == StressState::uniaxial_stress && law->finite_strain && elastic_constants(scene).nu != 0)
+std::optional<SolutionFault> column_fault(const Problem& problem) {
+  const auto law = std::ranges::find(kColumnLaws, material_of(problem).law, &ColumnLaw::name);
+  if (problem.state == StressState::uniaxial_stress && law->finite_strain && elastic_constants(problem).nu != 0)
     return SolutionFault{"solution",
                          "is of a confined column; in uniaxial stress a section changes, so that it holds for nu = 0 "
                          "alone; take state = \"uniaxial-strain\""};
-  return fault_of_height(scene);
+  return fault_of_height(problem);
 }
 
 }  // namespace
@@ -145,7 +145,9 @@ KnownSolution column_solution() {
                                    any_parameter("base", "m", "position of the base along the column")},
                     .laws = {kColumnLaws[0].name, kColumnLaws[1].name, kColumnLaws[2].name},
                     .fault = column_fault},
-          .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Column>(scene); }};
+          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+            return std::make_unique<Column>(problem);
+          }};
 }
 
 }  // namespace stillpoint

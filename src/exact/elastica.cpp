@@ -26,13 +26,13 @@ namespace {
 
 class Elastica final : public ExactSolution {
  public:
-  explicit Elastica(const Scene& scene)
-      : clamped_(parameter(scene, "x0")), axis_(parameter(scene, "y0")), length_(parameter(scene, "length")) {
-    const ElasticConstants of = elastic_constants(scene);
-    const double depth = parameter(scene, "depth");
-    const double bending = (of.is_plane_stress ? of.E : of.E / (1 - of.nu * of.nu)) * scene.bodies.front().area *
+  explicit Elastica(const Problem& problem)
+      : clamped_(parameter(problem, "x0")), axis_(parameter(problem, "y0")), length_(parameter(problem, "length")) {
+    const ElasticConstants of = elastic_constants(problem);
+    const double depth = parameter(problem, "depth");
+    const double bending = (of.is_plane_stress ? of.E : of.E / (1 - of.nu * of.nu)) * problem.bodies.front().area *
                            depth * depth * depth / 12;  // E I [N m²]
-    beta_ = std::sqrt(parameter(scene, "load") / bending);
+    beta_ = std::sqrt(parameter(problem, "load") / bending);
     const auto start = [](double k) { return std::asin(std::min(1.0, std::numbers::sqrt2 / (2 * k))); };
     // k goes from 1/√2, without a load, to 1; the load of a k short of 1 by rounding is some hundred times E I/L².
     k_ = zero_between(std::numbers::sqrt2 / 2, 1 - 1e-15,
@@ -64,13 +64,13 @@ class Elastica final : public ExactSolution {
   double k_ = 0, phi_0_ = 0, F_0_ = 0, E_0_ = 0;
 };
 
-std::optional<SolutionFault> elastica_fault(const Scene& scene) {
+std::optional<SolutionFault> elastica_fault(const Problem& problem) {
   constexpr double least = 1e-3, most = 200;  // where nothing cancels, or rounds k to 1
-  const ElasticConstants of = elastic_constants(scene);
-  const double depth = parameter(scene, "depth"), length = parameter(scene, "length");
+  const ElasticConstants of = elastic_constants(problem);
+  const double depth = parameter(problem, "depth"), length = parameter(problem, "length");
   const double modulus = of.is_plane_stress ? of.E : of.E / (1 - of.nu * of.nu);
-  const double of_bending =
-      parameter(scene, "load") * length * length * 12 / (modulus * scene.bodies.front().area * depth * depth * depth);
+  const double of_bending = parameter(problem, "load") * length * length * 12 /
+                            (modulus * problem.bodies.front().area * depth * depth * depth);
   if (of_bending >= least && of_bending <= most) return std::nullopt;
   return SolutionFault{
       "load", fmt::format("is {:g} times E I/L^2; expected from {:g} to {:g} times that", of_bending, least, most)};
@@ -92,7 +92,9 @@ KnownSolution elastica_solution() {
                                any_parameter("x0", "m", "of the clamped end"), any_parameter("y0", "m", "of the axis")},
                 .has_stress = false,
                 .fault = elastica_fault},
-      .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Elastica>(scene); }};
+      .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+        return std::make_unique<Elastica>(problem);
+      }};
 }
 
 }  // namespace stillpoint

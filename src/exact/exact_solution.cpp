@@ -27,12 +27,12 @@ class FormulaSolution final : public ExactSolution {
 
 }  // namespace
 
-std::unique_ptr<ExactSolution> exact_solution(const Scene& scene) {
-  if (!scene.exact.known()) return nullptr;
-  if (scene.exact.solution.empty()) return std::make_unique<FormulaSolution>(scene.exact);
+std::unique_ptr<ExactSolution> exact_solution(const Problem& problem) {
+  if (!problem.exact.known()) return nullptr;
+  if (problem.exact.solution.empty()) return std::make_unique<FormulaSolution>(problem.exact);
   for (const KnownSolution& known : known_solutions())
-    if (known.about.name == scene.exact.solution) return known.make(scene);
-  throw std::invalid_argument("there is no exact solution '" + scene.exact.solution + "'");
+    if (known.about.name == problem.exact.solution) return known.make(problem);
+  throw std::invalid_argument("there is no exact solution '" + problem.exact.solution + "'");
 }
 
 }  // namespace stillpoint

@@ -48,15 +48,15 @@ Series series(double a, double b, double y, double z) {
 
 class Flexure final : public ExactSolution {
  public:
-  explicit Flexure(const Scene& scene)
-      : nu_(elastic_constants(scene).nu),
-        l_(parameter(scene, "length")),
-        a_(parameter(scene, "depth") / 2),
-        b_(parameter(scene, "width") / 2),
-        per_I_(parameter(scene, "load") * 3 / (4 * a_ * a_ * a_ * b_)),
-        curvature_(per_I_ / elastic_constants(scene).E),
+  explicit Flexure(const Problem& problem)
+      : nu_(elastic_constants(problem).nu),
+        l_(parameter(problem, "length")),
+        a_(parameter(problem, "depth") / 2),
+        b_(parameter(problem, "width") / 2),
+        per_I_(parameter(problem, "load") * 3 / (4 * a_ * a_ * a_ * b_)),
+        curvature_(per_I_ / elastic_constants(problem).E),
         theta_(curvature_ * ((0.8 + 0.9 * nu_) * a_ * a_ - nu_ * b_ * b_ / 6)),
-        start_{parameter(scene, "x0"), parameter(scene, "y0"), parameter(scene, "z0")} {}
+        start_{parameter(problem, "x0"), parameter(problem, "y0"), parameter(problem, "z0")} {}
 
   void displacement(std::span<const double> X, double, std::span<double> u) const override {
     const double x = X[0] - start_[0], y = X[1] - start_[1], z = X[2] - start_[2];
@@ -86,9 +86,9 @@ class Flexure final : public ExactSolution {
   std::array<double, 3> start_;  // of the axis [m]
 };
 
-std::optional<SolutionFault> flexure_fault(const Scene& scene) {
-  if (auto fault = fault_of_section(scene)) return fault;
-  return fault_of_extent(scene, "length", 0, parameter(scene, "x0"), parameter(scene, "length"));
+std::optional<SolutionFault> flexure_fault(const Problem& problem) {
+  if (auto fault = fault_of_section(problem)) return fault;
+  return fault_of_extent(problem, "length", 0, parameter(problem, "x0"), parameter(problem, "length"));
 }
 
 }  // namespace
@@ -108,7 +108,9 @@ KnownSolution flexure_solution() {
                                any_parameter("x0", "m", "of the root"), any_parameter("y0", "m", "of the axis"),
                                any_parameter("z0", "m", "likewise")},
                 .fault = flexure_fault},
-      .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Flexure>(scene); }};
+      .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+        return std::make_unique<Flexure>(problem);
+      }};
 }
 
 }  // namespace stillpoint

@@ -15,12 +15,12 @@ namespace {
 
 class Kirsch final : public ExactSolution {
  public:
-  explicit Kirsch(const Scene& scene)
-      : of_(elastic_constants(scene)),
-        centre_{parameter(scene, "x0"), parameter(scene, "y0")},
-        a_(parameter(scene, "radius")),
-        mean_((parameter(scene, "tension_x") + parameter(scene, "tension_y")) / 2),
-        deviation_((parameter(scene, "tension_x") - parameter(scene, "tension_y")) / 2) {}
+  explicit Kirsch(const Problem& problem)
+      : of_(elastic_constants(problem)),
+        centre_{parameter(problem, "x0"), parameter(problem, "y0")},
+        a_(parameter(problem, "radius")),
+        mean_((parameter(problem, "tension_x") + parameter(problem, "tension_y")) / 2),
+        deviation_((parameter(problem, "tension_x") - parameter(problem, "tension_y")) / 2) {}
 
   void displacement(std::span<const double> X, double, std::span<double> u) const override {
     const PolarPosition at(X, centre_);
@@ -53,8 +53,8 @@ class Kirsch final : public ExactSolution {
   double mean_, deviation_;       // m and d [Pa]
 };
 
-std::optional<SolutionFault> kirsch_fault(const Scene& scene) {
-  if (parameter(scene, "tension_x") != 0 || parameter(scene, "tension_y") != 0) return std::nullopt;
+std::optional<SolutionFault> kirsch_fault(const Problem& problem) {
+  if (parameter(problem, "tension_x") != 0 || parameter(problem, "tension_y") != 0) return std::nullopt;
   return SolutionFault{"solution", "needs tension_x or tension_y, the tension far from the hole"};
 }
 
@@ -71,7 +71,9 @@ KnownSolution kirsch_solution() {
                                    any_parameter("tension_y", "Pa", "along y"),
                                    any_parameter("x0", "m", "of its centre"), any_parameter("y0", "m", "likewise")},
                     .fault = kirsch_fault},
-          .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Kirsch>(scene); }};
+          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+            return std::make_unique<Kirsch>(problem);
+          }};
 }
 
 }  // namespace stillpoint

@@ -12,7 +12,7 @@ namespace stillpoint {
 struct KnownSolution {
   SolutionInfo about;
   /// Of a scene that has passed the checks of its parameters.
-  std::unique_ptr<ExactSolution> (*make)(const Scene& scene);
+  std::unique_ptr<ExactSolution> (*make)(const Problem& problem);
 };
 
 const std::vector<KnownSolution>& known_solutions();

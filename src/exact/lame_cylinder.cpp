@@ -16,12 +16,12 @@ namespace {
 
 class LameCylinder final : public ExactSolution {
  public:
-  explicit LameCylinder(const Scene& scene)
-      : of_(elastic_constants(scene)),
-        is_around_axis_(scene.state == StressState::axisymmetric),
-        centre_{parameter(scene, "x0"), parameter(scene, "y0")} {
-    const double a = parameter(scene, "inner_radius"), b = parameter(scene, "outer_radius");
-    const double p_a = parameter(scene, "inner_pressure"), p_b = parameter(scene, "outer_pressure");
+  explicit LameCylinder(const Problem& problem)
+      : of_(elastic_constants(problem)),
+        is_around_axis_(problem.state == StressState::axisymmetric),
+        centre_{parameter(problem, "x0"), parameter(problem, "y0")} {
+    const double a = parameter(problem, "inner_radius"), b = parameter(problem, "outer_radius");
+    const double p_a = parameter(problem, "inner_pressure"), p_b = parameter(problem, "outer_pressure");
     const double wall = b * b - a * a;
     A_ = (p_a * a * a - p_b * b * b) / wall;
     B_ = (p_a - p_b) * a * a * b * b / wall;
@@ -67,11 +67,11 @@ class LameCylinder final : public ExactSolution {
   double A_ = 0, B_ = 0;          // [Pa], [N]
 };
 
-std::optional<SolutionFault> lame_cylinder_fault(const Scene& scene) {
-  const double a = parameter(scene, "inner_radius"), b = parameter(scene, "outer_radius");
+std::optional<SolutionFault> lame_cylinder_fault(const Problem& problem) {
+  const double a = parameter(problem, "inner_radius"), b = parameter(problem, "outer_radius");
   if (!(b > a))
     return SolutionFault{"outer_radius", fmt::format("must be greater than exact.inner_radius = {}, not {}", a, b)};
-  return fault_of_centre(scene);
+  return fault_of_centre(problem);
 }
 
 }  // namespace
@@ -89,8 +89,8 @@ KnownSolution lame_cylinder_solution() {
                                    any_parameter("x0", "m", "of the centre, in a plane"),
                                    any_parameter("y0", "m", "likewise")},
                     .fault = lame_cylinder_fault},
-          .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<LameCylinder>(scene);
+          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+            return std::make_unique<LameCylinder>(problem);
           }};
 }
 

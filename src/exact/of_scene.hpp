@@ -2,7 +2,7 @@
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <limits>
 #include <optional>
@@ -19,12 +19,14 @@ struct ElasticConstants {
   bool is_plane_stress;  // σ_zz = 0, otherwise ε_zz = 0
 };
 
-inline const MaterialSpec& material_of(const Scene& scene) { return scene.materials.at(scene.bodies.at(0).material); }
+inline const MaterialSpec& material_of(const Problem& problem) {
+  return problem.materials.at(problem.bodies.at(0).material);
+}
 
-inline ElasticConstants elastic_constants(const Scene& scene) {
-  const MaterialSpec& material = material_of(scene);
+inline ElasticConstants elastic_constants(const Problem& problem) {
+  const MaterialSpec& material = material_of(problem);
   const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
-  const bool is_plane_stress = scene.state == StressState::plane_stress;
+  const bool is_plane_stress = problem.state == StressState::plane_stress;
   return {.E = E,
           .nu = nu,
           .rho = material.parameters.at("rho"),
@@ -39,13 +41,13 @@ inline double across(const ElasticConstants& of, double sigma_xx, double sigma_y
   return of.is_plane_stress ? 0 : of.nu * (sigma_xx + sigma_yy);
 }
 
-inline double parameter(const Scene& scene, const char* name) { return scene.exact.parameters.at(name); }
+inline double parameter(const Problem& problem, const char* name) { return problem.exact.parameters.at(name); }
 
 /// A centre x0, y0 away from the axis.
-inline std::optional<SolutionFault> fault_of_centre(const Scene& scene) {
-  if (scene.state != StressState::axisymmetric) return std::nullopt;
+inline std::optional<SolutionFault> fault_of_centre(const Problem& problem) {
+  if (problem.state != StressState::axisymmetric) return std::nullopt;
   for (const char* key : {"x0", "y0"}) {
-    if (parameter(scene, key) != 0)
+    if (parameter(problem, key) != 0)
       return SolutionFault{.key = key, .message = "an axisymmetric scene has its axis at r = 0; leave this out"};
   }
   return std::nullopt;

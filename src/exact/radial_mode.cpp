@@ -29,21 +29,21 @@ double zero_of_j1(int n) {
 
 class RadialMode final : public ExactSolution {
  public:
-  explicit RadialMode(const Scene& scene)
-      : of_(elastic_constants(scene)),
-        is_around_axis_(scene.state == StressState::axisymmetric),
-        centre_{parameter(scene, "x0"), parameter(scene, "y0")},
-        amplitude_(parameter(scene, "amplitude")) {
+  explicit RadialMode(const Problem& problem)
+      : of_(elastic_constants(problem)),
+        is_around_axis_(problem.state == StressState::axisymmetric),
+        centre_{parameter(problem, "x0"), parameter(problem, "y0")},
+        amplitude_(parameter(problem, "amplitude")) {
     if (of_.is_plane_stress) of_.lambda *= 2 * of_.mu / (of_.lambda + 2 * of_.mu);
     const double modulus = of_.lambda + 2 * of_.mu;
-    const int n = static_cast<int>(parameter(scene, "mode"));
+    const int n = static_cast<int>(parameter(problem, "mode"));
     double root = zero_of_j1(n);
-    if (scene.exact.choices.at("edge") == "free") {
+    if (problem.exact.choices.at("edge") == "free") {
       const auto pressure = [&](double x) { return modulus * x * bessel_j0(x) - 2 * of_.mu * bessel_j1(x); };
       // At 0 it is 0 as well, and rises with λ' + μ.
       root = zero_between(n == 1 ? 1e-6 : zero_of_j1(n - 1), root, pressure);
     }
-    k_ = root / parameter(scene, "radius");
+    k_ = root / parameter(problem, "radius");
     omega_ = k_ * std::sqrt(modulus / of_.rho);
   }
 
@@ -91,10 +91,10 @@ class RadialMode final : public ExactSolution {
   double k_ = 0, omega_ = 0;      // [1/m], [1/s]
 };
 
-std::optional<SolutionFault> radial_mode_fault(const Scene& scene) {
+std::optional<SolutionFault> radial_mode_fault(const Problem& problem) {
   constexpr double most = 1000;
-  const double n = parameter(scene, "mode");
-  if (n == std::floor(n) && n >= 1 && n <= most) return fault_of_centre(scene);
+  const double n = parameter(problem, "mode");
+  if (n == std::floor(n) && n >= 1 && n <= most) return fault_of_centre(problem);
   return SolutionFault{"mode", fmt::format("must be a whole number from 1 to {}, not {}", most, n)};
 }
 
@@ -107,18 +107,19 @@ KnownSolution radial_mode_solution() {
   ParameterInfo mode = positive_parameter("mode", "1", "its number, from 1");
   mode.required = false;
   mode.fallback = 1;
-  return {
-      .about = {.name = "radial-mode",
-                .description = "free vibration of a solid cylinder or disc along its radius, at rest and at its "
-                               "largest at t = 0",
-                .source = "Pochhammer 1876; Love 1927, art. 200; by Bessel's functions",
-                .states = {plane_strain, plane_stress, axisymmetric},
-                .parameters = {positive_parameter("radius", "m", "of the cylinder"), amplitude, mode,
-                               any_parameter("x0", "m", "of its centre, in a plane"),
-                               any_parameter("y0", "m", "likewise")},
-                .choices = {{"edge", "whether the outer edge is free or held", {"free", "held"}, "free"}},
-                .fault = radial_mode_fault},
-      .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<RadialMode>(scene); }};
+  return {.about = {.name = "radial-mode",
+                    .description = "free vibration of a solid cylinder or disc along its radius, at rest and at its "
+                                   "largest at t = 0",
+                    .source = "Pochhammer 1876; Love 1927, art. 200; by Bessel's functions",
+                    .states = {plane_strain, plane_stress, axisymmetric},
+                    .parameters = {positive_parameter("radius", "m", "of the cylinder"), amplitude, mode,
+                                   any_parameter("x0", "m", "of its centre, in a plane"),
+                                   any_parameter("y0", "m", "likewise")},
+                    .choices = {{"edge", "whether the outer edge is free or held", {"free", "held"}, "free"}},
+                    .fault = radial_mode_fault},
+          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+            return std::make_unique<RadialMode>(problem);
+          }};
 }
 
 }  // namespace stillpoint

@@ -23,13 +23,13 @@ class StripLoad final : public ExactSolution {
   using Complex = std::complex<double>;
 
  public:
-  explicit StripLoad(const Scene& scene)
-      : of_(elastic_constants(scene)),
-        x0_(parameter(scene, "x0")),
-        surface_(parameter(scene, "surface")),
-        b_(parameter(scene, "half_width")),
-        q_(parameter(scene, "pressure")) {
-    at_held_point_ = potential(0, parameter(scene, "fixed_depth"));
+  explicit StripLoad(const Problem& problem)
+      : of_(elastic_constants(problem)),
+        x0_(parameter(problem, "x0")),
+        surface_(parameter(problem, "surface")),
+        b_(parameter(problem, "half_width")),
+        q_(parameter(problem, "pressure")) {
+    at_held_point_ = potential(0, parameter(problem, "fixed_depth"));
   }
 
   void displacement(std::span<const double> X, double, std::span<double> u) const override {
@@ -80,19 +80,20 @@ class StripLoad final : public ExactSolution {
 
 KnownSolution strip_load_solution() {
   using enum StressState;
-  return {
-      .about = {.name = "strip-load",
-                .description = "a uniform pressure on a strip of the level surface of a half-plane below it",
-                .source = "Boussinesq 1885; Flamant 1892; Timoshenko and Goodier 1970, art. 37",
-                .states = {plane_strain, plane_stress},
-                .parameters = {positive_parameter("pressure", "Pa", "on the strip"),
-                               positive_parameter("half_width", "m", "of the strip"),
-                               positive_parameter("fixed_depth", "m",
-                                                  "below the middle of the strip, of the point that stays: "
-                                                  "displacements are relative to it"),
-                               any_parameter("x0", "m", "of the middle of the strip"),
-                               any_parameter("surface", "m", "its height, y")}},
-      .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<StripLoad>(scene); }};
+  return {.about = {.name = "strip-load",
+                    .description = "a uniform pressure on a strip of the level surface of a half-plane below it",
+                    .source = "Boussinesq 1885; Flamant 1892; Timoshenko and Goodier 1970, art. 37",
+                    .states = {plane_strain, plane_stress},
+                    .parameters = {positive_parameter("pressure", "Pa", "on the strip"),
+                                   positive_parameter("half_width", "m", "of the strip"),
+                                   positive_parameter("fixed_depth", "m",
+                                                      "below the middle of the strip, of the point that stays: "
+                                                      "displacements are relative to it"),
+                                   any_parameter("x0", "m", "of the middle of the strip"),
+                                   any_parameter("surface", "m", "its height, y")}},
+          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+            return std::make_unique<StripLoad>(problem);
+          }};
 }
 
 }  // namespace stillpoint

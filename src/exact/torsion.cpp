@@ -47,12 +47,12 @@ Warping warping(double a, double b, double y, double z) {
 
 class Torsion final : public ExactSolution {
  public:
-  explicit Torsion(const Scene& scene)
-      : mu_(elastic_constants(scene).mu),
-        a_(parameter(scene, "depth") / 2),
-        b_(parameter(scene, "width") / 2),
-        alpha_(parameter(scene, "twist")),
-        start_{parameter(scene, "x0"), parameter(scene, "y0"), parameter(scene, "z0")} {}
+  explicit Torsion(const Problem& problem)
+      : mu_(elastic_constants(problem).mu),
+        a_(parameter(problem, "depth") / 2),
+        b_(parameter(problem, "width") / 2),
+        alpha_(parameter(problem, "twist")),
+        start_{parameter(problem, "x0"), parameter(problem, "y0"), parameter(problem, "z0")} {}
 
   void displacement(std::span<const double> X, double, std::span<double> u) const override {
     const double x = X[0] - start_[0], y = X[1] - start_[1], z = X[2] - start_[2];
@@ -81,17 +81,18 @@ class Torsion final : public ExactSolution {
 KnownSolution torsion_solution() {
   ParameterInfo twist = any_parameter("twist", "rad/m", "angle per length");
   twist.required = true;
-  return {
-      .about = {.name = "torsion",
-                .description = "a bar of rectangular section along x, twisted and free to warp",
-                .source = "Saint-Venant 1855; Timoshenko and Goodier 1970, art. 109",
-                .states = {StressState::space},
-                .parameters = {positive_parameter("depth", "m", "of the section, along y"),
-                               positive_parameter("width", "m", "along z"), twist,
-                               any_parameter("x0", "m", "of the section that does not turn"),
-                               any_parameter("y0", "m", "of the axis"), any_parameter("z0", "m", "likewise")},
-                .fault = fault_of_section},
-      .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Torsion>(scene); }};
+  return {.about = {.name = "torsion",
+                    .description = "a bar of rectangular section along x, twisted and free to warp",
+                    .source = "Saint-Venant 1855; Timoshenko and Goodier 1970, art. 109",
+                    .states = {StressState::space},
+                    .parameters = {positive_parameter("depth", "m", "of the section, along y"),
+                                   positive_parameter("width", "m", "along z"), twist,
+                                   any_parameter("x0", "m", "of the section that does not turn"),
+                                   any_parameter("y0", "m", "of the axis"), any_parameter("z0", "m", "likewise")},
+                    .fault = fault_of_section},
+          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+            return std::make_unique<Torsion>(problem);
+          }};
 }
 
 }  // namespace stillpoint

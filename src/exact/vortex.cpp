@@ -25,13 +25,13 @@ namespace {
 
 class Vortex final : public ExactSolution {
  public:
-  explicit Vortex(const Scene& scene)
-      : mu_(elastic_constants(scene).mu),
-        centre_{parameter(scene, "x0"), parameter(scene, "y0")},
-        middle_(is_disc(scene) ? 0 : (parameter(scene, "inner_radius") + parameter(scene, "outer_radius")) / 2),
-        half_(parameter(scene, "outer_radius") - middle_),
-        A_(parameter(scene, "angle")),
-        n_(parameter(scene, "power")) {}
+  explicit Vortex(const Problem& problem)
+      : mu_(elastic_constants(problem).mu),
+        centre_{parameter(problem, "x0"), parameter(problem, "y0")},
+        middle_(is_disc(problem) ? 0 : (parameter(problem, "inner_radius") + parameter(problem, "outer_radius")) / 2),
+        half_(parameter(problem, "outer_radius") - middle_),
+        A_(parameter(problem, "angle")),
+        n_(parameter(problem, "power")) {}
 
   void displacement(std::span<const double> X, double, std::span<double> u) const override {
     const PolarPosition at(X, centre_);
@@ -58,7 +58,7 @@ class Vortex final : public ExactSolution {
   }
 
  private:
-  static bool is_disc(const Scene& scene) { return parameter(scene, "inner_radius") == 0; }
+  static bool is_disc(const Problem& problem) { return parameter(problem, "inner_radius") == 0; }
   // α and α'
   std::pair<double, double> angle_at(double R) const {
     const double s = (R - middle_) / half_, q = 1 - s * s;
@@ -72,8 +72,8 @@ class Vortex final : public ExactSolution {
   double A_, n_;
 };
 
-std::optional<SolutionFault> vortex_fault(const Scene& scene) {
-  const double inner = parameter(scene, "inner_radius"), outer = parameter(scene, "outer_radius");
+std::optional<SolutionFault> vortex_fault(const Problem& problem) {
+  const double inner = parameter(problem, "inner_radius"), outer = parameter(problem, "outer_radius");
   if (outer > inner) return std::nullopt;
   return SolutionFault{"outer_radius",
                        fmt::format("must be greater than exact.inner_radius = {}, not {}", inner, outer)};
@@ -102,7 +102,9 @@ KnownSolution vortex_solution() {
                                    any_parameter("x0", "m", "of its centre"), any_parameter("y0", "m", "likewise")},
                     .laws = {"neo-hookean"},
                     .fault = vortex_fault},
-          .make = [](const Scene& scene) -> std::unique_ptr<ExactSolution> { return std::make_unique<Vortex>(scene); }};
+          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
+            return std::make_unique<Vortex>(problem);
+          }};
 }
 
 }  // namespace stillpoint

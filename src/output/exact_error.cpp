@@ -66,8 +66,8 @@ double energy(const MaterialSpec& material, StressState state, std::span<const d
 
 }  // namespace
 
-std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
-  const auto solution = exact_solution(scene);
+std::optional<ExactError> exact_error(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+  const auto solution = exact_solution(problem);
   if (!solution) return std::nullopt;
   const auto dim = static_cast<std::size_t>(phase.dim());
   std::vector<double> displacement(dim * phase.points()), exact_u(dim);
@@ -90,15 +90,15 @@ std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase&
   return error;
 }
 
-EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
-  const auto solution = exact_solution(scene);
+EnergyError energy_error(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+  const auto solution = exact_solution(problem);
   if (!solution || !solution->has_stress())
     return {{}, "the scene has no exact stress; expected exact.stress, or a solution that has it"};
   std::set<std::string> names;
-  for (const BodySpec& body : scene.bodies) names.insert(body.material);
+  for (const BodySpec& body : problem.bodies) names.insert(body.material);
   std::vector<const MaterialSpec*> materials;  // by number, in the order of the names of those that bodies have
   for (const std::string& name : names) {
-    const MaterialSpec& material = scene.materials.at(name);
+    const MaterialSpec& material = problem.materials.at(name);
     const LawInfo& law = *std::ranges::find(material_laws(), material.law, &LawInfo::name);
     if (law.finite_strain || law.history_dependent)
       return {{}, fmt::format("it is of linear elasticity, and {} is {}", name, material.law)};
@@ -108,8 +108,8 @@ EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, doubl
   const PointData data = phase.point_data();
   for_stresses(*solution, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
     const MaterialSpec& material = *materials[static_cast<std::size_t>(data.materials[p])];
-    difference += data.volumes[p] * energy(material, scene.state, off);
-    exact += data.volumes[p] * energy(material, scene.state, sigma);
+    difference += data.volumes[p] * energy(material, problem.state, off);
+    exact += data.volumes[p] * energy(material, problem.state, sigma);
   });
   if (!(exact > 0)) return {{}, "the exact stress has no energy"};
   return {std::sqrt(difference / exact), ""};

@@ -12,7 +12,7 @@ namespace stillpoint {
 
 /// ‖u_h − u‖/‖u‖ over the material points with weights V_p, at (t, u), and the same of Cauchy's stress with
 /// ‖σ‖² = σ:σ; stress as of the last commit. Empty if the scene gives no exact solution or it vanishes.
-std::optional<ExactError> exact_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
+std::optional<ExactError> exact_error(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u);
 
 /// The error in the energy norm of linear elasticity, [Σ V (σ_h − σ):C⁻¹:(σ_h − σ)/Σ V σ:C⁻¹:σ]^½ over the material
 /// points, C each one's moduli; or why there is none.
@@ -20,6 +20,6 @@ struct EnergyError {
   std::optional<double> relative;
   std::string why_not;
 };
-EnergyError energy_error(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
+EnergyError energy_error(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u);
 
 }  // namespace stillpoint

@@ -1,7 +1,7 @@
 // A probe, of whatever kind, and the moment at which it is read.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/state_archive.hpp>
 
 #include <map>
@@ -19,8 +19,8 @@ namespace stillpoint {
 class ProbedMoment {
  public:
   /// All outlive this.
-  ProbedMoment(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u, ConstVec v)
-      : scene_(scene), phase_(phase), t_(t), u_(u), v_(v) {}
+  ProbedMoment(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u, ConstVec v)
+      : problem_(problem), phase_(phase), t_(t), u_(u), v_(v) {}
 
   double t() const { return t_; }
   const LagrangianPhase& phase() const { return phase_; }
@@ -31,7 +31,7 @@ class ProbedMoment {
   double slope_angle();
 
  private:
-  const Scene& scene_;
+  const Problem& problem_;
   const LagrangianPhase& phase_;
   double t_;
   ConstVec u_, v_;

@@ -44,14 +44,14 @@ class SlopeAngle final : public Probe {
 /// In space, of the points that lie in a box, seen along z.
 class SlopeAngleInBox final : public Probe {
  public:
-  SlopeAngleInBox(const Scene& scene, const ProbeSpec& spec) : scene_(scene), spec_(spec) {}
+  SlopeAngleInBox(const Problem& problem, const ProbeSpec& spec) : problem_(problem), spec_(spec) {}
   void read(ProbedMoment& moment, std::vector<double>& values) override {
     const std::vector<double>& x = moment.field("position");
     std::vector<double> section;
     for (std::size_t p = 0; p < x.size(); p += 3) {
       if (is_inside(x.data() + p)) section.insert(section.end(), {x[p], x[p + 1]});
     }
-    values.push_back(slope_angle_of(scene_, section));
+    values.push_back(slope_angle_of(problem_, section));
   }
 
  private:
@@ -61,15 +61,15 @@ class SlopeAngleInBox final : public Probe {
     return true;
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   const ProbeSpec& spec_;
 };
 
-std::unique_ptr<Probe> make_probe(const Scene& scene, const LagrangianPhase& phase, const PointData& data,
+std::unique_ptr<Probe> make_probe(const Problem& problem, const LagrangianPhase& phase, const PointData& data,
                                   const ProbeSpec& spec) {
   switch (spec.kind) {
     case ProbeKind::slope_angle:
-      if (!spec.min.empty()) return std::make_unique<SlopeAngleInBox>(scene, spec);
+      if (!spec.min.empty()) return std::make_unique<SlopeAngleInBox>(problem, spec);
       return std::make_unique<SlopeAngle>();
     case ProbeKind::mean:
       return std::make_unique<MeanInBox>(phase, data, spec);
@@ -91,12 +91,12 @@ std::vector<std::string> shear_components(const WallReaction& wall, int dim) {
 }
 
 /// A field that some law has to remember.
-void require_fields(const Scene& scene, const LagrangianPhase& phase, std::size_t number) {
-  const ProbeSpec& probe = scene.probes[number];
+void require_fields(const Problem& problem, const LagrangianPhase& phase, std::size_t number) {
+  const ProbeSpec& probe = problem.probes[number];
   for (std::size_t f = 0; f < probe.fields.size() && probe.kind != ProbeKind::body; ++f) {
     const std::string name = find_point_field(phase, probe.fields[f]).name;
     if (is_field(phase, name)) continue;
-    throw_scene_error(scene, fmt::format("probe[{}].fields[{}]", number, f),
+    throw_scene_error(fmt::format("probe[{}].fields[{}]", number, f),
                       fmt::format("no law of these materials remembers '{}'", name));
   }
 }
@@ -116,16 +116,16 @@ const PlaceReader& ProbedMoment::places() {
 }
 
 double ProbedMoment::slope_angle() {
-  if (!slope_angle_) slope_angle_ = slope_angle_of(scene_, phase_, t_, u_);
+  if (!slope_angle_) slope_angle_ = slope_angle_of(problem_, phase_, t_, u_);
   return *slope_angle_;
 }
 
-Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene), phase_(phase) {
-  const PointData data = scene.probes.empty() ? PointData() : phase.point_data();
-  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
-    const ProbeSpec& spec = scene.probes[k];
-    require_fields(scene, phase, k);
-    probes_.push_back(make_probe(scene, phase, data, spec));
+Probes::Probes(const Problem& problem, const LagrangianPhase& phase) : problem_(problem), phase_(phase) {
+  const PointData data = problem.probes.empty() ? PointData() : phase.point_data();
+  for (std::size_t k = 0; k < problem.probes.size(); ++k) {
+    const ProbeSpec& spec = problem.probes[k];
+    require_fields(problem, phase, k);
+    probes_.push_back(make_probe(problem, phase, data, spec));
     if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
     for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
   }
@@ -138,13 +138,13 @@ Probes::Probes(const Scene& scene, const LagrangianPhase& phase) : scene_(scene)
 std::map<std::string, std::vector<double>> Probes::positions() const {
   std::map<std::string, std::vector<double>> positions;
   for (std::size_t k = 0; k < probes_.size(); ++k) {
-    if (auto x = probes_[k]->position(); !x.empty()) positions[scene_.probes[k].name] = std::move(x);
+    if (auto x = probes_[k]->position(); !x.empty()) positions[problem_.probes[k].name] = std::move(x);
   }
   return positions;
 }
 
 std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
-  ProbedMoment moment(scene_, phase_, t, u, v);
+  ProbedMoment moment(problem_, phase_, t, u, v);
   std::vector<double> values;
   for (const auto& probe : probes_) probe->read(moment, values);
   for (const WallReaction& wall : phase_.wall_reactions(t)) {
@@ -156,12 +156,12 @@ std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
 }
 
 void Probes::end_phase(double t, ConstVec u, ConstVec v) {
-  ProbedMoment moment(scene_, phase_, t, u, v);
+  ProbedMoment moment(problem_, phase_, t, u, v);
   for (const auto& probe : probes_) probe->end_phase(moment);
 }
 
 void Probes::begin_phase(double t, ConstVec u, ConstVec v) {
-  ProbedMoment moment(scene_, phase_, t, u, v);
+  ProbedMoment moment(problem_, phase_, t, u, v);
   for (const auto& probe : probes_) probe->begin_phase(moment);
 }
 
@@ -177,25 +177,25 @@ std::vector<std::string> Probes::notes() const {
   return notes;
 }
 
-void check_probes(const Scene& scene, const LagrangianPhase& phase) {
+void check_probes(const Problem& problem, const LagrangianPhase& phase) {
   const std::vector<double> nothing(phase.size());
-  const PointData data = scene.probes.empty() ? PointData() : phase.point_data();
+  const PointData data = problem.probes.empty() ? PointData() : phase.point_data();
   std::unique_ptr<PlaceReader> places;
-  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
-    const ProbeSpec& probe = scene.probes[k];
+  for (std::size_t k = 0; k < problem.probes.size(); ++k) {
+    const ProbeSpec& probe = problem.probes[k];
     const std::string key = fmt::format("probe[{}]", k);
     if (probe.point && static_cast<std::size_t>(*probe.point) > phase.points())
-      throw_scene_error(scene, key + ".point",
+      throw_scene_error(key + ".point",
                         fmt::format("there is no material point {}; expected 1 to {}", *probe.point, phase.points()));
     if (probe.kind == ProbeKind::point && !probe.point && probe.frame == ProbeFrame::material) {
       if (!places) places = phase.read_places(0, nothing, nothing);
-      if (!places->holds(probe.at)) throw_scene_error(scene, key + ".at", "there is no material at this place");
+      if (!places->holds(probe.at)) throw_scene_error(key + ".at", "there is no material at this place");
     }
     if (probe.kind != ProbeKind::mean) continue;
     try {
       MeanInBox(phase, data, probe);
     } catch (const std::invalid_argument& error) {
-      throw_scene_error(scene, key + ".min", error.what());
+      throw_scene_error(key + ".min", error.what());
     }
   }
 }

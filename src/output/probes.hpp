@@ -1,7 +1,7 @@
 // All probes of a scene, and the forces on its walls: the columns of history.csv that a scene asks for.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/state_archive.hpp>
 
 #include <map>
@@ -16,7 +16,7 @@ namespace stillpoint {
 class Probes {
  public:
   /// All outlive it. The run begins. Throws SceneError if a probe names a field that no law remembers.
-  Probes(const Scene& scene, const LagrangianPhase& phase);
+  Probes(const Problem& problem, const LagrangianPhase& phase);
 
   const std::vector<std::string>& columns() const { return columns_; }  // "<probe>.<field>"
   /// Where each probe of a point was when the run began, by name, (dim) [m].
@@ -31,7 +31,7 @@ class Probes {
   std::vector<std::string> notes() const;
 
  private:
-  const Scene& scene_;
+  const Problem& problem_;
   const LagrangianPhase& phase_;
   std::vector<std::unique_ptr<Probe>> probes_;  // as the scene lists them
   std::vector<std::string> columns_;
@@ -39,6 +39,6 @@ class Probes {
 
 /// Throws SceneError if the body cannot answer a probe: it has no such material point, no material at a place or in a
 /// box. phase: the first.
-void check_probes(const Scene& scene, const LagrangianPhase& phase);
+void check_probes(const Problem& problem, const LagrangianPhase& phase);
 
 }  // namespace stillpoint

@@ -9,22 +9,23 @@
 
 namespace stillpoint {
 
-double slope_angle_of(const Scene& scene, ConstVec position) {
-  const double column = (scene.grid.max[0] - scene.grid.min[0]) / scene.grid.cells[0];
+double slope_angle_of(const Problem& problem, ConstVec position) {
+  const double column = (problem.grid.max[0] - problem.grid.min[0]) / problem.grid.cells[0];
   double base = std::numeric_limits<double>::infinity();
-  for (const BodySpec& body : scene.bodies) base = std::min(base, body.min.empty() ? scene.grid.min[1] : body.min[1]);
+  for (const BodySpec& body : problem.bodies)
+    base = std::min(base, body.min.empty() ? problem.grid.min[1] : body.min[1]);
   return slope_angle(free_surface(position, column), base);
 }
 
-double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u) {
+double slope_angle_of(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
   if (!dimension_info(phase.dim()).is_section) return std::numeric_limits<double>::quiet_NaN();
-  return slope_angle_of(scene, current_positions(phase, t, u));
+  return slope_angle_of(problem, current_positions(phase, t, u));
 }
 
-Snapshots::Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder,
+Snapshots::Snapshots(const Problem& problem, const LagrangianPhase& phase, const std::filesystem::path& folder,
                      bool resumed)
-    : scene_(scene), phase_(phase) {
-  const bool asked = !scene.output.snapshots.empty() || scene.output.fields_every > 0;
+    : problem_(problem), phase_(phase) {
+  const bool asked = !problem.output.snapshots.empty() || problem.output.fields_every > 0;
   if (asked) folder_ = folder;
   if (!folder_.empty() && !resumed) writer_.emplace(folder_);
 }
@@ -50,18 +51,18 @@ void Snapshots::archive(const StateArchive& state) {
 
 double Snapshots::next_time() const {
   double next = std::numeric_limits<double>::infinity();
-  if (next_snapshot_ < scene_.output.snapshots.size()) next = scene_.output.snapshots[next_snapshot_];
-  if (scene_.output.fields_every > 0) {
-    next = std::min(next, static_cast<double>(next_regular_) * scene_.output.fields_every);
+  if (next_snapshot_ < problem_.output.snapshots.size()) next = problem_.output.snapshots[next_snapshot_];
+  if (problem_.output.fields_every > 0) {
+    next = std::min(next, static_cast<double>(next_regular_) * problem_.output.fields_every);
   }
   return next;
 }
 
 void Snapshots::sample(double t, ConstVec u, ConstVec v) {
   if (t < next_time()) return;
-  while (next_snapshot_ < scene_.output.snapshots.size() && scene_.output.snapshots[next_snapshot_] <= t)
+  while (next_snapshot_ < problem_.output.snapshots.size() && problem_.output.snapshots[next_snapshot_] <= t)
     ++next_snapshot_;
-  while (scene_.output.fields_every > 0 && static_cast<double>(next_regular_) * scene_.output.fields_every <= t) {
+  while (problem_.output.fields_every > 0 && static_cast<double>(next_regular_) * problem_.output.fields_every <= t) {
     ++next_regular_;
   }
   take(t, u, v);
@@ -76,7 +77,7 @@ void Snapshots::finish() {
 }
 
 void Snapshots::take(double t, ConstVec u, ConstVec v) {
-  taken_.push_back({t, slope_angle_of(scene_, phase_, t, u)});
+  taken_.push_back({t, slope_angle_of(problem_, phase_, t, u)});
   if (!writer_) return;
   FieldFrame frame{.t = t,
                    .dim = phase_.dim(),

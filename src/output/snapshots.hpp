@@ -1,7 +1,7 @@
 // Stages of a run: the moments at which all fields are written.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/summary.hpp>
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class Snapshots {
  public:
   /// Nothing is written if the scene asks for no fields or the folder is empty; angles are taken all the same.
   /// resumed: archive() opens the files, which are there.
-  Snapshots(const Scene& scene, const LagrangianPhase& phase, const std::filesystem::path& folder,
+  Snapshots(const Problem& problem, const LagrangianPhase& phase, const std::filesystem::path& folder,
             bool resumed = false);
   void archive(const StateArchive& state);
 
@@ -36,7 +36,7 @@ class Snapshots {
  private:
   void take(double t, ConstVec u, ConstVec v);
 
-  const Scene& scene_;
+  const Problem& problem_;
   const LagrangianPhase& phase_;
   std::filesystem::path folder_;  // empty: nothing is written
   std::optional<FieldWriter> writer_;
@@ -47,8 +47,8 @@ class Snapshots {
 
 /// The angle of the free surface of the points as they are at (t, u), in a scene of the plane [degrees]; NaN if
 /// there is no slope.
-double slope_angle_of(const Scene& scene, const LagrangianPhase& phase, double t, ConstVec u);
+double slope_angle_of(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u);
 /// Of points at these places along x and y, in columns as wide as a cell; position: (points × 2) [m].
-double slope_angle_of(const Scene& scene, ConstVec position);
+double slope_angle_of(const Problem& problem, ConstVec position);
 
 }  // namespace stillpoint

@@ -17,7 +17,7 @@ void raise(const py::object& error) { PyErr_SetObject(py::type::handle_of(error)
 
 py::object problems_of(const SceneError& error) {
   py::list problems;
-  for (const Problem& problem : error.problems()) {
+  for (const Mistake& problem : error.problems()) {
     const Location& where = problem.where;
     problems.append(py::make_tuple(where.file, where.line, where.column, problem.message));
   }

@@ -1,7 +1,7 @@
 // How deep a position inside a body lies below its surface, along an axis.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <memory>
 #include <optional>

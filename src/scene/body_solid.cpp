@@ -38,7 +38,7 @@ std::shared_ptr<const Solid> solid_of(const BodySpec& body) {
   throw std::logic_error("a solid of a body that is a box, or points from a file");
 }
 
-std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Problem>& problems) {
+std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Mistake>& problems) {
   if (body.from_stl.solid && body.from_stl.file == body.stl) return body.from_stl.solid;
   const std::size_t before = problems.size();
   std::vector<Facet> triangles = read_stl_file(body.stl, problems);
@@ -47,7 +47,7 @@ std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::v
 }
 
 std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body) {
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
   auto solid = read_stl_solid(body, problems);
   if (!solid) throw SceneError(std::move(problems));
   return solid;

@@ -1,7 +1,7 @@
 // The shape of a body in space that is no box.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <memory>
 #include <vector>
@@ -15,7 +15,7 @@ namespace stillpoint {
 std::shared_ptr<const Solid> solid_of(const BodySpec& body);
 
 /// What the file body.stl encloses: as body.from_stl has it, or read. Without it the problems say what is wrong.
-std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Problem>& problems);
+std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Mistake>& problems);
 /// The same. Throws SceneError.
 std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body);
 

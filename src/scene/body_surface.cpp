@@ -233,10 +233,10 @@ std::string why_no_surface(const BodySpec& body, BodySurface surface) {
   return has_ends ? "" : "a cylinder or a polygon that is drawn out has two ends";
 }
 
-std::optional<std::size_t> body_with_surface(const Scene& scene) {
+std::optional<std::size_t> body_with_surface(const Problem& problem) {
   std::optional<std::size_t> found;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    if (!scene.bodies[k].has_shape()) continue;
+  for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+    if (!problem.bodies[k].has_shape()) continue;
     if (found) return std::nullopt;
     found = k;
   }

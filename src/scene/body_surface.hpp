@@ -1,7 +1,7 @@
 // The surface of a body in space that is no box, for what acts there.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <optional>
 #include <string>
@@ -25,6 +25,6 @@ std::vector<SurfacePiece> surface_pieces(const BodySpec& body, BodySurface surfa
 std::string why_no_surface(const BodySpec& body, BodySurface surface);
 
 /// The number of the only body of a scene that is another shape than a box; empty if there is none, or more.
-std::optional<std::size_t> body_with_surface(const Scene& scene);
+std::optional<std::size_t> body_with_surface(const Problem& problem);
 
 }  // namespace stillpoint

@@ -32,9 +32,9 @@ bool on_side(const PlanePoint& a, const PlanePoint& b, const PlanePoint& x, doub
   return std::abs(off) <= tolerance && along >= -tolerance && along <= length + tolerance;
 }
 
-std::vector<BorderLine> straight_line(const Scene& scene, std::size_t body, const PlanePoint& from,
+std::vector<BorderLine> straight_line(const Problem& problem, std::size_t body, const PlanePoint& from,
                                       const PlanePoint& to) {
-  const Polygon corners = sides_of(scene.bodies[body]);
+  const Polygon corners = sides_of(problem.bodies[body]);
   const double tolerance = 1e-9 * size_of(corners);
   for (std::size_t c = 0; c < corners.size(); ++c) {
     const PlanePoint &a = corners[c], &b = corners[(c + 1) % corners.size()];
@@ -62,9 +62,9 @@ Polygon way_between(const Polygon& loop, const PlaceOnBorder& from, const PlaceO
   return way;
 }
 
-std::vector<BorderLine> lines_along(const Scene& scene, std::size_t body, const PlanePoint& from,
+std::vector<BorderLine> lines_along(const Problem& problem, std::size_t body, const PlanePoint& from,
                                     const PlanePoint& to) {
-  const PointOutline& outline = scene.bodies[body].outline;
+  const PointOutline& outline = problem.bodies[body].outline;
   for (const Polygon& loop : outline.loops) {
     const PlaceOnBorder first = nearest_on_border(loop, from), last = nearest_on_border(loop, to);
     if (!(std::max(first.distance, last.distance) <= outline.spacing)) continue;
@@ -83,8 +83,8 @@ std::vector<BorderLine> lines_along(const Scene& scene, std::size_t body, const 
 
 }  // namespace
 
-BorderLine side_of_box(const Scene& scene, std::size_t body, Face face) {
-  const BodySpec& box = scene.bodies[body];
+BorderLine side_of_box(const Problem& problem, std::size_t body, Face face) {
+  const BodySpec& box = problem.bodies[body];
   const auto axis = static_cast<std::size_t>(axis_of(face));
   BorderLine line{.body = body, .from = {box.min[0], box.min[1]}, .to = {box.max[0], box.max[1]}, .normal = {}};
   line.from[axis] = line.to[axis] = (is_upper(face) ? box.max : box.min)[axis];
@@ -92,21 +92,21 @@ BorderLine side_of_box(const Scene& scene, std::size_t body, Face face) {
   return line;
 }
 
-std::vector<BorderLine> border_lines(const Scene& scene, const std::array<double, 2>& from,
+std::vector<BorderLine> border_lines(const Problem& problem, const std::array<double, 2>& from,
                                      const std::array<double, 2>& to) {
   std::vector<BorderLine> lines;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    const bool from_file = !scene.bodies[k].file.empty();
-    std::ranges::copy(from_file ? lines_along(scene, k, from, to) : straight_line(scene, k, from, to),
+  for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+    const bool from_file = !problem.bodies[k].file.empty();
+    std::ranges::copy(from_file ? lines_along(problem, k, from, to) : straight_line(problem, k, from, to),
                       std::back_inserter(lines));
   }
   return lines;
 }
 
-std::vector<BorderLine> border_lines(const Scene& scene, const TractionSpec& traction) {
-  if (traction.face) return {side_of_box(scene, 0, *traction.face)};
+std::vector<BorderLine> border_lines(const Problem& problem, const TractionSpec& traction) {
+  if (traction.face) return {side_of_box(problem, 0, *traction.face)};
   const auto& ends = traction.line;
-  return border_lines(scene, {ends.at(0).at(0), ends[0].at(1)}, {ends.at(1).at(0), ends[1].at(1)});
+  return border_lines(problem, {ends.at(0).at(0), ends[0].at(1)}, {ends.at(1).at(0), ends[1].at(1)});
 }
 
 }  // namespace stillpoint

@@ -1,7 +1,7 @@
 // The size that a grid is spoken of by.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // The outline of a body in the plane.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include "base/polygon.hpp"
 

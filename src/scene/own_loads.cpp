@@ -52,8 +52,8 @@ std::string unknown_own_load(const std::string& name) {
       in_quotes(name));
 }
 
-bool own_load_varies(const Scene& scene) {
-  const auto own = own_load(scene.own_load);
+bool own_load_varies(const Problem& problem) {
+  const auto own = own_load(problem.own_load);
   return own && own->about.settles_at > 0;
 }
 

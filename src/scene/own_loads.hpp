@@ -2,7 +2,7 @@
 #pragma once
 
 #include <stillpoint/own_load.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <memory>
 #include <string>
@@ -21,6 +21,6 @@ std::shared_ptr<const OwnLoadRow> own_load(const std::string& name);
 std::string unknown_own_load(const std::string& name);
 
 /// Whether the own load of a scene, if it has one, is another one at another t.
-bool own_load_varies(const Scene& scene);
+bool own_load_varies(const Problem& problem);
 
 }  // namespace stillpoint

@@ -49,7 +49,7 @@ std::optional<double> number_in(std::string_view text) {
 class Reader {
  public:
   Reader(const std::filesystem::path& file, const std::vector<double>& min, const std::vector<double>& max,
-         std::vector<Problem>& problems)
+         std::vector<Mistake>& problems)
       : file_(file), min_(min), max_(max), problems_(problems) {
     for (std::size_t d = 0; d < min.size(); ++d) names_.emplace_back(1, "xyz"[d]);
     names_.emplace_back("volume");
@@ -148,7 +148,7 @@ class Reader {
 
   const std::filesystem::path& file_;
   const std::vector<double>&min_, &max_;
-  std::vector<Problem>& problems_;
+  std::vector<Mistake>& problems_;
   std::vector<std::string> names_;     // of the columns: the coordinates, then volume
   std::vector<std::ptrdiff_t> order_;  // which of them each column of the file is
   PointFile points_;
@@ -159,7 +159,7 @@ class Reader {
 }  // namespace
 
 PointFile read_point_file(const std::filesystem::path& file, const std::vector<double>& min,
-                          const std::vector<double>& max, std::vector<Problem>& problems) {
+                          const std::vector<double>& max, std::vector<Mistake>& problems) {
   return Reader(file, min, max, problems).read();
 }
 

@@ -2,7 +2,7 @@
 // line a point; '#' begins a comment.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <filesystem>
 #include <vector>
@@ -17,6 +17,6 @@ struct PointFile {
 /// min, max: the box that the points have to lie in [m], (dim). What is wrong goes to problems, at its line and column;
 /// the points are complete only if nothing is.
 PointFile read_point_file(const std::filesystem::path& file, const std::vector<double>& min,
-                          const std::vector<double>& max, std::vector<Problem>& problems);
+                          const std::vector<double>& max, std::vector<Mistake>& problems);
 
 }  // namespace stillpoint

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,10 +13,12 @@
 namespace stillpoint {
 namespace {
 
-std::string all_of(const std::vector<Problem>& problems) {
+std::string all_of(const std::vector<Mistake>& problems) {
   std::string text;
-  for (const Problem& problem : problems)
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", to_string(problem.where), problem.message);
+  for (const Mistake& problem : problems)
+    text +=
+        fmt::format("{}{}{}{}", text.empty() ? "" : "\n", problem.key.empty() ? to_string(problem.where) : problem.key,
+                    problem.key.empty() && problem.where.file.empty() ? "" : ": ", problem.message);
   return text;
 }
 
@@ -43,7 +46,7 @@ std::string to_string(const Location& where) {
   return where.line > 0 ? fmt::format("{}:{}:{}", where.file, where.line, where.column) : where.file;
 }
 
-SceneError::SceneError(std::vector<Problem> problems)
+SceneError::SceneError(std::vector<Mistake> problems)
     : std::runtime_error(all_of(problems)), problems_(std::move(problems)) {}
 
 Location Scene::location(const std::string& key) const {
@@ -57,9 +60,16 @@ Location Scene::location(const std::string& key) const {
   return {file.string(), 1, 1};
 }
 
-bool loads_vary(const Scene& scene) {
-  bool any = own_load_varies(scene);
-  scene.for_each_formula([&](const std::string&, const Expression& formula) { any = any || formula.uses('t'); });
+SceneError Scene::located(const SceneError& error) const {
+  std::vector<Mistake> mistakes = error.problems();
+  for (Mistake& mistake : mistakes)
+    if (!mistake.key.empty() && !where.empty()) mistake.where = location(std::exchange(mistake.key, ""));
+  return SceneError(std::move(mistakes));
+}
+
+bool loads_vary(const Problem& problem) {
+  bool any = own_load_varies(problem);
+  problem.for_each_formula([&](const std::string&, const Expression& formula) { any = any || formula.uses('t'); });
   return any;
 }
 

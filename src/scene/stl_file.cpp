@@ -36,7 +36,7 @@ T number_at(std::string_view bytes, std::size_t at) {
 
 class StlReader {
  public:
-  StlReader(const std::filesystem::path& file, std::vector<Problem>& problems) : file_(file), problems_(problems) {}
+  StlReader(const std::filesystem::path& file, std::vector<Mistake>& problems) : file_(file), problems_(problems) {}
 
   std::vector<Facet> read() {
     std::error_code error;
@@ -196,7 +196,7 @@ class StlReader {
   }
 
   const std::filesystem::path& file_;
-  std::vector<Problem>& problems_;
+  std::vector<Mistake>& problems_;
   std::vector<Facet> triangles_;
   std::string_view text_;
   std::size_t at_ = 0, word_at_ = 0;
@@ -205,7 +205,7 @@ class StlReader {
 
 }  // namespace
 
-std::vector<Facet> read_stl_file(const std::filesystem::path& file, std::vector<Problem>& problems) {
+std::vector<Facet> read_stl_file(const std::filesystem::path& file, std::vector<Mistake>& problems) {
   return StlReader(file, problems).read();
 }
 

@@ -1,7 +1,7 @@
 // Which supports prescribe unknowns of the grid, and which hold the body by springs.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

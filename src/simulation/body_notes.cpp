@@ -32,24 +32,24 @@ std::vector<std::size_t> touching_groups(std::size_t bodies, const std::vector<B
 }
 
 // Whether loads or moving supports act along each axis.
-HeldAxes driven_axes(const Scene& scene) {
+HeldAxes driven_axes(const Problem& problem) {
   const auto acts = [](const Expression& formula) { return !formula.constant() || formula({}, 0) != 0; };
   HeldAxes driven{};
   const auto add = [&](const std::vector<Expression>& components) {
     for (std::size_t axis = 0; axis < components.size(); ++axis) driven[axis] = driven[axis] || acts(components[axis]);
   };
-  add(scene.body_force);
-  for (const PointForceSpec& force : scene.forces) add(force.value);
-  for (const TractionSpec& traction : scene.tractions) {
+  add(problem.body_force);
+  for (const PointForceSpec& force : problem.forces) add(force.value);
+  for (const TractionSpec& traction : problem.tractions) {
     add(traction.value);
     if (traction.pressure) driven.fill(true);
   }
-  if (!scene.own_load.empty()) driven.fill(true);
-  for (const SupportSpec& support : scene.supports)
+  if (!problem.own_load.empty()) driven.fill(true);
+  for (const SupportSpec& support : problem.supports)
     if (acts(support.motion)) driven[static_cast<std::size_t>(support.component)] = true;
-  for (const WallSpec& wall : scene.walls)
+  for (const WallSpec& wall : problem.walls)
     if (acts(wall.motion)) driven[static_cast<std::size_t>(axis_of(wall.face))] = true;
-  if (scene.state == StressState::axisymmetric) driven[0] = false;  // a ring holds itself
+  if (problem.state == StressState::axisymmetric) driven[0] = false;  // a ring holds itself
   return driven;
 }
 
@@ -61,20 +61,20 @@ struct HeldByGap {
 };
 
 // Something has to hold it, and along each axis along which anything is driven.
-std::optional<HeldByGap> held_by_gap(const Scene& scene, const std::vector<BodyGap>& pairs,
+std::optional<HeldByGap> held_by_gap(const Problem& problem, const std::vector<BodyGap>& pairs,
                                      const std::vector<HeldAxes>& held) {
   const std::vector<std::size_t> group = touching_groups(held.size(), pairs);
   std::vector<HeldAxes> group_is_held(held.size(), HeldAxes{});
   for (std::size_t body = 0; body < held.size(); ++body)
     for (std::size_t axis = 0; axis < held[body].size(); ++axis)
       group_is_held[group[body]][axis] = group_is_held[group[body]][axis] || held[body][axis];
-  const HeldAxes driven = driven_axes(scene);
+  const HeldAxes driven = driven_axes(problem);
   for (const BodyGap& pair : pairs) {
     if (!is_gap(pair) || group[pair.a] == group[pair.b]) continue;
     for (const std::size_t body : {pair.b, pair.a}) {
       const HeldAxes& axes = group_is_held[group[body]];
       if (std::ranges::none_of(axes, std::identity())) return HeldByGap{pair, body, ""};
-      for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.dim); ++axis)
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(problem.dim); ++axis)
         if (driven[axis] && !axes[axis]) return HeldByGap{pair, body, std::string(" along ") + "xyz"[axis]};
     }
   }
@@ -83,13 +83,13 @@ std::optional<HeldByGap> held_by_gap(const Scene& scene, const std::vector<BodyG
 
 }  // namespace
 
-std::vector<std::string> BodyNotes::at_start(const Scene& scene, const LagrangianPhase& phase) {
+std::vector<std::string> BodyNotes::at_start(const Problem& problem, const LagrangianPhase& phase) {
   std::vector<std::string> notes;
   const std::vector<BodyGap> pairs = phase.body_gaps();
   if (pairs.empty()) return notes;
-  const bool may_move = phase.info().updated_lagrangian || !scene.stop.wants_equilibrium();
-  if (const auto found = may_move ? std::nullopt : held_by_gap(scene, pairs, phase.held_bodies())) {
-    throw_scene_error(scene, fmt::format("body[{}]", found->body),
+  const bool may_move = phase.info().updated_lagrangian || !problem.stop.wants_equilibrium();
+  if (const auto found = may_move ? std::nullopt : held_by_gap(problem, pairs, phase.held_bodies())) {
+    throw_scene_error(fmt::format("body[{}]", found->body),
                       fmt::format("nothing holds it{}: {}, and only functions of the grid that reach both carry forces "
                                   "across the gap; expected a support, bodies that touch, or stop.residual = 0 and "
                                   "stop.time",
@@ -106,9 +106,9 @@ std::vector<std::string> BodyNotes::at_start(const Scene& scene, const Lagrangia
   return notes;
 }
 
-std::vector<std::string> BodyNotes::later(const Scene& scene, const LagrangianPhase& phase) {
+std::vector<std::string> BodyNotes::later(const Problem& problem, const LagrangianPhase& phase) {
   std::vector<std::string> notes;
-  const std::size_t bodies = scene.bodies.size();
+  const std::size_t bodies = problem.bodies.size();
   if (known_.size() == bodies * (bodies - 1) / 2) return notes;
   for (const BodyGap& pair : phase.body_gaps()) {
     if (!known_.insert({pair.a, pair.b}).second) continue;

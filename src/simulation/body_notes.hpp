@@ -1,7 +1,7 @@
 // What is said of bodies that the grid moves as one though they do not touch.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <set>
 #include <string>
@@ -17,9 +17,9 @@ namespace stillpoint {
 class BodyNotes {
  public:
   /// Throws SceneError if equilibrium is asked for and nothing but such functions holds a body.
-  std::vector<std::string> at_start(const Scene& scene, const LagrangianPhase& phase);
+  std::vector<std::string> at_start(const Problem& problem, const LagrangianPhase& phase);
   /// Of a phase that begins.
-  std::vector<std::string> later(const Scene& scene, const LagrangianPhase& phase);
+  std::vector<std::string> later(const Problem& problem, const LagrangianPhase& phase);
 
  private:
   std::set<std::pair<std::size_t, std::size_t>> known_;

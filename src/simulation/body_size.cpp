@@ -82,23 +82,23 @@ Filled filled_by_solid(const GridSpec& grid, const BodySpec& body, double per_ce
 
 }  // namespace
 
-BodySize body_size(const Scene& scene) {
+BodySize body_size(const Problem& problem) {
   BodySize size;
-  const std::size_t dim = scene.grid.cells.size();
+  const std::size_t dim = problem.grid.cells.size();
   std::vector<Range> box(dim, {std::numeric_limits<double>::infinity(), 0});
   double most = -1;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    const BodySpec& body = scene.bodies[k];
+  for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+    const BodySpec& body = problem.bodies[k];
     double cells = is_solid(body) ? 1 : share_of_box(body), per_cell = 1;
     for (std::size_t d = 0; d < dim; ++d) {
-      const Range range = cells_between(scene.grid, d, body.min[d], body.max[d]);
+      const Range range = cells_between(problem.grid, d, body.min[d], body.max[d]);
       cells *= range.length();
       if (body.file.empty()) per_cell *= body.points_per_cell[d];
       box[d] = {std::min(box[d].first, range.first), std::max(box[d].end, range.end)};
     }
     double points = body.file.empty() ? cells * per_cell : lines_in(body.file);
     if (is_solid(body)) {
-      const Filled filled = filled_by_solid(scene.grid, body, per_cell);
+      const Filled filled = filled_by_solid(problem.grid, body, per_cell);
       cells = filled.cells;
       points = filled.points;
     }
@@ -108,16 +108,16 @@ BodySize body_size(const Scene& scene) {
     if (points <= most) continue;
     most = points;
     const char* key = body.file.empty() ? "points_per_cell" : "file";
-    size.most_points = scene.bodies.size() > 1 ? fmt::format("body[{}].{}", k, key) : fmt::format("body.{}", key);
+    size.most_points = problem.bodies.size() > 1 ? fmt::format("body[{}].{}", k, key) : fmt::format("body.{}", key);
   }
   double in_box = 1, functions = 1, widest = 1;
   size.grid_functions = 1;
   for (std::size_t d = 0; d < dim; ++d) {
     in_box *= box[d].length();
-    const double along = functions_along(scene.grid.basis, box[d].length());
+    const double along = functions_along(problem.grid.basis, box[d].length());
     functions *= along;
     widest = std::max(widest, along);
-    size.grid_functions *= functions_along(scene.grid.basis, scene.grid.cells[d]);
+    size.grid_functions *= functions_along(problem.grid.basis, problem.grid.cells[d]);
   }
   const auto components = static_cast<double>(dim);
   size.unknowns = components * functions * std::min(1.0, size.cells / std::max(1.0, in_box));

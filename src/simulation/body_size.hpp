@@ -1,7 +1,7 @@
 // How many cells, points and unknowns a scene comes to, counted without placing one.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <string>
 #include <vector>
@@ -18,6 +18,6 @@ struct BodySize {
 };
 
 /// To a few per cent. Bodies that meet in a cell count it twice, and the cells of a file's points fill its box.
-BodySize body_size(const Scene& scene);
+BodySize body_size(const Problem& problem);
 
 }  // namespace stillpoint

@@ -30,17 +30,17 @@ double longest_period(const Model& model) {
 
 }  // namespace
 
-Creep::Creep(const Scene& scene, const Model& model, const GivingWay& giving_way)
-    : scene_(scene),
+Creep::Creep(const Problem& problem, const Model& model, const GivingWay& giving_way)
+    : problem_(problem),
       phase_(*model.phase),
       giving_way_(giving_way),
-      way_left_(scene.stop.distance > 0 ? scene.stop.distance : usual_way_left) {
-  const bool told_not_to_look = scene.stop.distance == 0 && scene.where.contains("stop.distance");
-  watches_ = giving_way_.is_possible() && scene.stop.wants_equilibrium() && !model.static_method && !told_not_to_look;
+      way_left_(problem.stop.distance > 0 ? problem.stop.distance.value() : usual_way_left) {
+  const bool told_not_to_look = problem.stop.distance == 0 && problem.stop.distance.is_asked();
+  watches_ = giving_way_.is_possible() && problem.stop.wants_equilibrium() && !model.static_method && !told_not_to_look;
   may_slide_away_ = !phase_.info().updated_lagrangian;
   if (!watches_) return;
   period_ = shortest_period_ = longest_period(model);
-  cell_ = longest_cell(scene.grid);
+  cell_ = longest_cell(problem.grid);
   stride_ = (phase_.points() + most_points_looked_at - 1) / most_points_looked_at;
 }
 
@@ -91,13 +91,13 @@ void Creep::close_block() {
 
 // Where the end is open nobody knows from when on loads stay.
 bool Creep::loads_have_changed(double t) const {
-  if (scene_.stop.time > 0 || !loads_vary(scene_)) return false;
+  if (problem_.stop.time > 0 || !loads_vary(problem_)) return false;
   constexpr std::size_t places = 8;
   constexpr double same = 1e-9;
   const auto dim = static_cast<std::size_t>(phase_.dim());
   const std::vector<double> x = phase_.point_data().initial_positions;
   bool changed = false;
-  scene_.for_each_formula([&](const std::string&, const Expression& formula) {
+  problem_.for_each_formula([&](const std::string&, const Expression& formula) {
     if (changed || !formula.uses('t')) return;
     for (std::size_t k = 0; k < places && !changed; ++k) {
       const ConstVec at = ConstVec(x).subspan(dim * (k * (phase_.points() - 1) / (places - 1)), dim);
@@ -147,7 +147,7 @@ std::string Creep::description(double t, ConstVec u) const {
   }
   std::string walls;
   for (const std::size_t wall : giving_way_.sliding_walls(t))
-    walls += fmt::format("{} wall '{}'", walls.empty() ? "along" : " and", scene_.walls[wall].name);
+    walls += fmt::format("{} wall '{}'", walls.empty() ? "along" : " and", problem_.walls[wall].name);
   if (!walls.empty()) walls += ", ";
   const double q = way_left_.exponent();
   const std::string decay =

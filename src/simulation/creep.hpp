@@ -17,7 +17,7 @@ namespace stillpoint {
 class Creep {
  public:
   /// All outlive it.
-  Creep(const Scene& scene, const Model& model, const GivingWay& giving_way);
+  Creep(const Problem& problem, const Model& model, const GivingWay& giving_way);
 
   /// Whether it wants a sample: four times in a block of time, a period of the body.
   bool due(double t) const { return watches_ && t >= next_; }
@@ -45,7 +45,7 @@ class Creep {
   void begin_block(double t);
   void close_block();
 
-  const Scene& scene_;
+  const Problem& problem_;
   const LagrangianPhase& phase_;
   const GivingWay& giving_way_;
   WayLeft way_left_;

@@ -25,7 +25,7 @@ namespace {
 
 // The size of the motion to expect, so that tolerances need no number from the user: the largest displacement of a
 // material point under the loads of any time, u = K⁻¹ Q(t), or under the initial values.
-double displacement_scale(const Scene& scene, const Model& model) {
+double displacement_scale(const Problem& problem, const Model& model) {
   const LagrangianPhase& phase = *model.phase;
   double scale = 0;
   std::vector<double> at_points(phase.points() * static_cast<std::size_t>(phase.dim()));
@@ -38,8 +38,8 @@ double displacement_scale(const Scene& scene, const Model& model) {
   widen(1 / *model.omega_1);
 
   const SparseCholesky K(phase.tangents().matrix(Tangent::elastic, 0, model.u));
-  const double span = scene.stop.time > 0 ? scene.stop.time : 2 * std::numbers::pi / *model.omega_1;
-  const int samples = loads_vary(scene) ? 32 : 0;
+  const double span = problem.stop.time > 0 ? problem.stop.time : 2 * std::numbers::pi / *model.omega_1;
+  const int samples = loads_vary(problem) ? 32 : 0;
   for (int k = 0; k <= samples; ++k) {
     const double t = samples > 0 ? span * k / samples : 0;
     std::vector<double> u = total_load_at(phase, t);
@@ -50,16 +50,16 @@ double displacement_scale(const Scene& scene, const Model& model) {
   return scale;
 }
 
-void set_tolerances(const Scene& scene, SetUp& set_up, Model& model) {
-  const IntegratorSpec& spec = scene.integrator;
+void set_tolerances(const Problem& problem, SetUp& set_up, Model& model) {
+  const IntegratorSpec& spec = problem.integrator;
   model.integrator.rtol = spec.rtol;
   if (!spec.rtol) return;
   if (!spec.atol_u || !spec.atol_v) {
-    const auto measured = [&] { return displacement_scale(scene, model); };
+    const auto measured = [&] { return displacement_scale(problem, model); };
     const double scale = model.omega_1 ? set_up.shared("size of the motion", model.mass, measured) : 0;
     if (!(scale > 0)) {
       throw_scene_error(
-          scene, "integrator.rtol",
+          "integrator.rtol",
           "the size of the motion is not known beforehand; expected integrator.atol_u and integrator.atol_v beside "
           "rtol");
     }
@@ -72,22 +72,22 @@ void set_tolerances(const Scene& scene, SetUp& set_up, Model& model) {
 
 // A relaxation that takes the spectrum to its end must stay below the critical step all the time: if that moves,
 // StiffeningStep follows in notches of 1.1.
-double step_fraction(const Scene& scene, const Model& model) {
+double step_fraction(const Problem& problem, const Model& model) {
   const RelaxationInfo* relaxation = model.relaxation;
-  if (!relaxation || !(relaxation->step_fraction > 0)) return scene.integrator.step_fraction;
+  if (!relaxation || !(relaxation->step_fraction > 0)) return problem.integrator.step_fraction;
   const bool follows = relaxation->needs_upper_end && model.phase->info().stiffens;
   return follows ? relaxation->step_fraction / StiffeningStep::notch : relaxation->step_fraction;
 }
 
 // Whether leapfrog is damped by balanced_leapfrog.hpp.
-bool is_balanced_leapfrog(const Scene& scene, const Model& model) {
-  const DampingTreatment treatment = scene.integrator.treatment;
-  return model.multigrid && model.omega_1 && model.c && !scene.damping.c && model.method.hosts_relaxations &&
+bool is_balanced_leapfrog(const Problem& problem, const Model& model) {
+  const DampingTreatment treatment = problem.integrator.treatment;
+  return model.multigrid && model.omega_1 && model.c && !problem.damping.c && model.method.hosts_relaxations &&
          (treatment == DampingTreatment::automatic || treatment == DampingTreatment::averaged);
 }
 
-void choose_step(const Scene& scene, Model& model) {
-  const IntegratorSpec& spec = scene.integrator;
+void choose_step(const Problem& problem, Model& model) {
+  const IntegratorSpec& spec = problem.integrator;
   const bool adaptive = spec.rtol.has_value();
   if (model.method.amplification) {
     const double gain = local_damping_gain(*model.phase, 0, model.u, *model.damping, model.omega_max);
@@ -105,20 +105,20 @@ void choose_step(const Scene& scene, Model& model) {
     if (!adaptive && model.critical_step && *spec.step > *model.critical_step * (1 + 1e-9) &&
         spec.unstable_reason.empty()) {
       throw_scene_error(
-          scene, "integrator.step",
+          "integrator.step",
           fmt::format("the step {:.6g} is past the critical one of {} here, {:.6g}; expected a smaller step, "
                       "integrator.step_fraction, or integrator.unstable_reason to say why",
                       *spec.step, model.method.name, *model.critical_step));
     }
   } else if (model.critical_step && *model.critical_step > 0) {
-    model.integrator.max_step = step_fraction(scene, model) * *model.critical_step;
-    if (is_balanced_leapfrog(scene, model))
+    model.integrator.max_step = step_fraction(problem, model) * *model.critical_step;
+    if (is_balanced_leapfrog(problem, model))
       model.integrator.max_step = std::min(model.integrator.max_step, balanced_step(*model.omega_1, model.omega_max));
   } else if (adaptive) {
     model.integrator.max_step = 1 / model.omega_max;  // no limit of its own: the error control is what bounds the step
   } else {
     throw_scene_error(
-        scene, "integrator.method",
+        "integrator.method",
         fmt::format("{} has no stable step on this scene; expected another method, damping, or integrator.step with "
                     "integrator.unstable_reason",
                     model.method.name));
@@ -126,39 +126,39 @@ void choose_step(const Scene& scene, Model& model) {
 }
 
 // How the way to rest is gone: the damping and what steps it.
-void choose_strategy(const Scene& scene, bool takes_c, Model& model) {
-  if (takes_c) model.c = scene.damping.c ? *scene.damping.c : 2 * *model.omega_1;
-  if (is_balanced_leapfrog(scene, model)) {
-    const double longest = scene.integrator.step_fraction * 2 / model.omega_max;
+void choose_strategy(const Problem& problem, bool takes_c, Model& model) {
+  if (takes_c) model.c = problem.damping.c ? *problem.damping.c : 2 * *model.omega_1;
+  if (is_balanced_leapfrog(problem, model)) {
+    const double longest = problem.integrator.step_fraction * 2 / model.omega_max;
     const double usual = std::min(longest, balanced_step(*model.omega_1, model.omega_max));
-    model.c = balanced_damping(*model.omega_1, scene.integrator.step.value_or(usual));
+    model.c = balanced_damping(*model.omega_1, problem.integrator.step.value_or(usual));
   }
   model.damping = model.relaxation || model.static_method
                       ? no_damping()
-                      : make_damping(scene.damping.strategy, model.c.value_or(0), scene.damping.alpha);
+                      : make_damping(problem.damping.strategy, model.c.value_or(0), problem.damping.alpha);
   const bool hosted = model.relaxation && model.method.hosts_relaxations;
-  model.integrator.method = scene.integrator.method;
-  model.integrator.treatment = scene.integrator.treatment;
+  model.integrator.method = problem.integrator.method;
+  model.integrator.treatment = problem.integrator.treatment;
   model.integrator.halts_at_energy_peaks = model.relaxation && !hosted && model.relaxation->is_event_of_erk;
-  model.relaxing = {.name = scene.damping.strategy,
-                    .peak = scene.damping.peak,
-                    .quotient = scene.damping.quotient,
+  model.relaxing = {.name = problem.damping.strategy,
+                    .peak = problem.damping.peak,
+                    .quotient = problem.damping.quotient,
                     .omega_1 = model.omega_1.value_or(0),
-                    .steady = wants_equilibrium_only(scene),
+                    .steady = wants_equilibrium_only(problem),
                     .single_phase = !model.phase->info().updated_lagrangian,
                     .linear = model.linear};
 }
 
 }  // namespace
 
-void choose_damping_and_step(const Scene& scene, SetUp& set_up, Model& model) {
-  const bool takes_c = !model.static_method && catalogue().strategy(scene.damping.strategy)->uses("c");
-  choose_strategy(scene, takes_c, model);
-  if (!model.static_method) set_tolerances(scene, set_up, model);
-  choose_step(scene, model);
+void choose_damping_and_step(const Problem& problem, SetUp& set_up, Model& model) {
+  const bool takes_c = !model.static_method && catalogue().strategy(problem.damping.strategy)->uses("c");
+  choose_strategy(problem, takes_c, model);
+  if (!model.static_method) set_tolerances(problem, set_up, model);
+  choose_step(problem, model);
   if (takes_c && model.omega_1) {
     const double c = model.damping->linear().mass;
-    if (const auto note = slow_damping_note(scene, c, *model.omega_1, model.integrator.max_step))
+    if (const auto note = slow_damping_note(problem, c, *model.omega_1, model.integrator.max_step))
       model.notes.push_back(*note);
   }
   model.relaxing.max_step = model.integrator.max_step;

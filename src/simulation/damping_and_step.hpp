@@ -1,7 +1,7 @@
 // How a run goes to rest: its damping, the step and the tolerances of what takes it.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include "simulation/model.hpp"
 
@@ -9,6 +9,6 @@ namespace stillpoint {
 
 /// After the frequencies: sets c, the damping, the step and what the integrator or the relaxation is made of. A note if
 /// the damping holds the motion back. Throws SceneError as make_model().
-void choose_damping_and_step(const Scene& scene, SetUp& set_up, Model& model);
+void choose_damping_and_step(const Problem& problem, SetUp& set_up, Model& model);
 
 }  // namespace stillpoint

@@ -13,13 +13,13 @@ namespace stillpoint {
 namespace {
 
 // "body_force.value is not a number at t = 0.3 at material point 12 at (0.5, 0.25)"; empty: all formulas have values.
-std::string formula_without_value(const Scene& scene, const LagrangianPhase& phase, double t, double step) {
+std::string formula_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
   const auto dim = static_cast<std::size_t>(phase.dim());
   std::string said;
-  scene.for_each_formula([&](const std::string& key, const Expression& formula) {
+  problem.for_each_formula([&](const std::string& key, const Expression& formula) {
     if (!said.empty()) return;
     const bool somewhere = formula.uses_position();
-    const std::vector<double> positions = somewhere ? formula_positions(scene, phase, key) : std::vector<double>();
+    const std::vector<double> positions = somewhere ? formula_positions(problem, phase, key) : std::vector<double>();
     const std::size_t places = somewhere ? positions.size() / dim : 1;
     for (std::size_t p = 0; p < places && said.empty(); ++p) {
       const ConstVec x = somewhere ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
@@ -37,17 +37,18 @@ std::string formula_without_value(const Scene& scene, const LagrangianPhase& pha
 }
 
 // "body_force.own is not a number at t = 0.3 at material point …"; empty: it has values.
-std::string own_load_without_value(const Scene& scene, const LagrangianPhase& phase, double t, double step) {
-  const auto own = own_load(scene.own_load);
+std::string own_load_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
+  const auto own = own_load(problem.own_load);
   if (!own) return "";
   const std::vector<double> x = phase.positions();
   std::vector<double> b(x.size());
   for (const double at : {t, t + step / 2, t + step}) {
-    own->b(at, scene.dim, x, b);
+    own->b(at, problem.dim, x, b);
     const auto wrong = std::ranges::find_if_not(b, [](double value) { return std::isfinite(value); });
     if (wrong == b.end()) continue;
-    return fmt::format("body_force.own is {} at t = {:.6g} at {}", std::isnan(*wrong) ? "not a number" : "infinite", at,
-                       to_string(phase.diagnosis().of_point(static_cast<std::size_t>(wrong - b.begin()) / scene.dim)));
+    return fmt::format(
+        "body_force.own is {} at t = {:.6g} at {}", std::isnan(*wrong) ? "not a number" : "infinite", at,
+        to_string(phase.diagnosis().of_point(static_cast<std::size_t>(wrong - b.begin()) / problem.dim)));
   }
   return "";
 }
@@ -58,10 +59,10 @@ std::string failure(const Moment& moment, const std::string& what) {
   return fmt::format("at t = {:.6g} s, after {} steps, in phase {}: {}", moment.t, moment.steps, moment.phase, what);
 }
 
-std::string failure_of_step(const Scene& scene, const LagrangianPhase& phase, const Moment& moment,
+std::string failure_of_step(const Problem& problem, const LagrangianPhase& phase, const Moment& moment,
                             const StepReport& report) {
-  std::string load = formula_without_value(scene, phase, moment.t, report.h);
-  if (load.empty()) load = own_load_without_value(scene, phase, moment.t, report.h);
+  std::string load = formula_without_value(problem, phase, moment.t, report.h);
+  if (load.empty()) load = own_load_without_value(problem, phase, moment.t, report.h);
   return failure(moment, load.empty() ? report.message : load + "; expected a finite number at any time");
 }
 

@@ -1,7 +1,7 @@
 // What is said of a run that goes wrong: when, where, which quantity, what to try.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <string>
 
@@ -21,7 +21,7 @@ struct Moment {
 std::string failure(const Moment& moment, const std::string& what);
 
 /// Of a step that was given up: also a formula of the scene that is no finite number within it, if there is one.
-std::string failure_of_step(const Scene& scene, const LagrangianPhase& phase, const Moment& moment,
+std::string failure_of_step(const Problem& problem, const LagrangianPhase& phase, const Moment& moment,
                             const StepReport& report);
 
 /// "material point 12 at (0.5, 0.25) in cell (3, 1) is stressed most, by 3e+08 Pa" at (t, u).

@@ -62,22 +62,22 @@ std::vector<double> over(const std::vector<FaceInterval>& part, double face, con
 
 }  // namespace
 
-std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase& phase, const std::string& key) {
-  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
+std::vector<double> formula_positions(const Problem& problem, const LagrangianPhase& phase, const std::string& key) {
+  for (std::size_t k = 0; k < problem.tractions.size(); ++k) {
     if (!key.starts_with(fmt::format("traction[{}]", k))) continue;
-    const TractionSpec& traction = scene.tractions[k];
+    const TractionSpec& traction = problem.tractions[k];
     if (!traction.line.empty()) {
       std::vector<double> positions;
-      const std::vector<BorderLine> lines = border_lines(scene, traction);
+      const std::vector<BorderLine> lines = border_lines(problem, traction);
       const int fewest = 1 + (fewest_of_all - 1) / static_cast<int>(lines.size());
       for (const BorderLine& line : lines) {
-        const std::vector<double> of_line = along(line.from, line.to, scene.grid, fewest);
+        const std::vector<double> of_line = along(line.from, line.to, problem.grid, fewest);
         positions.insert(positions.end(), of_line.begin(), of_line.end());
       }
       return positions;
     }
     if (traction.surface) {
-      const BodySpec& shape = scene.bodies[body_with_surface(scene).value()];
+      const BodySpec& shape = problem.bodies[body_with_surface(problem).value()];
       double length = 0;
       constexpr int along_box = 16;
       for (std::size_t d = 0; d < 3; ++d) length = std::max(length, (shape.max[d] - shape.min[d]) / along_box);
@@ -86,18 +86,18 @@ std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase&
         positions.insert(positions.end(), piece.x.begin(), piece.x.end());
       return positions;
     }
-    const BodySpec& body = scene.bodies.front();
+    const BodySpec& body = problem.bodies.front();
     const auto axis = static_cast<std::size_t>(axis_of(*traction.face));
     const double face = (is_upper(*traction.face) ? body.max : body.min)[axis];
-    return over(part_of_face(*traction.face, traction.from, traction.to, body.min, body.max), face, scene.grid);
+    return over(part_of_face(*traction.face, traction.from, traction.to, body.min, body.max), face, problem.grid);
   }
-  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+  for (std::size_t k = 0; k < problem.supports.size(); ++k) {
     if (!key.starts_with(fmt::format("support[{}]", k))) continue;
-    const SupportSpec& support = scene.supports[k];
+    const SupportSpec& support = problem.supports[k];
     if (!support.face) return support.at;
     const auto axis = static_cast<std::size_t>(axis_of(*support.face));
-    const double face = (is_upper(*support.face) ? scene.grid.max : scene.grid.min)[axis];
-    return over(held_part(scene.grid, support), face, scene.grid);
+    const double face = (is_upper(*support.face) ? problem.grid.max : problem.grid.min)[axis];
+    return over(held_part(problem.grid, support), face, problem.grid);
   }
   return phase.positions();
 }

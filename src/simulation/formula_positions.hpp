@@ -1,7 +1,7 @@
 // Where in a body a formula of a scene is evaluated.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <string>
 #include <vector>
@@ -13,6 +13,6 @@ namespace stillpoint {
 /// Positions, (n × dim) [m], that stand for all at which the formula of a key such as "traction[0].value" is needed: of
 /// a traction or a support a thousand along its line or face, or eight to a cell, none at the ends; otherwise the
 /// material points.
-std::vector<double> formula_positions(const Scene& scene, const LagrangianPhase& phase, const std::string& key);
+std::vector<double> formula_positions(const Problem& problem, const LagrangianPhase& phase, const std::string& key);
 
 }  // namespace stillpoint

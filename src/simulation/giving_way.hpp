@@ -1,7 +1,7 @@
 // Whether a body gives way: points that yield, and walls whose friction is used up.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -13,7 +13,7 @@ namespace stillpoint {
 class GivingWay {
  public:
   /// The phase, the first or any, outlives it.
-  GivingWay(const Scene& scene, const LagrangianPhase& phase);
+  GivingWay(const Problem& problem, const LagrangianPhase& phase);
 
   /// Whether anything can: a law that remembers its path, or a wall with a friction that has an end.
   bool is_possible() const { return remembers_ || has_friction_; }

@@ -21,11 +21,11 @@ using Notes = std::vector<std::string>;
 // Whether a load is zero at all positions, until stop.time; empty: not known, as that would take too long to
 // see or the load has no end.
 // `of` many loads this is one.
-std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const std::vector<double>& positions,
+std::optional<bool> is_zero(const Problem& problem, const Expression& formula, const std::vector<double>& positions,
                             std::size_t of) {
-  const auto dim = static_cast<std::size_t>(scene.dim);
+  const auto dim = static_cast<std::size_t>(problem.dim);
   const bool varies = formula.uses('t');
-  if (varies && !(scene.stop.time > 0)) return std::nullopt;
+  if (varies && !(problem.stop.time > 0)) return std::nullopt;
   const std::size_t places = formula.uses_position() ? positions.size() / dim : 1;
   const std::size_t most = 2'000'000 / std::max<std::size_t>(1, of / 100);
   constexpr std::size_t most_moments = 20'000, fewest_moments = 200;
@@ -34,7 +34,7 @@ std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const
   for (std::size_t p = 0; p < places; ++p) {
     const ConstVec x = formula.uses_position() ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
     for (std::size_t k = 0; k < std::max<std::size_t>(1, moments); ++k) {
-      const double t = varies ? scene.stop.time * static_cast<double>(k + 1) / static_cast<double>(moments + 1) : 0;
+      const double t = varies ? problem.stop.time * static_cast<double>(k + 1) / static_cast<double>(moments + 1) : 0;
       if (formula(x, t) != 0) return false;
     }
   }
@@ -42,7 +42,7 @@ std::optional<bool> is_zero(const Scene& scene, const Expression& formula, const
     constexpr std::size_t most_places = 8;
     for (std::size_t p = 0; p < std::min(places, most_places); ++p) {
       const ConstVec x = formula.uses_position() ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
-      const std::vector<double> times = moments_of_change(formula, x, 200, scene.stop.time);
+      const std::vector<double> times = moments_of_change(formula, x, 200, problem.stop.time);
       if (std::ranges::any_of(times, [&](double t) { return formula(x, t) != 0; })) return false;
     }
   }
@@ -54,70 +54,72 @@ struct Load {
   std::span<const Expression> components;
 };
 
-std::vector<Load> loads_of(const Scene& scene) {
+std::vector<Load> loads_of(const Problem& problem) {
   std::vector<Load> loads;
-  for (std::size_t k = 0; k < scene.forces.size(); ++k)
-    loads.push_back({fmt::format("force[{}]", k), scene.forces[k].value});
-  for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
-    loads.push_back({fmt::format("traction[{}]", k), scene.tractions[k].formulas()});
+  for (std::size_t k = 0; k < problem.forces.size(); ++k)
+    loads.push_back({fmt::format("force[{}]", k), problem.forces[k].value});
+  for (std::size_t k = 0; k < problem.tractions.size(); ++k) {
+    loads.push_back({fmt::format("traction[{}]", k), problem.tractions[k].formulas()});
   }
-  if (!scene.body_force.empty()) loads.push_back({"body_force", scene.body_force});
+  if (!problem.body_force.empty()) loads.push_back({"body_force", problem.body_force});
   return loads;
 }
 
 // Whether no support or wall moves or is displaced, and nothing moves or is deformed at the start.
-bool is_still(const Scene& scene) {
+bool is_still(const Problem& problem) {
   const auto stays = [](const auto& held) { return held.motion.constant() && held.motion({}, 0) == 0; };
-  return std::ranges::all_of(scene.supports, stays) && std::ranges::all_of(scene.walls, stays) &&
-         scene.initial_u.empty() && scene.initial_v.empty();
+  return std::ranges::all_of(problem.supports, stays) && std::ranges::all_of(problem.walls, stays) &&
+         problem.initial_u.empty() && problem.initial_v.empty();
 }
 
-void note_loads(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
-  const std::vector<Load> loads = loads_of(scene);
+void note_loads(const Problem& problem, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
+  const std::vector<Load> loads = loads_of(problem);
   constexpr std::size_t most_told = 20;
   std::size_t zeros = 0;
-  bool some_act = !scene.own_load.empty();  // for all that is known
+  bool some_act = !problem.own_load.empty();  // for all that is known
   for (const auto& [key, components] : loads) {
     const std::vector<double> positions = std::ranges::any_of(components, &Expression::uses_position)
-                                              ? formula_positions(scene, phase, key)
+                                              ? formula_positions(problem, phase, key)
                                               : std::vector<double>();
     const bool zero = std::ranges::all_of(components, [&](const Expression& component) {
-      return is_zero(scene, component, positions, loads.size()).value_or(false);
+      return is_zero(problem, component, positions, loads.size()).value_or(false);
     });
     zeros += zero;
     if (zero && zeros <= most_told)
       notes.push_back(fmt::format("{} is zero{}{}: it loads nothing", key,
                                   key == "body_force" ? " at every material point" : "",
-                                  scene.stop.time > 0 ? ", all the time" : ""));
+                                  problem.stop.time > 0 ? ", all the time" : ""));
     some_act = some_act || !zero;
   }
   if (zeros > most_told) notes.push_back(fmt::format("so are {} loads more", zeros - most_told));
-  if (!some_act && is_still(scene)) notes.emplace_back("no load acts and nothing moves: the body stays as it is");
-  if (!some_act || loads_vary(scene) || scene.load) return;
+  if (!some_act && is_still(problem)) notes.emplace_back("no load acts and nothing moves: the body stays as it is");
+  if (!some_act || loads_vary(problem) || problem.load) return;
   std::vector<double> F(phase.size());
   phase.external_force(0, u, F);
   if (std::ranges::all_of(F, [](double force) { return force == 0; }))
     notes.emplace_back("all loads act where supports hold the body: nothing is deformed by them");
 }
 
-void note_supports(const Scene& scene, Notes& notes) {
-  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
-    if (!scene.supports[k].face) continue;
-    const Face face = *scene.supports[k].face;
+void note_supports(const Problem& problem, Notes& notes) {
+  for (std::size_t k = 0; k < problem.supports.size(); ++k) {
+    if (!problem.supports[k].face) continue;
+    const Face face = *problem.supports[k].face;
     const auto axis = static_cast<std::size_t>(axis_of(face));
-    const double h = scene.grid.cell_length(axis);
-    const bool reached = std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
-      return is_upper(face) ? body.max[axis] > scene.grid.max[axis] - h : body.min[axis] < scene.grid.min[axis] + h;
+    const double h = problem.grid.cell_length(axis);
+    const bool reached = std::ranges::any_of(problem.bodies, [&](const BodySpec& body) {
+      return is_upper(face) ? body.max[axis] > problem.grid.max[axis] - h : body.min[axis] < problem.grid.min[axis] + h;
     });
     if (!reached) notes.push_back(fmt::format("support[{}] holds nothing: no material is in the cells at its face", k));
   }
 }
 
 // Whether a wall may stand against a force along an axis, or rub against it; or the body moves on to a support.
-bool may_be_borne(const Scene& scene, const LagrangianPhase& phase, int axis, double force) {
-  const auto supports = [&](const SupportSpec& support) { return support.component == axis || !support.roller; };
-  if (phase.info().updated_lagrangian && std::ranges::any_of(scene.supports, supports)) return true;
-  return std::ranges::any_of(scene.walls, [&](const WallSpec& wall) {
+bool may_be_borne(const Problem& problem, const LagrangianPhase& phase, int axis, double force) {
+  const auto supports = [&](const SupportSpec& support) {
+    return support.component == axis || !support.holds_one_component();
+  };
+  if (phase.info().updated_lagrangian && std::ranges::any_of(problem.supports, supports)) return true;
+  return std::ranges::any_of(problem.walls, [&](const WallSpec& wall) {
     return axis_of(wall.face) == axis ? is_upper(wall.face) == (force > 0) : wall.friction > 0;
   });
 }
@@ -133,29 +135,29 @@ double resultant(const FreePart& part, ConstVec F) {
   return std::abs(sum) > rounding * scale ? sum : 0;
 }
 
-void note_free_parts(const Scene& scene, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
-  const bool varies = loads_vary(scene);
-  if (!scene.stop.wants_equilibrium() || (varies && !(scene.stop.time > 0))) return;
+void note_free_parts(const Problem& problem, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
+  const bool varies = loads_vary(problem);
+  if (!problem.stop.wants_equilibrium() || (varies && !(problem.stop.time > 0))) return;
   std::vector<double> F(phase.size());
-  phase.external_force(varies ? scene.stop.time : 0, u, F);
+  phase.external_force(varies ? problem.stop.time : 0, u, F);
   std::vector<std::string> balanced;
   for (const FreePart& part : phase.free_parts()) {
     const std::string along = fmt::format(
         "{} along {}",
         part.is_whole ? "the body" : fmt::format("the part of the body around material point {}", part.point + 1),
-        (scene.state == StressState::axisymmetric ? "rz" : "xy")[part.axis]);
+        (problem.state == StressState::axisymmetric ? "rz" : "xy")[part.axis]);
     const double force = resultant(part, F);
     if (force == 0) {
       balanced.push_back(along);
-    } else if (!may_be_borne(scene, phase, part.axis, force)) {
+    } else if (!may_be_borne(problem, phase, part.axis, force)) {
       throw_scene_error(
-          scene, "support",
+          "support",
           fmt::format("nothing holds {}, where its loads add up to {:.4g} N: it falls freely and is never at rest; "
                       "expected a support, loads that balance, or stop.residual = 0 and stop.time",
                       along, force));
     }
   }
-  if (!scene.walls.empty()) return;  // that may hold it
+  if (!problem.walls.empty()) return;  // that may hold it
   constexpr std::size_t most_told = 4;
   for (std::size_t k = 0; k < balanced.size(); ++k) {
     if (k == most_told) {
@@ -169,11 +171,11 @@ void note_free_parts(const Scene& scene, const LagrangianPhase& phase, ConstVec 
 
 }  // namespace
 
-std::vector<std::string> load_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
+std::vector<std::string> load_notes(const Problem& problem, const LagrangianPhase& phase, ConstVec u) {
   Notes notes;
-  note_loads(scene, phase, u, notes);
-  note_supports(scene, notes);
-  note_free_parts(scene, phase, u, notes);
+  note_loads(problem, phase, u, notes);
+  note_supports(problem, notes);
+  note_free_parts(problem, phase, u, notes);
   return notes;
 }
 

@@ -66,39 +66,38 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
   return Q;
 }
 
-LoadSchedule::LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end) {
-  own_ = own_load(scene.own_load);
-  if (own_) look_at_own(scene, phase, end);
+LoadSchedule::LoadSchedule(const Problem& problem, const LagrangianPhase& phase, double end) {
+  own_ = own_load(problem.own_load);
+  if (own_) look_at_own(problem, phase, end);
   // All that vary are looked at closely, unless there are more than a thousand.
   long varying = 0;
-  scene.for_each_formula([&](const std::string&, const Expression& formula) { varying += formula.uses('t'); });
+  problem.for_each_formula([&](const std::string&, const Expression& formula) { varying += formula.uses('t'); });
   const int share = static_cast<int>(std::max(1L, varying / 1000));
   const int moments = std::max(20'000 / share, 100), moments_at_a_point = std::max(2'000 / share, 100);
-  const auto dim = static_cast<std::size_t>(scene.dim);
-  scene.for_each_formula([&](const std::string& key, const Expression& formula) {
+  const auto dim = static_cast<std::size_t>(problem.dim);
+  problem.for_each_formula([&](const std::string& key, const Expression& formula) {
     if (!formula.uses('t')) return;
-    if (!formula.uses_position()) return look_at(scene, key, formula, {}, moments, end);
-    const std::vector<double> positions = formula_positions(scene, phase, key);
+    if (!formula.uses_position()) return look_at(key, formula, {}, moments, end);
+    const std::vector<double> positions = formula_positions(problem, phase, key);
     for (const ConstVec x : where_it_differs(formula, positions, dim, end))
-      look_at(scene, key, formula, x, moments_at_a_point, end);
+      look_at(key, formula, x, moments_at_a_point, end);
   });
 }
 
 // A program says itself when its load has settled, and is taken at its word where that can be.
-void LoadSchedule::look_at_own(const Scene& scene, const LagrangianPhase& phase, double end) {
+void LoadSchedule::look_at_own(const Problem& problem, const LagrangianPhase& phase, double end) {
   const double settles_at = own_->about.settles_at;
   is_open_ = !(end > 0) && std::isinf(settles_at);
   if (!is_open_) settled_from_ = end > 0 ? std::min(settles_at, end) : settles_at;
   if (!(settles_at < (end > 0 ? end : std::numeric_limits<double>::infinity()))) return;
-  dim_ = scene.dim;
+  dim_ = problem.dim;
   x_ = phase.positions();
   b_settled_.resize(x_.size());
   own_->b(settles_at, dim_, x_, b_settled_);
   constexpr double span = 1e3;  // [s], if there is no end
   for (const double share : {1e-6, 1e-3, 0.0618, 0.382, 0.7639, 1.0}) {
     const double t = settles_at + share * (end > 0 ? end - settles_at : span);
-    if (const std::string wrong = own_load_goes_on(t); !wrong.empty())
-      throw_scene_error(scene, "body_force.own", wrong);
+    if (const std::string wrong = own_load_goes_on(t); !wrong.empty()) throw_scene_error("body_force.own", wrong);
   }
 }
 
@@ -120,8 +119,7 @@ std::string LoadSchedule::own_load_goes_on(double t) const {
       own_->about.name, own_->about.settles_at, t, change);
 }
 
-void LoadSchedule::look_at(const Scene& scene, const std::string& key, const Expression& formula, ConstVec x,
-                           int moments, double end) {
+void LoadSchedule::look_at(const std::string& key, const Expression& formula, ConstVec x, int moments, double end) {
   if (!(end > 0)) {
     const std::optional<double> found = open_end(formula, x);
     is_open_ = is_open_ || !found;
@@ -134,9 +132,8 @@ void LoadSchedule::look_at(const Scene& scene, const std::string& key, const Exp
     values.push_back(formula(x, t));
     if (!std::isfinite(values.back()))
       throw_scene_error(
-          scene, key,
-          fmt::format("the formula is {} at t = {:.6g}; expected a finite number until stop.time = {:.6g}",
-                      std::isnan(values.back()) ? "not a number" : "infinite", t, end));
+          key, fmt::format("the formula is {} at t = {:.6g}; expected a finite number until stop.time = {:.6g}",
+                           std::isnan(values.back()) ? "not a number" : "infinite", t, end));
   }
   const auto [least, most] = std::ranges::minmax(values);
   const double magnitude = std::max(std::abs(least), std::abs(most));

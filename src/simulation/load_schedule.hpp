@@ -1,7 +1,7 @@
 // What acts on a body over time: loads and moving supports, and when they have done all that they do.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/semi_discrete.hpp>
 
 #include <memory>
@@ -24,7 +24,7 @@ class LoadSchedule {
   /// phase: the first; end: of the run [s], 0 if it is open: then that of formulas which settle is looked for, and of
   /// others every moment counts as the end. Throws SceneError if a formula is not a finite number in one of these
   /// moments, or a load of the program's own changes after it is said to have settled.
-  LoadSchedule(const Scene& scene, const LagrangianPhase& phase, double end);
+  LoadSchedule(const Problem& problem, const LagrangianPhase& phase, double end);
 
   bool settled(double t) const { return t >= settled_from_; }
   /// Whether loads go on to depend on t, and no end is known.
@@ -35,10 +35,9 @@ class LoadSchedule {
   std::string own_load_goes_on(double t) const;
 
  private:
-  void look_at(const Scene& scene, const std::string& key, const Expression& formula, ConstVec x, int moments,
-               double end);
+  void look_at(const std::string& key, const Expression& formula, ConstVec x, int moments, double end);
 
-  void look_at_own(const Scene& scene, const LagrangianPhase& phase, double end);
+  void look_at_own(const Problem& problem, const LagrangianPhase& phase, double end);
 
   std::shared_ptr<const OwnLoadRow> own_;  // null: there is none
   int dim_ = 0;

@@ -43,12 +43,12 @@ bool flows(const MaterialSpec& material) {
 
 }  // namespace
 
-std::optional<std::string> locking_note(const Scene& scene) {
-  if (std::ranges::find(keeping_volume, scene.state) == keeping_volume.end()) return std::nullopt;
-  const bool shares = scene.phase.dilatation != Dilatation::points;
-  for (const BodySpec& body : scene.bodies) {
-    if (!has_many_points(body, scene.grid.basis)) continue;
-    const MaterialSpec& material = scene.materials.at(body.material);
+std::optional<std::string> locking_note(const Problem& problem) {
+  if (std::ranges::find(keeping_volume, problem.state) == keeping_volume.end()) return std::nullopt;
+  const bool shares = problem.phase.dilatation != Dilatation::points;
+  for (const BodySpec& body : problem.bodies) {
+    if (!has_many_points(body, problem.grid.basis)) continue;
+    const MaterialSpec& material = problem.materials.at(body.material);
     if (flows(material) && (dilates(material) || !shares)) {
       return fmt::format(
           "each of a cell's points keeps to the flow rule of material.{}: where it flows freely, as below a footing, "
@@ -59,24 +59,24 @@ std::optional<std::string> locking_note(const Scene& scene) {
     }
     if (flows(material) || shares) continue;
     const auto nu = material.parameters.find("nu");
-    if (nu == material.parameters.end() || nu->second < nearly_incompressible(scene.grid.basis)) continue;
+    if (nu == material.parameters.end() || nu->second < nearly_incompressible(problem.grid.basis)) continue;
     return fmt::format(
         "material.{} is nearly incompressible (nu = {:.6g}) at each of a cell's points, which makes the cells too "
         "stiff; expected phase.dilatation = \"{}\"",
-        material.name, nu->second, degree_of(scene.grid.basis) > 2 ? "splines" : "cells");
+        material.name, nu->second, degree_of(problem.grid.basis) > 2 ? "splines" : "cells");
   }
   return std::nullopt;
 }
 
 // In pure bending a bilinear cell of length a and height b has to shear: it is 1 + (1 − ν)/2 (a/b)² times as stiff as
 // it should be [Cook, Malkus, Plesha and Witt 2002, section 6.6]; of n cells across the body each takes a 1/n² of that.
-std::optional<std::string> slender_cells_note(const Scene& scene) {
+std::optional<std::string> slender_cells_note(const Problem& problem) {
   constexpr double slender = 10;
-  if (scene.dim == 1 || scene.grid.basis != BasisKind::linear) return std::nullopt;
+  if (problem.dim == 1 || problem.grid.basis != BasisKind::linear) return std::nullopt;
   double longest = 0, shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.dim); ++axis) {
-    longest = std::max(longest, scene.grid.cell_length(axis));
-    shortest = std::min(shortest, scene.grid.cell_length(axis));
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(problem.dim); ++axis) {
+    longest = std::max(longest, problem.grid.cell_length(axis));
+    shortest = std::min(shortest, problem.grid.cell_length(axis));
   }
   if (longest < slender * shortest) return std::nullopt;
   return fmt::format(

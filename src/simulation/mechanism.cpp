@@ -164,13 +164,12 @@ std::string to_string(const Mechanism& mechanism) {
                            "of lower degree, a support");
 }
 
-void refuse_mechanism(const Scene& scene, const LagrangianPhase& phase, ConstVec u) {
-  const bool varies = loads_vary(scene);
-  if (!scene.stop.wants_equilibrium() || (varies && !(scene.stop.time > 0))) return;
-  const auto found = find_mechanism(phase, varies ? scene.stop.time : 0, u);
+void refuse_mechanism(const Problem& problem, const LagrangianPhase& phase, ConstVec u) {
+  const bool varies = loads_vary(problem);
+  if (!problem.stop.wants_equilibrium() || (varies && !(problem.stop.time > 0))) return;
+  const auto found = find_mechanism(phase, varies ? problem.stop.time : 0, u);
   if (!found) return;
-  throw_scene_error(scene, found->is_rigid ? "support" : "body",
-                    to_string(*found) + ", or stop.residual = 0 and stop.time");
+  throw_scene_error(found->is_rigid ? "support" : "body", to_string(*found) + ", or stop.residual = 0 and stop.time");
 }
 
 }  // namespace stillpoint

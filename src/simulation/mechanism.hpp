@@ -2,7 +2,7 @@
 // strains nothing, K x = 0, and on which the loads do work, Q·x ≠ 0, is never at rest.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/state_archive.hpp>
 
 #include <optional>
@@ -26,7 +26,7 @@ std::optional<Mechanism> find_mechanism(const LagrangianPhase& phase, double t, 
 std::string to_string(const Mechanism& mechanism);
 
 /// Throws SceneError if the scene asks for equilibrium and there is a mechanism under its last loads. u: at the start.
-void refuse_mechanism(const Scene& scene, const LagrangianPhase& phase, ConstVec u);
+void refuse_mechanism(const Problem& problem, const LagrangianPhase& phase, ConstVec u);
 
 /// For bodies so large that nobody has looked at their K before the run: looks once, if the run has gone on for long.
 class MechanismWatch {

@@ -1,7 +1,7 @@
 // What a run takes of memory, from its scene alone, before anything of it is made.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <string>
 #include <vector>
@@ -23,9 +23,9 @@ struct MemoryNeed {
 };
 
 /// To 30 %, and nothing that is small. What only comes up on the way, as a factor that UMFPACK makes, is not in it.
-MemoryNeed memory_need(const Scene& scene);
+MemoryNeed memory_need(const Problem& problem);
 
 /// The same. Throws SceneError at the key that sets the largest part, if the process may not take so much.
-MemoryNeed require_memory(const Scene& scene);
+MemoryNeed require_memory(const Problem& problem);
 
 }  // namespace stillpoint

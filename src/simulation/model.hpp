@@ -3,8 +3,8 @@
 
 #include <stillpoint/damping.hpp>
 #include <stillpoint/integrator.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/relaxation.hpp>
-#include <stillpoint/scene.hpp>
 
 #include <memory>
 #include <optional>
@@ -55,6 +55,6 @@ struct Model {
 /// Throws SceneError for what only shows once the scene is discretised: a body that is not held if c = "critical", a
 /// step past the critical one without a reason, a method that does not fit the damping. store: what others have found
 /// of the same body; null: nobody has.
-Model make_model(const Scene& scene, SetUpStore* store = nullptr);
+Model make_model(const Problem& problem, SetUpStore* store = nullptr);
 
 }  // namespace stillpoint

@@ -21,36 +21,36 @@ namespace {
 // A basis of degree p reaches into a share s of a cell with one function N ~ s^p, N' ~ s^(p−1), that is outside but for
 // that. Its frequency, ω² = ∫N'²/∫N², grows as 1/s; with a lumped mass, ω² = ∫N'²/∫N ~ s^(p−2), as 1/√s for p = 1 and
 // not at all for p > 1. A slope of Hermite's has a lumped mass of its own, and again 1/s.
-bool sliver_shortens_the_step(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
-  if (scene.solve.is_static()) return false;
+bool sliver_shortens_the_step(const Problem& problem, const LagrangianPhase& phase, bool scaled) {
+  if (problem.solve.is_static()) return false;
   if (!phase.mass().is_lumped()) return true;
   const bool light_nodes_get_inertia =
-      scaled || phase.info().updated_lagrangian || scene.mass.scaling == MassScaling::gershgorin;
-  return !light_nodes_get_inertia && (scene.grid.basis == BasisKind::linear || scene.grid.basis == BasisKind::hermite);
+      scaled || phase.info().updated_lagrangian || problem.mass.scaling == MassScaling::gershgorin;
+  return !light_nodes_get_inertia &&
+         (problem.grid.basis == BasisKind::linear || problem.grid.basis == BasisKind::hermite);
 }
 
 // The first body whose volumes the scene asks to be fitted, where that differs from equal ones: up to two uniform
 // points along an axis are alike by symmetry.
-std::string body_with_fitted_volumes(const Scene& scene) {
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    const BodySpec& body = scene.bodies[k];
-    std::string table = scene.where.contains("body[0]") ? fmt::format("body[{}]", k) : "body";
+std::string body_with_fitted_volumes(const Problem& problem) {
+  for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+    const BodySpec& body = problem.bodies[k];
     const bool by_symmetry = std::ranges::all_of(body.points_per_cell, [](int along) { return along <= 2; });
-    if (!by_symmetry && body.volumes == VolumeRule::consistent && scene.where.contains(table + ".volumes"))
-      return table;
+    if (!by_symmetry && body.volumes.asked() == VolumeRule::consistent)
+      return problem.bodies.size() > 1 ? fmt::format("body[{}]", k) : "body";
   }
   return "";
 }
 
 // Of strains that differ within a domain their mean counts: of n domains across a body that bends
 // Σ_p V_p y_p² = (1 − 1/n²) ∫ y² dV. The fewest across a body of the plane.
-double fewest_domains_across(const Scene& scene) {
+double fewest_domains_across(const Problem& problem) {
   double fewest = std::numeric_limits<double>::infinity();
-  const bool can_bend = !dimension_info(scene.dim).turns.empty();
-  if (!can_bend || scene.phase.quadrature != Quadrature::domains) return fewest;
-  for (const BodySpec& body : scene.bodies) {
+  const bool can_bend = !dimension_info(problem.dim).turns.empty();
+  if (!can_bend || problem.phase.quadrature != Quadrature::domains) return fewest;
+  for (const BodySpec& body : problem.bodies) {
     for (std::size_t d = 0; d < body.points_per_cell.size(); ++d) {
-      fewest = std::min(fewest, (body.max[d] - body.min[d]) / scene.grid.cell_length(d) * body.points_per_cell[d]);
+      fewest = std::min(fewest, (body.max[d] - body.min[d]) / problem.grid.cell_length(d) * body.points_per_cell[d]);
     }
   }
   return fewest;
@@ -69,7 +69,7 @@ int fewest_gauss_points(int dim, int degree) {
 // and Fix 1973, 4.3]. In a cell that a body's border cuts they integrate a total degree m, and gradients of products
 // of p have the total degree 2p − 1: what is missed of their work with a stress is of order m + 1 − (2p − 1) in h,
 // which is p for m = 3p − 2.
-std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
+std::vector<std::string> quadrature_notes(const Problem& problem, const LagrangianPhase& phase, bool scaled) {
   std::vector<std::string> notes;
   const QuadratureReport quadrature = phase.discretisation().quadrature;
   if (quadrature.cells_limited_by_sign > 0) {
@@ -83,38 +83,38 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
         quadrature.joined));
   }
   if (quadrature.smallest_share < 0.05 && quadrature.slivers > quadrature.joined &&
-      sliver_shortens_the_step(scene, phase, scaled)) {
+      sliver_shortens_the_step(problem, phase, scaled)) {
     notes.push_back(
         fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
                     "faces on grid lines",
                     quadrature.smallest_share));
   }
-  if (const std::string body = body_with_fitted_volumes(scene);
-      scene.phase.quadrature == Quadrature::domains && !body.empty()) {
+  if (const std::string body = body_with_fitted_volumes(problem);
+      problem.phase.quadrature == Quadrature::domains && !body.empty()) {
     notes.push_back(fmt::format(
         "{}.volumes = \"consistent\" is taken as equal: domains side by side fill their cells by equal volumes; "
         "phase.quadrature = \"points\" takes fitted ones",
         body));
   }
-  if (const double n = fewest_domains_across(scene); n < 9.5) {
+  if (const double n = fewest_domains_across(problem); n < 9.5) {
     notes.push_back(fmt::format(
         "{:.0f} domains lie across the body, of whose strains the means count: it bends by up to {:.1f} % too "
         "easily; expected more points per cell or smaller cells where it bends",
         n, 100 / (n * n)));
   }
-  const int needed = 2 * degree_of(scene.grid.basis) - 2;
+  const int needed = 2 * degree_of(problem.grid.basis) - 2;
   // Domains integrate what is interpolated over them, wherever their points lie.
-  const bool at_points = scene.phase.quadrature == Quadrature::points;
+  const bool at_points = problem.phase.quadrature == Quadrature::points;
   if (at_points && quadrature.degree && *quadrature.degree < needed) {
     notes.push_back(fmt::format(
         "the points integrate degree {}, this basis needs {} for its full order: {}", *quadrature.degree, needed,
         quadrature.equal_volumes ? "take consistent volumes" : "take more points per cell or Gauss points"));
   }
-  const int needed_at_border = 3 * degree_of(scene.grid.basis) - 2;
+  const int needed_at_border = 3 * degree_of(problem.grid.basis) - 2;
   if (const int below = quadrature.border_cells_below(needed_at_border); below > 0) {
-    const int points = fewest_gauss_points(scene.dim, needed_at_border);
+    const int points = fewest_gauss_points(problem.dim, needed_at_border);
     const bool equal = std::ranges::any_of(
-        scene.bodies, [](const BodySpec& body) { return body.has_shape() && body.volumes == VolumeRule::equal; });
+        problem.bodies, [](const BodySpec& body) { return body.has_shape() && body.volumes == VolumeRule::equal; });
     notes.push_back(fmt::format(
         "in {} of the {} cells that a body's border cuts the points integrate less than degree {}, which this basis "
         "needs for its full order: take {}body.placement = \"gauss\" with {} points per cell",
@@ -130,35 +130,35 @@ std::vector<std::string> quadrature_notes(const Scene& scene, const LagrangianPh
 // [Steffen, Kirby and Berzins 2008]. In a stiff body that turns without damping the same jumps of the force give energy
 // to what apic's points keep, in the end without bound: twice as much after a turn of hard/spinning_square.toml with E
 // = 1e5.
-std::vector<std::string> phase_notes(const Scene& scene, const LagrangianPhase& phase) {
+std::vector<std::string> phase_notes(const Problem& problem, const LagrangianPhase& phase) {
   std::vector<std::string> notes;
   if (!phase.info().updated_lagrangian) return notes;
-  if (!phase.history_dependent() && scene.phase.quadrature == Quadrature::points &&
-      !(scene.tractions.empty() && scene.forces.empty())) {
+  if (!phase.history_dependent() && problem.phase.quadrature == Quadrature::points &&
+      !(problem.tractions.empty() && problem.forces.empty())) {
     notes.emplace_back(
         "where a loaded surface comes to cut cells the points next to it take a stress that is off by up to a quarter, "
         "and an elastic body's displacement by a few per cent: expected boxes of uniform points with "
         "phase.quadrature = \"domains\", or a single phase");
   }
-  if (scene.grid.basis != BasisKind::linear) return notes;
-  if (!phase.history_dependent() && scene.phase.quadrature == Quadrature::points) {
+  if (problem.grid.basis != BasisKind::linear) return notes;
+  if (!phase.history_dependent() && problem.phase.quadrature == Quadrature::points) {
     notes.emplace_back(
         "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % "
         "too far; a quadratic basis is within 0.3 %");
   }
-  if (scene.phase.transfer == Transfer::apic && is_undamped(scene.damping.strategy)) {
+  if (problem.phase.transfer == Transfer::apic && is_undamped(problem.damping.strategy)) {
     notes.emplace_back(
         "apic on a linear basis can gain energy without end where nothing damps; a quadratic basis gains none");
   }
   return notes;
 }
 
-std::vector<std::string> support_notes(const Scene& scene) {
+std::vector<std::string> support_notes(const Problem& problem) {
   std::vector<std::string> notes;
-  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
-    for (std::size_t d = 0; d < scene.supports[k].at.size(); ++d) {
-      const double at = scene.supports[k].at[d];
-      const bool inside = std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
+  for (std::size_t k = 0; k < problem.supports.size(); ++k) {
+    for (std::size_t d = 0; d < problem.supports[k].at.size(); ++d) {
+      const double at = problem.supports[k].at[d];
+      const bool inside = std::ranges::any_of(problem.bodies, [&](const BodySpec& body) {
         return body.file.empty() ? at >= body.min[d] && at <= body.max[d] : true;
       });
       if (inside) continue;
@@ -172,22 +172,22 @@ std::vector<std::string> support_notes(const Scene& scene) {
 // Local damping takes energy from a mass that moves by its own force alone. M⁻¹ of a consistent mass lets what it does
 // at one node move the others: blocks of quadratic and cubic cells were seen to diverge at 0.74 of the critical step
 // (one-sided, α = 0.8), bars and linear cells at none below it.
-std::vector<std::string> damping_notes(const Scene& scene, const LagrangianPhase& phase) {
-  const StrategyInfo* strategy = catalogue().strategy(scene.damping.strategy);
-  if (!strategy || !strategy->is_local || phase.mass().is_lumped() || scene.dim == 1 ||
-      degree_of(scene.grid.basis) == 1)
+std::vector<std::string> damping_notes(const Problem& problem, const LagrangianPhase& phase) {
+  const StrategyInfo* strategy = catalogue().strategy(problem.damping.strategy);
+  if (!strategy || !strategy->is_local || phase.mass().is_lumped() || problem.dim == 1 ||
+      degree_of(problem.grid.basis) == 1)
     return {};
   return {
       fmt::format("damping.strategy = \"{}\" acts at each node by itself, and a consistent mass couples them: on this "
                   "basis no step is known to be stable; expected mass.kind = \"lumped\", or viscous damping",
-                  scene.damping.strategy)};
+                  problem.damping.strategy)};
 }
 
 }  // namespace
 
 // ½ Σ_p m_p |x(x_p)|² beside ½ xᵀMx. A lumped mass gives a function that is steep in a sliver more inertia than the
 // material that it moves has; a cubic one or Hermite's also in a corner of the body.
-std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianPhase& phase, ConstVec x,
+std::vector<std::string> lowest_mode_notes(const Problem& problem, const LagrangianPhase& phase, ConstVec x,
                                            double omega_1) {
   if (!phase.mass().is_lumped() || x.empty()) return {};
   const auto dim = static_cast<std::size_t>(phase.dim());
@@ -198,7 +198,7 @@ std::vector<std::string> lowest_mode_notes(const Scene& scene, const LagrangianP
   double material = 0, nodes = 0;
   for (std::size_t i = 0; i < of_points.size(); ++i) {
     const double v = of_points[i] - of_supports[i];
-    material += scene.mass.factor * mass[i / dim] * v * v;
+    material += problem.mass.factor * mass[i / dim] * v * v;
   }
   phase.mass().apply(x, Mx);
   for (std::size_t i = 0; i < x.size(); ++i) nodes += x[i] * Mx[i];
@@ -218,9 +218,9 @@ std::string no_error_bound_note() {
 
 // A point in the middle of an eight-noded cell is strained by none of its 12 hourglass motions. In the plane, where a
 // cell has two of them, one side that is held rules them out, and one point a cell is a remedy against locking.
-std::optional<std::string> hourglass_note(const Scene& scene) {
-  if (scene.dim != 3 || scene.grid.basis != BasisKind::linear) return std::nullopt;
-  const bool one_a_cell = std::ranges::any_of(scene.bodies, [](const BodySpec& body) {
+std::optional<std::string> hourglass_note(const Problem& problem) {
+  if (problem.dim != 3 || problem.grid.basis != BasisKind::linear) return std::nullopt;
+  const bool one_a_cell = std::ranges::any_of(problem.bodies, [](const BodySpec& body) {
     return body.file.empty() && std::ranges::all_of(body.points_per_cell, [](int along) { return along == 1; });
   });
   if (!one_a_cell) return std::nullopt;
@@ -229,30 +229,31 @@ std::optional<std::string> hourglass_note(const Scene& scene) {
          "answer is the one in which these have no part, and it bends too easily; expected points_per_cell = 8";
 }
 
-std::vector<std::string> accuracy_notes(const Scene& scene, const LagrangianPhase& phase, bool scaled) {
-  std::vector<std::string> notes = quadrature_notes(scene, phase, scaled);
-  std::ranges::move(support_notes(scene), std::back_inserter(notes));
-  std::ranges::move(phase_notes(scene, phase), std::back_inserter(notes));
-  std::ranges::move(damping_notes(scene, phase), std::back_inserter(notes));
-  if (std::optional<std::string> note = locking_note(scene)) notes.push_back(std::move(*note));
-  if (std::optional<std::string> note = slender_cells_note(scene)) notes.push_back(std::move(*note));
-  if (std::optional<std::string> note = hourglass_note(scene)) notes.push_back(std::move(*note));
+std::vector<std::string> accuracy_notes(const Problem& problem, const LagrangianPhase& phase, bool scaled) {
+  std::vector<std::string> notes = quadrature_notes(problem, phase, scaled);
+  std::ranges::move(support_notes(problem), std::back_inserter(notes));
+  std::ranges::move(phase_notes(problem, phase), std::back_inserter(notes));
+  std::ranges::move(damping_notes(problem, phase), std::back_inserter(notes));
+  if (std::optional<std::string> note = locking_note(problem)) notes.push_back(std::move(*note));
+  if (std::optional<std::string> note = slender_cells_note(problem)) notes.push_back(std::move(*note));
+  if (std::optional<std::string> note = hourglass_note(problem)) notes.push_back(std::move(*note));
   return notes;
 }
 
 // The slowest mode dies out like e^{−s t},  s² − c s + ω₁² = 0.
-std::optional<std::string> slow_damping_note(const Scene& scene, double c, double omega_1, double step) {
-  if (!scene.stop.wants_equilibrium() || !(c > 0) || !(omega_1 > 0) || !(step > 0)) return std::nullopt;
+std::optional<std::string> slow_damping_note(const Problem& problem, double c, double omega_1, double step) {
+  if (!problem.stop.wants_equilibrium() || !(c > 0) || !(omega_1 > 0) || !(step > 0)) return std::nullopt;
   const double half = c / 2;
   const double slowest =
       half <= omega_1 ? half : omega_1 / half * omega_1 / (1 + std::sqrt((1 - omega_1 / half) * (1 + omega_1 / half)));
   constexpr double usual = 1e-6;  // if only the distance is asked for
-  const double time = -std::log(scene.stop.residual > 0 ? std::min(scene.stop.residual, 0.5) : usual) / slowest;
+  const double time = -std::log(problem.stop.residual > 0 ? std::min(problem.stop.residual, 0.5) : usual) / slowest;
   const double steps = time / step;
   std::string limit;
-  if (scene.stop.time > 0 && time > scene.stop.time) limit = fmt::format("stop.time is {:.6g} s", scene.stop.time);
-  if (scene.stop.steps > 0 && steps > static_cast<double>(scene.stop.steps))
-    limit = fmt::format("stop.steps is {}", scene.stop.steps);
+  if (problem.stop.time > 0 && time > problem.stop.time)
+    limit = fmt::format("stop.time is {:.6g} s", problem.stop.time);
+  if (problem.stop.steps > 0 && steps > static_cast<double>(problem.stop.steps))
+    limit = fmt::format("stop.steps is {}", problem.stop.steps);
   if (limit.empty()) return std::nullopt;
   return fmt::format(
       "damping.c = {:.4g} is {:.2g} times the critical damping: the body would come to rest in {:.2g} s or {:.2g} "

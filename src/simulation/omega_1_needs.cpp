@@ -9,19 +9,20 @@
 
 namespace stillpoint {
 
-Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns, bool steps_tell) {
-  const bool is_static = scene.solve.is_static();
-  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
+Omega1Needs omega_1_needs(const Problem& problem, std::size_t unknowns, bool steps_tell) {
+  const bool is_static = problem.solve.is_static();
+  const StrategyInfo& strategy = *catalogue().strategy(problem.damping.strategy);
   const RelaxationInfo* relaxation = is_static ? nullptr : find_relaxation(strategy.name);
   // They work without, and of a large body the factor alone would cost more than the way to rest.
-  const bool large = (chooses_mass(scene) || steps_tell) && unknowns > direct_solver_limit;
-  const bool is_cheap = !large && factor_is_cheap(scene, body_size(scene));
-  const bool distance = scene.stop.distance > 0 && !(large && (steps_tell || !has_room_for_factor(scene)));
-  return {.critical_damping = !is_static && strategy.uses("c") && !scene.damping.c,
-          .tolerances = !is_static && scene.integrator.rtol && !(scene.integrator.atol_u && scene.integrator.atol_v),
-          .relaxation = relaxation && relaxation->needs_omega_1,
-          .distance = distance,
-          .useful = scene.stop.wants_equilibrium() && (is_cheap || distance)};
+  const bool large = (chooses_mass(problem) || steps_tell) && unknowns > direct_solver_limit;
+  const bool is_cheap = !large && factor_is_cheap(problem, body_size(problem));
+  const bool distance = problem.stop.distance > 0 && !(large && (steps_tell || !has_room_for_factor(problem)));
+  return {
+      .critical_damping = !is_static && strategy.uses("c") && !problem.damping.c,
+      .tolerances = !is_static && problem.integrator.rtol && !(problem.integrator.atol_u && problem.integrator.atol_v),
+      .relaxation = relaxation && relaxation->needs_omega_1,
+      .distance = distance,
+      .useful = problem.stop.wants_equilibrium() && (is_cheap || distance)};
 }
 
 }  // namespace stillpoint

@@ -1,7 +1,7 @@
 // Why ω₁ is asked for, and with it a factor of K.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <cstddef>
 
@@ -14,6 +14,6 @@ struct Omega1Needs {
 };
 
 /// steps_tell: as steps_tell_omega_1() says.
-Omega1Needs omega_1_needs(const Scene& scene, std::size_t unknowns, bool steps_tell);
+Omega1Needs omega_1_needs(const Problem& problem, std::size_t unknowns, bool steps_tell);
 
 }  // namespace stillpoint

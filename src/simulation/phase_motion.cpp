@@ -8,14 +8,14 @@ namespace stillpoint {
 namespace {
 
 // A damping leaves the steps to the integrator; a relaxation takes the place of leapfrog's, a static solver of any.
-std::unique_ptr<Integrator> make_stepper(const Model& model, const Scene& scene, RelaxationSystem& system) {
+std::unique_ptr<Integrator> make_stepper(const Model& model, const Problem& problem, RelaxationSystem& system) {
   if (model.static_method) {
     constexpr double tight = 1e-10;  // if only the distance is asked for
-    const double residual = scene.stop.residual > 0 ? scene.stop.residual : tight;
+    const double residual = problem.stop.residual > 0 ? problem.stop.residual : tight;
     return make_static_method({.name = model.static_method->name,
                                .max_step = model.integrator.max_step,
                                .tolerance = residual,
-                               .load_steps = scene.solve.load_steps},
+                               .load_steps = problem.solve.load_steps},
                               system);
   }
   if (model.relaxation && model.method.hosts_relaxations) return make_relaxation(model.relaxing, system);
@@ -24,14 +24,14 @@ std::unique_ptr<Integrator> make_stepper(const Model& model, const Scene& scene,
 
 }  // namespace
 
-PhaseMotion::PhaseMotion(Model& model, const Scene& scene, const VectorSpace& vectors, double t, ConstVec u0,
+PhaseMotion::PhaseMotion(Model& model, const Problem& problem, const VectorSpace& vectors, double t, ConstVec u0,
                          ConstVec v0)
     : system(*model.phase, *model.damping, vectors, model.multigrid ? &model.multigrid->mass : nullptr),
       shared_y(std::make_shared<Vector>(vectors.make(2 * model.phase->size()))),
       y(*shared_y),
       u_vector(vectors.view(first_half(y.span()))),
       v_vector(vectors.view(second_half(y.span()))),
-      integrator(make_stepper(model, scene, system)) {
+      integrator(make_stepper(model, problem, system)) {
   std::ranges::copy(u0, first_half(y.span()).begin());
   std::ranges::copy(v0, second_half(y.span()).begin());
   integrator->start(t, y);

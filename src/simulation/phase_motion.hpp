@@ -15,7 +15,7 @@ namespace stillpoint {
 class PhaseMotion {
  public:
   /// Begins at t with u0 and v0, (n) each. The model outlives it.
-  PhaseMotion(Model& model, const Scene& scene, const VectorSpace& vectors, double t, ConstVec u0, ConstVec v0);
+  PhaseMotion(Model& model, const Problem& problem, const VectorSpace& vectors, double t, ConstVec u0, ConstVec v0);
   PhaseMotion(const PhaseMotion&) = delete;
   PhaseMotion& operator=(const PhaseMotion&) = delete;
 

@@ -33,10 +33,10 @@ double root_J2(ConstVec stress) {
 
 }  // namespace
 
-PlasticPath::PlasticPath(const Scene& scene, const Model& model) : model_(model) {
+PlasticPath::PlasticPath(const Problem& problem, const Model& model) : model_(model) {
   const std::vector<std::string>& remembered = model.phase->info().history_names;
   const bool yields = std::ranges::find(remembered, plastic) != remembered.end();
-  watches_ = yields && scene.stop.wants_equilibrium();
+  watches_ = yields && problem.stop.wants_equilibrium();
   if (!watches_) return;
   volumes_ = model.phase->point_data().volumes;
   of_points_.resize(volumes_.size());

@@ -32,7 +32,7 @@ namespace stillpoint {
 class PlasticPath {
  public:
   /// The model outlives it.
-  PlasticPath(const Scene& scene, const Model& model);
+  PlasticPath(const Problem& problem, const Model& model);
 
   /// Whether anything can yield here, and equilibrium is asked for.
   bool watches() const { return watches_; }

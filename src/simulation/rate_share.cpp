@@ -13,7 +13,8 @@
 
 namespace stillpoint {
 
-RateShare::RateShare(const Scene& scene, const LagrangianPhase& phase) : phase_(phase), watches_(is_driven(scene)) {}
+RateShare::RateShare(const Problem& problem, const LagrangianPhase& phase)
+    : phase_(phase), watches_(is_driven(problem)) {}
 
 // Reactions shake about their mean, so that signs are taken off strokes of many samples.
 void RateShare::sample(double t, long steps, PhaseMotion& motion) {
@@ -66,12 +67,12 @@ void RateShare::archive(const StateArchive& state) {
   state("of_loads", of_loads_);
 }
 
-std::string note_on_rate_share(std::optional<double> share, const Scene& scene) {
+std::string note_on_rate_share(std::optional<double> share, const Problem& problem) {
   constexpr double small = 0.05;
-  if (!(share.value_or(0) > small) || is_undamped(scene.damping.strategy)) return "";
-  const StrategyInfo* strategy = catalogue().strategy(scene.damping.strategy);
+  if (!(share.value_or(0) > small) || is_undamped(problem.damping.strategy)) return "";
+  const StrategyInfo* strategy = catalogue().strategy(problem.damping.strategy);
   const std::string less = strategy && strategy->is_local
-                               ? fmt::format(", or less than damping.alpha = {:g}", scene.damping.alpha)
+                               ? fmt::format(", or less than damping.alpha = {:g}", problem.damping.alpha)
                            : strategy && strategy->takes("c") ? ", or a smaller damping.c"
                                                               : "";
   return fmt::format(

@@ -12,8 +12,8 @@
 // damping of α = 0 to 0.7 does between 8 and 49 times s_u, and 8 without this share, whatever α.
 #pragma once
 
+#include <stillpoint/problem.hpp>
 #include <stillpoint/relaxation_system.hpp>
-#include <stillpoint/scene.hpp>
 
 #include <optional>
 #include <string>
@@ -27,7 +27,7 @@ namespace stillpoint {
 class RateShare {
  public:
   /// Watches where is_driven(). The phase outlives it.
-  RateShare(const Scene& scene, const LagrangianPhase& phase);
+  RateShare(const Problem& problem, const LagrangianPhase& phase);
 
   /// Whether it wants a sample after so many steps: each one at first, every 64th later.
   bool due(long steps) const { return watches_ && steps >= next_; }
@@ -52,6 +52,6 @@ class RateShare {
 };
 
 /// What to say of it; empty: nothing.
-std::string note_on_rate_share(std::optional<double> share, const Scene& scene);
+std::string note_on_rate_share(std::optional<double> share, const Problem& problem);
 
 }  // namespace stillpoint

@@ -15,10 +15,10 @@ namespace {
 // Time between rows: as asked; otherwise 200 rows to the end time or 20 to a period, and a whole number of steps so
 // that landing on a row costs none. Of steps that follow the stiffness there is no whole number: to land on a row every
 // few steps would shorten them, by half where a row was a step.
-double output_interval(const Scene& scene, const Model& model) {
-  if (scene.output.every > 0) return scene.output.every;
+double output_interval(const Problem& problem, const Model& model) {
+  if (problem.output.every > 0) return problem.output.every;
   const double period = model.omega_1 ? 2 * std::numbers::pi / *model.omega_1 : model.dwell;
-  const double wanted = scene.stop.time > 0 ? scene.stop.time / 200 : period / 20;
+  const double wanted = problem.stop.time > 0 ? problem.stop.time / 200 : period / 20;
   const double step = model.integrator.max_step;
   return std::max(1.0, std::round(wanted / step)) * step;
 }
@@ -40,22 +40,22 @@ auto open_output(const std::filesystem::path& out, const Open& open) {
 
 }  // namespace
 
-Recorder::Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance,
+Recorder::Recorder(const Problem& problem, const Model& model, const std::filesystem::path& folder, bool has_distance,
                    bool resumed)
-    : scene_(scene),
+    : problem_(problem),
       phase_(*model.phase),
       has_distance_(has_distance),
-      probes_(scene, *model.phase),
+      probes_(problem, *model.phase),
       energy_balance_(*model.phase),
       history_(open_output(folder, [&] { return History(folder, columns(), resumed); })),
-      snapshots_(open_output(folder, [&] { return Snapshots(scene, *model.phase, folder, resumed); })),
-      interval_(output_interval(scene, model)),
-      lands_on_rows_(scene.output.every > 0 || !model.initial_stiffening) {}
+      snapshots_(open_output(folder, [&] { return Snapshots(problem, *model.phase, folder, resumed); })),
+      interval_(output_interval(problem, model)),
+      lands_on_rows_(problem.output.every > 0 || !model.initial_stiffening) {}
 
 std::vector<std::string> Recorder::columns() const {
   std::vector<std::string> all = probes_.columns();
-  std::ranges::copy(reaction_columns(scene_), std::back_inserter(all));
-  if (scene_.load) all.insert(all.end(), {"load.factor", "load.displacement"});
+  std::ranges::copy(reaction_columns(problem_), std::back_inserter(all));
+  if (problem_.load) all.insert(all.end(), {"load.factor", "load.displacement"});
   std::ranges::copy(energy_balance_.columns(), std::back_inserter(all));
   if (has_distance_) all.emplace_back("distance");
   return all;
@@ -63,7 +63,7 @@ std::vector<std::string> Recorder::columns() const {
 
 // A row that rounding puts next to the end is the row at the end.
 double Recorder::next_row_time() const {
-  const double t_row = static_cast<double>(rows_) * interval_, end = scene_.stop.time;
+  const double t_row = static_cast<double>(rows_) * interval_, end = problem_.stop.time;
   return end > 0 && t_row > end - 1e-9 * interval_ ? end : t_row;
 }
 
@@ -75,7 +75,7 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   const double t = row.figures.t;
   energy_balance_.advance(t, motion.system, motion.u());
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
-  std::ranges::copy(reaction_values(scene_, phase_, t, motion), std::back_inserter(values));
+  std::ranges::copy(reaction_values(problem_, phase_, t, motion), std::back_inserter(values));
   if (const auto load = phase_.load_state(t, motion.u())) {
     values.insert(values.end(), {load->factor, load->displacement});
     if (!(load->factor <= largest_factor_)) largest_factor_ = load->factor;

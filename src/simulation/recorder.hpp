@@ -2,7 +2,7 @@
 // goes with them.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/summary.hpp>
 
 #include <filesystem>
@@ -26,7 +26,7 @@ class Recorder {
   /// has_distance: whether rows have a column for the error bound. Throws SceneError if the folder cannot be written;
   /// an empty one: no files. resumed: the run goes on with files that are there, which archive() opens. The scene and
   /// the model outlive this.
-  Recorder(const Scene& scene, const Model& model, const std::filesystem::path& folder, bool has_distance,
+  Recorder(const Problem& problem, const Model& model, const std::filesystem::path& folder, bool has_distance,
            bool resumed);
   void archive(const StateArchive& state);
   /// Each row from now on, with the names of its columns.
@@ -61,7 +61,7 @@ class Recorder {
   std::vector<std::string> columns() const;
   void tell(const HistoryRow& figures, const std::vector<double>& others) const;
 
-  const Scene& scene_;
+  const Problem& problem_;
   const LagrangianPhase& phase_;
   bool has_distance_;
   Probes probes_;

@@ -11,31 +11,31 @@ namespace stillpoint {
 namespace {
 
 template <class Holds>
-bool some_law(const Scene& scene, const Holds& holds) {
-  return std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
-    return holds(*catalogue().law(scene.materials.at(body.material).law));
+bool some_law(const Problem& problem, const Holds& holds) {
+  return std::ranges::any_of(problem.bodies, [&](const BodySpec& body) {
+    return holds(*catalogue().law(problem.materials.at(body.material).law));
   });
 }
 
 }  // namespace
 
-bool remembers(const Scene& scene) {
-  return some_law(scene, [](const LawInfo& law) { return law.history_dependent; });
+bool remembers(const Problem& problem) {
+  return some_law(problem, [](const LawInfo& law) { return law.history_dependent; });
 }
 
-bool is_nonlinear(const Scene& scene) {
-  return some_law(scene, [](const LawInfo& law) { return law.history_dependent || law.finite_strain; });
+bool is_nonlinear(const Problem& problem) {
+  return some_law(problem, [](const LawInfo& law) { return law.history_dependent || law.finite_strain; });
 }
 
-bool chooses_mass(const Scene& scene) {
-  const RelaxationInfo* relaxation = scene.solve.is_static() ? nullptr : find_relaxation(scene.damping.strategy);
+bool chooses_mass(const Problem& problem) {
+  const RelaxationInfo* relaxation = problem.solve.is_static() ? nullptr : find_relaxation(problem.damping.strategy);
   return relaxation && relaxation->chooses_mass;
 }
 
-bool steps_tell_omega_1(const Scene& scene, const Motion& motion) {
-  const StaticMethodInfo* method = catalogue().static_method(scene.solve.method);
-  const bool tells = method ? method->tells_omega_1 : chooses_mass(scene);
-  return tells && wants_equilibrium_only(scene) && motion.linear && !motion.moves_on && motion.mass_measures_volume;
+bool steps_tell_omega_1(const Problem& problem, const Motion& motion) {
+  const StaticMethodInfo* method = catalogue().static_method(problem.solve.method);
+  const bool tells = method ? method->tells_omega_1 : chooses_mass(problem);
+  return tells && wants_equilibrium_only(problem) && motion.linear && !motion.moves_on && motion.mass_measures_volume;
 }
 
 }  // namespace stillpoint

@@ -1,18 +1,16 @@
 // What a scene tells of its motion before anything of it is made.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 namespace stillpoint {
 
-/// Whether its points move on from phase to phase.
-inline bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
 /// Whether the law of some body remembers.
-bool remembers(const Scene& scene);
+bool remembers(const Problem& problem);
 /// Whether the law of some body is not linear.
-bool is_nonlinear(const Scene& scene);
+bool is_nonlinear(const Problem& problem);
 /// Whether the relaxation, if the scene has one, finds its own mass, as auto does.
-bool chooses_mass(const Scene& scene);
+bool chooses_mass(const Problem& problem);
 
 /// What is asked of a motion before its steps may tell omega_1.
 struct Motion {
@@ -20,6 +18,6 @@ struct Motion {
   bool mass_measures_volume = true;  // or its inertia is that of multigrid
 };
 /// Whether the steps of the relaxation, or of the static solver, tell omega_1 of the motions that the loads drive.
-bool steps_tell_omega_1(const Scene& scene, const Motion& motion);
+bool steps_tell_omega_1(const Problem& problem, const Motion& motion);
 
 }  // namespace stillpoint

@@ -7,11 +7,12 @@
 namespace stillpoint {
 
 std::string to_string(const MassSpec& mass) {
-  return fmt::format("mass {} {} {:.17g}", static_cast<int>(mass.kind), static_cast<int>(mass.scaling), mass.factor);
+  return fmt::format("mass {} {} {:.17g}", static_cast<int>(mass.kind.value()), static_cast<int>(mass.scaling.value()),
+                     mass.factor);
 }
 
-SetUpStore::MadePhase SetUpStore::phase(const Scene& scene) {
-  const std::string mass = to_string(scene.mass);
+SetUpStore::MadePhase SetUpStore::phase(const Problem& problem) {
+  const std::string mass = to_string(problem.mass);
   {
     const std::scoped_lock lock(keeping_);
     Phases& phases = phases_[mass];
@@ -22,7 +23,7 @@ SetUpStore::MadePhase SetUpStore::phase(const Scene& scene) {
     }
   }
   const Stopwatch watch;
-  MadePhase made{make_phase(scene)};
+  MadePhase made{make_phase(problem)};
   made.seconds = watch.seconds();
   const std::scoped_lock lock(keeping_);
   phases_[mass].seconds = made.seconds;
@@ -35,14 +36,14 @@ void SetUpStore::give_back(const MassSpec& mass, std::unique_ptr<LagrangianPhase
   phases_[to_string(mass)].idle.push_back(std::move(phase));
 }
 
-std::unique_ptr<LagrangianPhase> SetUp::phase(const Scene& scene) {
+std::unique_ptr<LagrangianPhase> SetUp::phase(const Problem& problem) {
   if (!store_) {
     const Stopwatch watch;
-    std::unique_ptr<LagrangianPhase> made = make_phase(scene);
+    std::unique_ptr<LagrangianPhase> made = make_phase(problem);
     add("phase", watch.seconds(), true);
     return made;
   }
-  SetUpStore::MadePhase made = store_->phase(scene);
+  SetUpStore::MadePhase made = store_->phase(problem);
   add("phase", made.seconds, made.made_now);
   return std::move(made.phase);
 }

@@ -1,7 +1,7 @@
 // What simulations of one body have in common, made once: phases, and what is found of them.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <any>
 #include <map>
@@ -32,7 +32,7 @@ class SetUpStore {
     double seconds = 0;  // that it took to make, then or now
     bool made_now = true;
   };
-  MadePhase phase(const Scene& scene);
+  MadePhase phase(const Problem& problem);
   /// Keeps it for whoever asks next, if runs leave nothing in it: it remembers nothing, touches nothing and is alone.
   void give_back(const MassSpec& mass, std::unique_ptr<LagrangianPhase> phase);
 
@@ -83,7 +83,7 @@ class SetUp {
   /// store: if there is one; outlives this.
   explicit SetUp(SetUpStore* store) : store_(store) {}
 
-  std::unique_ptr<LagrangianPhase> phase(const Scene& scene);
+  std::unique_ptr<LagrangianPhase> phase(const Problem& problem);
   /// make(), or what it once gave for a body of this mass.
   template <class Make>
   auto shared(const char* part, const MassSpec& mass, const Make& make) {

@@ -332,12 +332,12 @@ void Simulation::Impl::look_for_limit_load() {
 }
 
 bool Simulation::Impl::watches_chatter() const {
-  return options_.stops && scene_.stop.wants_equilibrium() && scene_.phase.max_motion && loads_settled();
+  return options_.stops && scene_.stop.wants_equilibrium() && scene_.phase.ends_by_motion() && loads_settled();
 }
 
 void Simulation::Impl::watch_chatter(double share, double residual) {
   const auto said =
-      chatter_.observe(*model_.phase, share * *scene_.phase.max_motion, residual, longest_cell(scene_.grid));
+      chatter_.observe(*model_.phase, share * scene_.phase.max_motion, residual, longest_cell(scene_.grid));
   if (!said) return;
   status_ = RunStatus::step_limit;
   reason_ = *said;

@@ -12,11 +12,11 @@
 namespace stillpoint {
 namespace {
 
-bool has_named_supports(const Scene& scene) {
-  return std::ranges::any_of(scene.supports, [](const SupportSpec& support) { return !support.name.empty(); });
+bool has_named_supports(const Problem& problem) {
+  return std::ranges::any_of(problem.supports, [](const SupportSpec& support) { return !support.name.empty(); });
 }
 
-int moment_components(const Scene& scene) { return dimension_info(scene.dim).moment_components; }
+int moment_components(const Problem& problem) { return dimension_info(problem.dim).moment_components; }
 
 double largest_displacement(const LagrangianPhase& phase, double t, ConstVec u) {
   const auto dim = static_cast<std::size_t>(phase.dim());
@@ -46,41 +46,43 @@ std::string note_on_gap(const SupportGap& weak, const SupportSpec& support) {
 
 }  // namespace
 
-std::vector<std::string> reaction_columns(const Scene& scene) {
+std::vector<std::string> reaction_columns(const Problem& problem) {
   std::vector<std::string> columns;
-  for (const SupportSpec& support : scene.supports) {
+  for (const SupportSpec& support : problem.supports) {
     if (support.name.empty()) continue;
-    std::vector<std::string> axes = axis_names(scene.dim);
+    std::vector<std::string> axes = axis_names(problem.dim);
     std::ranges::move(component_names(support.name + ".reaction", axes, "_"), std::back_inserter(columns));
-    axes.resize(static_cast<std::size_t>(moment_components(scene)));
+    axes.resize(static_cast<std::size_t>(moment_components(problem)));
     std::ranges::move(component_names(support.name + ".moment", axes, "_"), std::back_inserter(columns));
   }
   return columns;
 }
 
-std::vector<double> reaction_values(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion) {
+std::vector<double> reaction_values(const Problem& problem, const LagrangianPhase& phase, double t,
+                                    PhaseMotion& motion) {
   std::vector<double> values;
-  if (!has_named_supports(scene)) return values;
+  if (!has_named_supports(problem)) return values;
   for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
-    values.insert(values.end(), support.force.begin(), support.force.begin() + scene.dim);
-    values.insert(values.end(), support.moment.begin(), support.moment.begin() + moment_components(scene));
+    values.insert(values.end(), support.force.begin(), support.force.begin() + problem.dim);
+    values.insert(values.end(), support.moment.begin(), support.moment.begin() + moment_components(problem));
   }
   return values;
 }
 
-void fill_supports(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion, Summary& summary) {
-  if (has_named_supports(scene)) {
+void fill_supports(const Problem& problem, const LagrangianPhase& phase, double t, PhaseMotion& motion,
+                   Summary& summary) {
+  if (has_named_supports(problem)) {
     motion.residual(t);
     for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
-      summary.reactions[support.name] = {support.force.begin(), support.force.begin() + scene.dim};
-      if (const int moments = moment_components(scene); moments > 0)
+      summary.reactions[support.name] = {support.force.begin(), support.force.begin() + problem.dim};
+      if (const int moments = moment_components(problem); moments > 0)
         summary.reaction_moments[support.name] = {support.moment.begin(), support.moment.begin() + moments};
     }
   }
   const std::vector<WeakSupport> weak = phase.weak_supports(t, motion.u());
   const double largest = weak.empty() ? 0 : largest_displacement(phase, t, motion.u());
   for (const WeakSupport& one : weak) {
-    const SupportSpec& support = scene.supports[one.support];
+    const SupportSpec& support = problem.supports[one.support];
     const SupportGap& gap =
         summary.weak_supports.emplace_back(SupportGap{.support = fmt::format("support[{}]", one.support),
                                                       .stiffness = one.stiffness,

@@ -1,7 +1,7 @@
 // What the supports of a scene bear, and how far those that hold by springs give way.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/summary.hpp>
 
 #include <string>
@@ -14,10 +14,12 @@ namespace stillpoint {
 
 /// Columns of history.csv: "<support>.reaction_x", "<support>.reaction_y" of each named support, in space
 /// "<support>.moment_x" to z too; in one dimension "<support>.reaction".
-std::vector<std::string> reaction_columns(const Scene& scene);
+std::vector<std::string> reaction_columns(const Problem& problem);
 /// In the order of the columns, at (t, u), where the system was evaluated last [N], [N m].
-std::vector<double> reaction_values(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion);
+std::vector<double> reaction_values(const Problem& problem, const LagrangianPhase& phase, double t,
+                                    PhaseMotion& motion);
 /// Reactions and weak supports at (t, u), which is evaluated if there are any, with a note on what gives way too far.
-void fill_supports(const Scene& scene, const LagrangianPhase& phase, double t, PhaseMotion& motion, Summary& summary);
+void fill_supports(const Problem& problem, const LagrangianPhase& phase, double t, PhaseMotion& motion,
+                   Summary& summary);
 
 }  // namespace stillpoint

@@ -2,7 +2,7 @@
 // once no point is.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <string>
 #include <vector>
@@ -16,10 +16,10 @@ namespace stillpoint {
 inline constexpr double largest_over_stress = 1e-3;
 
 /// Where the body creeps, and by how much it is beyond its strength; empty: it does not. A pass over all points.
-std::string creep(const Scene& scene, const LagrangianPhase& phase);
+std::string creep(const Problem& problem, const LagrangianPhase& phase);
 
 /// What a user should know of viscous materials before a run: that a static solver has none, or that their flow takes
 /// longer than the run may. step: [s].
-std::vector<std::string> viscosity_notes(const Scene& scene, double step);
+std::vector<std::string> viscosity_notes(const Problem& problem, double step);
 
 }  // namespace stillpoint

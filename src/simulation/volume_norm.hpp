@@ -7,7 +7,7 @@
 #pragma once
 
 #include <stillpoint/mass.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <optional>
 
@@ -21,10 +21,10 @@ struct VolumeNorm {
 };
 
 /// Whether the M-norm is as good; scaled: whether the masses are.
-bool mass_measures_volume(const Scene& scene, bool scaled);
+bool mass_measures_volume(const Problem& problem, bool scaled);
 
 /// Nothing if the M-norm of phase is as good, or K has no lowest eigenvalue; phase: of scene, with its masses scaled or
 /// not, u: (n) at the beginning.
-std::optional<VolumeNorm> volume_norm(const Scene& scene, const LagrangianPhase& phase, bool scaled, ConstVec u);
+std::optional<VolumeNorm> volume_norm(const Problem& problem, const LagrangianPhase& phase, bool scaled, ConstVec u);
 
 }  // namespace stillpoint

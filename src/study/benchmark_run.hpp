@@ -24,11 +24,11 @@ struct BenchmarkLimits {
 /// Fills run.status, reason, counts, samples, last values and the set-up. The scene's integrator and damping are those
 /// to try. Returns the wall time of the steps alone, what is looked at between them left out, until it had arrived; of
 /// a run that does not, of all its steps [s].
-double run_benchmark(const Scene& scene, const ReferenceSolution& exact, const BenchmarkLimits& limits,
+double run_benchmark(const Problem& problem, const ReferenceSolution& exact, const BenchmarkLimits& limits,
                      SetUpStore& store, ComparedRun& run);
 
 /// Takes the same number of steps again and looks at nothing. Returns the wall time of the steps [s].
-double time_benchmark(const Scene& scene, long steps, int threads, SetUpStore& store);
+double time_benchmark(const Problem& problem, long steps, int threads, SetUpStore& store);
 
 /// What setting a simulation up costs one that has no store: seconds for what was not there.
 void fill_set_up(const Model& model, double seconds, ComparedRun& run);

@@ -10,15 +10,15 @@ namespace {
 constexpr int along_axis = 2;
 
 template <int Dim>
-CommonPlaces places_on(const Scene& scene) {
+CommonPlaces places_on(const Problem& problem) {
   CommonPlaces places;
-  const Grid<Dim> grid = grid_at<Dim>(scene, 0);
-  for (BodySpec body : scene.bodies) {
+  const Grid<Dim> grid = grid_at<Dim>(problem, 0);
+  for (BodySpec body : problem.bodies) {
     body.placement = Placement::gauss;
     body.points_per_cell.assign(Dim, along_axis);
     body.jitter = 0;
-    const double density = scene.materials.at(body.material).parameters.at("rho");
-    const MaterialPoints<Dim> points = place_body<Dim>(body, grid, density, scene.state).points;
+    const double density = problem.materials.at(body.material).parameters.at("rho");
+    const MaterialPoints<Dim> points = place_body<Dim>(body, grid, density, problem.state).points;
     for (std::size_t p = 0; p < points.size(); ++p) {
       for (int d = 0; d < Dim; ++d) places.x.push_back(points.x[d][p]);
       places.volume.push_back(points.volume[p]);
@@ -29,13 +29,13 @@ CommonPlaces places_on(const Scene& scene) {
 
 }  // namespace
 
-CommonPlaces common_places(const Scene& scene) {
-  return with_dimension(scene.dim, [&]<int Dim>() { return places_on<Dim>(scene); });
+CommonPlaces common_places(const Problem& problem) {
+  return with_dimension(problem.dim, [&]<int Dim>() { return places_on<Dim>(problem); });
 }
 
-double count_of_places(const Scene& scene) {
+double count_of_places(const Problem& problem) {
   double count = 1;
-  for (const int cells : scene.grid.cells) count *= along_axis * static_cast<double>(cells);
+  for (const int cells : problem.grid.cells) count *= along_axis * static_cast<double>(cells);
   return count;
 }
 

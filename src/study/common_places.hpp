@@ -1,7 +1,7 @@
 // Places at which levels of different points are compared.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <vector>
 
@@ -19,9 +19,9 @@ struct CommonPlaces {
 /// Two along each axis of every cell of the scene's grid, at Gauss–Legendre positions: in the cells of a coarser level
 /// they lie at many positions, and nowhere on a node, where a displacement may be far better than elsewhere. Of a body
 /// from a file its points.
-CommonPlaces common_places(const Scene& scene);
+CommonPlaces common_places(const Problem& problem);
 /// How many that are at most.
-double count_of_places(const Scene& scene);
+double count_of_places(const Problem& problem);
 
 /// u and stress there, (places × dim) and (places × components); NaN where they cannot be read.
 struct FieldsAtPlaces {

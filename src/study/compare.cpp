@@ -237,7 +237,7 @@ class Comparing {
                                                       ComparedRun& run) {
     SetUp set_up(&store_);
     const MultigridAttempt made = shared_multigrid_mass(set_up, scene.mass, phase, u, true);
-    if (!made.mass) throw_scene_error(scene, "mass.kind", made.refusal);
+    if (!made.mass) throw_scene_error("mass.kind", made.refusal);
     for (const SetUpPart& part : set_up.parts()) {
       run.setup_s += part.seconds;
       run.setup_parts.emplace_back(part.name, part.seconds);

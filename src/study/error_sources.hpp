@@ -15,12 +15,12 @@ struct RefinedSource {
 };
 
 /// Those of a scene, but for what is refined from level to level.
-std::vector<RefinedSource> other_sources(const Scene& scene, const std::vector<Refinement>& refined);
+std::vector<RefinedSource> other_sources(const Problem& problem, const std::vector<Refinement>& refined);
 
 /// "space", "quadrature", "phases" or "time".
 std::string source_of(Refinement refinement);
 
 /// Whether a scene follows a motion in time, whose error depends on the step.
-bool is_transient(const Scene& scene);
+bool is_transient(const Problem& problem);
 
 }  // namespace stillpoint

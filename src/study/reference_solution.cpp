@@ -45,17 +45,17 @@ struct Found {
 };
 
 // The same scene for Newton's method, in which no time passes: its materials are not viscous.
-Scene without_time(Scene scene) {
-  scene.solve.method = "newton";
-  return scene;
+Problem without_time(Problem problem) {
+  problem.solve.method = "newton";
+  return problem;
 }
 
 // As near as rounding lets it come. Leaves what it found in the phase.
-std::optional<Found> solve(const Scene& scene, LagrangianPhase& phase, std::vector<std::string>& notes) {
+std::optional<Found> solve(const Problem& problem, LagrangianPhase& phase, std::vector<std::string>& notes) {
   constexpr double near_enough = 1e4 * reference_residual;
-  std::vector<double> u = phase.initial_displacement(scene.stop.time);
+  std::vector<double> u = phase.initial_displacement(problem.stop.time);
   const StaticReport report =
-      newton(phase, scene.stop.time, u, {.tolerance = reference_residual, .near_enough = near_enough});
+      newton(phase, problem.stop.time, u, {.tolerance = reference_residual, .near_enough = near_enough});
   if (report.converged) {
     const bool by_lu = report.lu_factorisations > 0;
     return Found{std::move(u),
@@ -66,12 +66,12 @@ std::optional<Found> solve(const Scene& scene, LagrangianPhase& phase, std::vect
   return std::nullopt;
 }
 
-Found relax(Scene scene, int threads, const std::function<bool()>& interrupted, SetUpStore& store,
+Found relax(Problem problem, int threads, const std::function<bool()>& interrupted, SetUpStore& store,
             std::vector<std::string>& notes) {
-  scene.stop.residual = tight_in_motion;
-  scene.stop.distance = 0;
-  scene.output.snapshots.clear();
-  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted, .store = &store});
+  problem.stop.residual = tight_in_motion;
+  problem.stop.distance = 0;
+  problem.output.snapshots.clear();
+  Simulation simulation(problem, {.threads = threads, .interrupted = interrupted, .store = &store});
   simulation.run();
   const Summary summary = simulation.summary();
   if (summary.status != RunStatus::equilibrium)
@@ -90,35 +90,35 @@ ReferenceSolution::ReferenceSolution(std::vector<double> u, Mass mass)
 
 double ReferenceSolution::error(ConstVec u) const { return mass_norm_of_difference(mass_, u, u_) / size_; }
 
-Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted,
+Equilibrium find_equilibrium(const Problem& problem, int threads, const std::function<bool()>& interrupted,
                              SetUpStore& store) {
-  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(scene)).phase;
+  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(problem)).phase;
   if (phase->info().updated_lagrangian) {
     throw_scene_error(
-        scene, "phase",
+        "phase",
         "an equilibrium is compared on one set of unknowns, so in one phase; expected phase.max_motion = \"none\", "
         "or stop.residual = 0 and stop.time to compare the way to it");
   }
-  if (scene.stop.time == 0 && loads_vary(scene)) {
+  if (problem.stop.time == 0 && loads_vary(problem)) {
     throw_scene_error(
-        scene, "stop.time",
+        "stop.time",
         "loads or supports depend on t, and the equilibrium to compare with is that at the end; expected the t at "
         "which they have come to it");
   }
   const auto refuse = [&] {
-    throw_scene_error(scene, "body_force",
+    throw_scene_error("body_force",
                       "in equilibrium nothing is displaced, so that no error is relative; expected a load");
   };
-  const std::vector<double> load = total_load_at(*phase, scene.stop.time);
+  const std::vector<double> load = total_load_at(*phase, problem.stop.time);
   if (!phase->contact() && std::ranges::all_of(load, [](double force) { return force == 0; })) refuse();
   const bool unique = !phase->history_dependent() && !phase->contact();
   const std::size_t points = phase->points();
   const Mass mass = phase->mass();
   std::vector<std::string> notes;
   std::optional<Found> found;
-  if (!phase->contact()) found = solve(scene, *phase, notes);
-  store.give_back(scene.mass, std::move(phase));
-  if (!found) found = relax(scene, threads, interrupted, store, notes);
+  if (!phase->contact()) found = solve(problem, *phase, notes);
+  store.give_back(problem.mass, std::move(phase));
+  if (!found) found = relax(problem, threads, interrupted, store, notes);
   Equilibrium equilibrium{.state = {std::move(found->u), mass},
                           .points = points,
                           .method = found->method,
@@ -129,8 +129,8 @@ Equilibrium find_equilibrium(const Scene& scene, int threads, const std::functio
   return equilibrium;
 }
 
-std::optional<ReferenceSolution> slow_ramp(const Scene& scene, SetUpStore& store, std::vector<std::string>& notes) {
-  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(scene)).phase;
+std::optional<ReferenceSolution> slow_ramp(const Problem& problem, SetUpStore& store, std::vector<std::string>& notes) {
+  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(problem)).phase;
   if (phase->contact()) {
     notes.emplace_back("no slow ramp: Newton's method has no contact");
     return std::nullopt;
@@ -138,9 +138,9 @@ std::optional<ReferenceSolution> slow_ramp(const Scene& scene, SetUpStore& store
   constexpr int steps = 64;
   std::vector<double> u = phase->initial_displacement(0);
   const StaticReport report =
-      newton(*phase, scene.stop.time, u, {.tolerance = 1e-9, .load_steps = steps, .max_load_step = 1.0 / steps});
+      newton(*phase, problem.stop.time, u, {.tolerance = 1e-9, .load_steps = steps, .max_load_step = 1.0 / steps});
   const Mass mass = phase->mass();
-  store.give_back(scene.mass, std::move(phase));
+  store.give_back(problem.mass, std::move(phase));
   if (report.converged) return ReferenceSolution(u, mass);
   notes.push_back(fmt::format("the slow ramp ends at {:.3g} of the load: {}", report.load_factor, report.reason));
   return std::nullopt;

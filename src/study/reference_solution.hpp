@@ -1,7 +1,7 @@
 // The exact discrete equilibrium of a scene, which relaxation is measured against.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <functional>
 #include <optional>
@@ -44,11 +44,11 @@ struct Equilibrium {
 /// By Newton's method in one load step, or if it has no answer by the scene's own relaxation. At stop.time if
 /// that is set. Throws SceneError for a scene of several phases, with loads that have no end, or if nothing is
 /// displaced.
-Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted,
+Equilibrium find_equilibrium(const Problem& problem, int threads, const std::function<bool()>& interrupted,
                              SetUpStore& store);
 
 /// The limit of slow loading: equilibrium after equilibrium, in 64 load steps. Nothing, and a note, if there is
 /// none.
-std::optional<ReferenceSolution> slow_ramp(const Scene& scene, SetUpStore& store, std::vector<std::string>& notes);
+std::optional<ReferenceSolution> slow_ramp(const Problem& problem, SetUpStore& store, std::vector<std::string>& notes);
 
 }  // namespace stillpoint

@@ -26,14 +26,14 @@ std::string times(const std::vector<int>& counts, double factor) {
   return fmt::format("[{}]", fmt::join(finer, ", "));
 }
 
-std::vector<std::string> more_points(const Scene& scene, double factor) {
+std::vector<std::string> more_points(const Problem& problem, double factor) {
   std::vector<std::string> set;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    const std::string table = scene.where.contains("body[0]") ? fmt::format("body[{}]", k) : "body";
-    if (!scene.bodies[k].file.empty())
-      throw_scene_error(scene, table + ".file",
+  for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+    const std::string table = problem.bodies.size() > 1 ? fmt::format("body[{}]", k) : "body";
+    if (!problem.bodies[k].file.empty())
+      throw_scene_error(table + ".file",
                         "points of a file cannot be refined by the study; expected a body that is filled with points");
-    set.push_back(fmt::format("{}.points_per_cell={}", table, times(scene.bodies[k].points_per_cell, factor)));
+    set.push_back(fmt::format("{}.points_per_cell={}", table, times(problem.bodies[k].points_per_cell, factor)));
   }
   return set;
 }
@@ -49,40 +49,40 @@ std::optional<Refinement> refinement_of(std::string_view name) {
   return found == names.end() ? std::nullopt : std::optional(found->first);
 }
 
-std::vector<std::string> refined(const Scene& scene, Refinement refinement, double factor) {
+std::vector<std::string> refined(const Problem& problem, Refinement refinement, double factor) {
   switch (refinement) {
     case Refinement::h:
-      return {"grid.cells=" + times(scene.grid.cells, factor)};
+      return {"grid.cells=" + times(problem.grid.cells, factor)};
     case Refinement::points:
-      return more_points(scene, factor);
+      return more_points(problem, factor);
     case Refinement::step:
-      if (scene.solve.is_static())
-        throw_scene_error(scene, "solve.method", "a static solver takes no steps in time; expected \"relaxation\"");
-      if (scene.integrator.step) return {fmt::format("integrator.step={:.17g}", *scene.integrator.step / factor)};
-      return {fmt::format("integrator.step_fraction={:.17g}", scene.integrator.step_fraction / factor)};
+      if (problem.solve.is_static())
+        throw_scene_error("solve.method", "a static solver takes no steps in time; expected \"relaxation\"");
+      if (problem.integrator.step) return {fmt::format("integrator.step={:.17g}", *problem.integrator.step / factor)};
+      return {fmt::format("integrator.step_fraction={:.17g}", problem.integrator.step_fraction / factor)};
     case Refinement::rtol:
-      if (!scene.integrator.rtol)
-        throw_scene_error(scene, "integrator", "there is no rtol to refine; expected integrator.rtol");
-      return {fmt::format("integrator.rtol={:.17g}", *scene.integrator.rtol / factor)};
+      if (!problem.integrator.rtol)
+        throw_scene_error("integrator", "there is no rtol to refine; expected integrator.rtol");
+      return {fmt::format("integrator.rtol={:.17g}", *problem.integrator.rtol / factor)};
     default:
-      if (!(scene.phase.max_motion.value_or(0) > 0))
-        throw_scene_error(scene, "phase", "there is no max_motion to refine; expected phase.max_motion above 0");
-      return {fmt::format("phase.max_motion={:.17g}", *scene.phase.max_motion / factor)};
+      if (!problem.phase.ends_by_motion() || problem.phase.max_motion == 0)
+        throw_scene_error("phase", "there is no max_motion to refine; expected phase.max_motion above 0");
+      return {fmt::format("phase.max_motion={:.17g}", problem.phase.max_motion / factor)};
   }
 }
 
-double size_of(const Scene& scene, Refinement refinement, double step) {
+double size_of(const Problem& problem, Refinement refinement, double step) {
   switch (refinement) {
     case Refinement::h:
-      return longest_cell(scene.grid);
+      return longest_cell(problem.grid);
     case Refinement::points:
-      return 1.0 / std::ranges::min(scene.bodies.front().points_per_cell);
+      return 1.0 / std::ranges::min(problem.bodies.front().points_per_cell);
     case Refinement::step:
       return step;
     case Refinement::rtol:
-      return *scene.integrator.rtol;
+      return *problem.integrator.rtol;
     default:
-      return *scene.phase.max_motion;
+      return problem.phase.max_motion;
   }
 }
 

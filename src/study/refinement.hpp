@@ -10,9 +10,9 @@ namespace stillpoint {
 
 /// The settings, "key=value", that make what is refined `factor` times finer than in the scene. Throws SceneError if
 /// the scene has nothing of the kind.
-std::vector<std::string> refined(const Scene& scene, Refinement refinement, double factor);
+std::vector<std::string> refined(const Problem& problem, Refinement refinement, double factor);
 
 /// The size of it in a scene that took steps of `step` [s].
-double size_of(const Scene& scene, Refinement refinement, double step);
+double size_of(const Problem& problem, Refinement refinement, double step);
 
 }  // namespace stillpoint

@@ -30,10 +30,10 @@ void find_by_mass(const LagrangianPhase& phase, ConstVec u, SpectrumStudy& study
 }
 
 // Of the modes that the loads drive.
-void find_by_multigrid(const Scene& scene, const LagrangianPhase& phase, ConstVec u, SpectrumStudy& study) {
+void find_by_multigrid(const LagrangianPhase& phase, ConstVec u, SpectrumStudy& study) {
   const Stopwatch watch;
   const auto [made, refusal] = make_multigrid_mass(phase, u, false);
-  if (!made) throw_scene_error(scene, "mass.kind", refusal);
+  if (!made) throw_scene_error("mass.kind", refusal);
   const auto estimate = [&watch, count = made->applications](double omega) {
     return FrequencyEstimate{omega, count, watch.seconds(), true, "Lanczos' method"};
   };
@@ -47,23 +47,23 @@ void find_by_multigrid(const Scene& scene, const LagrangianPhase& phase, ConstVe
 
 }  // namespace
 
-SpectrumStudy spectrum_of(const Scene& scene) {
-  const auto phase = make_phase(scene);
+SpectrumStudy spectrum_of(const Problem& problem) {
+  const auto phase = make_phase(problem);
   const std::vector<double> u = phase->initial_displacement(0);
   SpectrumStudy study;
-  study.strategy = scene.damping.strategy;
-  if (scene.mass.kind == MassKind::multigrid) {
-    find_by_multigrid(scene, *phase, u, study);
+  study.strategy = problem.damping.strategy;
+  if (problem.mass.kind == MassKind::multigrid) {
+    find_by_multigrid(*phase, u, study);
   } else {
     find_by_mass(*phase, u, study);
   }
   const double omega_1 = study.omega_1.omega, omega_max = study.omega_max.omega;
-  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
-  study.knows_steps = !strategy.uses("c") || scene.damping.c || study.omega_1.converged;
+  const StrategyInfo& strategy = *catalogue().strategy(problem.damping.strategy);
+  study.knows_steps = !strategy.uses("c") || problem.damping.c || study.omega_1.converged;
   if (!study.knows_steps) return study;
-  const auto damping = strategy.is_relaxation
-                           ? no_damping()
-                           : make_damping(strategy.name, scene.damping.c.value_or(2 * omega_1), scene.damping.alpha);
+  const auto damping = strategy.is_relaxation ? no_damping()
+                                              : make_damping(strategy.name, problem.damping.c.value_or(2 * omega_1),
+                                                             problem.damping.alpha);
   const double gain = local_damping_gain(*phase, 0, u, *damping, omega_max);
   const DampedSpectrum damped = damped_spectrum(omega_1, gain * omega_max, *damping, phase->mass());
   for (const Method& method : methods()) {

@@ -1,7 +1,7 @@
 // The frequencies of a scene by every method that it allows, and what follows from them.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/spectrum.hpp>
 
 #include <optional>
@@ -33,6 +33,6 @@ struct SpectrumStudy {
 };
 
 /// Of the elastic tangent at the start. Throws SceneError if the scene cannot be set up.
-SpectrumStudy spectrum_of(const Scene& scene);
+SpectrumStudy spectrum_of(const Problem& problem);
 
 }  // namespace stillpoint

@@ -48,8 +48,8 @@ double value_of(const std::vector<std::pair<std::string, double>>& values, const
 
 class Gathering {
  public:
-  Gathering(const Scene& scene, const std::vector<LevelRun>& runs, ConvergenceStudy& study)
-      : scene_(scene), runs_(runs), study_(study), same_points_(has_same_points(study.refined)) {
+  Gathering(const Problem& problem, const std::vector<LevelRun>& runs, ConvergenceStudy& study)
+      : problem_(problem), runs_(runs), study_(study), same_points_(has_same_points(study.refined)) {
     for (const ConvergenceLevel& level : study.levels) sizes_.push_back(level.size);
   }
 
@@ -86,9 +86,9 @@ class Gathering {
       study_.reference = probes;
       study_.notes.push_back(fmt::format(
           "only probes are studied: {}",
-          !scene_.exact.known() ? "there is no exact solution, and later phases know no place of the start at which "
-                                  "levels could be compared; expected a single phase"
-                                : "the exact displacement vanishes; expected another moment, stop.time"));
+          !problem_.exact.known() ? "there is no exact solution, and later phases know no place of the start at which "
+                                    "levels could be compared; expected a single phase"
+                                  : "the exact displacement vanishes; expected another moment, stop.time"));
       return;
     }
     study_.reference = fmt::format("the finest level, and {}", probes);
@@ -199,16 +199,16 @@ class Gathering {
     const bool of_stress = of.starts_with("stress") || of.starts_with("strain") || of == "u_energy";
     const bool of_u = of == "u_l2" || of == "u_max" || of == "u" || of.starts_with("u.");
     if (!of_stress && !of_u) return std::nullopt;
-    const double degree = degree_of(scene_.grid.basis);
+    const double degree = degree_of(problem_.grid.basis);
     if (study_.refined.front() == Refinement::h) return of_stress ? degree : degree + 1;
-    const StrategyInfo* strategy = catalogue().strategy(scene_.damping.strategy);
-    const bool smooth = is_transient(scene_) && strategy && !strategy->is_local && !strategy->is_relaxation &&
-                        !scene_.phase.max_motion && !scene_.phase.max_strain;
+    const StrategyInfo* strategy = catalogue().strategy(problem_.damping.strategy);
+    const bool smooth =
+        is_transient(problem_) && strategy && !strategy->is_local && !strategy->is_relaxation && !problem_.phase.ends();
     if (study_.refined.front() != Refinement::step || !smooth) return std::nullopt;
-    return find_method(scene_.integrator.method, scene_.integrator.treatment).order;
+    return find_method(problem_.integrator.method, problem_.integrator.treatment).order;
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   const std::vector<LevelRun>& runs_;
   ConvergenceStudy& study_;
   bool same_points_;
@@ -221,8 +221,8 @@ bool has_same_points(const std::vector<Refinement>& refine) {
   return std::ranges::none_of(refine, [](Refinement r) { return r == Refinement::h || r == Refinement::points; });
 }
 
-void gather_quantities(const Scene& scene, const std::vector<LevelRun>& runs, ConvergenceStudy& study) {
-  Gathering(scene, runs, study).gather();
+void gather_quantities(const Problem& problem, const std::vector<LevelRun>& runs, ConvergenceStudy& study) {
+  Gathering(problem, runs, study).gather();
 }
 
 std::string figure_of_sources(const std::vector<Refinement>& refine, const LevelRun& run) {

@@ -14,7 +14,7 @@ namespace stillpoint {
 bool has_same_points(const std::vector<Refinement>& refine);
 
 /// Fills quantities and reference, and adds notes; runs: of the levels, whose sizes are those in the study.
-void gather_quantities(const Scene& scene, const std::vector<LevelRun>& runs, ConvergenceStudy& study);
+void gather_quantities(const Problem& problem, const std::vector<LevelRun>& runs, ConvergenceStudy& study);
 
 /// The figure that sources of error are told by: the error in u, or the first probe, or how far u itself moves.
 std::string figure_of_sources(const std::vector<Refinement>& refine, const LevelRun& run);

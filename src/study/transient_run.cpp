@@ -20,12 +20,12 @@ struct Ended {
   std::vector<double> displacement;
 };
 
-Ended follow(Scene scene, int threads, SetUpStore& store, const std::function<bool()>& interrupted = {}) {
-  scene.output.snapshots.clear();
-  scene.output.fields_every = 0;
-  scene.output.every = scene.stop.time;  // a row costs time, and bends the steps
+Ended follow(Problem problem, int threads, SetUpStore& store, const std::function<bool()>& interrupted = {}) {
+  problem.output.snapshots.clear();
+  problem.output.fields_every = 0;
+  problem.output.every = problem.stop.time;  // a row costs time, and bends the steps
   const Stopwatch watch;
-  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted, .store = &store});
+  Simulation simulation(problem, {.threads = threads, .interrupted = interrupted, .store = &store});
   ComparedRun set_up;
   fill_set_up(simulation.model(), watch.seconds(), set_up);
   simulation.run();
@@ -48,14 +48,14 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
 
 }  // namespace
 
-TransientReference transient_reference(const Scene& scene,
-                                       const std::function<Scene(const std::vector<std::string>&)>& load,
+TransientReference transient_reference(const Problem& problem,
+                                       const std::function<Problem(const std::vector<std::string>&)>& load,
                                        SetUpStore& store) {
-  std::unique_ptr<LagrangianPhase> phase = store.phase(scene).phase;
-  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
+  std::unique_ptr<LagrangianPhase> phase = store.phase(problem).phase;
+  const StrategyInfo& strategy = *catalogue().strategy(problem.damping.strategy);
   const bool smooth = !phase->history_dependent() && !phase->contact() && !phase->info().updated_lagrangian &&
                       !strategy.is_local && !strategy.is_relaxation;
-  store.give_back(scene.mass, std::move(phase));
+  store.give_back(problem.mass, std::move(phase));
   const std::vector<std::string> overrides =
       smooth ? std::vector<std::string>{"integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-11"}
              : std::vector<std::string>{"integrator.method=leapfrog", "integrator.step_fraction=0.0625"};
@@ -67,9 +67,9 @@ TransientReference transient_reference(const Scene& scene,
           smooth ? "erk:fehlberg-13-7-8 at rtol 1e-11" : "leapfrog at a sixteenth of the critical step"};
 }
 
-double run_transient(const Scene& scene, const TransientReference& reference, int threads,
+double run_transient(const Problem& problem, const TransientReference& reference, int threads,
                      const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run) {
-  const Ended ended = follow(scene, threads, store, interrupted);
+  const Ended ended = follow(problem, threads, store, interrupted);
   run.setup_s = ended.set_up.setup_s;
   run.setup_parts = ended.set_up.setup_parts;
   run.steps = ended.summary.steps;
@@ -96,8 +96,8 @@ double run_transient(const Scene& scene, const TransientReference& reference, in
   return seconds;
 }
 
-double time_transient(const Scene& scene, int threads, SetUpStore& store) {
-  return stepping_s(follow(scene, threads, store).summary);
+double time_transient(const Problem& problem, int threads, SetUpStore& store) {
+  return stepping_s(follow(problem, threads, store).summary);
 }
 
 }  // namespace stillpoint

@@ -19,14 +19,14 @@ struct TransientReference {
 /// Of the scene's own damping: by an integrator of order 7 at rtol 1e-11 if the motion is smooth, by leapfrog at a
 /// sixteenth of the critical step if laws remember, walls touch or phases follow each other. load: the scene under
 /// more overrides.
-TransientReference transient_reference(const Scene& scene,
-                                       const std::function<Scene(const std::vector<std::string>&)>& load,
+TransientReference transient_reference(const Problem& problem,
+                                       const std::function<Problem(const std::vector<std::string>&)>& load,
                                        SetUpStore& store);
 
 /// Fills the row: one point of its way, at stop.time. Returns the wall time of the steps [s].
-double run_transient(const Scene& scene, const TransientReference& reference, int threads,
+double run_transient(const Problem& problem, const TransientReference& reference, int threads,
                      const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run);
 /// Wall time of the steps of the same run [s].
-double time_transient(const Scene& scene, int threads, SetUpStore& store);
+double time_transient(const Problem& problem, int threads, SetUpStore& store);
 
 }  // namespace stillpoint

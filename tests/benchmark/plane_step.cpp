@@ -47,7 +47,7 @@ Scene block(int basis, int law, int cells) {
   scene.materials.at("soil").law = laws[law];
   const bool plastic = law == 3;
   if (!plastic) scene.geostatic.reset();
-  if (law == 0) scene.phase.max_motion.reset();
+  if (law == 0) scene.phase.max_motion = PhaseSpec::never;
   return scene;
 }
 

@@ -26,9 +26,9 @@ inline void require(bool is_true, const char* claim) {
 }
 
 /// Bad input is told with a place and in one line.
-inline void require_clear(const std::vector<Problem>& problems) {
+inline void require_clear(const std::vector<Mistake>& problems) {
   const auto printable = [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f; };
-  for (const auto& [where, message] : problems) {
+  for (const auto& [where, message, key] : problems) {
     if (!std::ranges::all_of(message, printable)) std::fprintf(stderr, "%s\n", message.c_str());
     require(!message.empty(), "a problem has a message");
     require(std::ranges::all_of(message, printable), "a message is one line of printable characters");

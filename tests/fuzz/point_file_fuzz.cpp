@@ -15,7 +15,7 @@ const std::vector<double> kMin = {-1, 0}, kMax = {8, 4};
 
 void read(const std::filesystem::path& file, std::size_t dim) {
   const std::vector<double> min(kMin.begin(), kMin.begin() + dim), max(kMax.begin(), kMax.begin() + dim);
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
   const PointFile points = read_point_file(file, min, max, problems);
   require_clear(problems);
   if (!problems.empty()) return;

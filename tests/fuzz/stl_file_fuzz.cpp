@@ -12,7 +12,7 @@ using namespace stillpoint::fuzz;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const testing::TemporaryFolder folder;
   const auto file = folder.write("body.stl", text_of(data, size));
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
   const std::vector<Facet> facets = read_stl_file(file, problems);
   require_clear(problems);
   require(problems.size() <= 1 && problems.empty() == !facets.empty(), "a file has triangles or one problem");

@@ -235,7 +235,7 @@ TEST_CASE("what the parts of a plane scene ask of each other is said at each of 
   const TemporaryFolder folder;
   const auto messages = [&](const std::string& scene) {
     std::vector<std::string> texts;
-    for (const Problem& problem : problems_of(folder.write("bad.toml", scene)))
+    for (const Mistake& problem : problems_of(folder.write("bad.toml", scene)))
       texts.push_back(std::to_string(problem.where.line) + ": " + problem.message);
     return texts;
   };
@@ -274,7 +274,7 @@ TEST_CASE("five mistakes in a plane are reported at once, in the order of the fi
   scene = broken("\"u.x\"", "\"u\"", scene);
   const TemporaryFolder folder;
   std::vector<int> lines;
-  for (const Problem& problem : problems_of(folder.write("bad.toml", scene))) lines.push_back(problem.where.line);
+  for (const Mistake& problem : problems_of(folder.write("bad.toml", scene))) lines.push_back(problem.where.line);
   REQUIRE(lines == std::vector<int>{7, 13, 27, 31, 51});
 }
 
@@ -284,7 +284,7 @@ TEST_CASE("what is wrong with a file of points is reported at its own lines, aft
   const std::string scene = broken("max = [8, 3]\nmaterial = \"sand\"\npoints_per_cell = 4",
                                    "file = \"points.csv\"\nmaterial = \"sand\"\nseed = 3", kGoodPlane);
   std::vector<std::string> found;
-  for (const Problem& problem : problems_of(folder.write("bad.toml", scene)))
+  for (const Mistake& problem : problems_of(folder.write("bad.toml", scene)))
     found.push_back(std::filesystem::path(to_string(problem.where)).filename().string() + " " + problem.message);
   REQUIRE(found == std::vector<std::string>{
                        "bad.toml:13:8 body.seed: does not go with file, which holds the points and their volumes",
@@ -296,7 +296,7 @@ TEST_CASE("a part of a linear face that ends between nodes is refused with the n
   const TemporaryFolder folder;
   std::string scene = broken("basis = \"quadratic\"", "basis = \"linear\"", kGoodPlane);
   scene = broken("face = \"bottom\"", "face = \"bottom\"\nfrom = 2.3\nto = 4", scene);
-  const std::vector<Problem> problems = problems_of(folder.write("scene.toml", scene));
+  const std::vector<Mistake> problems = problems_of(folder.write("scene.toml", scene));
   REQUIRE(problems.size() == 1);
   CHECK_THAT(problems[0].message,
              Catch::Contains("support[0].from: 2.3 is no node of the grid, whose nodes are what is held; "

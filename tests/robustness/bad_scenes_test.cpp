@@ -210,7 +210,7 @@ TEST_CASE("five mistakes are reported at once, in the order of the file") {
   const TemporaryFolder folder;
   const auto problems = problems_of(folder.write("bad.toml", scene));
   std::vector<int> lines;
-  for (const Problem& problem : problems) lines.push_back(problem.where.line);
+  for (const Mistake& problem : problems) lines.push_back(problem.where.line);
   REQUIRE(lines == std::vector<int>{5, 13, 16, 22, 32});
 }
 
@@ -291,7 +291,7 @@ TEST_CASE("of a scene with many faults 200 are told, and that there are more") {
   const auto problems = problems_of(folder.write("bad.toml", scene));
   REQUIRE(problems.size() == 201);
   CHECK(problems.front().message == "probe[1]: the key 'name' is missing");
-  CHECK(std::ranges::count(problems, std::string("from here on, more is wrong than is listed"), &Problem::message) ==
+  CHECK(std::ranges::count(problems, std::string("from here on, more is wrong than is listed"), &Mistake::message) ==
         1);
 }
 

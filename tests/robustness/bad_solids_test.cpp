@@ -40,7 +40,7 @@ std::vector<std::string> messages(const std::string& bodies, const std::string& 
   scene.replace(begin, end - begin, bodies);
   scene = scene.substr(0, scene.find("[[traction]]")) + from;
   std::vector<std::string> found;
-  for (const Problem& problem : problems_of(folder.write("scene.toml", scene))) found.push_back(problem.message);
+  for (const Mistake& problem : problems_of(folder.write("scene.toml", scene))) found.push_back(problem.message);
   return found;
 }
 std::string body(const std::string& shape) { return "[[body]]\nmaterial = \"steel\"\n" + shape + "\n"; }
@@ -49,7 +49,7 @@ std::string body(const std::string& shape) { return "[[body]]\nmaterial = \"stee
 
 TEST_CASE("a scene with a sphere and a pressure inside it has no problem") {
   const TemporaryFolder folder;
-  for (const Problem& problem : problems_of(folder.write("good.toml", kGoodSolid))) UNSCOPED_INFO(problem.message);
+  for (const Mistake& problem : problems_of(folder.write("good.toml", kGoodSolid))) UNSCOPED_INFO(problem.message);
   CHECK(problems_of(folder.write("good.toml", kGoodSolid)).empty());
 }
 

@@ -110,7 +110,7 @@ inline std::string broken(const std::string& from, const std::string& to, std::s
 }
 
 /// The problems of a scene; empty if it loads.
-inline std::vector<Problem> problems_of(const std::filesystem::path& file,
+inline std::vector<Mistake> problems_of(const std::filesystem::path& file,
                                         const std::vector<std::string>& overrides = {}) {
   try {
     load_scene(file, overrides);
@@ -132,7 +132,7 @@ inline void check_each(const std::vector<BadScene>& scenes, const std::string& g
     INFO(bad.name);
     const auto file = folder.write("bad.toml", broken(bad.from, bad.to, good));
     const auto problems = problems_of(file);
-    for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem.where) + ": " + problem.message);
+    for (const Mistake& problem : problems) UNSCOPED_INFO(to_string(problem.where) + ": " + problem.message);
     CHECK(problems.size() == 1);
     if (problems.empty()) continue;
     CHECK(to_string(problems[0].where) == file.string() + ":" + bad.where);

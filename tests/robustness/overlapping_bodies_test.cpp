@@ -19,7 +19,7 @@ std::string scene_with(const std::vector<std::string>& bodies) {
 
 std::vector<std::string> overlaps(const TemporaryFolder& folder, const std::vector<std::string>& bodies) {
   std::vector<std::string> messages;
-  for (const Problem& problem : problems_of(folder.write("scene.toml", scene_with(bodies))))
+  for (const Mistake& problem : problems_of(folder.write("scene.toml", scene_with(bodies))))
     messages.push_back(problem.message);
   return messages;
 }

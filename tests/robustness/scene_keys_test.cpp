@@ -63,7 +63,7 @@ Reading read(const std::string& text) {
 
 bool says_of(const Reading& reading, const std::string& words) {
   return std::ranges::any_of(reading.problems,
-                             [&](const Problem& p) { return p.message.find(words) != std::string::npos; });
+                             [&](const Mistake& p) { return p.message.find(words) != std::string::npos; });
 }
 
 /// The schemas that a value may fit, of which one is chosen by anyOf, or an entry of an array.
@@ -112,7 +112,7 @@ TEST_CASE("the reader takes every key of the table, with an example and with its
           const std::string text = scene_with(table, fmt::format("{} = {}", key.name, value), dim);
           const Reading reading = read(text);
           INFO(text);
-          for (const Problem& problem : reading.problems) UNSCOPED_INFO(problem.message);
+          for (const Mistake& problem : reading.problems) UNSCOPED_INFO(problem.message);
           CHECK_FALSE(says_of(reading, "unknown key"));
           const std::string name = "." + std::string(key.name);
           CHECK_FALSE(std::ranges::any_of(reading.wrong, [&](const std::string& path) {

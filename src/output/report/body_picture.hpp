@@ -1,7 +1,7 @@
 // The material points of a run at some moments, as the report draws them: in few bytes.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <cstddef>
 #include <span>

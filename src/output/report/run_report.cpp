@@ -70,7 +70,7 @@ std::string RunReport::page(const Summary& summary) const {
   return report_page(summary.title.empty() ? summary.scene : summary.title,
                      {{"kind", "run"},
                       {"summary", Json::parse(to_json(summary))},
-                      {"goals", {{"residual", stop.residual}, {"distance", stop.distance}, {"time", stop.time}}},
+                      {"goals", {{"residual", stop.residual}, {"distance", stop.distance.value()}, {"time", stop.time}}},
                       {"history", history_excerpt(folder_ / "history.csv")},
                       {"picture", picture()},
                       {"lacks_memory", lacks_memory_},

@@ -19,8 +19,9 @@
 namespace stillpoint {
 
 template <class T>
-struct Unwrapped {  // T itself, or of what it is an optional or an array
-  using type = T;
+struct Unwrapped {  // T itself, or of what it is an optional, a choice or an array
+  using type = T;   // of one value
+  using value = T;  // of all of them
   static constexpr bool is_optional = false;
   static constexpr int depth = 0;
 };
@@ -29,8 +30,11 @@ struct Unwrapped<std::optional<T>> : Unwrapped<T> {
   static constexpr bool is_optional = true;
 };
 template <class T>
+struct Unwrapped<Choice<T>> : Unwrapped<T> {};
+template <class T>
 struct Unwrapped<std::vector<T>> {
   using type = typename Unwrapped<T>::type;
+  using value = std::vector<T>;
   static constexpr bool is_optional = false;
   static constexpr int depth = 1 + Unwrapped<T>::depth;
 };
@@ -88,6 +92,11 @@ std::string told_default(const T& value, const KeyInfo& key) {
   }
 }
 
+template <class T>
+std::string told_default(const Choice<T>& choice, const KeyInfo& key) {
+  return told_default(choice.value(), key);
+}
+
 /// A key, and how its value gets into the part of a scene that its table describes, of whatever type that is: the same
 /// for all tables, or the compiler would make all that follows anew for each of them.
 struct Key {
@@ -101,7 +110,8 @@ template <class Spec, class Access>
 Key key_of(std::string_view name, Access access, std::string_view help, const KeyInfo& about,
            void (*on_word)(Spec&) = nullptr) {
   using Member = std::remove_cvref_t<std::invoke_result_t<Access, Spec&>>;
-  using T = std::conditional_t<Unwrapped<Member>::depth == 0, typename Unwrapped<Member>::type, Member>;
+  using T = std::conditional_t<Unwrapped<Member>::depth == 0, typename Unwrapped<Member>::type,
+                               typename Unwrapped<Member>::value>;
   KeyInfo info = about;
   info.name = name;
   info.help = help;

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "scene/driven_motion.hpp"
 #include "scene/input/keys.hpp"
 #include "scene/input/toml_source.hpp"
 #include "scene/input/validation.hpp"
+#include "scene/resolve.hpp"
 
 namespace stillpoint {
 namespace {
@@ -63,6 +63,13 @@ void drop_keys_of_other_choices(toml::table& root, const Catalogue& catalogue) {
   }
 }
 
+/// Files that a scene names lie beside its own.
+void find_files(Scene& scene) {
+  for (BodySpec& body : scene.bodies)
+    for (std::filesystem::path* const file : {&body.file, &body.stl})
+      if (!file->empty()) *file = scene.file.parent_path() / *file;
+}
+
 /// A scene under overrides, with all that it may choose from.
 class SceneText {
  public:
@@ -70,7 +77,7 @@ class SceneText {
       : file_(file), text_(std::move(text)), catalogue_(catalogue), tables_(scene_tables(catalogue)) {}
 
   /// Complete only if problems stays empty.
-  Scene read(const std::vector<std::string>& overrides, std::vector<Problem>& problems) const {
+  Scene read(const std::vector<std::string>& overrides, std::vector<Mistake>& problems) const {
     Scene scene;
     scene.file = file_;
     scene.name = file_.stem().string();
@@ -86,9 +93,11 @@ class SceneText {
     scene.where = locations_of(*root);
     Reading reading;
     try {
-      if (read_tables(tables_, *root, scene, reading)) validate(scene, reading, catalogue_);
-      if (problems.empty() && reading.problems.empty() && !scene.where.contains("damping.alpha"))
-        scene.damping.alpha = usual_alpha(scene);
+      if (read_tables(tables_, *root, scene, reading)) {
+        find_files(scene);
+        const std::vector<FileMistake> files = resolve(scene, catalogue_);
+        validate(scene, files, reading, catalogue_);
+      }
     } catch (const EnoughProblems&) {
     }
     problems.insert(problems.end(), reading.problems.begin(), reading.problems.end());
@@ -97,7 +106,7 @@ class SceneText {
 
   /// Reads the file once for each variant, and reports at the variant what the file itself does not suffer from.
   /// Overrides stay out of it: a variant that does not go with them is no fault of the scene that was asked for.
-  void check_variants(const Scene& scene, std::vector<Problem>& problems) const {
+  void check_variants(const Scene& scene, std::vector<Mistake>& problems) const {
     constexpr std::size_t most = 1000, most_bytes = std::size_t{32} << 20;
     if (scene.variants.size() > most)
       return problems.push_back({scene.location("variant"), fmt::format("more than {} variants", most)});
@@ -105,13 +114,13 @@ class SceneText {
       return problems.push_back(
           {scene.location("variant"), fmt::format("{} variants of a scene of {} bytes are more than this program reads",
                                                   scene.variants.size(), text_.size())});
-    std::vector<Problem> own;
+    std::vector<Mistake> own;
     if (!scene.variants.empty()) read({}, own);
     for (std::size_t k = 0; k < scene.variants.size(); ++k) {
-      std::vector<Problem> found;
+      std::vector<Mistake> found;
       read(scene.variants[k].set, found);
-      for (const Problem& problem : found) {
-        const auto same = [&](const Problem& other) {
+      for (const Mistake& problem : found) {
+        const auto same = [&](const Mistake& other) {
           return problem.message == other.message && to_string(problem.where) == to_string(other.where);
         };
         if (std::ranges::any_of(own, same)) continue;
@@ -132,7 +141,7 @@ class SceneText {
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  const Catalogue& catalogue) {
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
   auto text = read_file(file, problems);
   if (!text) throw SceneError(std::move(problems));
   return read_scene(file, std::move(*text), overrides, catalogue);
@@ -140,20 +149,33 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 
 Scene read_scene(const std::filesystem::path& file, std::string text, const std::vector<std::string>& overrides,
                  const Catalogue& catalogue) {
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
   const SceneText scene_text(file, std::move(text), catalogue);
   Scene scene = scene_text.read(overrides, problems);
   scene_text.check_variants(scene, problems);
   if (problems.empty()) return scene;
   // In the order of the file, overrides first, other files last.
-  const auto position = [&](const Problem& problem) {
+  const auto position = [&](const Mistake& problem) {
     const Location& where = problem.where;
     return std::tuple(where.line > 0 && where.file != file.string(), where.line, where.column);
   };
   std::ranges::stable_sort(problems, {}, position);
-  for (Problem& problem : problems)
+  for (Mistake& problem : problems)
     problem.message = one_line(problem.message);  // keys and TOML's own words may be more
   throw SceneError(std::move(problems));
+}
+
+Problem resolved(Problem problem, const Catalogue& catalogue) {
+  Scene scene;
+  static_cast<Problem&>(scene) = std::move(problem);
+  Reading reading{.dim = scene.dim, .constants = scene.constants};
+  try {
+    const std::vector<FileMistake> files = resolve(scene, catalogue);
+    validate(scene, files, reading, catalogue);
+  } catch (const EnoughProblems&) {
+  }
+  if (!reading.problems.empty()) throw SceneError(std::move(reading.problems));
+  return scene;
 }
 
 }  // namespace stillpoint

@@ -18,4 +18,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 Scene read_scene(const std::filesystem::path& file, std::string text, const std::vector<std::string>& overrides,
                  const Catalogue& catalogue);
 
+/// The same of a program's own problem, see resolve().
+Problem resolved(Problem problem, const Catalogue& catalogue);
+
 }  // namespace stillpoint

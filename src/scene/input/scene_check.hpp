@@ -13,24 +13,25 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/grid_lines.hpp"
 #include "scene/input/toml_value.hpp"
+#include "scene/resolve.hpp"
 
 namespace stillpoint {
 
 class SceneCheck {
  public:
-  SceneCheck(Scene& scene, Reading& reading, const Catalogue& catalogue)
+  SceneCheck(const Scene& scene, Reading& reading, const Catalogue& catalogue)
       : scene_(scene), reading_(reading), catalogue_(catalogue) {}
 
   const Catalogue& catalogue() const { return catalogue_; }
-  Scene& scene() { return scene_; }
   const Scene& scene() const { return scene_; }
-  const std::vector<Problem>& problems() const { return reading_.problems; }
+  const std::vector<Mistake>& problems() const { return reading_.problems; }
 
   /// Reports a key, or a table, as wrong.
   void add(const std::string& key, const std::string& message) { reading_.problem(scene_.location(key), key, message); }
   /// Reports what is wrong in another file.
-  void add(Problem problem) { reading_.add(std::move(problem)); }
+  void add(Mistake problem) { reading_.add(std::move(problem)); }
   bool written(const std::string& key) const { return scene_.where.contains(key); }
   /// Not written, or written and in order.
   bool sound(const std::string& key) const {
@@ -45,11 +46,18 @@ class SceneCheck {
     }
   }
 
-  /// Of two keys of a table exactly one is to be written.
-  void one_of(const std::string& table, const std::string& a, const std::string& b, const std::string& both,
+  /// A key of a table, and whether the problem has its value; one that was written and could not be read counts too.
+  struct Given {
+    const char* key;
+    bool has_value;
+  };
+  bool given(const std::string& key, bool has_value) const { return has_value || written(key); }
+  /// Of two keys of a table exactly one is to be given.
+  void one_of(const std::string& table, const Given& a, const Given& b, const std::string& both,
               const std::string& neither) {
-    const bool has_a = written(table + "." + a), has_b = written(table + "." + b);
-    if (has_a && has_b) add(table + "." + b, both);
+    const bool has_a = given(fmt::format("{}.{}", table, a.key), a.has_value);
+    const bool has_b = given(fmt::format("{}.{}", table, b.key), b.has_value);
+    if (has_a && has_b) add(fmt::format("{}.{}", table, b.key), both);
     if (!has_a && !has_b) add(table, neither);
   }
   /// Of the entries of an array of tables no two have the same name; returns all names.
@@ -68,22 +76,16 @@ class SceneCheck {
   std::string axis_key(const std::string& key, std::size_t axis) const;
 
   /// A cell's length along an axis; 0 if the cells are not known.
-  double cell_length(std::size_t axis) const;
-  /// Moves a face that misses a grid line by a sliver of a cell onto it: points in the sliver would have next to no
-  /// mass.
-  void snap_to_grid(std::vector<double>& position) const;
-  /// True if a position lies in a box, after moving one that misses it by a sliver onto its border.
-  bool inside(std::vector<double>& position, const std::vector<double>& min, const std::vector<double>& max,
+  double cell_length(std::size_t axis) const { return known_cell_length(scene_.grid, axis); }
+  /// True if a position lies in a box.
+  bool inside(const std::vector<double>& position, const std::vector<double>& min, const std::vector<double>& max,
               const std::string& box, const std::string& key);
 
  private:
-  Scene& scene_;
+  const Scene& scene_;
   Reading& reading_;
   const Catalogue& catalogue_;
 };
-
-/// A share of a cell that is taken for none.
-inline constexpr double kSliver = 1e-6;
 
 /// The box around all bodies.
 struct BodyBox {
@@ -93,8 +95,8 @@ struct BodyBox {
 
 /// True if the grid is a box that can be divided into its cells.
 bool check_grid(SceneCheck& check);
-/// Bodies and their materials; the box around them if all of them are in order.
-std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid);
+/// Bodies, their materials and files; the box around them if all of them are in order.
+std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid, const std::vector<FileMistake>& files);
 /// That no two bodies, all of them in order, are in the same place.
 void check_overlaps(SceneCheck& check);
 /// The number of material points if the bodies fill whole cells; 0 if that depends on the placement.

@@ -69,7 +69,8 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
 
   tables.add({"phase", "when a phase ends: the points move on and the grid starts again"}, &Scene::phase)
       .key("max_motion", &PhaseSpec::max_motion, "share of a cell that some point has moved; 0: after every step",
-           {.range = kShare, .words = {"none"}, .fallback = "0.1 if a law has a history, otherwise none"})
+           {.range = kShare, .words = {"none"}, .fallback = "0.1 if a law has a history, otherwise none"},
+           [](PhaseSpec& phase) { phase.max_motion = PhaseSpec::never; })
       .key("max_strain", &PhaseSpec::max_strain, "or a displacement gradient since the phase began",
            {.range = kPositive})
       .key("transfer", &PhaseSpec::transfer, "of velocities from grid to points",
@@ -119,7 +120,6 @@ bool read_tables(const std::vector<TableInfo>& tables, const toml::table& root, 
     if (!info.path.empty()) continue;
     reading.dim = scene.dim;
     if (reading.wrong.contains("dim")) return false;
-    if (scene.dim > 1) scene.mass.kind = MassKind::lumped;
   }
   return true;
 }

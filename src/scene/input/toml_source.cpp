@@ -68,7 +68,7 @@ std::string fault_of_key(std::string_view key) {
 
 /// Moves all of over into base; nodes keep the locations where they were written.
 void merge(toml::table& base, toml::table&& over, const std::string& prefix, const Location& where,
-           std::vector<Problem>& problems) {
+           std::vector<Mistake>& problems) {
   for (auto&& [key, node] : over) {
     toml::node* const below = base.get(key.str());
     toml::table* const table = node.as_table();
@@ -150,7 +150,7 @@ Location location_of(const toml::source_region& region) {
   return {name, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-std::optional<std::string> read_file(const std::filesystem::path& file, std::vector<Problem>& problems) {
+std::optional<std::string> read_file(const std::filesystem::path& file, std::vector<Mistake>& problems) {
   constexpr std::size_t largest = std::size_t{16} << 20;  // bytes; also ends the reading of /dev/zero
   const auto refuse = [&](const std::string& why) -> std::optional<std::string> {
     problems.push_back({{file.string(), 0, 0}, why});
@@ -172,7 +172,7 @@ std::optional<std::string> read_file(const std::filesystem::path& file, std::vec
   return text;
 }
 
-std::optional<toml::table> parse_toml(std::string_view text, const std::string& name, std::vector<Problem>& problems) {
+std::optional<toml::table> parse_toml(std::string_view text, const std::string& name, std::vector<Mistake>& problems) {
   if (holds_too_many_values(text)) {
     problems.push_back({{name, 1, 1}, "holds more than 4 million values: not a scene"});
     return std::nullopt;
@@ -193,7 +193,7 @@ std::optional<toml::table> parse_toml(std::string_view text, const std::string& 
   }
 }
 
-void apply_override(toml::table& table, const std::string& text, std::vector<Problem>& problems) {
+void apply_override(toml::table& table, const std::string& text, std::vector<Mistake>& problems) {
   // The name holds the literal text; a message is one line of printable characters.
   const std::string shown = in_quotes(text);
   const std::string name = std::string(kOverride) + shown.substr(1, shown.size() - 2);
@@ -211,7 +211,7 @@ void apply_override(toml::table& table, const std::string& text, std::vector<Pro
   }
   // What is not one line of TOML is a string: pi/10 needs no quotes.
   const std::string value(trimmed(std::string_view(text).substr(equals + 1)));
-  std::vector<Problem> not_toml;
+  std::vector<Mistake> not_toml;
   std::optional<toml::table> over;
   if (value.find_first_of("\n\r") == std::string::npos)
     over = parse_toml(fmt::format("{} = {}", key, value), name, not_toml);

@@ -55,7 +55,7 @@ void Reading::problem(const Location& where, const std::string& path, const std:
   add({where, path.empty() ? message : shortened(path, longest) + ": " + message});
 }
 
-void Reading::add(Problem problem) {
+void Reading::add(Mistake problem) {
   constexpr std::size_t most = 200;
   if (problems.size() == most) {
     problems.push_back({problem.where, "from here on, more is wrong than is listed"});

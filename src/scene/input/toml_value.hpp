@@ -22,12 +22,12 @@ struct Reading {
   Constants constants{};
   std::set<std::string> broken{};  // constants that could not be computed; what uses them is not reported again
   std::set<std::string> wrong{};   // dotted keys whose values are wrong, or could not be computed
-  std::vector<Problem> problems{};
+  std::vector<Mistake> problems{};
 
   /// Records that the value of the dotted key path is wrong.
   void problem(const Location& where, const std::string& path, const std::string& message);
   /// Records what is wrong. Throws EnoughProblems after the last that is listed.
-  void add(Problem problem);
+  void add(Mistake problem);
 };
 
 /// More is wrong with a scene than anybody reads, or than it is worth to look for.

@@ -11,40 +11,6 @@
 namespace stillpoint {
 namespace {
 
-/// Sets the defaults that depend on other keys.
-void complete(SceneCheck& check) {
-  Scene& scene = check.scene();
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    BodySpec& body = scene.bodies[k];
-    if (!check.written(check.body_key(k, "min"))) body.min = scene.grid.min;
-    if (!check.written(check.body_key(k, "max"))) body.max = scene.grid.max;
-    body.points_per_cell.resize(static_cast<std::size_t>(scene.dim), body.points_per_cell[0]);
-    if (!body.file.empty()) body.file = scene.file.parent_path() / body.file;
-    if (!body.stl.empty()) body.stl = scene.file.parent_path() / body.stl;
-  }
-  const auto state = std::ranges::find_if(scene.bodies, [](const BodySpec& body) { return body.state.has_value(); });
-  scene.state = state != scene.bodies.end() ? *state->state
-                : scene.dim == 1            ? StressState::uniaxial_stress
-                : scene.dim == 2            ? StressState::plane_strain
-                                            : StressState::space;
-  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
-    SupportSpec& support = scene.supports[k];
-    const std::string component = fmt::format("support[{}].component", k);
-    constexpr int r = 3;  // after x, y, z
-    if (support.component >= r) {
-      if (scene.state != StressState::axisymmetric)
-        check.add(component, "r and z are the axes of an axisymmetric scene; expected x or y");
-      support.component -= r;
-    }
-    if (!support.face) continue;
-    if (check.written(component)) {
-      support.roller = true;
-    } else {
-      support.component = axis_of(*support.face);
-    }
-  }
-}
-
 void check_mass(SceneCheck& check) {
   const MassSpec& mass = check.scene().mass;
   const bool scaled = mass.scaling == MassScaling::gershgorin || mass.factor != 1;
@@ -92,8 +58,7 @@ void check_integrator(SceneCheck& check) {
               fmt::format("{} of the critical step is unstable; say in unstable_reason why you want it, or stay at or "
                           "below 1",
                           spec.step_fraction));
-  if (check.written("integrator.step"))
-    check.refuse("integrator", {"step_fraction"}, "give either step or step_fraction, not both");
+  if (spec.step) check.refuse("integrator", {"step_fraction"}, "give either step or step_fraction, not both");
   const MethodInfo* const method = check.catalogue().method(spec.method);
   if (!method || !check.sound("integrator.method")) return;
   const auto& treatments = method->treatments;
@@ -177,7 +142,8 @@ void check_static_solver(SceneCheck& check, const StaticMethodInfo& info) {
 void check_stop(SceneCheck& check) {
   const StopSpec& stop = check.scene().stop;
   // The default number of steps guards against endless runs; it is no aim that a scene may rely on.
-  const bool limited = (check.written("stop.steps") && stop.steps > 0) || stop.wall_time > 0;
+  const bool limited =
+      (check.given("stop.steps", stop.steps != StopSpec().steps) && stop.steps > 0) || stop.wall_time > 0;
   if (!stop.wants_equilibrium() && stop.time == 0 && !limited)
     check.add("stop.residual", "nothing would ever stop this run: set residual, distance, time, steps or wall_time");
 }
@@ -185,50 +151,25 @@ void check_stop(SceneCheck& check) {
 }  // namespace
 
 bool check_grid(SceneCheck& check) {
-  const GridSpec& grid = check.scene().grid;
-  if (check.scene().dim == 3 && grid.basis == BasisKind::hermite)
+  const Scene& scene = check.scene();
+  const GridSpec& grid = scene.grid;
+  if (scene.dim == 3 && grid.basis == BasisKind::hermite)
     check.add("grid.basis", "'hermite' is a basis of the line and the plane; in space take \"cubic\"");
-  if (grid.min.empty() || grid.max.empty()) return false;
-  for (std::size_t axis = 0; axis < grid.min.size(); ++axis) {
-    const double length = grid.max[axis] - grid.min[axis];
-    if (!(length > 0)) {
-      check.add(check.axis_key("grid.max", axis),
-                fmt::format("must be greater than {} = {}, not {}", check.axis_key("grid.min", axis), grid.min[axis],
-                            grid.max[axis]));
-      return false;
-    }
-    if (!std::isfinite(length)) {
-      check.add(check.axis_key("grid.max", axis), "the grid's length is not a finite number");
-      return false;
-    }
-    // Grid lines a few roundings apart could not be told from each other.
-    const double largest = std::max(std::abs(grid.min[axis]), std::abs(grid.max[axis]));
-    constexpr double relative = 1e-12;
-    if (!grid.cells.empty() &&
-        !(length / grid.cells[axis] > relative * largest && length / grid.cells[axis] > 1e-300)) {
-      check.add(check.axis_key("grid.cells", axis),
-                fmt::format("{} cells between {} and {} are too small for double precision", grid.cells[axis],
-                            grid.min[axis], grid.max[axis]));
-      return false;
-    }
-  }
-  if (check.scene().state == StressState::axisymmetric && grid.min[0] < 0)
+  if (scene.state == StressState::axisymmetric && !grid.min.empty() && grid.min[0] < 0)
     check.add("grid.min[0]", fmt::format("is a radius in an axisymmetric scene, at least 0, not {}", grid.min[0]));
-  constexpr double most = 1e8;  // about 1 GB for a vector of a plane grid's unknowns
-  double cells = 1;
-  for (const int along : grid.cells) cells *= along;
-  if (cells > most) {
-    check.add("grid.cells", fmt::format("{:.3g} cells are more than this program takes ({:g})", cells, most));
-    return false;
-  }
-  return true;
+  const GridFault fault = fault_of_grid(scene);
+  if (fault.empty()) return true;
+  const std::string key = fault.key.empty() ? "grid" : "grid." + fault.key;
+  const bool was_reported = fault.key.empty() && !check.problems().empty();  // where it was read
+  if (!was_reported)
+    check.add(fault.axis < 0 ? key : check.axis_key(key, static_cast<std::size_t>(fault.axis)), fault.message);
+  return false;
 }
 
-void validate(Scene& scene, Reading& reading, const Catalogue& catalogue) {
+void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading& reading, const Catalogue& catalogue) {
   SceneCheck check(scene, reading, catalogue);
-  complete(check);
   const bool grid = check_grid(check);
-  const std::optional<BodyBox> body = check_bodies(check, grid);
+  const std::optional<BodyBox> body = check_bodies(check, grid, files);
   check_mass(check);
   check_multigrid(check);
   check_supports_and_walls(check, grid);

@@ -4,13 +4,15 @@
 #include <stillpoint/catalogue.hpp>
 #include <stillpoint/scene.hpp>
 
+#include <vector>
+
 #include "scene/input/toml_value.hpp"
+#include "scene/resolve.hpp"
 
 namespace stillpoint {
 
-/// Completes a scene with the defaults that depend on other keys, and checks that its parts fit together; each single
-/// value is right, or was left at its default because it was wrong. Positions that miss the grid or the body by
-/// rounding are moved onto its border.
-void validate(Scene& scene, Reading& reading, const Catalogue& catalogue);
+/// Checks that the parts of a resolved scene fit together; each single value is right, or was left at its default
+/// because it was wrong. files: what is wrong with those that bodies name.
+void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading& reading, const Catalogue& catalogue);
 
 }  // namespace stillpoint

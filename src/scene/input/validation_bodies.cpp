@@ -1,8 +1,7 @@
 // Bodies: where they lie in the grid, how many points they have, what they are made of.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,22 +10,18 @@
 #include "scene/input/scene_check.hpp"
 #include "scene/input/validation_solids.hpp"
 #include "scene/outline.hpp"
-#include "scene/point_file.hpp"
-#include "scene/point_outline.hpp"
 
 namespace stillpoint {
 namespace {
 
-/// True if the body has a size, after moving its faces onto grid lines that they miss by a sliver.
+/// True if the body lies in the grid and has a size.
 bool check_box(SceneCheck& check, std::size_t k) {
   const GridSpec& grid = check.scene().grid;
-  BodySpec& body = check.scene().bodies[k];
+  const BodySpec& body = check.scene().bodies[k];
   if (body.min.empty() || body.max.empty()) return false;
   const bool min_inside = check.inside(body.min, grid.min, grid.max, "grid", check.body_key(k, "min"));
   const bool max_inside = check.inside(body.max, grid.min, grid.max, "grid", check.body_key(k, "max"));
   if (!min_inside || !max_inside) return false;
-  check.snap_to_grid(body.min);
-  check.snap_to_grid(body.max);
   for (std::size_t axis = 0; axis < body.min.size(); ++axis) {
     if (body.max[axis] > body.min[axis]) continue;
     const std::string max = check.body_key(k, "max"), min = check.body_key(k, "min");
@@ -37,70 +32,29 @@ bool check_box(SceneCheck& check, std::size_t k) {
   return true;
 }
 
-void set_bounding_box(BodySpec& body, const std::vector<std::vector<double>>& positions) {
-  body.min = body.max = positions.front();
-  for (const auto& position : positions) {
-    for (std::size_t axis = 0; axis < position.size(); ++axis) {
-      body.min[axis] = std::min(body.min[axis], position[axis]);
-      body.max[axis] = std::max(body.max[axis], position[axis]);
-    }
-  }
-}
-
-/// The same for a polygon, and its bounding box.
+/// The same of a polygon.
 bool check_polygon(SceneCheck& check, std::size_t k) {
   const GridSpec& grid = check.scene().grid;
-  BodySpec& body = check.scene().bodies[k];
+  const BodySpec& body = check.scene().bodies[k];
   const std::string key = check.body_key(k, "polygon");
   if (body.polygon.empty()) return check.sound(key) && check_corners(check, k);
   bool inside = true;
   for (std::size_t c = 0; c < body.polygon.size(); ++c)
     inside = check.inside(body.polygon[c], grid.min, grid.max, "grid", fmt::format("{}[{}]", key, c)) && inside;
-  if (!inside) return false;
-  for (auto& corner : body.polygon) check.snap_to_grid(corner);
-  set_bounding_box(body, body.polygon);
-  return check_corners(check, k);
+  return inside && check_corners(check, k);
 }
 
-/// Of points from a file, if a load acts on it. Axisymmetric ones have their volume all the way round.
-void take_outline(const Scene& scene, BodySpec& body, const PointFile& points) {
-  if (scene.dim != 2 || std::ranges::all_of(scene.tractions, [](const TractionSpec& one) { return one.line.empty(); }))
-    return;
-  std::vector<double> area = points.volume;
-  const bool axisymmetric = scene.state == StressState::axisymmetric;
-  for (std::size_t p = 0; p < area.size(); ++p)
-    area[p] /= axisymmetric ? 2 * std::numbers::pi * points.x[0][p] : body.area;
-  body.outline = {.loops = outline_of_points(points.x[0], points.x[1], area),
-                  .spacing = std::sqrt(*std::ranges::max_element(area))};
-}
-
-/// The same for points from a file.
-bool check_file(SceneCheck& check, std::size_t k, bool grid) {
-  const Scene& scene = check.scene();
-  BodySpec& body = check.scene().bodies[k];
-  const auto axes = static_cast<std::size_t>(scene.dim);
-  std::vector<double> min(axes, -std::numeric_limits<double>::infinity());
-  std::vector<double> max(axes, std::numeric_limits<double>::infinity());
-  if (grid) min = scene.grid.min, max = scene.grid.max;
-  std::vector<Problem> problems;
-  const PointFile points = read_point_file(body.file, min, max, problems);
-  for (Problem& problem : problems) {
-    if (problem.where.line == 0) {  // the file as a whole: said where it is named
-      check.add(check.body_key(k, "file"), fmt::format("{} {}", in_quotes(body.file.string()), problem.message));
+/// What is wrong with the files that bodies name: with a file as a whole it is said where it is named.
+void report_files(SceneCheck& check, const std::vector<FileMistake>& files) {
+  for (const FileMistake& one : files) {
+    const BodySpec& body = check.scene().bodies[one.body];
+    const std::string name = (one.key == "stl" ? body.stl : body.file).string();
+    if (one.mistake.where.line == 0) {
+      check.add(check.body_key(one.body, one.key), fmt::format("{} {}", in_quotes(name), one.mistake.message));
     } else {
-      check.add(std::move(problem));
+      check.add(one.mistake);
     }
   }
-  if (!problems.empty() || !grid) return false;
-  body.min.clear();
-  body.max.clear();
-  for (const std::vector<double>& x : points.x) {
-    const auto [low, high] = std::ranges::minmax_element(x);
-    body.min.push_back(*low);
-    body.max.push_back(*high);
-  }
-  take_outline(scene, body, points);
-  return true;
 }
 
 /// The cells that a body spans along an axis; the whole grid if the body is not in order.
@@ -180,19 +134,20 @@ void check_keys(SceneCheck& check, std::size_t k) {
 
 }  // namespace
 
-std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
-  Scene& scene = check.scene();
+std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid, const std::vector<FileMistake>& files) {
+  const Scene& scene = check.scene();
   const std::size_t count = scene.bodies.size();
   constexpr std::size_t most = 10'000;  // that can be compared two by two
   if (count > most) {
     check.add("body", fmt::format("{} bodies are more than this program takes ({})", count, most));
     return std::nullopt;
   }
+  report_files(check, files);
   std::vector<bool> in_order(count, false);
   for (std::size_t k = 0; k < count; ++k) {
     if (!scene.bodies[k].file.empty()) {
-      in_order[k] = check_file(check, k, grid);
-    } else if (scene.dim == 2 && check.written(check.body_key(k, "polygon"))) {
+      in_order[k] = grid && std::ranges::find(files, k, &FileMistake::body) == files.end();
+    } else if (scene.dim == 2 && check.given(check.body_key(k, "polygon"), !scene.bodies[k].polygon.empty())) {
       in_order[k] = grid && check_polygon(check, k);
     } else if (scene.dim == 3 && has_shape_key(check, k)) {
       in_order[k] = grid && check_box(check, k) && check_solid(check, k);
@@ -207,14 +162,8 @@ std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid) {
 
   if (count == 0 || std::ranges::find(in_order, false) != in_order.end()) return std::nullopt;
   if (check.problems().empty()) check_overlaps(check);
-  BodyBox box{scene.bodies[0].min, scene.bodies[0].max, count == 1 ? "body" : "bodies"};
-  for (const BodySpec& body : scene.bodies) {
-    for (std::size_t axis = 0; axis < box.min.size(); ++axis) {
-      box.min[axis] = std::min(box.min[axis], body.min[axis]);
-      box.max[axis] = std::max(box.max[axis], body.max[axis]);
-    }
-  }
-  return box;
+  auto [min, max] = box_around(scene.bodies);
+  return BodyBox{std::move(min), std::move(max), count == 1 ? "body" : "bodies"};
 }
 
 long known_points(SceneCheck& check) {

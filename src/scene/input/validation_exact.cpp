@@ -69,8 +69,7 @@ void check_exact(SceneCheck& check, bool bodies) {
   const ExactSpec& exact = check.scene().exact;
   if (const SolutionInfo* const solution = check.catalogue().solution(exact.solution)) {
     check_solution(check, bodies, *solution);
-  } else if (check.written("exact.stress") && check.sound("exact.stress") && !check.written("exact.u") &&
-             !check.written("exact.solution")) {
+  } else if (!exact.stress.empty() && !check.given("exact.u", !exact.u.empty()) && !check.written("exact.solution")) {
     check.add("exact.stress", "needs exact.u beside it");
   }
 }

@@ -49,14 +49,17 @@ void check_tractions(SceneCheck& check, bool bodies) {
   const bool box = scene.bodies.size() == 1 && scene.bodies[0].is_box();
   for (std::size_t k = 0; k < scene.tractions.size(); ++k) {
     const std::string name = fmt::format("traction[{}]", k);
-    check.one_of(name, "value", "pressure",
+    const TractionSpec& traction = scene.tractions[k];
+    check.one_of(name, {"value", !traction.value.empty()}, {"pressure", traction.pressure.has_value()},
                  "give either value, which keeps its direction, or pressure, which follows the face",
                  "give value, which keeps its direction, or pressure, which follows the face");
     if (scene.dim == 3) {
-      check.one_of(name, "face", "surface", "give either face or surface, not both",
+      check.one_of(name, {"face", traction.face.has_value()}, {"surface", traction.surface.has_value()},
+                   "give either face or surface, not both",
                    "give face, a side of the body's box, or surface, of a body that is no box");
     } else {
-      check.one_of(name, "face", "line", "give either face or line, not both",
+      check.one_of(name, {"face", traction.face.has_value()}, {"line", !traction.line.empty()},
+                   "give either face or line, not both",
                    scene.dim == 2 ? "give face, a side of the body's box, or line, a part of its border"
                                   : "give face, an end of the body");
     }
@@ -69,10 +72,10 @@ void check_tractions(SceneCheck& check, bool bodies) {
       for (std::size_t axis = 0; axis < part.size(); ++axis)
         check_interval(check, name, part[axis], axis, body.min[part[axis].along], body.max[part[axis].along], "body");
     }
-    if (check.written(name + ".line") && check.sound(name + ".line"))
+    if (check.given(name + ".line", !traction.line.empty()) && check.sound(name + ".line"))
       check_line(check, name + ".line", scene.tractions[k].line);
     if (scene.tractions[k].surface) check_surface(check, name + ".surface", *scene.tractions[k].surface);
-    if (!check.written(name + ".face") || scene.tractions[k].surface || box) continue;
+    if (!check.given(name + ".face", traction.face.has_value()) || traction.surface || box) continue;
     const std::string what = scene.bodies.size() > 1         ? fmt::format("are {} bodies", scene.bodies.size())
                              : !scene.bodies[0].file.empty() ? "are points from a file"
                              : scene.dim == 2                ? "is a polygon"
@@ -85,12 +88,11 @@ void check_tractions(SceneCheck& check, bool bodies) {
 }
 
 void check_body_force(SceneCheck& check) {
-  Scene& scene = check.scene();
+  const Scene& scene = check.scene();
   if (check.written("body_force") && !check.written("body_force.value") && !check.written("body_force.own"))
     check.add("body_force", "the key 'value' is missing");
   if (scene.own_load.empty() || own_load(scene.own_load)) return;
   check.add("body_force.own", unknown_own_load(scene.own_load));
-  scene.own_load.clear();  // nothing else is to be said of it
 }
 
 /// Loads of one proportion are as large as their displacement makes them.
@@ -141,7 +143,7 @@ void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
   if (!scene.initial_u.empty())
     check.add("initial.u", "does not go with initial.geostatic, which is the stress of the undeformed body");
   const auto& b = scene.body_force;
-  if (!scene.own_load.empty()) {
+  if (own_load(scene.own_load)) {
     check.add("body_force.own", "does not go with initial.geostatic, which is the stress of a constant weight alone");
   } else if (b.size() != static_cast<std::size_t>(scene.dim)) {
     if (!check.written("body_force")) check.add(key, "needs a [body_force]: the weight that the stress bears");
@@ -161,7 +163,7 @@ void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
                           laws_that_keep_a_stress(check), law->name));
     break;
   }
-  if (body && check.written(key + ".surface") && scene.geostatic->surface < body->max[1])
+  if (body && check.sound(key + ".surface") && scene.geostatic->surface < body->max[1])
     check.add(key + ".surface", fmt::format("must not lie below the top of the {} at {}, not {}", body->name,
                                             body->max[1], scene.geostatic->surface));
 }
@@ -169,7 +171,7 @@ void check_geostatic(SceneCheck& check, const std::optional<BodyBox>& body) {
 }  // namespace
 
 void check_loads(SceneCheck& check, const std::optional<BodyBox>& body) {
-  Scene& scene = check.scene();
+  const Scene& scene = check.scene();
   for (std::size_t k = 0; k < scene.forces.size() && body; ++k)
     check.inside(scene.forces[k].at, body->min, body->max, body->name, fmt::format("force[{}].at", k));
   check_tractions(check, body.has_value());

@@ -1,6 +1,7 @@
 // What is written out.
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ std::vector<std::string> fields_of(const ProbeSpec& probe, int dim) {
 
 void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
   const std::vector<std::string> known = fields_of(probe, check.scene().dim);
-  if (!check.written(key + ".fields")) return check.add(key, "the key 'fields' is missing");
+  if (!check.given(key + ".fields", !probe.fields.empty())) return check.add(key, "the key 'fields' is missing");
   if (probe.fields.empty() && check.sound(key + ".fields"))
     check.add(key + ".fields", fmt::format("name at least one of {}", fmt::join(known, ", ")));
   for (std::size_t k = 0; k < probe.fields.size(); ++k) {
@@ -42,9 +43,9 @@ void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& 
 
 /// A place that does not move with the material.
 void check_fixed_place(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
-  if (probe.frame == ProbeFrame::material || !check.written(key + ".at")) return;
+  if (probe.frame == ProbeFrame::material || !check.given(key + ".at", !probe.at.empty())) return;
   const PhaseSpec& phase = check.scene().phase;
-  if (!phase.max_motion && !phase.max_strain)
+  if (!phase.ends())
     return check.add(
         key + ".frame",
         "in a single phase everything is said of where the material was at the start, and none passes a place; "
@@ -59,7 +60,8 @@ void check_fixed_place(SceneCheck& check, const ProbeSpec& probe, const std::str
 
 void check_box(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
   for (const char* corner : {"min", "max"}) {
-    if (!check.written(fmt::format("{}.{}", key, corner)))
+    const bool has_value = !(std::string_view(corner) == "min" ? probe.min : probe.max).empty();
+    if (!check.given(fmt::format("{}.{}", key, corner), has_value))
       check.add(key, fmt::format("the key '{}' is missing: {} the material points in a box", corner,
                                  probe.kind == ProbeKind::mean ? "a mean is over" : "in space a slope is that of"));
   }
@@ -93,7 +95,8 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
       return check.refuse(key, {"point", "at", "frame", "fields"},
                           "goes with a point only; the angle of a slope has nothing but a name");
     case ProbeKind::point:
-      check.one_of(key, "point", "at", "give either point or at, not both",
+      check.one_of(key, {"point", probe.point.has_value()}, {"at", !probe.at.empty()},
+                   "give either point or at, not both",
                    "give point, the number of a material point, or at, a position");
       check.refuse(key, {"min", "max"}, "goes with kind = \"mean\" only");
       if (probe.point) check.refuse(key, {"frame"}, "goes with at only: a material point moves");
@@ -113,20 +116,21 @@ void check_kind(SceneCheck& check, const ProbeSpec& probe, const std::string& ke
 }
 
 /// A place of the material is one of the body; any other one only has to be one that material can come to.
-void check_place(SceneCheck& check, ProbeSpec& probe, const std::optional<BodyBox>& body, const std::string& key) {
+void check_place(SceneCheck& check, const ProbeSpec& probe, const std::optional<BodyBox>& body,
+                 const std::string& key) {
   const GridSpec& grid = check.scene().grid;
   if (probe.frame == ProbeFrame::material && body) check.inside(probe.at, body->min, body->max, body->name, key);
   if (probe.frame == ProbeFrame::space && body) check.inside(probe.at, grid.min, grid.max, "grid", key);
 }
 
 void check_probes(SceneCheck& check, const std::optional<BodyBox>& body) {
-  Scene& scene = check.scene();
+  const Scene& scene = check.scene();
   const std::set<std::string> names = check.unique_names("probe", scene.probes);
   const bool by_number =
       std::ranges::any_of(scene.probes, [](const ProbeSpec& probe) { return probe.point.has_value(); });
   const long points = body && by_number ? known_points(check) : 0;
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
-    ProbeSpec& probe = scene.probes[k];
+    const ProbeSpec& probe = scene.probes[k];
     const std::string key = fmt::format("probe[{}]", k);
     check_place(check, probe, body, key + ".at");
     if (points > 0 && probe.point && *probe.point > points)

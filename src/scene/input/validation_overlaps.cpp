@@ -126,7 +126,7 @@ class OverlapCheck {
 
   std::vector<std::vector<double>> positions_of(const BodySpec& body) const {
     if (body.file.empty()) return {};
-    std::vector<Problem> reported_already;
+    std::vector<Mistake> reported_already;
     const PointFile file =
         read_point_file(body.file, check_.scene().grid.min, check_.scene().grid.max, reported_already);
     std::vector<std::vector<double>> positions(file.volume.size());

@@ -1,31 +1,16 @@
 // When phases end, and what scenes of more than one phase can have.
 #include <algorithm>
-#include <set>
-#include <string_view>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/phase_choices.hpp"
 #include "scene/support_kind.hpp"
 
 namespace stillpoint {
 namespace {
-
-/// The materials of the bodies, each once; without those whose law is not for this scene, which has been said.
-std::vector<const MaterialSpec*> materials_in_use(SceneCheck& check) {
-  const Scene& scene = check.scene();
-  std::vector<const MaterialSpec*> materials;
-  std::set<std::string_view> seen;
-  for (const BodySpec& body : scene.bodies) {
-    if (!seen.insert(body.material).second) continue;
-    const auto found = scene.materials.find(body.material);
-    const LawInfo* const law = found == scene.materials.end() ? nullptr : law_of(check, found->second);
-    if (!law || std::ranges::find(law->states, scene.state) == law->states.end()) continue;
-    materials.push_back(&found->second);
-  }
-  return materials;
-}
 
 /// A wall that moves, or does not stand on its face, is on a grid line only if the grid follows it.
 void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
@@ -64,35 +49,6 @@ void check_moving_supports(SceneCheck& check, bool grid, const std::string& one_
   }
 }
 
-/// Domains lie side by side in boxes that uniform points fill.
-std::string why_no_domains(const Scene& scene) {
-  if (scene.state == StressState::axisymmetric) return "an axisymmetric scene has rings";
-  if (scene.state == StressState::space) return "in space points stand for themselves";
-  for (const BodySpec& body : scene.bodies) {
-    if (!body.is_box()) return "a body of a file or a polygon is no box";
-    if (body.placement != Placement::uniform || body.jitter > 0) return "points that are not uniform share no faces";
-  }
-  return "";
-}
-
-/// Elastic bodies take domains where there are some, but where nothing damps: means over domains cost flip some of the
-/// motion's energy.
-void choose_quadrature(SceneCheck& check, bool remembers) {
-  Scene& scene = check.scene();
-  const std::string why_not = why_no_domains(scene);
-  const StrategyInfo* const strategy = check.catalogue().strategy(scene.damping.strategy);
-  const bool rests = strategy && strategy->damps && scene.grid.basis != BasisKind::hermite && !remembers;
-  if (!check.written("phase.quadrature")) {
-    scene.phase.quadrature = rests && why_not.empty() ? Quadrature::domains : Quadrature::points;
-  } else if (scene.phase.quadrature == Quadrature::domains && !why_not.empty()) {
-    check.add("phase.quadrature", fmt::format("{}: there are no domains side by side; take \"points\"", why_not));
-  }
-  // What of the points' velocities no function feels, flip keeps until the functions of a later phase do: that shakes a
-  // body that overshoots into a shape that no force takes back.
-  const bool says_how = check.written("phase.transfer") || check.written("phase.flip_share");
-  if (rests && scene.phase.quadrature == Quadrature::domains && !says_how) scene.phase.transfer = Transfer::apic;
-}
-
 /// A mean dilatation is one of the displacement since the phase began.
 void check_dilatation(SceneCheck& check) {
   const Scene& scene = check.scene();
@@ -100,7 +56,7 @@ void check_dilatation(SceneCheck& check) {
   if (scene.state == StressState::plane_stress)
     check.add("phase.dilatation",
               "in plane stress the thickness is free to change, and nothing locks; take \"points\"");
-  if (check.written("phase.deformation") && scene.phase.deformation == DeformationRule::positions)
+  if (scene.phase.deformation.is_asked() && scene.phase.deformation == DeformationRule::positions)
     check.add("phase.deformation",
               "a mean dilatation is carried on from phase to phase, which positions do not know; take "
               "\"accumulated\", or phase.dilatation = \"points\"");
@@ -109,8 +65,8 @@ void check_dilatation(SceneCheck& check) {
 }  // namespace
 
 void check_phases(SceneCheck& check, bool grid) {
-  Scene& scene = check.scene();
-  PhaseSpec& phase = scene.phase;
+  const Scene& scene = check.scene();
+  const PhaseSpec& phase = scene.phase;
   check_dilatation(check);
   const bool known = check.sound("phase.transfer");
   if (known && phase.transfer != Transfer::flip)
@@ -119,35 +75,25 @@ void check_phases(SceneCheck& check, bool grid) {
     check.refuse("phase", {"xpic_order"}, "goes with transfer = \"xpic\" only");
   if (scene.solve.is_static()) {
     const std::string why = fmt::format("'{}' is a static solver, which needs a single phase: ", scene.solve.method);
-    if (phase.max_motion) check.add("phase.max_motion", why + "take \"none\"");
+    if (phase.ends_by_motion()) check.add("phase.max_motion", why + "take \"none\"");
     if (phase.max_strain) check.add("phase.max_strain", why + "leave this out");
     return;
   }
-  const auto materials = materials_in_use(check);
-  // The key that asks for phases; a history brings them unasked.
-  std::string asked = "phase.max_motion";
-  if (!check.written(asked) && phase.max_strain) asked = "phase.max_strain";
-  const bool unasked = !check.written(asked);
-  constexpr double usual_motion = 0.1;
-  if (!check.written("phase.max_motion") &&
-      std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; }))
-    phase.max_motion = usual_motion;
-  if (!phase.max_motion && !phase.max_strain)
+  if (!phase.ends())
     return check.refuse("phase", {"deformation", "quadrature"}, "goes with phases only: give phase.max_motion");
-  const bool remembers =
-      std::ranges::any_of(materials, [&](const MaterialSpec* m) { return law_of(check, *m)->history_dependent; });
-  if (remembers)
+  const auto materials = materials_in_use(scene, check.catalogue());
+  // The key that asks for phases; a history brings them unasked.
+  const bool unasked = !phase.max_motion.is_asked() && !phase.max_strain;
+  const std::string asked = !phase.max_motion.is_asked() && phase.max_strain ? "phase.max_strain" : "phase.max_motion";
+  if (any_remembers(materials, check.catalogue()))
     check.refuse("phase", {"deformation"},
                  "goes with laws without history only, whose stress follows from the deformation");
-  choose_quadrature(check, remembers);
-  const bool jumps = scene.grid.basis == BasisKind::linear && phase.quadrature == Quadrature::points;
-  // A strain that jumps at grid lines would feed the motion.
-  if (!check.written("phase.deformation") && (jumps || phase.dilatation != Dilatation::points))
-    phase.deformation = DeformationRule::accumulated;
+  if (const std::string why_not = why_no_domains(scene); phase.quadrature == Quadrature::domains && !why_not.empty())
+    check.add("phase.quadrature", fmt::format("{}: there are no domains side by side; take \"points\"", why_not));
 
-  const std::string one_phase =
-      fmt::format("or {}{}{} for a single phase", phase.max_motion ? "phase.max_motion = \"none\"" : "",
-                  phase.max_motion && phase.max_strain ? " and " : "", phase.max_strain ? "no phase.max_strain" : "");
+  const std::string one_phase = fmt::format(
+      "or {}{}{} for a single phase", phase.ends_by_motion() ? "phase.max_motion = \"none\"" : "",
+      phase.ends_by_motion() && phase.max_strain ? " and " : "", phase.max_strain ? "no phase.max_strain" : "");
   for (const MaterialSpec* material : materials) {
     if (law_of(check, *material)->finite_strain) continue;
     const std::string law = fmt::format("material.{}.law", material->name);
@@ -163,7 +109,7 @@ void check_phases(SceneCheck& check, bool grid) {
                                         one_phase));
   } else if (scene.mass.kind == MassKind::consistent) {
     check.add(
-        check.written("mass.kind") ? "mass.kind" : asked,
+        scene.mass.kind.is_asked() ? "mass.kind" : asked,
         fmt::format("velocities are carried from phase to phase by a lumped mass; take mass.kind = \"lumped\", {}",
                     one_phase));
   }

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/prism.hpp"
 #include "base/text.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/outline.hpp"
@@ -19,24 +18,10 @@ namespace {
 
 constexpr std::array kShapes = {"polygon", "sphere", "cylinder", "stl"};
 
-/// Corners that miss a line of the grid by a sliver are moved onto it.
-bool check_prism(SceneCheck& check, std::size_t k) {
-  BodySpec& body = check.scene().bodies[k];
-  const auto axes = across(static_cast<std::size_t>(body.axis));
-  for (std::vector<double>& corner : body.polygon) {
-    std::vector<double> position = check.scene().grid.min;
-    for (std::size_t d = 0; d < 2; ++d) position[axes[d]] = corner[d];
-    check.snap_to_grid(position);
-    for (std::size_t d = 0; d < 2; ++d) corner[d] = position[axes[d]];
-  }
-  return check_corners(check, k);
-}
-
 bool check_radii(SceneCheck& check, std::size_t k) {
   const BodySpec& body = check.scene().bodies[k];
   const std::string inner = check.body_key(k, "inner_radius");
-  if (!check.written(check.body_key(k, "radius")) || !check.sound(check.body_key(k, "radius")) || !check.sound(inner))
-    return false;
+  if (!(body.radius > 0) || !check.sound(check.body_key(k, "radius")) || !check.sound(inner)) return false;
   if (body.inner_radius < body.radius) return true;
   check.add(inner, fmt::format("must be less than radius = {}, not {}", body.radius, body.inner_radius));
   return false;
@@ -54,20 +39,6 @@ bool check_cylinder(SceneCheck& check, std::size_t k) {
   return false;
 }
 
-bool check_stl(SceneCheck& check, std::size_t k) {
-  BodySpec& body = check.scene().bodies[k];
-  std::vector<Problem> problems;
-  body.from_stl = {.file = body.stl, .solid = read_stl_solid(body, problems)};
-  for (Problem& problem : problems) {
-    if (problem.where.line == 0) {  // the file as a whole: said where it is named
-      check.add(check.body_key(k, "stl"), fmt::format("{} {}", in_quotes(body.stl.string()), problem.message));
-    } else {
-      check.add(std::move(problem));
-    }
-  }
-  return problems.empty();
-}
-
 /// That the whole shape lies in its box, but for where it is cut off on purpose.
 bool stands_in_box(SceneCheck& check, std::size_t k, const std::string& key, const SpaceBox& shape) {
   const Scene& scene = check.scene();
@@ -76,8 +47,9 @@ bool stands_in_box(SceneCheck& check, std::size_t k, const std::string& key, con
     const double slack = 2 * kSliver * check.cell_length(d);
     for (const bool upper : {false, true}) {
       const char* const side = upper ? "max" : "min";
-      const bool stands_out = upper ? shape.high[d] > body.max[d] + slack : shape.low[d] < body.min[d] - slack;
-      if (!stands_out || check.written(check.body_key(k, side))) continue;
+      const bool stands_out =
+          upper ? shape.high[d] > scene.grid.max[d] + slack : shape.low[d] < scene.grid.min[d] - slack;
+      if (!stands_out || (upper ? body.max : body.min).is_asked()) continue;
       check.add(key, fmt::format("reaches from {:.6g} to {:.6g} along {}, out of the grid, {} to {}; where it is to be "
                                  "cut off, give {}",
                                  shape.low[d], shape.high[d], "xyz"[d], scene.grid.min[d], scene.grid.max[d],
@@ -107,7 +79,17 @@ void check_shape_keys(SceneCheck& check, const std::string& table) {
 }
 
 bool has_shape_key(const SceneCheck& check, std::size_t k) {
-  return std::ranges::any_of(kShapes, [&](const char* shape) { return check.written(check.body_key(k, shape)); });
+  return check.scene().bodies[k].has_shape() ||
+         std::ranges::any_of(kShapes, [&](const char* shape) { return check.written(check.body_key(k, shape)); });
+}
+
+/// The key that gives its shape.
+std::string shape_key(const SceneCheck& check, std::size_t k) {
+  const auto written =
+      std::ranges::find_if(kShapes, [&](const char* shape) { return check.written(check.body_key(k, shape)); });
+  if (written != kShapes.end()) return *written;
+  return kShapes.at(static_cast<std::size_t>(check.scene().bodies[k].shape()) -
+                    static_cast<std::size_t>(BodyShape::polygon));
 }
 
 bool check_corners(SceneCheck& check, std::size_t k) {
@@ -138,14 +120,14 @@ bool check_corners(SceneCheck& check, std::size_t k) {
 bool is_in_order(SceneCheck& check, std::size_t k) {
   switch (check.scene().bodies[k].shape()) {
     case BodyShape::polygon:
-      return check_prism(check, k);
+      return check_corners(check, k);
     case BodyShape::sphere:
       return check_radii(check, k);
     case BodyShape::cylinder:
       return check_cylinder(check, k);
     case BodyShape::triangles:
-      return check_stl(check, k);
-    case BodyShape::box:  // what is written of another shape could not be read
+      return check.scene().bodies[k].from_stl.solid != nullptr;  // what is wrong with the file was said
+    case BodyShape::box:                                         // what is written of another shape could not be read
     case BodyShape::points:
       break;
   }
@@ -153,9 +135,8 @@ bool is_in_order(SceneCheck& check, std::size_t k) {
 }
 
 bool check_solid(SceneCheck& check, std::size_t k) {
-  BodySpec& body = check.scene().bodies[k];
-  const auto shape = std::ranges::find_if(kShapes, [&](const char* s) { return check.written(check.body_key(k, s)); });
-  const std::string key = check.body_key(k, *shape);
+  const BodySpec& body = check.scene().bodies[k];
+  const std::string key = check.body_key(k, shape_key(check, k));
   if (!check.sound(key)) return false;
   if (!is_in_order(check, k)) return false;
   const std::shared_ptr<const Solid> solid = solid_of(body);
@@ -166,10 +147,6 @@ bool check_solid(SceneCheck& check, std::size_t k) {
                                fmt::join(body.max, ", ")));
     return false;
   }
-  body.min.assign(part.low.begin(), part.low.end());
-  body.max.assign(part.high.begin(), part.high.end());
-  check.snap_to_grid(body.min);
-  check.snap_to_grid(body.max);
   return true;
 }
 

@@ -46,12 +46,11 @@ void check_faces(SceneCheck& check) {
     const std::string name = fmt::format("support[{}]", k);
     if (!support.face) continue;
     const std::vector<double> least(static_cast<std::size_t>(scene.dim), -kInfinity), most(least.size(), kInfinity);
-    take({name, *support.face, check.written(name + ".component") ? support.component : -1,
+    take({name, *support.face, support.component.is_asked() ? support.component.value() : -1,
           part_of_face(*support.face, support.from, support.to, least, most)});
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k)
-    if (const std::string wall = fmt::format("wall[{}]", k);
-        check.written(wall + ".face") && check.sound(wall + ".face"))
+    if (const std::string wall = fmt::format("wall[{}]", k); check.sound(wall + ".face"))
       take({wall, scene.walls[k].face, -1, {}});
 }
 
@@ -88,14 +87,17 @@ void check_varying_motion(SceneCheck& check, const std::string& name, const Supp
 }
 
 void check_supports(SceneCheck& check, bool grid) {
-  Scene& scene = check.scene();
+  const Scene& scene = check.scene();
   std::map<std::pair<std::vector<double>, int>, std::size_t> owners;  // of positions and components
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
-    SupportSpec& support = scene.supports[k];
+    const SupportSpec& support = scene.supports[k];
     const std::string name = fmt::format("support[{}]", k);
-    const bool whole_face = check.written(name + ".face") && !check.written(name + ".component");
-    check.one_of(name, "at", "face", "give either at or face, not both",
-                 "give at, a position, or face, a side of the grid");
+    const bool whole_face = check.given(name + ".face", support.face.has_value()) &&
+                            !check.given(name + ".component", support.component.is_asked());
+    if (support.component.asked().value_or(0) >= 3 && scene.state != StressState::axisymmetric)
+      check.add(name + ".component", "r and z are the axes of an axisymmetric scene; expected x or y");
+    check.one_of(name, {"at", !support.at.empty()}, {"face", support.face.has_value()},
+                 "give either at or face, not both", "give at, a position, or face, a side of the grid");
     if (!whole_face)
       check.refuse(name, {"kind"},
                    "goes with a face as a whole; component says what is held otherwise, or at a position");
@@ -143,7 +145,7 @@ bool check_interval(SceneCheck& check, const std::string& name, const FaceInterv
   bool inside = true;
   for (const char* key : {".from", ".to"}) {
     const double end = key[1] == 'f' ? part.from : part.to;
-    if (!check.written(name + key) || (end >= min && end <= max)) continue;
+    if (end >= min && end <= max) continue;
     check.add(end_key(check, name, key, k),
               fmt::format("{:g} lies outside the {}, whose face reaches from {:g} to {:g}", end, box, min, max));
     inside = false;

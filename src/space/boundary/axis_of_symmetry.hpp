@@ -3,7 +3,7 @@
 // hole, however narrow, has no material there and is free.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +24,12 @@ class AxisOfSymmetry {
 
  public:
   /// Of the body as it was placed.
-  AxisOfSymmetry(const Scene& scene, const Grid<dim>& grid, const Body<K>& body, double time_scale)
+  AxisOfSymmetry(const Problem& problem, const Grid<dim>& grid, const Body<K>& body, double time_scale)
       : rest_(Expression(0.0), time_scale) {
     if constexpr (K == Kinematics::axisymmetric) {
-      slack_ = rounding * scene.grid.cell_length(0);
+      slack_ = rounding * problem.grid.cell_length(0);
       if (grid.axes[0].min() > slack_) return;
-      for (std::size_t b = 0; b < scene.bodies.size(); ++b) find_touching(scene.bodies[b], b, body);
+      for (std::size_t b = 0; b < problem.bodies.size(); ++b) find_touching(problem.bodies[b], b, body);
     }
   }
 

@@ -1,7 +1,7 @@
 // The body force of a scene: F_i = Σ_p N_ip m_p b(x_p, t).
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ class BodyForce final : public BoundaryCondition<Dim> {
   using typename BoundaryCondition<Dim>::Parts;
 
  public:
-  explicit BodyForce(const Scene& scene) : b_(scene.body_force) {}
+  explicit BodyForce(const Problem& problem) : b_(problem.body_force) {}
 
   void begin_phase(const Parts& phase, Vec F) override {
     if (varies()) return;

@@ -11,22 +11,23 @@
 namespace stillpoint {
 
 template <Kinematics K>
-BoundaryConditions<dimensions(K)> make_boundary_conditions(const Scene& scene, const Grid<dimensions(K)>& grid,
+BoundaryConditions<dimensions(K)> make_boundary_conditions(const Problem& problem, const Grid<dimensions(K)>& grid,
                                                            double time_scale) {
   constexpr int dim = dimensions(K);
   BoundaryConditions<dim> all;
-  if (!scene.supports.empty()) all.push_back(std::make_unique<Supports<dim>>(scene, time_scale));
-  if (!scene.walls.empty()) all.push_back(std::make_unique<Walls<dim>>(scene, time_scale));
-  if (!scene.forces.empty()) all.push_back(std::make_unique<PointForces<dim>>(scene));
-  if (!scene.body_force.empty()) all.push_back(std::make_unique<BodyForce<dim>>(scene));
-  if (!scene.own_load.empty()) all.push_back(std::make_unique<OwnBodyForceCondition<dim>>(scene));
-  if (!scene.tractions.empty()) all.push_back(std::make_unique<Tractions<K>>(scene, grid));
+  if (!problem.supports.empty()) all.push_back(std::make_unique<Supports<dim>>(problem, time_scale));
+  if (!problem.walls.empty()) all.push_back(std::make_unique<Walls<dim>>(problem, time_scale));
+  if (!problem.forces.empty()) all.push_back(std::make_unique<PointForces<dim>>(problem));
+  if (!problem.body_force.empty()) all.push_back(std::make_unique<BodyForce<dim>>(problem));
+  if (!problem.own_load.empty()) all.push_back(std::make_unique<OwnBodyForceCondition<dim>>(problem));
+  if (!problem.tractions.empty()) all.push_back(std::make_unique<Tractions<K>>(problem, grid));
   return all;
 }
 
-template BoundaryConditions<1> make_boundary_conditions<Kinematics::line>(const Scene&, const Grid<1>&, double);
-template BoundaryConditions<2> make_boundary_conditions<Kinematics::plane>(const Scene&, const Grid<2>&, double);
-template BoundaryConditions<2> make_boundary_conditions<Kinematics::axisymmetric>(const Scene&, const Grid<2>&, double);
-template BoundaryConditions<3> make_boundary_conditions<Kinematics::space>(const Scene&, const Grid<3>&, double);
+template BoundaryConditions<1> make_boundary_conditions<Kinematics::line>(const Problem&, const Grid<1>&, double);
+template BoundaryConditions<2> make_boundary_conditions<Kinematics::plane>(const Problem&, const Grid<2>&, double);
+template BoundaryConditions<2> make_boundary_conditions<Kinematics::axisymmetric>(const Problem&, const Grid<2>&,
+                                                                                  double);
+template BoundaryConditions<3> make_boundary_conditions<Kinematics::space>(const Problem&, const Grid<3>&, double);
 
 }  // namespace stillpoint

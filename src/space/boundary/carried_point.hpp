@@ -1,7 +1,7 @@
 // A position of a body that a load acts at: it moves with the body from phase to phase.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,6 @@
 #include "space/points/nearest_point.hpp"
 
 namespace stillpoint {
-
-/// Whether there will be more phases than one.
-inline bool has_phases(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
 
 /// A force f there loads functions by w_a f, and the position follows x += Σ_a w_a u_a: by the same weights, so that
 /// the force does the work of its own displacement.

@@ -8,12 +8,12 @@
 namespace stillpoint {
 
 template <Kinematics K>
-Conditions<K>::Conditions(const Scene& scene, const Scene& whole, const Grid<dim>& grid, const Body<K>& body,
+Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Grid<dim>& grid, const Body<K>& body,
                           double time_scale)
-    : scene_(scene),
-      all_(make_boundary_conditions<K>(scene, grid, time_scale)),
-      axis_(scene, grid, body, time_scale),
-      weak_supports_(scene, grid, time_scale),
+    : problem_(problem),
+      all_(make_boundary_conditions<K>(problem, grid, time_scale)),
+      axis_(problem, grid, body, time_scale),
+      weak_supports_(problem, grid, time_scale),
       load_control_(whole, grid, time_scale) {
   for (const auto& condition : all_) {
     Contact* found = condition->contact();
@@ -140,11 +140,11 @@ std::vector<SupportReaction> Conditions<K>::support_reactions(const Parts& phase
                                                               ConstVec reactions) const {
   std::vector<SupportReaction> named;
   constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> place(scene_.supports.size(), none);
+  std::vector<std::size_t> place(problem_.supports.size(), none);
   for (std::size_t s = 0; s < place.size(); ++s) {
-    if (scene_.supports[s].name.empty()) continue;
+    if (problem_.supports[s].name.empty()) continue;
     place[s] = named.size();
-    named.push_back({scene_.supports[s].name, {}});
+    named.push_back({problem_.supports[s].name, {}});
   }
   if (named.empty()) return named;
   const HeldUnknowns& held = phase.held;

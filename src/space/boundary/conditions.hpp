@@ -2,7 +2,7 @@
 // the springs of supports and of driven loads, and the axis of symmetry.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/semi_discrete.hpp>
 
 #include <optional>
@@ -26,7 +26,8 @@ class Conditions {
 
   /// scene: without the loads that a displacement drives, those of `whole`; it outlives this. grid, body: as placed;
   /// time_scale: of PrescribedMotion.
-  Conditions(const Scene& scene, const Scene& whole, const Grid<dim>& grid, const Body<K>& body, double time_scale);
+  Conditions(const Problem& problem, const Problem& whole, const Grid<dim>& grid, const Body<K>& body,
+             double time_scale);
 
   // --- a phase begins, in this order ---------------------------------------------------------------
   HeldUnknowns hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
@@ -77,7 +78,7 @@ class Conditions {
   LoadState load_state(double t, const double* u) const { return load_control_.state(t, u); }
 
  private:
-  const Scene& scene_;
+  const Problem& problem_;
   BoundaryConditions<dim> all_;
   AxisOfSymmetry<K> axis_;
   WeakSupports<K> weak_supports_;

@@ -1,7 +1,7 @@
 // Where the pieces of a face lie in each cell's part of it.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <cmath>
 #include <vector>

@@ -25,10 +25,10 @@ double magnitude(int dim, const std::vector<double>& F, const DegreesOfFreedom& 
 }  // namespace
 
 template <Kinematics K>
-LoadControl<K>::LoadControl(const Scene& scene, const Grid<dim>& grid, double time_scale)
-    : reference_(scene.load ? reference_loads(scene) : Scene()) {
-  if (!scene.load) return;
-  motion_.emplace_back(scene.load->displacement, time_scale);
+LoadControl<K>::LoadControl(const Problem& problem, const Grid<dim>& grid, double time_scale)
+    : reference_(problem.load ? reference_loads(problem) : Problem()) {
+  if (!problem.load) return;
+  motion_.emplace_back(problem.load->displacement, time_scale);
   loads_ = make_boundary_conditions<K>(reference_, grid, time_scale);
 }
 
@@ -42,7 +42,7 @@ void LoadControl<K>::begin_phase(const Parts& phase, const StiffnessBound& stiff
     if (load->follows()) load->add_following_force(phase, 0, at_rest.data(), F);
   }
   total_ = magnitude(dim, F, phase.dofs);
-  if (!(total_ > 0)) throw_scene_error(reference_, "load", "the loads act on nothing that can move");
+  if (!(total_ > 0)) throw_scene_error("load", "the loads act on nothing that can move");
   std::vector<Springs::Weight> weights;
   for (std::size_t k = 0; k < F.size(); ++k) {
     if (F[k] != 0) weights.push_back({phase.dofs.free[k], static_cast<int>(k), F[k] / total_});

@@ -13,7 +13,7 @@
 #pragma once
 
 #include <stillpoint/material.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <vector>
 
@@ -31,7 +31,7 @@ class LoadControl {
 
  public:
   /// grid: the first one; time_scale: of PrescribedMotion.
-  LoadControl(const Scene& scene, const Grid<dim>& grid, double time_scale);
+  LoadControl(const Problem& problem, const Grid<dim>& grid, double time_scale);
   LoadControl(const LoadControl&) = delete;  // loads_ knows where reference_ is
   LoadControl& operator=(const LoadControl&) = delete;
 
@@ -49,7 +49,7 @@ class LoadControl {
   LoadState state(double t, const double* u) const;
 
  private:
-  const Scene reference_;  // the scene with these loads alone
+  const Problem reference_;  // the scene with these loads alone
   BoundaryConditions<dim> loads_;
   std::vector<PrescribedMotion> motion_;  // q(t); none: nothing is driven
   Springs springs_;                       // one, of the present phase

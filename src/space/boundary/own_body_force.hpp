@@ -17,8 +17,8 @@ class OwnBodyForceCondition final : public BoundaryCondition<Dim> {
   using typename BoundaryCondition<Dim>::Parts;
 
  public:
-  explicit OwnBodyForceCondition(const Scene& scene) : own_(own_load(scene.own_load)) {
-    if (!own_) throw_scene_error(scene, "body_force.own", unknown_own_load(scene.own_load));
+  explicit OwnBodyForceCondition(const Problem& problem) : own_(own_load(problem.own_load)) {
+    if (!own_) throw_scene_error("body_force.own", unknown_own_load(problem.own_load));
   }
 
   void begin_phase(const Parts& phase, Vec F) override {

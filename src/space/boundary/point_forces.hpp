@@ -1,7 +1,7 @@
 // Forces at points of the body, with which they move: F_i = w_i P(t), see carried_point.hpp.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ class PointForces final : public BoundaryCondition<Dim> {
   using typename BoundaryCondition<Dim>::Parts;
 
  public:
-  explicit PointForces(const Scene& scene) : scene_(scene) {
-    for (const PointForceSpec& force : scene.forces) std::copy_n(force.at.begin(), Dim, at_.emplace_back().x.begin());
+  explicit PointForces(const Problem& problem) : problem_(problem) {
+    for (const PointForceSpec& force : problem.forces) std::copy_n(force.at.begin(), Dim, at_.emplace_back().x.begin());
   }
 
   void begin_phase(const Parts& phase, Vec F) override {
@@ -31,7 +31,7 @@ class PointForces final : public BoundaryCondition<Dim> {
     varying_.clear();
     for (std::size_t f = 0; f < at_.size(); ++f) {
       for (int i = 0; i < Dim; ++i) {
-        const Expression& value = scene_.forces[f].value[static_cast<std::size_t>(i)];
+        const Expression& value = problem_.forces[f].value[static_cast<std::size_t>(i)];
         Varying load{&value, weights_of(at_[f], i, phase.dofs)};
         if (value.uses('t')) {
           varying_.push_back(std::move(load));
@@ -48,7 +48,7 @@ class PointForces final : public BoundaryCondition<Dim> {
   void add_load_on_supports(const Parts& phase, double t, const double*, Vec F_s) const override {
     for (std::size_t f = 0; f < at_.size(); ++f) {
       at_[f].for_prescribed(phase.dofs, [&](const auto& entry, int i, std::size_t s, double share) {
-        F_s[s] += entry.w * share * scene_.forces[f].value[static_cast<std::size_t>(i)]({}, t);
+        F_s[s] += entry.w * share * problem_.forces[f].value[static_cast<std::size_t>(i)]({}, t);
       });
     }
   }
@@ -76,10 +76,10 @@ class PointForces final : public BoundaryCondition<Dim> {
       at_[f].freeze(cell_with_functions_at<Dim>(phase.functions, at_[f].x), phase);
       for (const auto& entry : at_[f].entries) {
         if (entry.function < 0 && std::abs(entry.w) > 1e-12)
-          throw_scene_error(scene_, fmt::format("force[{}].at", f), "there is no material at this place");
+          throw_scene_error(fmt::format("force[{}].at", f), "there is no material at this place");
       }
     }
-    if (has_phases(scene_)) {
+    if (problem_.phase.ends()) {
       freeze_carried(
           at_, [](CarriedPoint<Dim> & at) -> auto& { return at; }, !has_begun_, phase);
     }
@@ -95,7 +95,7 @@ class PointForces final : public BoundaryCondition<Dim> {
     return weights;
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   std::vector<CarriedPoint<Dim>> at_;  // of each force
   bool has_begun_ = false;             // the first phase
   std::vector<Varying> varying_;       // of the present phase

@@ -53,10 +53,10 @@ double PrescribedMotion::acceleration_over(double t, double h) const {
   return where_defined(difference, t, h);
 }
 
-void check_motion(const Scene& scene, std::size_t support, const PrescribedMotion& motion) {
+void check_motion(std::size_t support, const PrescribedMotion& motion) {
   const double u = motion.displacement(0);
   if (motion.moves() || std::isfinite(u)) return;
-  throw_scene_error(scene, fmt::format("support[{}].u", support),
+  throw_scene_error(fmt::format("support[{}].u", support),
                     fmt::format("the formula is {} at ({:.6g}); expected a finite number wherever the support holds",
                                 std::isnan(u) ? "not a number" : "infinite", fmt::join(motion.position(), ", ")));
 }

@@ -1,7 +1,7 @@
 // A displacement prescribed as a formula in t, and in the position, with its velocity and acceleration.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -52,6 +52,6 @@ class PrescribedMotion {
 };
 
 /// Throws SceneError if the motion of a support has no value where it is, whatever the time.
-void check_motion(const Scene& scene, std::size_t support, const PrescribedMotion& motion);
+void check_motion(std::size_t support, const PrescribedMotion& motion);
 
 }  // namespace stillpoint

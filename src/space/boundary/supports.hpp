@@ -2,7 +2,7 @@
 // it, u_s = u_s(t). The others hold by springs, see weak_supports.hpp.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <map>
@@ -25,16 +25,16 @@ class Supports final : public BoundaryCondition<Dim> {
   using typename BoundaryCondition<Dim>::Parts;
 
  public:
-  Supports(const Scene& scene, double time_scale) : scene_(scene), rest_(Expression(0.0), time_scale) {
-    for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale, support.at);
+  Supports(const Problem& problem, double time_scale) : problem_(problem), rest_(Expression(0.0), time_scale) {
+    for (const SupportSpec& support : problem.supports) motions_.emplace_back(support.motion, time_scale, support.at);
     touched_.resize(motions_.size());
   }
 
   void hold(const Functions& functions, const std::vector<char>& reached, const FaceGaps<Dim>& gaps,
             HeldUnknowns& held) override {
     for (std::size_t s = 0; s < motions_.size(); ++s) {
-      if (holds_by_springs(scene_.grid, scene_.supports[s])) continue;
-      if (scene_.supports[s].face) {
+      if (holds_by_springs(problem_.grid, problem_.supports[s])) continue;
+      if (problem_.supports[s].face) {
         hold_face(s, functions, reached, gaps, held);
       } else {
         hold_position(s, functions, reached, held);
@@ -44,8 +44,8 @@ class Supports final : public BoundaryCondition<Dim> {
   void begin_phase(const Parts& phase, Vec /*F*/) override {
     waiting_.clear();
     for (std::size_t s = 0; s < touched_.size(); ++s) {
-      if (!scene_.supports[s].face) continue;
-      const int axis = axis_of(*scene_.supports[s].face);
+      if (!problem_.supports[s].face) continue;
+      const int axis = axis_of(*problem_.supports[s].face);
       for (const auto& [function, gap] : touched_[s].waiting()) {
         const int dof = phase.dofs.number[static_cast<std::size_t>(Dim * function + axis)];
         if (phase.dofs.is_free(dof)) waiting_.push_back({static_cast<std::size_t>(dof), outward(s), gap});
@@ -67,23 +67,21 @@ class Supports final : public BoundaryCondition<Dim> {
     double outward, gap;  // [m]
   };
 
-  double outward(std::size_t s) const { return is_upper(*scene_.supports[s].face) ? 1 : -1; }
+  double outward(std::size_t s) const { return is_upper(*problem_.supports[s].face) ? 1 : -1; }
 
   void hold_position(std::size_t s, const Functions& functions, const std::vector<char>& reached,
                      HeldUnknowns& held) const {
     const std::string key = fmt::format("support[{}].at", s);
-    const SupportSpec& support = scene_.supports[s];
+    const SupportSpec& support = problem_.supports[s];
     Point<Dim> at;
     std::copy_n(support.at.begin(), Dim, at.begin());
     const auto function = functions.interpolating(at);
     if (!function) {
-      throw_scene_error(scene_, key,
-                        "the basis has no value of its own here; expected a stiffness, by which a spring holds");
+      throw_scene_error(key, "the basis has no value of its own here; expected a stiffness, by which a spring holds");
     }
     const int unknown = Dim * *function + support.component;
-    if (!reached[static_cast<std::size_t>(*function)])
-      throw_scene_error(scene_, key, "no material reaches this support");
-    if (held.is_prescribed(unknown)) throw_scene_error(scene_, key, "this place is supported already");
+    if (!reached[static_cast<std::size_t>(*function)]) throw_scene_error(key, "no material reaches this support");
+    if (held.is_prescribed(unknown)) throw_scene_error(key, "this place is supported already");
     held.prescribe(unknown, motions_[s], s);
   }
 
@@ -91,7 +89,7 @@ class Supports final : public BoundaryCondition<Dim> {
   // move with the support, slopes along it stay.
   void hold_face(std::size_t s, const Functions& functions, const std::vector<char>& reached, const FaceGaps<Dim>& gaps,
                  HeldUnknowns& held) {
-    const SupportSpec& support = scene_.supports[s];
+    const SupportSpec& support = problem_.supports[s];
     const int axis = axis_of(*support.face);
     const std::vector<int> values = functions.values_on_face(axis, is_upper(*support.face));
     std::vector<int> on_face = functions.on_face(axis, is_upper(*support.face));
@@ -103,7 +101,7 @@ class Supports final : public BoundaryCondition<Dim> {
     const std::vector<int> touched = is_first ? touched_[s].first(*support.face, on_face, gaps, count)
                                               : touched_[s].next(*support.face, on_face, gaps, count);
     if (is_first && touched.empty() && !on_face.empty()) {
-      throw_scene_error(scene_, fmt::format("support[{}].face", s),
+      throw_scene_error(fmt::format("support[{}].face", s),
                         gap_message("the nearest material", touched_[s].least(), gaps.cell_at(*support.face)) +
                             ", and a support holds what lies on it; expected a body that reaches the face, or a grid "
                             "that begins where the body does");
@@ -112,7 +110,7 @@ class Supports final : public BoundaryCondition<Dim> {
       for (int component = 0; component < Dim; ++component) {
         const int unknown = Dim * function + component;
         const bool named = component == support.component;
-        if ((!named && support.roller) || held.is_prescribed(unknown)) continue;
+        if ((!named && support.holds_one_component()) || held.is_prescribed(unknown)) continue;
         const bool moves = named && std::ranges::binary_search(values, function);
         const double from = component == axis ? outward(s) * touched_[s].gap_of_come(function) : 0;
         held.prescribe(unknown, moves ? motion_at(s, functions, function) : rest_, s, from);
@@ -127,22 +125,22 @@ class Supports final : public BoundaryCondition<Dim> {
     for (int d = 0; d < Dim; ++d) X[static_cast<std::size_t>(d)] = functions.centre(function, d);
     const PrescribedMotion& motion =
         at_nodes_.insert_or_assign({s, function}, motions_[s].at(std::move(X))).first->second;
-    check_motion(scene_, s, motion);
+    check_motion(s, motion);
     return motion;
   }
 
   bool is_in_part(const SupportSpec& support, const Functions& functions, int function) const {
     if (Dim == 1 || !support.on_part()) return true;
     constexpr double rounding = 1e-9;  // of a cell
-    return std::ranges::all_of(held_part(scene_.grid, support), [&](const FaceInterval& part) {
+    return std::ranges::all_of(held_part(problem_.grid, support), [&](const FaceInterval& part) {
       const auto along = part.along;
       const double x = functions.centre(function, static_cast<int>(along));
-      const double slack = rounding * scene_.grid.cell_length(along);
+      const double slack = rounding * problem_.grid.cell_length(along);
       return x >= part.from - slack && x <= part.to + slack;
     });
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   PrescribedMotion rest_;
   std::vector<PrescribedMotion> motions_;  // of each support
   std::vector<TouchedFunctions> touched_;  // of each, on its face

@@ -1,7 +1,7 @@
 // The part of a body's border that a traction acts on, cut into pieces, some to a cell.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,18 +25,18 @@ class TractionCutter {
   static constexpr int dim = dimensions(K);
 
  public:
-  TractionCutter(const Scene& scene, const TractionSpec& traction, const Grid<dim>& grid)
-      : scene_(scene), traction_(traction), grid_(grid) {}
+  TractionCutter(const Problem& problem, const TractionSpec& traction, const Grid<dim>& grid)
+      : problem_(problem), traction_(traction), grid_(grid) {}
 
   /// visit(x, area, normal outwards)
   template <class Visit>
   void cut(const Visit& visit) const {
     if constexpr (dim == 1) {
-      const BodySpec& body = scene_.bodies.front();
+      const BodySpec& body = problem_.bodies.front();
       const bool upper = is_upper(traction_.face.value());
       visit(Point<dim>{(upper ? body.max : body.min)[0]}, body.area, Point<dim>{upper ? 1.0 : -1.0});
     } else if constexpr (dim == 2) {
-      for (const BorderLine& line : border_lines(scene_, traction_)) cut_line(line, visit);
+      for (const BorderLine& line : border_lines(problem_, traction_)) cut_line(line, visit);
     } else if (traction_.surface) {
       cut_surface(visit);
     } else {
@@ -46,14 +46,14 @@ class TractionCutter {
 
  private:
   std::vector<FacePoint> rule_along(const BodySpec& body, std::size_t along) const {
-    const bool carried = has_phases(scene_);
+    const bool carried = problem_.phase.ends();
     const bool varies = std::ranges::any_of(traction_.formulas(), &Expression::uses_position);
     return varies ? varying_face_rule(body, along, carried)
-                  : face_rule(body, along, carried, scene_.phase.quadrature == Quadrature::domains);
+                  : face_rule(body, along, carried, problem_.phase.quadrature == Quadrature::domains);
   }
   template <class Visit>
   void cut_face(const Visit& visit) const {
-    const BodySpec& body = scene_.bodies.front();
+    const BodySpec& body = problem_.bodies.front();
     const Face face = traction_.face.value();
     const auto normal = static_cast<std::size_t>(axis_of(face));
     Point<dim> outwards{};
@@ -69,8 +69,8 @@ class TractionCutter {
   template <class Visit>
   void cut_surface(const Visit& visit) const {
     double length = std::numeric_limits<double>::infinity();
-    for (std::size_t d = 0; d < dim; ++d) length = std::min(length, scene_.grid.cell_length(d) / 2);
-    const BodySpec& body = scene_.bodies[body_with_surface(scene_).value()];
+    for (std::size_t d = 0; d < dim; ++d) length = std::min(length, problem_.grid.cell_length(d) / 2);
+    const BodySpec& body = problem_.bodies[body_with_surface(problem_).value()];
     for (const SurfacePiece& piece : surface_pieces(body, *traction_.surface, length)) {
       const auto& [x, y, z] = piece.vector;
       const double area = std::hypot(x, y, z);
@@ -80,7 +80,7 @@ class TractionCutter {
   // Into pieces of each cell's part.
   template <class Visit>
   void cut_line(const BorderLine& line, const Visit& visit) const {
-    const BodySpec& body = scene_.bodies[line.body];
+    const BodySpec& body = problem_.bodies[line.body];
     const std::size_t across = std::abs(line.normal[0]) > std::abs(line.normal[1]) ? 0 : 1;
     const std::vector<FacePoint> rule = rule_along(body, 1 - across);
     const std::vector<Point<dim>> ends = grid_crossings(line, grid_);
@@ -96,7 +96,7 @@ class TractionCutter {
     }
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   const TractionSpec& traction_;
   const Grid<dim>& grid_;
 };

@@ -1,7 +1,7 @@
 // Tractions on the borders of bodies, as pieces of their surface that move with them.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,9 +30,9 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
   using Entry = typename CarriedPoint<dim>::Entry;
 
  public:
-  Tractions(const Scene& scene, const GridOf& grid) : scene_(scene) {
-    for (const TractionSpec& traction : scene.tractions) {
-      TractionCutter<K>(scene, traction, grid).cut([&](const auto& x, double area, const auto& normal) {
+  Tractions(const Problem& problem, const GridOf& grid) : problem_(problem) {
+    for (const TractionSpec& traction : problem.tractions) {
+      TractionCutter<K>(problem, traction, grid).cut([&](const auto& x, double area, const auto& normal) {
         add_piece(traction, x, area, normal);
       });
     }
@@ -40,7 +40,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
   }
 
   void begin_phase(const Parts& phase, Vec) override {
-    if (has_phases(scene_)) {
+    if (problem_.phase.ends()) {
       freeze_carried(
           pieces_, [](Piece & piece) -> auto& { return piece.at; }, !has_begun_, phase);
       has_begun_ = true;
@@ -48,7 +48,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     }
     for (Piece& piece : pieces_) {
       const double reached = piece.at.freeze(cell_inside(piece, phase.grid), phase);
-      if (!(reached > 1e-12)) throw_scene_error(scene_, "traction", "there is no material at this face");
+      if (!(reached > 1e-12)) throw_scene_error("traction", "there is no material at this face");
       // Detached from some of the cell's nodes, it loads the others with all of its force.
       if (phase.functions.partition_of_unity()) {
         for (Entry& entry : piece.at.entries) entry.w /= reached;
@@ -56,7 +56,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     }
   }
   bool varies() const override {
-    return std::ranges::any_of(scene_.tractions, [](const TractionSpec& traction) {
+    return std::ranges::any_of(problem_.tractions, [](const TractionSpec& traction) {
       return std::ranges::any_of(traction.formulas(), [](const Expression& formula) { return formula.uses('t'); });
     });
   }
@@ -66,7 +66,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
       if (!piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, nullptr), F);
   }
   bool follows() const override {
-    return std::ranges::any_of(scene_.tractions, [](const TractionSpec& t) { return t.pressure.has_value(); });
+    return std::ranges::any_of(problem_.tractions, [](const TractionSpec& t) { return t.pressure.has_value(); });
   }
   void add_following_force(const Parts& phase, double t, const double* u, Vec F) const override {
     evaluate(t);
@@ -210,8 +210,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
       for (std::size_t i = 0; i < formulas.size(); ++i) {
         if (formulas[i].uses('t') || std::isfinite(piece.value[i])) continue;
         throw_scene_error(
-            scene_,
-            fmt::format("traction[{}].{}", piece.traction - scene_.tractions.data(),
+            fmt::format("traction[{}].{}", piece.traction - problem_.tractions.data(),
                         piece.traction->pressure ? "pressure" : "value"),
             fmt::format("the formula is {} at ({:.6g}); expected a finite number along the whole traction",
                         std::isnan(piece.value[i]) ? "not a number" : "infinite", fmt::join(piece.X, ", ")));
@@ -236,7 +235,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     });
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   std::vector<Piece> pieces_;
   mutable double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();  // the t of their values [s]
   bool has_begun_ = false;                                                  // the first phase

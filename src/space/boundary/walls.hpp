@@ -1,7 +1,7 @@
 // The rigid walls of a scene along faces of the grid.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <string>
@@ -24,9 +24,9 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
   using typename BoundaryCondition<Dim>::Parts;
 
  public:
-  /// The scene outlives it.
-  Walls(const Scene& scene, double time_scale) : scene_(scene) {
-    for (const WallSpec& wall : scene.walls) {
+  /// The problem outlives it.
+  Walls(const Problem& problem, double time_scale) : problem_(problem) {
+    for (const WallSpec& wall : problem.walls) {
       walls_.push_back(
           {wall.face, {}, {}, {wall.name, is_upper(wall.face), wall.friction, WallMotion({wall.motion, time_scale})}});
     }
@@ -38,7 +38,7 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
       Wall& wall = walls_[w];
       wall.functions = functions.values_on_face(axis_of(wall.face), is_upper(wall.face));
       for (const int function : wall.functions) held.guide(Dim * function + axis_of(wall.face));
-      if (!has_phases(scene_)) check_gaps(w, gaps);
+      if (!problem_.phase.ends()) check_gaps(w, gaps);
       take_gaps(wall, reached, gaps);
     }
   }
@@ -120,13 +120,13 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
     const Face face = walls_[w].face;
     const double cell = gaps.cell_at(face), nearest = gaps.least_of_bodies(face);
     const auto refuse = [&](const std::string& what, double gap) {
-      throw_scene_error(scene_, fmt::format("wall[{}].face", w),
+      throw_scene_error(fmt::format("wall[{}].face", w),
                         gap_message(what, gap, cell) +
                             ", and in a single phase only what lies on a wall from the start can touch it; expected a "
                             "body on the wall, a grid that ends where the body does, or phase.max_motion");
     };
     if (nearest > touching * cell) refuse("the nearest body", nearest);
-    for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
+    for (std::size_t body = 0; body < problem_.bodies.size(); ++body) {
       const double gap = gaps.of_body(body, face);
       if (gap > touching * cell && gap < (1 - touching) * cell) refuse(fmt::format("body[{}]", body), gap);
     }
@@ -148,16 +148,16 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
   // Of the way to an equilibrium alone; elsewhere the motion is what is asked for.
   double furthest_in_step(double cell) const {
     constexpr double share = 0.02;
-    return has_phases(scene_) && scene_.stop.wants_equilibrium() ? share * cell : WallMotion::unlimited;
+    return problem_.phase.ends() && problem_.stop.wants_equilibrium() ? share * cell : WallMotion::unlimited;
   }
   // How far the grid's face has moved since the start [m].
   double moved(Face face, const Grid<Dim>& grid) const {
     const auto axis = static_cast<std::size_t>(axis_of(face));
-    return is_upper(face) ? grid.axes[axis].max() - scene_.grid.max[axis]
-                          : grid.axes[axis].min() - scene_.grid.min[axis];
+    return is_upper(face) ? grid.axes[axis].max() - problem_.grid.max[axis]
+                          : grid.axes[axis].min() - problem_.grid.min[axis];
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   std::vector<Wall> walls_;
 };
 

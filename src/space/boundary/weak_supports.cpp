@@ -14,18 +14,18 @@
 namespace stillpoint {
 
 template <Kinematics K>
-WeakSupports<K>::WeakSupports(const Scene& scene, const GridOf& grid, double time_scale) : scene_(scene) {
-  motions_.reserve(scene.supports.size() + 1);
+WeakSupports<K>::WeakSupports(const Problem& problem, const GridOf& grid, double time_scale) : problem_(problem) {
+  motions_.reserve(problem.supports.size() + 1);
   motions_.emplace_back(Expression(0.0), time_scale);
-  for (const SupportSpec& support : scene.supports) motions_.emplace_back(support.motion, time_scale, support.at);
-  for (std::size_t s = 0; s < scene.supports.size(); ++s) {
-    if (!holds_by_springs(scene.grid, scene.supports[s])) continue;
-    if (scene.supports[s].face) {
+  for (const SupportSpec& support : problem.supports) motions_.emplace_back(support.motion, time_scale, support.at);
+  for (std::size_t s = 0; s < problem.supports.size(); ++s) {
+    if (!holds_by_springs(problem.grid, problem.supports[s])) continue;
+    if (problem.supports[s].face) {
       cut_face(s, grid);
     } else {
       Point<dim> x;
-      std::copy_n(scene.supports[s].at.begin(), dim, x.begin());
-      add(s, scene.supports[s].component, x, 1, 1);
+      std::copy_n(problem.supports[s].at.begin(), dim, x.begin());
+      add(s, problem.supports[s].component, x, 1, 1);
     }
   }
 }
@@ -41,7 +41,7 @@ template <Kinematics K>
 void WeakSupports<K>::begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound) {
   if (!has_begun_) drop_what_lies_outside(phase);
   if (empty()) return;
-  if (has_phases(scene_)) {
+  if (problem_.phase.ends()) {
     freeze_carried(
         held_, [](Held & held) -> auto& { return held.at; }, !has_begun_, phase);
   }
@@ -97,29 +97,29 @@ void WeakSupports<K>::add(std::size_t support, int component, const Point<dim>& 
   Held& held =
       held_.emplace_back(Held{.support = support, .component = component, .at = at, .area = area, .share = share});
   const PrescribedMotion& motion = motion_of(held);
-  if (!motion.varies_in_space() || !scene_.supports[support].face) return;
+  if (!motion.varies_in_space() || !problem_.supports[support].face) return;
   held.motion = std::make_shared<const PrescribedMotion>(motion.at({x.begin(), x.end()}));
-  check_motion(scene_, support, *held.motion);
+  check_motion(support, *held.motion);
 }
 
 // Where bodies lie on it, some pieces to a cell.
 template <Kinematics K>
 void WeakSupports<K>::cut_face([[maybe_unused]] std::size_t s, [[maybe_unused]] const GridOf& grid) {
   if constexpr (dim > 1) {
-    const SupportSpec& support = scene_.supports[s];
+    const SupportSpec& support = problem_.supports[s];
     const auto normal = static_cast<std::size_t>(axis_of(*support.face));
     const Axis& across = grid.axes[normal];
     const double face = is_upper(*support.face) ? across.max() : across.min();
-    for (const BodySpec& body : scene_.bodies) {
+    for (const BodySpec& body : problem_.bodies) {
       const BodyDepth shape(body);
       const double inwards = touching * cell_width(grid, *support.face) * (is_upper(*support.face) ? -1 : 1);
-      std::vector<FaceInterval> part = held_part(scene_.grid, support);
+      std::vector<FaceInterval> part = held_part(problem_.grid, support);
       for (FaceInterval& interval : part) {
         interval.from = std::max(interval.from, body.min[interval.along]);
         interval.to = std::min(interval.to, body.max[interval.along]);
       }
       const auto rule = [&](std::size_t along) {
-        return face_rule(body, along, has_phases(scene_), scene_.phase.quadrature == Quadrature::domains);
+        return face_rule(body, along, problem_.phase.ends(), problem_.phase.quadrature == Quadrature::domains);
       };
       for_face_pieces<dim>(grid, normal, face, part, rule, [&](const Point<dim>& x, double size, double share) {
         Point<dim> inside = x;
@@ -127,7 +127,7 @@ void WeakSupports<K>::cut_face([[maybe_unused]] std::size_t s, [[maybe_unused]] 
         if (shape.is_known() && !shape.contains(inside)) return;  // nothing is held across a gap
         const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
         for (int i = 0; i < dim; ++i) {
-          if (i == support.component || !support.roller) add(s, i, x, size * depth, share);
+          if (i == support.component || !support.holds_one_component()) add(s, i, x, size * depth, share);
         }
       });
     }
@@ -137,7 +137,7 @@ void WeakSupports<K>::cut_face([[maybe_unused]] std::size_t s, [[maybe_unused]] 
 template <Kinematics K>
 const PrescribedMotion& WeakSupports<K>::motion_of(const Held& held) const {
   if (held.motion) return *held.motion;
-  const bool moves = held.component == scene_.supports[held.support].component;
+  const bool moves = held.component == problem_.supports[held.support].component;
   return motions_[moves ? held.support + 1 : 0];
 }
 
@@ -158,16 +158,16 @@ void WeakSupports<K>::drop_what_lies_outside(const Parts& phase) {
     }
     return is_free ? held : supported;
   };
-  std::vector<int> pieces(scene_.supports.size(), 0), states(scene_.supports.size(), held);
+  std::vector<int> pieces(problem_.supports.size(), 0), states(problem_.supports.size(), held);
   std::erase_if(held_, [&](Held& one) {
     const auto state = state_of(one);
     states[one.support] = std::max<int>(states[one.support], state);
     pieces[one.support] += state == held ? 1 : 0;
     return state != held;
   });
-  for (std::size_t s = 0; s < scene_.supports.size(); ++s) {
-    if (pieces[s] > 0 || !holds_by_springs(scene_.grid, scene_.supports[s])) continue;
-    throw_scene_error(scene_, fmt::format("support[{}].{}", s, scene_.supports[s].face ? "face" : "at"),
+  for (std::size_t s = 0; s < problem_.supports.size(); ++s) {
+    if (pieces[s] > 0 || !holds_by_springs(problem_.grid, problem_.supports[s])) continue;
+    throw_scene_error(fmt::format("support[{}].{}", s, problem_.supports[s].face ? "face" : "at"),
                       states[s] == supported ? "this place is supported already" : "no material reaches this support");
   }
 }
@@ -177,7 +177,7 @@ void WeakSupports<K>::choose_stiffness(const Parts& phase, const std::vector<dou
   struct Sum {
     double stiffness = 0, area = 0;
   };
-  std::vector<Sum> of_support(scene_.supports.size());
+  std::vector<Sum> of_support(problem_.supports.size());
   for (const Held& held : held_) {
     double ww = 0, compliance = 0;  // Σ w_a², Σ w_a²/G_a
     for (const auto& [unknown, dof, w] : weights_of(held, phase.dofs)) {
@@ -187,11 +187,11 @@ void WeakSupports<K>::choose_stiffness(const Parts& phase, const std::vector<dou
     }
     Sum& sum = of_support[held.support];
     sum.area += held.area;
-    sum.stiffness += held.share * beta * (scene_.supports[held.support].face ? ww : 1) / compliance;
+    sum.stiffness += held.share * beta * (problem_.supports[held.support].face ? ww : 1) / compliance;
   }
   for (Held& held : held_) {
     const Sum& sum = of_support[held.support];
-    held.stiffness = held.area * scene_.supports[held.support].stiffness.value_or(sum.stiffness / sum.area);
+    held.stiffness = held.area * problem_.supports[held.support].stiffness.value_or(sum.stiffness / sum.area);
   }
 }
 

@@ -17,7 +17,7 @@
 #pragma once
 
 #include <stillpoint/material.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <functional>
 #include <memory>
@@ -42,8 +42,8 @@ class WeakSupports {
  public:
   static constexpr double beta = 1;
 
-  /// The scene outlives it; grid: the first one; time_scale: of PrescribedMotion.
-  WeakSupports(const Scene& scene, const GridOf& grid, double time_scale);
+  /// The problem outlives it; grid: the first one; time_scale: of PrescribedMotion.
+  WeakSupports(const Problem& problem, const GridOf& grid, double time_scale);
 
   bool empty() const { return held_.empty(); }
   const Springs& springs() const { return springs_; }
@@ -85,7 +85,7 @@ class WeakSupports {
   static std::vector<Springs::Weight> weights_of(const Held& held, const DegreesOfFreedom& dofs);
   static double square_of_frequency(double k, const std::vector<Springs::Weight>& weights, const Parts& phase);
 
-  const Scene& scene_;
+  const Problem& problem_;
   std::vector<PrescribedMotion> motions_;  // at rest, and of each support
   std::vector<Held> held_;                 // of one support after the other
   Springs springs_;                        // of the present phase, likewise

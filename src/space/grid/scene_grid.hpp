@@ -1,7 +1,7 @@
 // The grid of a scene, and how it follows a wall.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,12 @@ namespace stillpoint {
 /// The scene's grid when the followed wall has moved by `moved` [m]: its face lies at the wall, all other lines stay
 /// where they were, and columns are added or taken away next to it so that the last one is 0.5 to 1.5 cells wide.
 template <int Dim>
-Grid<Dim> grid_at(const Scene& scene, double moved) {
-  const GridSpec& spec = scene.grid;
+Grid<Dim> grid_at(const Problem& problem, double moved) {
+  const GridSpec& spec = problem.grid;
   Grid<Dim> grid;
   for (std::size_t d = 0; d < Dim; ++d) grid.axes[d] = Axis::uniform(spec.min[d], spec.max[d], spec.cells[d]);
-  const auto wall = std::ranges::find(scene.walls, spec.follow, &WallSpec::name);
-  if (spec.follow.empty() || wall == scene.walls.end()) return grid;
+  const auto wall = std::ranges::find(problem.walls, spec.follow, &WallSpec::name);
+  if (spec.follow.empty() || wall == problem.walls.end()) return grid;
 
   const auto d = static_cast<std::size_t>(axis_of(wall->face));
   const double h = spec.cell_length(d);

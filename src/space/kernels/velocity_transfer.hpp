@@ -142,7 +142,7 @@ class VelocityTransfer {
 
   // Share of the increment in what the points have at the end; the rest is the velocity itself.
   double kept_share() const {
-    return spec_.transfer == Transfer::flip ? spec_.flip_share : spec_.transfer == Transfer::xpic ? 1 : 0;
+    return spec_.transfer == Transfer::flip ? spec_.flip_share.value() : spec_.transfer == Transfer::xpic ? 1 : 0;
   }
 
   // Σ_p m_p (N_ip v_p + Σ_j A_ij w_j), likewise. about(centres of the cell, cell, point): A and w.

@@ -4,7 +4,7 @@
 
 #include <stillpoint/catalogue.hpp>
 #include <stillpoint/own_law.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <memory>
 #include <string>

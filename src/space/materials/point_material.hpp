@@ -2,7 +2,7 @@
 #pragma once
 
 #include <stillpoint/material.hpp>
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/types.hpp>
 

@@ -56,7 +56,7 @@ std::vector<PointArray> BodyAccount<K>::arrays(std::size_t P, const std::vector<
   if (moves_on()) {
     arrays.push_back({"velocity", dim * real});
     arrays.push_back({"position at the start", dim * real});
-    if (scene_.phase.transfer == Transfer::apic) arrays.push_back({"affine velocity", dim * dim * real});
+    if (problem_.phase.transfer == Transfer::apic) arrays.push_back({"affine velocity", dim * dim * real});
     if (body_.points.has_domains()) arrays.push_back({"domain", ((dim << dim) + 2 * dim) * real});
   }
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
@@ -130,22 +130,22 @@ double BodyAccount<K>::shortest_time() const {
     for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
   }
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
-    const double density = scene_.materials.at(body_.material_names[m]).parameters.at("rho");
+    const double density = problem_.materials.at(body_.material_names[m]).parameters.at("rho");
     shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->info().wave_modulus));
   }
   return shortest;
 }
 
 template <Kinematics K>
-void set_geostatic_stress(const Scene& scene, Body<K>& body) {
+void set_geostatic_stress(const Problem& problem, Body<K>& body) {
   if constexpr (dimensions(K) > 1) {
-    const double b_y = scene.body_force.at(1)({}, 0);
+    const double b_y = problem.body_force.at(1)({}, 0);
     for (std::size_t m = 0; m < body.materials.size(); ++m) {
-      const double rho = scene.materials.at(body.material_names[m]).parameters.at("rho");
+      const double rho = problem.materials.at(body.material_names[m]).parameters.at("rho");
       std::vector<std::array<double, stress_components(K)>> stress;
       for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
-        const double depth = scene.geostatic->surface - body.points.x[1][static_cast<std::size_t>(p)];
-        const double vertical = rho * b_y * std::max(0.0, depth), side = scene.geostatic->K0 * vertical;
+        const double depth = problem.geostatic->surface - body.points.x[1][static_cast<std::size_t>(p)];
+        const double vertical = rho * b_y * std::max(0.0, depth), side = problem.geostatic->K0 * vertical;
         stress.push_back({side, vertical, side});
       }
       body.materials[m]->set_stress(stress);
@@ -154,11 +154,11 @@ void set_geostatic_stress(const Scene& scene, Body<K>& body) {
 }
 
 template <Kinematics K>
-void set_initial_velocity(const Scene& scene, Body<K>& body) {
-  if (scene.initial_v.empty()) return;
+void set_initial_velocity(const Problem& problem, Body<K>& body) {
+  if (problem.initial_v.empty()) return;
   for (std::size_t p = 0; p < body.points.size(); ++p) {
     for (std::size_t i = 0; i < dimensions(K); ++i)
-      body.points.v[i][p] = scene.initial_v[i](body.points.position(p), 0);
+      body.points.v[i][p] = problem.initial_v[i](body.points.position(p), 0);
   }
 }
 
@@ -166,13 +166,13 @@ template class BodyAccount<Kinematics::line>;
 template class BodyAccount<Kinematics::plane>;
 template class BodyAccount<Kinematics::axisymmetric>;
 template class BodyAccount<Kinematics::space>;
-template void set_geostatic_stress(const Scene&, Body<Kinematics::line>&);
-template void set_geostatic_stress(const Scene&, Body<Kinematics::plane>&);
-template void set_geostatic_stress(const Scene&, Body<Kinematics::axisymmetric>&);
-template void set_geostatic_stress(const Scene&, Body<Kinematics::space>&);
-template void set_initial_velocity(const Scene&, Body<Kinematics::line>&);
-template void set_initial_velocity(const Scene&, Body<Kinematics::plane>&);
-template void set_initial_velocity(const Scene&, Body<Kinematics::axisymmetric>&);
-template void set_initial_velocity(const Scene&, Body<Kinematics::space>&);
+template void set_geostatic_stress(const Problem&, Body<Kinematics::line>&);
+template void set_geostatic_stress(const Problem&, Body<Kinematics::plane>&);
+template void set_geostatic_stress(const Problem&, Body<Kinematics::axisymmetric>&);
+template void set_geostatic_stress(const Problem&, Body<Kinematics::space>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::line>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::plane>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::axisymmetric>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::space>&);
 
 }  // namespace stillpoint

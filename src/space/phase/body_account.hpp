@@ -17,8 +17,8 @@ class BodyAccount {
 
  public:
   /// All outlive it.
-  BodyAccount(const Scene& scene, const Grid<dim>& grid, const Body<K>& body)
-      : scene_(scene), grid_(grid), body_(body) {}
+  BodyAccount(const Problem& problem, const Grid<dim>& grid, const Body<K>& body)
+      : problem_(problem), grid_(grid), body_(body) {}
 
   /// held_by_springs: whether a support is, which go with a body from phase to phase.
   PhaseInfo describe(bool held_by_springs) const;
@@ -38,15 +38,15 @@ class BodyAccount {
  private:
   bool moves_on() const { return !body_.points.v[0].empty(); }
 
-  const Scene& scene_;
+  const Problem& problem_;
   const Grid<dim>& grid_;
   const Body<K>& body_;
 };
 
 /// Of a scene that has it: σ_yy = −ρ b_y (surface − y) from ∂σ_yy/∂y + ρ b_y = 0, σ_xx = σ_zz = K0 σ_yy.
 template <Kinematics K>
-void set_geostatic_stress(const Scene& scene, Body<K>& body);
+void set_geostatic_stress(const Problem& problem, Body<K>& body);
 template <Kinematics K>
-void set_initial_velocity(const Scene& scene, Body<K>& body);
+void set_initial_velocity(const Problem& problem, Body<K>& body);
 
 }  // namespace stillpoint

@@ -25,7 +25,7 @@ std::vector<BodyGap> BodyNeighbours<Dim>::find(bool at_start) const {
   std::vector<BodyGap> found;
   if (pairs.empty()) return found;
   std::vector<BodyDepth> shapes;
-  for (const BodySpec& body : scene_.bodies) shapes.emplace_back(body);
+  for (const BodySpec& body : problem_.bodies) shapes.emplace_back(body);
   for (const auto& [a, b] : pairs) {
     const bool surfaces = at_start && shapes[a].is_known() && shapes[b].is_known();
     found.push_back(gap_between(a, b, surfaces ? &shapes : nullptr));
@@ -84,7 +84,7 @@ BodyGap BodyNeighbours<Dim>::gap_between(std::size_t a, std::size_t b, const std
       const double share = found.gap / distance(p, q);
       for (int d = 0; d < Dim; ++d)
         found.cells = std::max(found.cells, share * std::abs(points_.x[d][p] - points_.x[d][q]) /
-                                                scene_.grid.cell_length(static_cast<std::size_t>(d)));
+                                                problem_.grid.cell_length(static_cast<std::size_t>(d)));
     }
     if (found.cells <= touching) break;
   }
@@ -101,10 +101,10 @@ double BodyNeighbours<Dim>::distance(std::size_t p, std::size_t q) const {
 // Half the spacing of the points that a body was filled with, along the widest of its sides.
 template <int Dim>
 double BodyNeighbours<Dim>::half_spacing(std::size_t body) const {
-  const std::vector<int>& along = scene_.bodies[body].points_per_cell;
+  const std::vector<int>& along = problem_.bodies[body].points_per_cell;
   double widest = 0;
   for (std::size_t d = 0; d < Dim; ++d)
-    widest = std::max(widest, scene_.grid.cell_length(d) / (d < along.size() ? along[d] : 1));
+    widest = std::max(widest, problem_.grid.cell_length(d) / (d < along.size() ? along[d] : 1));
   return widest / 2;
 }
 

@@ -1,7 +1,7 @@
 // Which bodies share functions of the grid without touching each other: the grid moves them as one, across the gap.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <array>
 #include <cstddef>
@@ -19,9 +19,9 @@ class BodyNeighbours {
  public:
   /// All outlive it, and are of the phase that begins; first_number: of the points of each body, and how many there
   /// are.
-  BodyNeighbours(const Scene& scene, const GridFunctions<Dim>& functions, const MaterialPoints<Dim>& points,
+  BodyNeighbours(const Problem& problem, const GridFunctions<Dim>& functions, const MaterialPoints<Dim>& points,
                  const PointFunctions<Dim>& weights, const std::vector<int>& first_number)
-      : scene_(scene),
+      : problem_(problem),
         functions_(functions),
         grid_(functions.grid()),
         points_(points),
@@ -42,7 +42,7 @@ class BodyNeighbours {
   template <class Visit>
   void visit_around(const std::array<int, Dim>& here, int reach, const Visit& visit) const;
 
-  const Scene& scene_;
+  const Problem& problem_;
   const GridFunctions<Dim>& functions_;
   const Grid<Dim>& grid_;
   const MaterialPoints<Dim>& points_;

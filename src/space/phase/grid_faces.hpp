@@ -1,7 +1,7 @@
 // What becomes of a material point that a phase takes past a face of the grid.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,16 +21,16 @@ namespace stillpoint {
 template <int Dim>
 class GridFaces {
  public:
-  GridFaces(const Scene& scene, const Grid<Dim>& grid, bool is_at_axis = false) : grid_(grid) {
+  GridFaces(const Problem& problem, const Grid<Dim>& grid, bool is_at_axis = false) : grid_(grid) {
     constexpr double rounding = 1e-12;  // some thousand units in the last place of the largest coordinate
     for (std::size_t d = 0; d < Dim; ++d) {
       const Axis& axis = grid.axes[d];
       slack_[d].fill(rounding * std::max({std::abs(axis.min()), std::abs(axis.max()), axis.max() - axis.min()}));
     }
-    for (const SupportSpec& support : scene.supports) {
-      if (support.face && !holds_by_springs(scene.grid, support)) hold(*support.face);
+    for (const SupportSpec& support : problem.supports) {
+      if (support.face && !holds_by_springs(problem.grid, support)) hold(*support.face);
     }
-    for (const WallSpec& wall : scene.walls) hold(wall.face);
+    for (const WallSpec& wall : problem.walls) hold(wall.face);
     if (is_at_axis) hold(Face::left);
   }
 

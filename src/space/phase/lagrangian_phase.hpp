@@ -6,7 +6,7 @@
 // If the scene asks for it a phase ends and the next begins: the points move on, the grid starts afresh.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/state_archive.hpp>
 
@@ -188,6 +188,6 @@ class PointLost : public std::runtime_error {
 /// Places the bodies, evaluates and freezes the weights, assembles the mass. The instantiation for the scene's
 /// kinematics and basis is chosen here, once. Throws SceneError on what only shows now: a support that no
 /// material reaches, a force where there is no material, a mass matrix that is not positive definite.
-std::unique_ptr<LagrangianPhase> make_phase(const Scene& scene);
+std::unique_ptr<LagrangianPhase> make_phase(const Problem& problem);
 
 }  // namespace stillpoint

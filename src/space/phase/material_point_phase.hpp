@@ -53,22 +53,22 @@ class MaterialPointPhase final : public LagrangianPhase,
       (K == Kinematics::plane || K == Kinematics::space) && std::same_as<B, BSpline<1>>;
 
  public:
-  explicit MaterialPointPhase(const Scene& scene)
-      : scene_(without_reference_loads(scene)),
-        grid_(grid_at<Dim>(scene, 0)),
-        body_(make_body<K>(scene, grid_, moves_on(scene))),
-        transfer_(scene.phase, !is_undamped(scene.damping.strategy)),
-        inertia_(scene.mass, moves_on(scene)),
-        conditions_(scene_, scene, grid_, body_, account().shortest_time()),
-        depths_(scene_) {
+  explicit MaterialPointPhase(const Problem& problem)
+      : problem_(without_reference_loads(problem)),
+        grid_(grid_at<Dim>(problem, 0)),
+        body_(make_body<K>(problem, grid_, problem.phase.ends())),
+        transfer_(problem.phase, !is_undamped(problem.damping.strategy)),
+        inertia_(problem.mass, problem.phase.ends()),
+        conditions_(problem_, problem, grid_, body_, account().shortest_time()),
+        depths_(problem_) {
     info_ = account().describe(conditions_.hold_by_springs());
     history_dependent_ =
         std::ranges::any_of(body_.materials, [](const auto& law) { return law->info().history_dependent; });
     depths_.begin(body_.first_number, origin_);
     extend_into_slivers();
     if (updated_lagrangian()) origin_ = account().positions(points());
-    if (scene_.geostatic) set_geostatic_stress(scene_, body_);
-    if (updated_lagrangian()) set_initial_velocity(scene_, body_);
+    if (problem_.geostatic) set_geostatic_stress(problem_, body_);
+    if (updated_lagrangian()) set_initial_velocity(problem_, body_);
     begin_phase(0);
   }
 
@@ -145,8 +145,10 @@ class MaterialPointPhase final : public LagrangianPhase,
   }
 
   // --- the law of a block of points, phase_dilatation.hpp ------------------------------------------
-  bool averages_dilatation() const { return Dim > 1 && scene_.phase.dilatation != Dilatation::points; }
-  bool means_over_splines() const { return Dim > 1 && scene_.phase.dilatation == Dilatation::splines && B::degree > 1; }
+  bool averages_dilatation() const { return Dim > 1 && problem_.phase.dilatation != Dilatation::points; }
+  bool means_over_splines() const {
+    return Dim > 1 && problem_.phase.dilatation == Dilatation::splines && B::degree > 1;
+  }
   template <class Use>
   auto with_means(std::size_t m, const Block& block, const typename SplinePass<B, K>::Known& known,
                   const Use& use) const;
@@ -200,9 +202,8 @@ class MaterialPointPhase final : public LagrangianPhase,
   std::string refusal_of_motion(ConstVec u) const;
   std::string refusal_at_points(Trial& trial) const;
 
-  static bool moves_on(const Scene& scene) { return scene.phase.max_motion || scene.phase.max_strain; }
   bool updated_lagrangian() const { return info_.updated_lagrangian; }
-  BodyAccount<K> account() const { return {scene_, grid_, body_}; }
+  BodyAccount<K> account() const { return {problem_, grid_, body_}; }
   void extend_into_slivers();
   void begin_phase(double t);
   void place_functions(double t);
@@ -224,7 +225,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   void make_mass();
   std::vector<char> untouched_functions() const;
   std::vector<RelativeInertia> relative_inertia() const;
-  bool projects() const { return !scene_.initial_u.empty() || !scene_.initial_v.empty(); }
+  bool projects() const { return !problem_.initial_u.empty() || !problem_.initial_v.empty(); }
   std::vector<double> project(const std::vector<Expression>& field, const std::vector<double>& held) const;
 
   std::vector<double> velocity_from_points(double t);
@@ -297,7 +298,7 @@ class MaterialPointPhase final : public LagrangianPhase,
     });
   }
 
-  const Scene scene_;
+  const Problem problem_;
   bool history_dependent_ = false;
   double grid_moved_ = 0;  // by the wall that it follows [m]
   Grid<Dim> grid_;

@@ -45,9 +45,9 @@ template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_saved_grid() {
   constexpr double furthest = 1000;  // of the grid's own size; a wall that went further is none that a run could follow
   double size = 0;
-  for (std::size_t d = 0; d < Dim; ++d) size = std::max(size, scene_.grid.max[d] - scene_.grid.min[d]);
+  for (std::size_t d = 0; d < Dim; ++d) size = std::max(size, problem_.grid.max[d] - problem_.grid.min[d]);
   if (!(std::abs(grid_moved_) <= furthest * size)) throw StateError("its grid has gone too far");
-  grid_ = grid_at<Dim>(scene_, grid_moved_);
+  grid_ = grid_at<Dim>(problem_, grid_moved_);
   long cells = 1;
   for (const Axis& axis : grid_.axes) cells *= axis.cells();
   if (const std::string fault = disorder_of(body_.points, cells, points()); !fault.empty()) throw StateError(fault);

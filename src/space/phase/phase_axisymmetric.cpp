@@ -2,6 +2,6 @@
 
 namespace stillpoint {
 
-template std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::axisymmetric>(const Scene& scene);
+template std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::axisymmetric>(const Problem& problem);
 
 }  // namespace stillpoint

@@ -8,16 +8,16 @@ namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
 std::vector<BodyGap> MaterialPointPhase<B, K>::body_gaps() const {
-  if (scene_.bodies.size() < 2) return {};
-  return BodyNeighbours<Dim>(scene_, functions_, body_.points, weights_, body_.first_number).find(phase_ == 0);
+  if (problem_.bodies.size() < 2) return {};
+  return BodyNeighbours<Dim>(problem_, functions_, body_.points, weights_, body_.first_number).find(phase_ == 0);
 }
 
 template <AxisBasis B, Kinematics K>
 std::vector<HeldAxes> MaterialPointPhase<B, K>::held_bodies() const {
-  std::vector<HeldAxes> held(scene_.bodies.size(), HeldAxes{});
+  std::vector<HeldAxes> held(problem_.bodies.size(), HeldAxes{});
   const std::vector<char> is_sprung = conditions_.are_sprung(Dim * reached_.size());
   const auto bodies =
-      BodyNeighbours<Dim>(scene_, functions_, body_.points, weights_, body_.first_number).bodies_of_functions();
+      BodyNeighbours<Dim>(problem_, functions_, body_.points, weights_, body_.first_number).bodies_of_functions();
   for (std::size_t f = 0; f < bodies.size(); ++f) {
     for (std::size_t axis = 0; axis < Dim; ++axis) {
       const auto unknown = static_cast<int>(Dim * f + axis);

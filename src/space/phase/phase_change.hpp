@@ -12,17 +12,17 @@ namespace stillpoint {
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   if (!updated_lagrangian()) return 0;
-  if (scene_.phase.max_motion && *scene_.phase.max_motion == 0) return 1;
+  if (problem_.phase.max_motion == 0) return 1;
   if (conditions_.ask_for_next_phase(u)) return 1;
   double share = 0;
-  if (scene_.phase.max_motion) {
+  if (problem_.phase.ends_by_motion()) {
     const bool committed = history_dependent_ && t == committed_t_;
-    share = (committed ? committed_motion_ : largest_motion(u)) / *scene_.phase.max_motion;
+    share = (committed ? committed_motion_ : largest_motion(u)) / problem_.phase.max_motion;
   }
   constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
-  if (scene_.phase.max_strain && ++looks_ % between_looks == 0) {
+  if (problem_.phase.max_strain && ++looks_ % between_looks == 0) {
     spread(t, u, grid_u_);
-    share = std::max(share, largest_strain(grid_u_.data()) / *scene_.phase.max_strain);
+    share = std::max(share, largest_strain(grid_u_.data()) / *problem_.phase.max_strain);
   }
   return share;
 }
@@ -31,11 +31,11 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::is_within_phase(double motion, const double* grid_u) const {
   constexpr double most = 1.5, of_remapping_every_step = 0.5;
-  if (scene_.phase.max_motion) {
-    const double allowed = *scene_.phase.max_motion > 0 ? most * *scene_.phase.max_motion : of_remapping_every_step;
+  if (problem_.phase.ends_by_motion()) {
+    const double allowed = problem_.phase.max_motion > 0 ? most * problem_.phase.max_motion : of_remapping_every_step;
     if (!(motion <= allowed)) return false;
   }
-  return !scene_.phase.max_strain || largest_strain(grid_u) <= most * *scene_.phase.max_strain;
+  return !problem_.phase.max_strain || largest_strain(grid_u) <= most * *problem_.phase.max_strain;
 }
 
 template <AxisBasis B, Kinematics K>
@@ -43,12 +43,12 @@ std::vector<double> MaterialPointPhase<B, K>::begin_next(double t, ConstVec u, C
   if (start_velocity_.size() != grid_u_.size())
     throw std::logic_error("no phase ends in a scene of a single one, nor before initial_velocity()");
   const std::vector<WallReaction> walls = wall_reactions(t);
-  const auto followed = std::ranges::find(walls, scene_.grid.follow, &WallReaction::name);
+  const auto followed = std::ranges::find(walls, problem_.grid.follow, &WallReaction::name);
   const double grid_moves_to = followed == walls.end() ? 0 : followed->displacement;
-  Grid<Dim> next_grid = grid_at<Dim>(scene_, grid_moves_to);
+  Grid<Dim> next_grid = grid_at<Dim>(problem_, grid_moves_to);
   spread(t, u, grid_u_);
   const std::vector<double> grid_v = nodal_velocity(t, v);
-  const GridFaces<Dim> faces(scene_, next_grid, conditions_.act_on_axis());
+  const GridFaces<Dim> faces(problem_, next_grid, conditions_.act_on_axis());
   const bool some_past_a_face = move_points(next_grid, faces, grid_v);
   motion_since_deformation_ += largest_motion(u);
   end_phase(grid_v);
@@ -115,7 +115,7 @@ void MaterialPointPhase<B, K>::make_forces(double t) {
 
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::follows_positions() {
-  return updated_lagrangian() && scene_.phase.deformation == DeformationRule::positions &&
+  return updated_lagrangian() && problem_.phase.deformation == DeformationRule::positions &&
          DeformationFromPositions<B, K>::applies(body_);
 }
 
@@ -123,7 +123,7 @@ bool MaterialPointPhase<B, K>::follows_positions() {
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::weigh_motion() {
   std::array<double, Dim> per_length;
-  for (std::size_t d = 0; d < Dim; ++d) per_length[d] = 1 / scene_.grid.cell_length(d);
+  for (std::size_t d = 0; d < Dim; ++d) per_length[d] = 1 / problem_.grid.cell_length(d);
   motion_weight_.resize(size());
   for_each_index(size(), [per_length, weight = motion_weight_.data(), unknown = dofs_->free.data()](std::size_t k) {
     weight[k] = per_length[static_cast<std::size_t>(unknown[k] % Dim)];
@@ -218,7 +218,7 @@ double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
 // The grid's displacements and, if the phase ends by it, the largest motion, in one pass over the unknowns.
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::spread_and_measure(double t, ConstVec u, std::vector<double>& grid) const {
-  if (!scene_.phase.max_motion) {
+  if (!problem_.phase.ends_by_motion()) {
     spread(t, u, grid);
     return 0;
   }

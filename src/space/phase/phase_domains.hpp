@@ -31,7 +31,7 @@ void MaterialPointPhase<B, K>::refuse_folded_domains() const {
   if (folded == body_.points.volume.end()) return;
   const auto p = static_cast<std::size_t>(folded - body_.points.volume.begin());
   throw_scene_error(
-      scene_, "phase",
+      "phase",
       fmt::format("the domain of material point {} at ({:.6g}) is stretched over more than a cell, and folded where it "
                   "would be halved; expected a [[traction]] in the place of a force at a point, smaller loads or cells",
                   body_.points.number[p] + 1, fmt::join(body_.points.position(p), ", ")));

@@ -8,10 +8,10 @@
 namespace stillpoint {
 
 template <Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of(const Scene& scene);
+std::unique_ptr<LagrangianPhase> make_phase_of(const Problem& problem);
 
 /// The same where points stand for domains; on a line and in the plane.
 template <Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Scene& scene);
+std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Problem& problem);
 
 }  // namespace stillpoint

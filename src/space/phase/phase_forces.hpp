@@ -43,7 +43,7 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_elastic_moments() {
   if constexpr (has_elastic_cells) {
-    if (info_.nonlinear || updated_lagrangian() || scene_.geostatic) return;
+    if (info_.nonlinear || updated_lagrangian() || problem_.geostatic) return;
     std::vector<typename ElasticCells<Dim>::Moduli> moduli;
     for (std::size_t m = 0; m < body_.materials.size(); ++m) {
       const auto p = static_cast<std::size_t>(body_.points.material_begin[m]);

@@ -28,13 +28,13 @@ void MaterialPointPhase<B, K>::make_mass() {
   std::vector<double> m = totals_.mass();
   give_mass_to_sources<B>(grid_, extension_, m);
   inertia_.begin_phase(grid_, std::move(m), bound_of_functions(), untouched_);
-  const bool is_consistent = scene_.mass.kind == MassKind::consistent;
+  const bool is_consistent = problem_.mass.kind == MassKind::consistent;
   if (is_consistent || (projects() && !updated_lagrangian())) {
     consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);
     // Initial values are fitted with the consistent mass, whatever the motion has.
     if (!is_consistent && !SparseCholesky(consistent_->free).positive_definite()) {
       throw_scene_error(
-          scene_, "initial",
+          "initial",
           "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
     }
   }
@@ -49,7 +49,7 @@ void MaterialPointPhase<B, K>::make_mass() {
       mass_.emplace(Mass::lumped(std::move(diagonal), relative_inertia()));
     }
   } catch (const std::invalid_argument& error) {
-    throw_scene_error(scene_, "mass.kind", error.what());
+    throw_scene_error("mass.kind", error.what());
   }
 }
 
@@ -120,8 +120,9 @@ std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec 
 // Whether nothing acts on the body from outside.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::is_free() const {
-  return scene_.supports.empty() && scene_.walls.empty() && scene_.forces.empty() && scene_.tractions.empty() &&
-         !scene_.has_body_force() && !scene_.load && !conditions_.act_on_axis() && is_undamped(scene_.damping.strategy);
+  return problem_.supports.empty() && problem_.walls.empty() && problem_.forces.empty() && problem_.tractions.empty() &&
+         !problem_.has_body_force() && !problem_.load && !conditions_.act_on_axis() &&
+         is_undamped(problem_.damping.strategy);
 }
 
 // What the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim): by the inertia that
@@ -133,13 +134,13 @@ std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>&
   for_each_index(gain.size(),
                  [gain = gain.data(), m = inertia_.mass().data(), now = grid_v.data(),
                   before = start_velocity_.data()](std::size_t i) { gain[i] = m[i / Dim] * (now[i] - before[i]); });
-  if (!mass_->is_lumped() || scene_.mass.scaling == MassScaling::gershgorin || inertia_.added().empty()) return gain;
+  if (!mass_->is_lumped() || problem_.mass.scaling == MassScaling::gershgorin || inertia_.added().empty()) return gain;
   std::vector<double> dv(size()), M_dv(size());
   const auto grid_number = [&](std::size_t k) { return static_cast<std::size_t>(dofs_->free[k]); };
   for (std::size_t k = 0; k < dv.size(); ++k) dv[k] = grid_v[grid_number(k)] - start_velocity_[grid_number(k)];
   mass_->apply(dv, M_dv);
   for (std::size_t k = 0; k < dv.size(); ++k) {
-    if (untouched_[grid_number(k) / Dim]) gain[grid_number(k)] = M_dv[k] / scene_.mass.factor;
+    if (untouched_[grid_number(k) / Dim]) gain[grid_number(k)] = M_dv[k] / problem_.mass.factor;
   }
   return gain;
 }
@@ -149,7 +150,7 @@ std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>&
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
   if constexpr (Dim > 1) {
-    if (scene_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
+    if (problem_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
     if (AffineVelocity<B, K>::carries_gradient) return;
     constexpr std::span<const Turn> about = dimension_info(Dim).turns;
     constexpr std::size_t turns = about.size();
@@ -158,7 +159,7 @@ void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
       const auto i = static_cast<std::size_t>(added.function);
       if (added.relative_to.functions == 0 || !(inertia_.mass()[i] > 0)) continue;
       const auto d = deviation<Dim>(grid_u_, added), d_dot = deviation<Dim>(grid_v, added);
-      const double delta = added.inertia / scene_.mass.factor;
+      const double delta = added.inertia / problem_.mass.factor;
       for (std::size_t r = 0; r < turns; ++r) {
         const auto& [axis, from, to] = about[r];
         const double turn = d[from] * d_dot[to] - d[to] * d_dot[from];

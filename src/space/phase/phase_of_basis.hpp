@@ -23,14 +23,14 @@ namespace stillpoint {
 
 /// Spline: the family of the basis, by its degree.
 template <template <int> class Spline, Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of_splines(const Scene& scene) {
-  switch (scene.grid.basis) {
+std::unique_ptr<LagrangianPhase> make_phase_of_splines(const Problem& problem) {
+  switch (problem.grid.basis) {
     case BasisKind::linear:
-      return std::make_unique<MaterialPointPhase<Spline<1>, K>>(scene);
+      return std::make_unique<MaterialPointPhase<Spline<1>, K>>(problem);
     case BasisKind::quadratic:
-      return std::make_unique<MaterialPointPhase<Spline<2>, K>>(scene);
+      return std::make_unique<MaterialPointPhase<Spline<2>, K>>(problem);
     case BasisKind::cubic:
-      return std::make_unique<MaterialPointPhase<Spline<3>, K>>(scene);
+      return std::make_unique<MaterialPointPhase<Spline<3>, K>>(problem);
     case BasisKind::hermite:
       break;
   }
@@ -38,14 +38,14 @@ std::unique_ptr<LagrangianPhase> make_phase_of_splines(const Scene& scene) {
 }
 
 template <Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of(const Scene& scene) {
-  if (scene.grid.basis == BasisKind::hermite) return std::make_unique<MaterialPointPhase<CubicHermite, K>>(scene);
-  return make_phase_of_splines<BSpline, K>(scene);
+std::unique_ptr<LagrangianPhase> make_phase_of(const Problem& problem) {
+  if (problem.grid.basis == BasisKind::hermite) return std::make_unique<MaterialPointPhase<CubicHermite, K>>(problem);
+  return make_phase_of_splines<BSpline, K>(problem);
 }
 
 template <Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Scene& scene) {
-  return make_phase_of_splines<DomainBSpline, K>(scene);
+std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Problem& problem) {
+  return make_phase_of_splines<DomainBSpline, K>(problem);
 }
 
 }  // namespace stillpoint

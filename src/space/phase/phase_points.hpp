@@ -66,7 +66,7 @@ template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::initial_displacement(double t) const {
   std::vector<double> held;
   for (std::size_t s = 0; s < held_.prescribed().size(); ++s) held.push_back(held_.motion(s).displacement(t));
-  return project(scene_.initial_u, held);
+  return project(problem_.initial_u, held);
 }
 
 template <AxisBasis B, Kinematics K>
@@ -74,7 +74,7 @@ std::vector<double> MaterialPointPhase<B, K>::initial_velocity(double t) {
   if (updated_lagrangian()) return velocity_from_points(t);
   std::vector<double> held;
   for (std::size_t s = 0; s < held_.prescribed().size(); ++s) held.push_back(held_.motion(s).velocity(t));
-  std::vector<double> v = project(scene_.initial_v, held);
+  std::vector<double> v = project(problem_.initial_v, held);
   begin_motion(t, v);
   return v;
 }

@@ -4,8 +4,8 @@ namespace stillpoint {
 
 // Hermite's functions, eight to a node and unknowns of three dimensions, are not offered in space.
 template <>
-std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::space>(const Scene& scene) {
-  return make_phase_of_splines<BSpline, Kinematics::space>(scene);
+std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::space>(const Problem& problem) {
+  return make_phase_of_splines<BSpline, Kinematics::space>(problem);
 }
 
 }  // namespace stillpoint

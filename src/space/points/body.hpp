@@ -38,15 +38,15 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 /// updated_lagrangian: whether points will change cells. Of a static solver, in which no time passes, nothing is
 /// viscous.
 template <Kinematics K>
-Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool updated_lagrangian) {
+Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool updated_lagrangian) {
   constexpr int dim = dimensions(K);
   Body<K> body;
   MaterialPoints<dim>& points = body.points;
   std::map<std::string, std::vector<std::pair<MaterialPoints<dim>, int>>> by_material;  // with each first number
   int number = 0;
-  for (const BodySpec& spec : scene.bodies) {
-    PlacedBody<dim> placed = place_body<dim>(spec, grid, scene.materials.at(spec.material).parameters.at("rho"),
-                                             scene.state, scene.phase.quadrature == Quadrature::domains);
+  for (const BodySpec& spec : problem.bodies) {
+    PlacedBody<dim> placed = place_body<dim>(spec, grid, problem.materials.at(spec.material).parameters.at("rho"),
+                                             problem.state, problem.phase.quadrature == Quadrature::domains);
     body.quadrature.add(placed.quadrature);
     const int count = static_cast<int>(placed.points.size());
     if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
@@ -69,16 +69,16 @@ Body<K> make_body(const Scene& scene, const Grid<dimensions(K)>& grid, bool upda
       for (std::size_t p = 0; p < part.size(); ++p) points.number.push_back(first_number + static_cast<int>(p));
     }
     const auto begin = static_cast<std::size_t>(points.material_begin.back());
-    const MaterialSpec& material = scene.materials.at(name);
-    body.materials.push_back(make_point_material<K>(scene.solve.is_static() ? rate_independent(material) : material,
-                                                    scene.state, begin, points.size() - begin, updated_lagrangian));
+    const MaterialSpec& material = problem.materials.at(name);
+    body.materials.push_back(make_point_material<K>(problem.solve.is_static() ? rate_independent(material) : material,
+                                                    problem.state, begin, points.size() - begin, updated_lagrangian));
     body.material_names.push_back(name);
   }
   points.material_begin.push_back(static_cast<int>(points.size()));
-  if (body.covered.size() < scene.bodies.size()) body.covered.clear();
+  if (body.covered.size() < problem.bodies.size()) body.covered.clear();
   if (updated_lagrangian) {
     for (auto& v : points.v) v.assign(points.size(), 0);
-    if (scene.phase.transfer == Transfer::apic) {
+    if (problem.phase.transfer == Transfer::apic) {
       for (auto& B : points.B_apic) B.assign(points.size(), 0);
     }
   }

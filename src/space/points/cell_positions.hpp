@@ -1,7 +1,7 @@
 // The pattern in which material points lie in a cell.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <cstdint>

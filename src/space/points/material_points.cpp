@@ -228,7 +228,7 @@ void take_from_file(const std::filesystem::path& file, const Grid<Dim>& grid, Po
     min.push_back(axis.min());
     max.push_back(axis.max());
   }
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
   const PointFile read = read_point_file(file, min, max, problems);
   if (!problems.empty()) throw SceneError(std::move(problems));
 

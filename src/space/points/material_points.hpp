@@ -1,7 +1,7 @@
 // Material points of a body: positions, masses and volumes, sorted by the cell that they lie in.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <array>
 #include <optional>

@@ -1,7 +1,7 @@
 // Material points as they are placed.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <numbers>
 #include <utility>

@@ -2,7 +2,7 @@
 // a face of the grid.
 #pragma once
 
-#include <stillpoint/scene.hpp>
+#include <stillpoint/problem.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,15 +18,15 @@ namespace stillpoint {
 template <int Dim>
 class SurfaceDepths {
  public:
-  /// The scene outlives it.
-  explicit SurfaceDepths(const Scene& scene) : scene_(scene) {}
+  /// The problem outlives it.
+  explicit SurfaceDepths(const Problem& problem) : problem_(problem) {}
 
   /// first_number: of the points of each body, and how many there are; origin: positions at the start of the run, by
   /// number, (P × Dim), or empty if points stay where they are. Both outlive this object.
   void begin(const std::vector<int>& first_number, const std::vector<double>& origin) {
     first_number_ = &first_number;
     origin_ = &origin;
-    for (const BodySpec& body : scene_.bodies) bodies_.emplace_back(body);
+    for (const BodySpec& body : problem_.bodies) bodies_.emplace_back(body);
   }
 
   /// Of the point with this number, along the normal of a face of the grid [m], or two cells if it is deeper. Empty if
@@ -40,20 +40,20 @@ class SurfaceDepths {
     const auto body = std::ranges::upper_bound(*first_number_, number) - first_number_->begin() - 1;
     const auto axis = static_cast<std::size_t>(axis_of(face));
     found->second =
-        bodies_[static_cast<std::size_t>(body)].along(X, axis, is_upper(face), 2 * scene_.grid.cell_length(axis));
+        bodies_[static_cast<std::size_t>(body)].along(X, axis, is_upper(face), 2 * problem_.grid.cell_length(axis));
     return found->second;
   }
 
-  std::size_t bodies() const { return scene_.bodies.size(); }
+  std::size_t bodies() const { return problem_.bodies.size(); }
   /// Between a body, as it was described, and a face of the grid at this coordinate [m]; 0 if nobody knows.
   double gap(std::size_t body, Face face, double at) const {
     if (!bodies_[body].is_known()) return 0;
     const auto axis = static_cast<std::size_t>(axis_of(face));
-    return is_upper(face) ? at - scene_.bodies[body].max[axis] : scene_.bodies[body].min[axis] - at;
+    return is_upper(face) ? at - problem_.bodies[body].max[axis] : problem_.bodies[body].min[axis] - at;
   }
 
  private:
-  const Scene& scene_;
+  const Problem& problem_;
   const std::vector<int>* first_number_ = nullptr;
   const std::vector<double>* origin_ = nullptr;
   std::vector<BodyDepth> bodies_;

@@ -1,6 +1,8 @@
 // The solid of a body, and the shape that its keys make it.
 #include "scene/body_solid.hpp"
 
+#include <stillpoint/scene.hpp>
+
 #include <filesystem>
 #include <string>
 

@@ -97,8 +97,11 @@ TEST_CASE("the pieces of a prism, along any axis and cut off by its box, enclose
     BodySpec body = in_box(-5, 5);
     body.polygon = {{0, 0}, {1, 0}, {0.3, 0.4}, {0, 1}};
     body.axis = axis;
-    body.min[static_cast<std::size_t>(axis)] = 0.2;
-    body.max[static_cast<std::size_t>(axis)] = 1.7;
+    std::vector<double> low = body.min, high = body.max;
+    low.at(static_cast<std::size_t>(axis)) = 0.2;
+    high.at(static_cast<std::size_t>(axis)) = 1.7;
+    body.min = low;
+    body.max = high;
     const Sums all = sums(body, {outer, start, end});
     check_closed(all);
     CHECK(all.volume == Approx(0.35 * 1.5).epsilon(1e-12));

@@ -18,7 +18,7 @@ namespace {
 
 struct Read {
   std::vector<Facet> facets;
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
 };
 Read read(const std::string& bytes) {
   const TemporaryFolder folder;
@@ -31,7 +31,7 @@ std::string problem_of(const std::string& bytes) {
   const Read result = read(bytes);
   CHECK(result.facets.empty());
   REQUIRE(result.problems.size() == 1);
-  const auto& [where, message] = result.problems[0];
+  const auto& [where, message, key] = result.problems[0];
   return fmt::format("{}:{} {}", where.line, where.column, message);
 }
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -99,7 +99,7 @@ TEST_CASE("triangles that enclose nothing are refused") {
 }
 
 TEST_CASE("a file that is not there is told of") {
-  std::vector<Problem> problems;
+  std::vector<Mistake> problems;
   CHECK(read_stl_file("/nowhere/body.stl", problems).empty());
   REQUIRE(problems.size() == 1);
   CHECK(problems[0].message == "there is no such file");

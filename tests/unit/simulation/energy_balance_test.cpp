@@ -36,7 +36,7 @@ struct Balance {
 
 // Kinetic and strain energy, and what a damping C = c M has taken, ∫ 2 c T dt, beside the work, at every step.
 Balance balance_of(const std::vector<std::string>& more, double step, double c = 0,
-                   std::optional<double> max_motion = std::nullopt) {
+                   double max_motion = PhaseSpec::never) {
   std::vector<std::string> set = {"grid.cells=[1, 8]", "stop.residual=0", "stop.time=0.5",
                                   "integrator.step=" + std::to_string(step), "output.every=" + std::to_string(step)};
   set.insert(set.end(), more.begin(), more.end());

@@ -207,11 +207,11 @@ TEST_CASE("a step that would move the body half as far again as a phase allows i
     overrides.emplace_back(phase[1] == 'm' && phase[12] == '0' ? "initial.v=['20', '0']"
                                                                : "initial.v=['1 + 4*(x - 1)', '0']");
     const Scene scene = free_block(overrides);
-    const double most = scene.phase.max_motion ? 1.5 * *scene.phase.max_motion : 1.5 * *scene.phase.max_strain;
+    const double most = scene.phase.ends_by_motion() ? 1.5 * scene.phase.max_motion : 1.5 * *scene.phase.max_strain;
     double furthest = 0;
     Simulation simulation = advanced(scene, 0.29, [&](const Moment& moment, bool after) {
       if (after) return;
-      if (scene.phase.max_motion) {
+      if (scene.phase.ends_by_motion()) {
         furthest = std::max(furthest, largest_magnitude(moment.u) / 0.25);
       } else {
         std::vector<double> strain(4 * moment.phase.points());

@@ -31,12 +31,15 @@ BodySpec box(std::vector<double> min, std::vector<double> max) {
 
 BodySpec polygon(std::vector<std::vector<double>> corners) {
   BodySpec body = box({4, 2}, {0, 0});
+  std::vector<double> low = body.min, high = body.max;
   for (const auto& corner : corners) {
     for (std::size_t d = 0; d < 2; ++d) {
-      body.min[d] = std::min(body.min[d], corner[d]);
-      body.max[d] = std::max(body.max[d], corner[d]);
+      low[d] = std::min(low[d], corner[d]);
+      high[d] = std::max(high[d], corner[d]);
     }
   }
+  body.min = low;
+  body.max = high;
   body.polygon = std::move(corners);
   return body;
 }
@@ -72,7 +75,7 @@ std::vector<std::string> problems_of(const std::filesystem::path& file) {
   try {
     place(from_file(file));
   } catch (const SceneError& error) {
-    for (const Problem& problem : error.problems())
+    for (const Mistake& problem : error.problems())
       found.push_back(fmt::format("{}:{} {}", problem.where.line, problem.where.column, problem.message));
   }
   return found;

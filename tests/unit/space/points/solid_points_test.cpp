@@ -36,8 +36,8 @@ BodySpec whole() {
 }
 BodySpec cut_to(BodySpec body) {
   const SpaceBox part = in_common(solid_of(body)->bounds(), box_of(body));
-  body.min.assign(part.low.begin(), part.low.end());
-  body.max.assign(part.high.begin(), part.high.end());
+  body.min = std::vector(part.low.begin(), part.low.end());
+  body.max = std::vector(part.high.begin(), part.high.end());
   return body;
 }
 BodySpec sphere(double radius, double inner = 0, std::vector<double> centre = {2.1, 1.95, 2.03}) {
@@ -58,8 +58,11 @@ BodySpec prism(int axis, double from, double to) {
   BodySpec body = whole();
   body.polygon = {{0.3, 0.4}, {3.5, 0.7}, {1.7, 1.6}, {2.9, 3.8}, {0.6, 3.1}};
   body.axis = axis;
-  body.min[static_cast<std::size_t>(axis)] = from;
-  body.max[static_cast<std::size_t>(axis)] = to;
+  std::vector<double> low = body.min, high = body.max;
+  low.at(static_cast<std::size_t>(axis)) = from;
+  high.at(static_cast<std::size_t>(axis)) = to;
+  body.min = low;
+  body.max = high;
   return cut_to(body);
 }
 double area_of_polygon(const BodySpec& body) {

@@ -1,0 +1,89 @@
+#include "scene/phase_choices.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+namespace stillpoint {
+namespace {
+
+constexpr double motion_of_what_remembers = 0.1;  // of a cell
+
+bool damps(const Problem& problem, const Catalogue& catalogue) {
+  const StrategyInfo* const strategy = catalogue.strategy(problem.damping.strategy);
+  return strategy && strategy->damps;
+}
+
+// Bodies whose law remembers nothing take domains where there are some, but where nothing damps: means over domains
+// cost flip some of the motion's energy. What of the points' velocities no function feels, flip keeps until the
+// functions of a later phase do: that shakes a body that overshoots into a shape that no force takes back.
+void resolve_quadrature(Problem& problem, const Catalogue& catalogue, bool remembers) {
+  PhaseSpec& phase = problem.phase;
+  const bool rests = damps(problem, catalogue) && problem.grid.basis != BasisKind::hermite && !remembers;
+  if (rests && why_no_domains(problem).empty()) {
+    phase.quadrature.take(Quadrature::domains, "the points of elastic boxes, damped, lie side by side");
+  } else {
+    phase.quadrature.take(Quadrature::points, "by default");
+  }
+  if (rests && phase.quadrature == Quadrature::domains && !phase.flip_share.is_asked()) {
+    phase.transfer.take(Transfer::apic, "domains, damped");
+  } else {
+    phase.transfer.take(Transfer::flip, "by default");
+  }
+}
+
+}  // namespace
+
+std::vector<const MaterialSpec*> materials_in_use(const Problem& problem, const Catalogue& catalogue) {
+  std::vector<const MaterialSpec*> materials;
+  std::set<std::string_view> seen;
+  for (const BodySpec& body : problem.bodies) {
+    if (!seen.insert(body.material).second) continue;
+    const auto found = problem.materials.find(body.material);
+    const LawInfo* const law = found == problem.materials.end() ? nullptr : catalogue.law(found->second.law);
+    if (!law || std::ranges::find(law->states, problem.state) == law->states.end()) continue;
+    materials.push_back(&found->second);
+  }
+  return materials;
+}
+
+bool any_remembers(const std::vector<const MaterialSpec*>& materials, const Catalogue& catalogue) {
+  return std::ranges::any_of(materials,
+                             [&](const MaterialSpec* one) { return catalogue.law(one->law)->history_dependent; });
+}
+
+std::string why_no_domains(const Problem& problem) {
+  if (problem.state == StressState::axisymmetric) return "an axisymmetric scene has rings";
+  if (problem.state == StressState::space) return "in space points stand for themselves";
+  for (const BodySpec& body : problem.bodies) {
+    if (!body.is_box()) return "a body of a file or a polygon is no box";
+    if (body.placement != Placement::uniform || body.jitter > 0) return "points that are not uniform share no faces";
+  }
+  return "";
+}
+
+void resolve_phases(Problem& problem, const Catalogue& catalogue) {
+  PhaseSpec& phase = problem.phase;
+  const bool remembers = any_remembers(materials_in_use(problem, catalogue), catalogue);
+  if (remembers && !problem.solve.is_static()) {
+    phase.max_motion.take(motion_of_what_remembers, "a law remembers");
+  } else {
+    phase.max_motion.take(PhaseSpec::never, "by default");
+  }
+  if (problem.solve.is_static() || !phase.ends()) {
+    phase.quadrature.take(Quadrature::points, "by default");
+    phase.transfer.take(Transfer::flip, "by default");
+    phase.deformation.take(DeformationRule::positions, "by default");
+    return;
+  }
+  resolve_quadrature(problem, catalogue, remembers);
+  // A strain that jumps at grid lines would feed the motion, and a mean dilatation is carried on.
+  const bool jumps = problem.grid.basis == BasisKind::linear && phase.quadrature == Quadrature::points;
+  if (jumps || phase.dilatation != Dilatation::points) {
+    phase.deformation.take(DeformationRule::accumulated, "strains jump at grid lines, or dilatation is a mean");
+  } else {
+    phase.deformation.take(DeformationRule::positions, "by default");
+  }
+}
+
+}  // namespace stillpoint
