@@ -19,7 +19,7 @@ fs::path partial_in_new_folder(const fs::path& file) {
   return partial_name(file);
 }
 
-// A copy that was cut short would stand in the way of the whole file: it has a name of its own until it is whole.
+// A copy that was cut short must not be taken for the whole file: it has a name of its own until it is complete.
 fs::path partial_of_earlier(const fs::path& file) {
   fs::path partial = partial_name(file);
   const fs::path copy = partial_name(partial);
@@ -30,7 +30,7 @@ fs::path partial_of_earlier(const fs::path& file) {
   return partial;
 }
 
-// The first bytes of a file, which are to be there.
+// The first `size` bytes of a file. Throws StateError if it is shorter.
 std::string beginning_of(const fs::path& file, std::uint64_t size) {
   std::ifstream earlier(file, std::ios::binary);
   std::string text(size, '\0');

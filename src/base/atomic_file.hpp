@@ -1,4 +1,4 @@
-// Files that are whole or not there: written as NAME.partial, renamed when complete.
+// Files that are complete or absent: written as NAME.partial, renamed when complete.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace stillpoint {
 
-/// Where a file is written until it is whole: NAME.partial.
+/// The name under which a file is written until it is complete: NAME.partial.
 std::filesystem::path partial_name(std::filesystem::path file);
 
-/// What has been written to a file.
+/// The size and checksum of what has been written to a file.
 struct FileContents {
   std::uint64_t size = 0;
   std::uint64_t crc = 0;  // CRC-32
@@ -23,14 +23,14 @@ class AtomicFile {
  public:
   /// Creates the folder if need be. Throws std::filesystem::filesystem_error if the file cannot be written.
   explicit AtomicFile(const std::filesystem::path& file);
-  /// Goes on with NAME.partial, or NAME if there is none, after its first bytes; the rest is taken away. Throws
-  /// StateError if these are not `contents`.
+  /// Continues NAME.partial, or NAME if there is none, after the bytes that `contents` describes; the rest is cut off.
+  /// Throws StateError if the first bytes differ from `contents`.
   AtomicFile(const std::filesystem::path& file, const FileContents& contents);
   const FileContents& contents() const { return contents_; }
-  /// Appends the whole text or nothing, so that NAME.partial keeps what there was if the process is killed, or the disk
-  /// is full; what was appended a few seconds ago is on the disk, and stays if the machine breaks down.
+  /// Appends the whole text or nothing, so that NAME.partial keeps its earlier text if the process is killed or the
+  /// disk is full; text that is older than a few seconds is on the disk, and survives a crash of the machine.
   void write(std::string_view text);
-  /// Brings it to the disk and renames it to the final name.
+  /// Brings the file to the disk and renames it to the final name.
   void finish();
 
  private:
@@ -40,10 +40,10 @@ class AtomicFile {
   OutputFile partial_;
   FileContents contents_;
   Stopwatch since_made_;
-  double on_disk_at_ = 0;  // [s]
+  double on_disk_at_ = 0;  // time of the last transfer to the disk [s]
 };
 
-/// A file that is whole, or not there. Throws std::filesystem::filesystem_error.
+/// Writes a file that is complete, or absent if the process is killed. Throws std::filesystem::filesystem_error.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace stillpoint

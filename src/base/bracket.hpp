@@ -1,4 +1,4 @@
-// What is known of a zero before anybody looks for it: the values at the ends of an interval.
+// The check that precedes the search for a zero, by the values at the ends of an interval.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-/// The end at which f is zero; empty: it changes its sign in between. Throws std::domain_error if it does neither.
+/// The end at which f is zero; empty if f changes its sign in between. Throws std::domain_error in all other cases.
 inline std::optional<double> zero_at_an_end(double a, double b, double at_a, double at_b) {
   if (at_a == 0) return a;
   if (at_b == 0) return b;

@@ -1,4 +1,4 @@
-// CRC-32 of bytes, to tell whether a file is still what was written.
+// CRC-32 of bytes, to detect whether a file has changed since it was written.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace stillpoint {
 
-/// Of `size` bytes that follow those of which it was `before`; 0 if there were none.
+/// The checksum after `size` more bytes; before: the checksum of the bytes that precede them, 0 if there are none.
 inline std::uint64_t checksum(std::uint64_t before, const void* bytes, std::size_t size) {
   return crc32_z(before, static_cast<const Bytef*>(bytes), size);
 }

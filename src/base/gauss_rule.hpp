@@ -1,4 +1,4 @@
-// Gauss and Legendre's quadrature of an interval.
+// Gauss–Legendre quadrature on an interval.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ struct GaussRule {
   std::vector<double> at, weight;
 };
 
-/// That of [0, 1] which is exact up to a degree.
+/// The rule on [0, 1] that is exact up to a degree.
 struct UnitRule : GaussRule {
   explicit UnitRule(int degree) : GaussRule(0, 1, static_cast<std::size_t>(degree / 2 + 1)) {}
 };

@@ -1,5 +1,5 @@
-// By Boost, in long double, as slopes lose digits: positions at the zeros x of P_n, with weights 2/((1 − x²) P_n'(x)²)
-// on [−1, 1].
+// The rule by Boost: positions at the zeros x of P_n, with weights 2/((1 − x²) P_n'(x)²) on [−1, 1], in long double, as
+// the slopes P_n' lose digits.
 #include <boost/math/special_functions/legendre.hpp>
 
 #include "base/gauss_rule.hpp"
@@ -8,7 +8,7 @@ namespace stillpoint {
 
 GaussRule::GaussRule(double a, double b, std::size_t n) : at(n), weight(n) {
   const int degree = static_cast<int>(n);
-  const auto zeros = boost::math::legendre_p_zeros<long double>(degree);  // those that are not negative
+  const auto zeros = boost::math::legendre_p_zeros<long double>(degree);  // the zeros that are not negative
   const long double middle = (a + b) / 2, half = (b - a) / 2;
   for (std::size_t k = 0; k < zeros.size(); ++k) {
     const long double x = zeros[k], slope = boost::math::legendre_p_prime(degree, x);

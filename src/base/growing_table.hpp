@@ -1,4 +1,4 @@
-// Rows of a catalogue to which a program adds some of its own.
+// A table of catalogue rows to which a program may add rows of its own.
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,18 @@
 
 namespace stillpoint {
 
-/// What rows() has given stays as it is for good, whatever is added later: nobody's pointer to a row dangles.
+/// A vector that rows() has returned is never changed or freed, whatever is added later: no pointer to a row dangles.
 template <class Row>
 class GrowingTable {
  public:
   explicit GrowingTable(std::vector<Row> rows) { versions_.push_back(std::move(rows)); }
 
-  /// As the table is now.
+  /// The table as it is now.
   const std::vector<Row>& rows() const {
     const std::scoped_lock lock(mutex_);
     return versions_.back();
   }
-  /// Adds a row behind the others, or in the place of the one of which same(row) is true.
+  /// Adds a row behind the others, or replaces the one for which same(row) is true.
   template <class Same>
   void put(Row row, const Same& same) {
     const std::scoped_lock lock(mutex_);

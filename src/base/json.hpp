@@ -1,4 +1,4 @@
-// What the files in JSON have in common.
+// Helpers that all files in JSON share.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace stillpoint {
 
 using Json = nlohmann::ordered_json;
 
-/// null for what JSON has no word for, inf and nan, and for what was not computed.
+/// A number, or null for inf and nan, which JSON lacks, and for a value that was not computed.
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 inline Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 

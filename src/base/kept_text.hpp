@@ -1,4 +1,4 @@
-// Texts for rows that only refer to their words.
+// Permanent storage of texts for rows that only refer to their words.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace stillpoint {
 
-/// A copy that stays to the end of the process.
+/// A copy of the text that stays to the end of the process.
 std::string_view kept_for_good(const std::string& text);
 
 }  // namespace stillpoint

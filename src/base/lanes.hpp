@@ -1,5 +1,5 @@
-// A few doubles that are computed together, in one register of the processor or, of eight, two where it has none as
-// wide.
+// A few doubles that are computed together, in one register of the processor; eight of them in two registers if it has
+// none as wide.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct Lanes {
     std::memcpy(&loaded.lanes, from, sizeof loaded.lanes);
     return loaded;
   }
-  /// The first `count` of them, which are all that can be read, and zeros in the other lanes.
+  /// Loads the first `count` entries, which are all that may be read, and zeros into the other lanes.
   [[gnu::always_inline]] static Lanes load_first(const double* from, std::size_t count) {
     if (count >= N) return load(from);
     Lanes loaded{};
@@ -55,7 +55,7 @@ struct Lanes {
     if (count >= N) return store(to);
     for (std::size_t k = 0; k < count; ++k) to[k] = lanes[k];
   }
-  /// this + factor · x, lane by lane.
+  /// Adds factor · x, lane by lane.
   [[gnu::always_inline]] void add(double factor, const Lanes& x) { lanes += factor * x.lanes; }
   [[gnu::always_inline]] Lanes plus(const Lanes& x) const { return {lanes + x.lanes}; }
   [[gnu::always_inline]] Lanes plus(double x) const { return {lanes + x}; }
@@ -72,7 +72,7 @@ struct Lanes {
     for (int k = 0; k < N; ++k) roots.lanes[k] = std::sqrt(lanes[k]);
     return roots;
   }
-  /// The first `count` lanes, and zeros in the others whatever they hold.
+  /// The first `count` lanes, and zeros in the others whatever those hold.
   [[gnu::always_inline]] Lanes first(std::size_t count) const {
     static_assert(N == 4);
     constexpr typename LaneRegister<N>::Mask number{0, 1, 2, 3};
@@ -112,7 +112,7 @@ template <int N>
   return {__builtin_shufflevector(a.lanes, a.lanes, 2, 3, 0, 1)};
 }
 
-/// Lane k of each of these in the k-th: rows become columns.
+/// The transpose: lane k of each row in the k-th result.
 [[gnu::always_inline]] inline std::array<Lanes<4>, 4> transposed(const std::array<Lanes<4>, 4>& rows) {
   const auto ab_even = __builtin_shufflevector(rows[0].lanes, rows[1].lanes, 0, 4, 2, 6);  // a0, b0, a2, b2
   const auto ab_odd = __builtin_shufflevector(rows[0].lanes, rows[1].lanes, 1, 5, 3, 7);
@@ -124,7 +124,7 @@ template <int N>
            {__builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7)}}};
 }
 
-/// The sum over the lanes of a, of b, of c and of d.
+/// The sums over the lanes of a, of b, of c and of d.
 [[gnu::always_inline]] inline Lanes<4> sums(const Lanes<4>& a, const Lanes<4>& b, const Lanes<4>& c,
                                             const Lanes<4>& d) {
   const auto ab = __builtin_shufflevector(a.lanes, b.lanes, 0, 4, 2, 6) +

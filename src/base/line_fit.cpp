@@ -12,7 +12,7 @@ double mean(ConstVec values) {
 
 }  // namespace
 
-// Of deviations from the means, which keeps the digits of points far from 0.
+// Computed from deviations from the means, which keeps the digits of points far from 0.
 LineFit fit_line(ConstVec x, ConstVec y) {
   const double middle_x = mean(x), middle_y = mean(y);
   double xx = 0, xy = 0, squares = 0;

@@ -1,4 +1,4 @@
-// What arrays take, for a report of where the memory goes.
+// The memory of arrays, for a report of where the memory goes.
 #pragma once
 
 #include <string>

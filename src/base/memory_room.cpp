@@ -10,7 +10,7 @@
 namespace stillpoint {
 namespace {
 
-// The number behind a word at the beginning of a line of /proc, in kB there.
+// The number behind a word at the beginning of a line of a file in /proc, converted from kB [bytes].
 std::optional<double> kilobytes_in(const char* file, const std::string& word) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -19,14 +19,14 @@ std::optional<double> kilobytes_in(const char* file, const std::string& word) {
   return std::nullopt;
 }
 
-// Empty if the file is not there, or says "max".
+// The number in a file; empty if the file is absent, or says "max".
 std::optional<double> number_in(const std::string& file) {
   double number = 0;
   if (std::ifstream(file) >> number) return number;
   return std::nullopt;
 }
 
-// The folder of the process in the hierarchy of control groups, of version 2.
+// The folder of the process in the hierarchy of control groups, version 2.
 std::string control_group() {
   std::ifstream lines("/proc/self/cgroup");
   for (std::string line; std::getline(lines, line);) {

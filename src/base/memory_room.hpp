@@ -1,4 +1,4 @@
-// How much more memory this process may take.
+// The memory that this process may still take.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ struct MemoryRoom {
   std::string set_by;  // "MemAvailable of /proc/meminfo", "memory.max of the control group", "RLIMIT_AS", …
 };
 
-/// The least of what the machine has left, the control group and the limits on the process allow.
+/// The smallest room that the machine's free memory, the control group and the limits on the process leave.
 MemoryRoom memory_room();
 
 }  // namespace stillpoint

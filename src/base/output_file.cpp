@@ -26,7 +26,7 @@ OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-// A write may be cut short, by a disk that has room for a part: the rest says why.
+// A write may be cut short by a disk that has room for a part: writing the rest then gives the error.
 void OutputFile::write(std::string_view bytes, std::uint64_t at) {
   while (!bytes.empty()) {
     const ssize_t count = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));

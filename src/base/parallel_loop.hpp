@@ -7,10 +7,10 @@
 
 namespace stillpoint {
 
-/// Below this many entries a thread team costs more than it saves.
+/// The number of entries below which a thread team costs more than it saves.
 inline constexpr std::size_t threaded_from = 1 << 13;
 
-/// body(i) for i = 0 … n−1, in any order.
+/// Calls body(i) for i = 0 … n−1, in any order.
 template <class Body>
 inline void for_each_index(std::size_t n, const Body& body) {
   if (n < threaded_from) {
@@ -19,25 +19,25 @@ inline void for_each_index(std::size_t n, const Body& body) {
   } else {
 #pragma omp parallel
     {
-      const Body own(body);  // a thread's copy, that no store can change: the loop is vectorised
+      const Body own(body);  // a copy of the thread's own, which no store can change, so that the loop is vectorised
 #pragma omp for simd schedule(static)
       for (std::size_t i = 0; i < n; ++i) own(i);
     }
   }
 }
 
-/// body(begin, count) for pieces that divide 0 … n−1, in any order: for several loops, of for_each_index() too, over
-/// what the caches nearest to a core hold.
+/// Calls body(begin, count) for pieces that divide 0 … n−1, in any order: for several loops, including
+/// for_each_index(), over as much as the caches nearest to a core hold.
 template <class Body>
 inline void for_each_piece(std::size_t n, const Body& body) {
   constexpr std::size_t piece = 2048;
-  static_assert(piece < threaded_from);  // by one thread each
+  static_assert(piece < threaded_from);  // one thread each
   const std::size_t pieces = (n + piece - 1) / piece;
 #pragma omp parallel for schedule(static) if (n >= threaded_from)
   for (std::size_t k = 0; k < pieces; ++k) body(k * piece, std::min(piece, n - k * piece));
 }
 
-/// body(k) for k = 0 … n−1, a body that is itself a loop over the points of a cell: threaded from a thousand on.
+/// Calls body(k) for k = 0 … n−1, a body that is itself a loop over the points of a cell: threaded from a thousand on.
 template <class Body>
 inline void for_each_block(std::size_t n, const Body& body) {
   constexpr std::size_t blocks_for_threads = 1024;
@@ -45,10 +45,9 @@ inline void for_each_block(std::size_t n, const Body& body) {
   for (std::size_t k = 0; k < n; ++k) body(k);
 }
 
-/// For each k < count ≤ most: join over term(k, 0) … term(k, n−1), join associative up to rounding. Of all k in one
-/// pass over memory, a piece that the first-level cache holds at a time. The order is fixed by n alone: at most 64
-/// blocks, each in 16 lanes, lanes and then blocks joined in order; neither threads, the compiler's vectors nor other k
-/// change it.
+/// For each k < count ≤ most: joins term(k, 0) … term(k, n−1), join associative up to rounding. All k are done in one
+/// pass over memory, in pieces that the first-level cache holds. The order is fixed by n alone: at most 64 blocks, each
+/// in 16 lanes, lanes and then blocks joined in order; neither threads, the compiler's vectors nor other k change it.
 template <std::size_t most, class Value, class Term, class Join>
 inline std::array<Value, most> reduce_each(std::size_t count, std::size_t n, Value neutral, const Term& term,
                                            const Join& join) {
@@ -96,14 +95,14 @@ inline std::array<Value, most> reduce_each(std::size_t count, std::size_t n, Val
   return result;
 }
 
-/// join over term(0) … term(n−1), in the order of reduce_each().
+/// Joins term(0) … term(n−1), in the order of reduce_each().
 template <class Value, class Term, class Join>
 inline Value reduce(std::size_t n, Value neutral, const Term& term, const Join& join) {
   const auto alone = [&term](std::size_t /*k*/, std::size_t i) { return term(i); };
   return reduce_each<1>(1, n, neutral, alone, join)[0];
 }
 
-/// Σ term(i), in the order of reduce_each().
+/// The sum Σ term(i), in the order of reduce_each().
 template <class Term>
 inline double sum_over(std::size_t n, const Term& term) {
   return reduce(n, 0.0, term, [](double a, double b) { return a + b; });

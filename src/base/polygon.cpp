@@ -21,13 +21,13 @@ namespace {
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
-/// c, known to be in line with a and b, lies between them.
+/// Whether c, which is collinear with a and b, lies between them.
 bool between(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return std::min(a[0], b[0]) <= c[0] && c[0] <= std::max(a[0], b[0]) && std::min(a[1], b[1]) <= c[1] &&
          c[1] <= std::max(a[1], b[1]);
 }
 
-/// The segments ab and cd have a point in common.
+/// Whether the segments ab and cd have a point in common.
 bool meet(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
   const int abc = sign(turn(a, b, c)), abd = sign(turn(a, b, d));
   const int cda = sign(turn(c, d, a)), cdb = sign(turn(c, d, b));
@@ -36,12 +36,12 @@ bool meet(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const P
          (cdb == 0 && between(c, d, b));
 }
 
-/// The edges ab and bc lie on each other.
+/// Whether the edges ab and bc lie on each other.
 bool folds_back(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return turn(a, b, c) == 0 && (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]) <= 0;
 }
 
-/// The part where direction · (x_axis − border) ≥ 0.
+/// The part of the polygon where direction · (x_axis − border) ≥ 0.
 Polygon clipped(const Polygon& polygon, std::size_t axis, double border, double direction) {
   Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -78,7 +78,7 @@ std::vector<EdgeOverX> edges_over_x(const Polygon& polygon, const PlanePoint& or
   return edges;
 }
 
-/// ∫ min(y_a, y_b) dx over the x that both edges have.
+/// ∫ min(y_a, y_b) dx over the x that both edges have in common.
 double area_below_both(const EdgeOverX& a, const EdgeOverX& b) {
   const double left = std::max(a.x0, b.x0), right = std::min(a.x1, b.x1);
   if (!(right > left)) return 0;
@@ -98,7 +98,7 @@ double signed_area(const Polygon& polygon) {
 }
 
 PlanePoint centroid(const Polygon& polygon) {
-  // Of the triangles between corner 0 and each edge, as seen from corner 0.
+  // The mean over the triangles between corner 0 and each edge, relative to corner 0.
   double twice = 0;
   PlanePoint moment{0, 0};
   for (std::size_t k = 2; k < polygon.size(); ++k) {
@@ -110,7 +110,7 @@ PlanePoint centroid(const Polygon& polygon) {
 }
 
 bool contains(const Polygon& polygon, const PlanePoint& x) {
-  // The ray from x to the right crosses the border an odd number of times.
+  // A point is inside if the ray from it to the right crosses the border an odd number of times.
   bool inside = false;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
@@ -127,7 +127,7 @@ Polygon clipped_to_unit_square(const Polygon& polygon) {
   return part;
 }
 
-// A polygon is the sum of what lies below its edges, of the upper ones positive, of the lower ones negative: so is its
+// A polygon is the sum of the regions below its edges, positive for upper edges and negative for lower ones. So is its
 // characteristic function, and the product of two of them is a sum over pairs of edges.
 double overlap_area(const Polygon& a, const Polygon& b) {
   const PlanePoint& origin = a.front();

@@ -1,4 +1,4 @@
-// Plane polygons: corners in order, either way round, the last joined to the first.
+// Plane polygons: corners in order, either way round, with the last joined to the first.
 #pragma once
 
 #include <array>
@@ -13,30 +13,30 @@ using PlanePoint = std::array<double, 2>;
 using Polygon = std::vector<PlanePoint>;
 
 double distance(const PlanePoint& a, const PlanePoint& b);
-/// Of the edge from a to b, to its right: outwards where the corners run counter-clockwise. Of length 1.
+/// The unit normal of the edge from a to b, to its right: outwards if the corners run counter-clockwise.
 PlanePoint normal_of_edge(const PlanePoint& a, const PlanePoint& b);
 /// Twice the area of the triangle, positive if c is to the left of the edge from a to b.
 double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 
-/// Positive if the corners run counter-clockwise.
+/// The area, positive if the corners run counter-clockwise.
 double signed_area(const Polygon& polygon);
 
-/// Of a polygon with an area.
+/// The centroid of a polygon whose area is not 0.
 PlanePoint centroid(const Polygon& polygon);
 
-/// A place on the border counts as inside one of the polygons that share it.
+/// Whether x is inside. A point on a border that polygons share counts as inside exactly one of them.
 bool contains(const Polygon& polygon, const PlanePoint& x);
 
-/// The part in the unit square [Sutherland and Hodgman 1974]. Where that falls into several, borders of the square that
-/// are run through both ways join them: area and centroid are right all the same.
+/// The part in the unit square [Sutherland and Hodgman 1974]. If that has several components, stretches of the square's
+/// border that are run through both ways join them: area and centroid are right all the same.
 Polygon clipped_to_unit_square(const Polygon& polygon);
 
-/// Of the part that two simple polygons have in common.
+/// The area of the part that two simple polygons have in common.
 double overlap_area(const Polygon& a, const Polygon& b);
 
 struct PlaceOnBorder {
-  double distance = 0;   // from where it was looked for
-  std::size_t edge = 0;  // from corner `edge` to the next
+  double distance = 0;   // from the point x
+  std::size_t edge = 0;  // the edge from corner `edge` to the next
   PlanePoint at{};
 };
 /// The place on the border that is nearest to x.
@@ -45,8 +45,8 @@ inline double distance_to_border(const Polygon& polygon, const PlanePoint& x) {
   return nearest_on_border(polygon, x).distance;
 }
 
-/// Two edges (k: from corner k to the next) that cross, touch or lie on each other, though no corner joins them or they
-/// fold back at it; empty if the polygon is simple. Corners that repeat their neighbour count as such edges.
+/// Two edges (k: from corner k to the next) that cross, touch or lie on each other without sharing a corner, or fold
+/// back at a shared one; empty if the polygon is simple. A corner equal to its neighbour counts as such edges.
 std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon& polygon);
 
 }  // namespace stillpoint

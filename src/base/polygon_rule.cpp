@@ -15,7 +15,7 @@ struct Chord {
   double middle() const { return at_left + at_right; }
 };
 
-/// From below to above; the edges of a polygon cross at corners only.
+/// The chords of the polygon between two verticals, from below to above; edges of a polygon meet at corners only.
 std::vector<Chord> chords_between(const Polygon& polygon, double left, double right) {
   std::vector<Chord> chords;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -41,8 +41,8 @@ PlaneRule polygon_rule(const Polygon& polygon, int degree) {
   PlaneRule rule;
   for (std::size_t k = 0; k + 1 < verticals.size(); ++k) {
     const double left = verticals[k], right = verticals[k + 1];
-    // What lies between an odd chord and the next is inside; of a border that is run through both ways two lie on each
-    // other.
+    // The region between an odd chord and the next is inside; a border that is run through both ways gives two
+    // coincident chords.
     const std::vector<Chord> chords = chords_between(polygon, left, right);
     for (std::size_t c = 0; c + 1 < chords.size(); c += 2) {
       const Chord &lower = chords[c], &upper = chords[c + 1];

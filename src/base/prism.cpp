@@ -46,7 +46,7 @@ SpaceRule Prism::rule(const SpaceBox& box, int degree) const {
   const double length = part.high[axis_] - part.low[axis_];
   std::array<double, 2> side{};
   for (std::size_t d = 0; d < 2; ++d) side[d] = box.high[across_[d]] - box.low[across_[d]];
-  Polygon local;  // the box is the unit square
+  Polygon local;  // in coordinates in which the box is the unit square
   for (const PlanePoint& corner : polygon_)
     local.push_back({(corner[0] - box.low[across_[0]]) / side[0], (corner[1] - box.low[across_[1]]) / side[1]});
   const Polygon inside = clipped_to_unit_square(local);

@@ -1,4 +1,4 @@
-// A polygon drawn out along an axis.
+// A prism: a polygon extruded along an axis.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace stillpoint {
 
-/// A rule is that of the polygon's part in the box times an interval: exact but for rounding.
+/// A rule is the product of a rule on the polygon's part in the box and one on an interval: exact except for rounding.
 class Prism final : public Solid {
  public:
-  /// Corners in the other two coordinates, in their order.
+  /// polygon: corners in the two other coordinates, in the order of the axes.
   Prism(Polygon polygon, std::size_t axis, double from, double to);
 
   SpaceBox bounds() const override { return bounds_; }

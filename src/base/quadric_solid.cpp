@@ -10,15 +10,15 @@
 namespace stillpoint {
 namespace {
 
-constexpr double kNoCoefficient = 1e-13;  // of quadrics whose largest is 1
+constexpr double kNoCoefficient = 1e-13;  // relative to quadrics whose largest coefficient is 1
 
-/// q with its variables from fewer: [x; 1] = T [y; 1].
+/// q in terms of fewer variables y: [x; 1] = T [y; 1].
 template <int N>
 Quadric<N - 1> in_terms_of(const Quadric<N>& q, const Eigen::Matrix<double, N + 1, N>& T) {
   return T.transpose() * q * T;
 }
 
-/// The variables but one, which has this value.
+/// q in terms of all variables but one, which has this value.
 template <int N>
 Quadric<N - 1> with_fixed(const Quadric<N>& q, int variable, double value) {
   Eigen::Matrix<double, N + 1, N> T = Eigen::Matrix<double, N + 1, N>::Zero();
@@ -28,7 +28,7 @@ Quadric<N - 1> with_fixed(const Quadric<N>& q, int variable, double value) {
   return in_terms_of<N>(q, T);
 }
 
-/// Where q has one root in its first variable.
+/// The quadric in the other variables that vanishes where q has a double root in its first variable.
 template <int N>
 Quadric<N - 1> discriminant(const Quadric<N>& q) {
   const Eigen::Matrix<double, N, 1> mixed = q.template block<N, 1>(1, 0);
@@ -40,7 +40,7 @@ bool is_plane(const Quadric<N>& q) {
   return (q.template topLeftCorner<N, N>().array().abs() < kNoCoefficient).all();
 }
 
-/// q on a plane that is not parallel to the first variable's axis.
+/// q restricted to a plane that is not parallel to the first variable's axis.
 template <int N>
 Quadric<N - 1> on_plane(const Quadric<N>& q, const Quadric<N>& plane) {
   Eigen::Matrix<double, N + 1, N> T = Eigen::Matrix<double, N + 1, N>::Zero();
@@ -56,7 +56,7 @@ void scale(Quadric<N>& q) {
   if (largest > 0) q /= largest;
 }
 
-/// Real roots of a quadric of one variable, in (0, 1).
+/// Adds the real roots of a quadric of one variable that lie in (0, 1).
 void add_roots(const Quadric<1>& q, std::vector<double>& at) {
   const double a = q(0, 0), b = q(0, 1), c = q(1, 1), discriminant = b * b - a * c;
   if (!(discriminant >= 0)) return;
@@ -65,7 +65,7 @@ void add_roots(const Quadric<1>& q, std::vector<double>& at) {
     if (root > 0 && root < 1) at.push_back(root);
 }
 
-/// Where the integral over all variables but the last, each from 0 to 1, is not smooth in the last.
+/// Adds the values of the last variable at which the integral over all others, each from 0 to 1, is not smooth.
 template <int N>
 void add_breaks(const std::vector<Quadric<N>>& quadrics, std::vector<double>& at) {
   if constexpr (N == 1) {
@@ -98,7 +98,7 @@ std::vector<double> breaks(const std::vector<Quadric<N>>& quadrics) {
   return at;
 }
 
-/// In the unit cube.
+/// A quadrature rule in the unit cube.
 class QuadricRule {
  public:
   explicit QuadricRule(int degree) : along_x_(degree), across_(std::max(15, 3 * (degree + 2) + 2)) {
@@ -151,7 +151,7 @@ class QuadricRule {
 
 Eigen::Vector3d vector_of(const SpacePoint& x) { return {x[0], x[1], x[2]}; }
 
-/// xᵀ A x − c, with A having eigenvalues 0 and 1.
+/// The quadric xᵀ A x − c, with A having eigenvalues 0 and 1.
 Quadric<3> round_about_origin(const Eigen::Matrix3d& A, double c) {
   Quadric<3> q = Quadric<3>::Zero();
   q.topLeftCorner<3, 3>() = A;
@@ -202,7 +202,7 @@ bool QuadricSolid::contains(const SpacePoint& x) const {
   return std::ranges::all_of(quadrics_, [&](const Quadric<3>& q) { return at.dot(q * at) <= 0; });
 }
 
-// φ(m + d) = φ(m) + g·d + dᵀ A d,  |d_i| ≤ h_i
+// Bounds φ(m + d) = φ(m) + g·d + dᵀ A d over the box,  |d_i| ≤ h_i.
 Solid::Part QuadricSolid::part_of(const SpaceBox& box) const {
   const Eigen::Vector4d m = seen_from_origin(box.middle()).homogeneous();
   const Eigen::Vector3d h = (vector_of(box.high) - vector_of(box.low)) / 2;

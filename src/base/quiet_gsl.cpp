@@ -7,7 +7,7 @@
 namespace stillpoint {
 namespace {
 
-// The handler is one for the whole program: whoever puts back what he found could take away another's silence.
+// The handler is shared by the whole program: restoring a handler that was read earlier could end another's silence.
 struct {
   std::mutex mutex;
   long living = 0;

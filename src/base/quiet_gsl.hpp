@@ -1,10 +1,10 @@
-// GSL's errors as return values.
+// A scope in which GSL reports errors by return values.
 #pragma once
 
 namespace stillpoint {
 
-/// While any of these lives, in whatever thread, GSL returns its errors in place of aborting the program; after the
-/// last one it does again what it did before the first.
+/// While any object of this class exists, in whatever thread, GSL returns its errors instead of aborting the program;
+/// after the last one is destroyed the former error handler is back.
 class QuietGsl {
  public:
   QuietGsl();

@@ -1,4 +1,4 @@
-// What becomes of arrays when their entries are sorted anew.
+// The rearrangement of arrays after their entries are sorted anew.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 namespace stillpoint {
 
-/// Entry k is from now on what entry from()[k] was. Where most stay in their places only the ranges that hold others
-/// are copied.
+/// The entry from()[k] becomes entry k. If most entries stay in their places, only the ranges with the others are
+/// copied.
 class Reordering {
  public:
-  /// from is complete: finds out what moves.
+  /// Called once `from` is complete; finds the ranges that move.
   void complete() {
     moved_.clear();
     std::size_t others = 0;
@@ -29,8 +29,8 @@ class Reordering {
   std::vector<int>& from() { return from_; }
   const std::vector<int>& from() const { return from_; }
 
-  /// values: rows of the entries begin … begin + count − 1 alone, which stay among themselves,
-  /// (rows × count). work: takes its size.
+  /// Rearranges values, (rows × count): rows that hold the entries begin … begin + count − 1 alone, which are permuted
+  /// among themselves. work: takes the size of values.
   template <class T>
   void apply(std::vector<T>& values, std::vector<T>& work, std::size_t begin, std::size_t count) const {
     if (values.empty() || moved_.empty()) return;
@@ -65,10 +65,10 @@ class Reordering {
   }
 
  private:
-  static constexpr std::size_t gap = 8;  // entries that stay, which are copied with those about them
+  static constexpr std::size_t gap = 8;  // entries in place that are copied with those around them
 
   std::vector<int> from_;
-  std::vector<std::pair<std::size_t, std::size_t>> moved_;  // ranges outside which all stay
+  std::vector<std::pair<std::size_t, std::size_t>> moved_;  // ranges outside which all entries stay
   bool in_place_ = false;
 };
 

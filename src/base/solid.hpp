@@ -1,4 +1,4 @@
-// What the points of a body in space are placed in: a closed set with a volume.
+// A closed set with a volume, in which the points of a body in space are placed.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace stillpoint {
 
 using SpacePoint = std::array<double, 3>;
 
-/// An interval along each axis.
+/// A box: an interval along each axis.
 struct SpaceBox {
   SpacePoint low, high;
 
@@ -35,7 +35,7 @@ inline SpaceBox in_common(const SpaceBox& a, const SpaceBox& b) {
   return both;
 }
 
-/// Σ_q weight_q q(x_q) = ∫ q dV.
+/// A quadrature rule: Σ_q weight_q q(x_q) = ∫ q dV.
 struct SpaceRule {
   std::vector<SpacePoint> x;
   std::vector<double> weight;
@@ -47,13 +47,13 @@ class Solid {
 
   virtual ~Solid() = default;
   virtual SpaceBox bounds() const = 0;
-  /// Of a position on the surface either answer may be given.
+  /// Whether x is inside; for a position on the surface either answer may be given.
   virtual bool contains(const SpacePoint& x) const = 0;
-  /// How much of a box it has, told quickly: `some` may turn out to be none or all.
+  /// A fast answer on how much of a box is inside: `some` may turn out to be none or all.
   virtual Part part_of(const SpaceBox& box) const = 0;
-  /// Quadrature over the part in a box, of polynomials of this total degree.
+  /// A quadrature rule over the part in a box, for polynomials of this total degree.
   virtual SpaceRule rule(const SpaceBox& box, int degree) const = 0;
-  /// Whether rules have all their points inside, with weights > 0.
+  /// Whether all points of a rule lie inside, with weights > 0.
   virtual bool rules_lie_inside() const { return true; }
 };
 

@@ -1,24 +1,24 @@
 // Functions beyond those of <cmath>, by GSL, or by Boost in a build without the libraries under the GPL. Arguments
-// outside what is told give NaN.
+// outside the stated ranges give NaN.
 #pragma once
 
 #include <functional>
 
 namespace stillpoint {
 
-/// The w ≥ −1 with w e^w = x, x ≥ −1/e (Lambert's W_0).
+/// Lambert's W_0: the w ≥ −1 with w e^w = x, x ≥ −1/e.
 double lambert_w(double x);
 
 /// (e^x − 1 − x)/(x²/2), 1 at 0.
 double relative_exponential_2(double x);
 
-/// ∫₀^φ (1 − k² sin²)^(−1/2), and of (1 − k² sin²)^(1/2); 0 ≤ k < 1.
+/// The elliptic integrals ∫₀^φ of (1 − k² sin²)^(−1/2) and of (1 − k² sin²)^(1/2); 0 ≤ k < 1.
 double elliptic_f(double phi, double k);
 double elliptic_e(double phi, double k);
-/// The first of them at π/2.
+/// The complete integral elliptic_f(π/2, k).
 double elliptic_k(double k);
 
-/// sin φ and cos φ of the φ with elliptic_f(φ, k) = u.
+/// Jacobi's functions sin φ and cos φ of the φ with elliptic_f(φ, k) = u.
 struct JacobiFunctions {
   double sn, cn;
 };
@@ -31,11 +31,11 @@ double bessel_j1(double x);
 /// Legendre's polynomial P_k, |x| ≤ 1.
 double legendre(int k, double x);
 
-/// What a variable of Student's distribution with that many degrees of freedom is below with the probability.
+/// The quantile of Student's distribution with that many degrees of freedom.
 double student_quantile(double probability, double degrees_of_freedom);
 
-/// The zero of f between a < b, at whose ends it has different signs, to rounding: it stays between two ends (Brent's
-/// method, or that of Alefeld, Potra and Shi). Throws std::domain_error if it has not, or has no value.
+/// The zero of f between a < b, at whose ends it has different signs, to rounding: the zero stays bracketed (Brent's
+/// method, or that of Alefeld, Potra and Shi). Throws std::domain_error if the signs do not differ, or f has no value.
 double zero_between(double a, double b, const std::function<double(double)>& f);
 
 }  // namespace stillpoint

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-// function(arguments…, &result) of GSL; a value below the smallest number is the 0 that it gives.
+// The value of GSL's function(arguments…, &result); on underflow the 0 that GSL gives.
 template <class Function, class... Arguments>
 double value_of(Function function, Arguments... arguments) {
   const QuietGsl quiet;
@@ -62,7 +62,7 @@ double zero_between(double a, double b, const std::function<double(double)>& f) 
   gsl_function function{[](double x, void* of) { return (*static_cast<const std::function<double(double)>*>(of))(x); },
                         const_cast<std::function<double(double)>*>(&f)};
   int code = gsl_root_fsolver_set(solver.get(), &function, a, b);
-  constexpr int most = 500;  // Brent's method needs some ten
+  constexpr int most = 500;  // Brent's method needs about ten
   constexpr double rounding = 2 * std::numeric_limits<double>::epsilon();
   for (int k = 0; k < most && code == GSL_SUCCESS; ++k) {
     const double low = gsl_root_fsolver_x_lower(solver.get()), high = gsl_root_fsolver_x_upper(solver.get());

@@ -1,4 +1,4 @@
-// By Boost's Math, in long double where that has more digits.
+// Special functions by Boost.Math, in long double if that has more digits.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace math = boost::math;
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-// Errors are values that are not finite.
+// A policy in which errors give values that are not finite.
 using Quiet = math::policies::policy<math::policies::domain_error<math::policies::ignore_error>,
                                      math::policies::pole_error<math::policies::ignore_error>,
                                      math::policies::overflow_error<math::policies::ignore_error>,
@@ -37,7 +37,7 @@ double finite(double value) { return std::isfinite(value) ? value : no_value; }
 
 double lambert_w(double x) { return finite(math::lambert_w0(x, Quiet())); }
 
-// 2 Σ x^k/(k + 2)! where the difference would lose digits.
+// Sums 2 Σ x^k/(k + 2)! if the difference would lose digits.
 double relative_exponential_2(double x) {
   if (std::abs(x) >= 1) return finite((std::expm1(x) - x) / (x * x / 2));
   constexpr int most = 18;  // 2/20! is below rounding
@@ -75,7 +75,7 @@ double zero_between(double a, double b, const std::function<double(double)>& f) 
   const auto near = [](double low, double high) {
     return high - low <= rounding * std::min(std::abs(low), std::abs(high));
   };
-  std::uintmax_t steps = 500;  // some ten are enough
+  std::uintmax_t steps = 500;  // about ten are enough
   const auto [low, high] = math::tools::toms748_solve(value, a, b, at_a, at_b, near, steps, Quiet());
   return low + (high - low) / 2;
 }

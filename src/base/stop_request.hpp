@@ -1,5 +1,5 @@
-// How a long computation learns that it is to end before it is done: Ctrl-C, or no time is left. Who starts one says
-// whom to ask; the computation asks from time to time, deep down, without being handed anything.
+// The means by which a long computation learns that it has to stop early: Ctrl-C, or no time is left. The caller that
+// starts it supplies the question; the computation asks it from time to time, deep down, without being passed anything.
 #pragma once
 
 #include <exception>
@@ -7,13 +7,13 @@
 
 namespace stillpoint {
 
-/// What a computation that is to end throws.
+/// Thrown by a computation that has to stop early.
 class Stopped : public std::exception {
  public:
   const char* what() const noexcept override { return "stopped before it was done"; }
 };
 
-/// While it lives, heed_stop_request() asks `asked` in this thread, in place of whom it asked before; empty: nobody.
+/// While this exists, heed_stop_request() in this thread calls `asked` in place of the previous function; empty: none.
 class StopScope {
  public:
   explicit StopScope(std::function<bool()> asked);
@@ -26,9 +26,10 @@ class StopScope {
   const std::function<bool()>* before_;
 };
 
-/// Throws Stopped if the computation is to end. Not within a parallel loop, and not where a state is half changed.
+/// Throws Stopped if the computation has to stop. Not to be called in a parallel loop, or while a state is half
+/// changed.
 void heed_stop_request();
-/// Whether there is anybody to ask.
+/// Whether a StopScope with a function is active in this thread.
 bool may_be_stopped();
 
 }  // namespace stillpoint

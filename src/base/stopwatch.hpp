@@ -1,4 +1,4 @@
-// Wall time since it was made.
+// Wall time since the object was made.
 #pragma once
 
 #include <chrono>

@@ -14,8 +14,8 @@ std::string lower_case(std::string word) {
   return word;
 }
 
-/// The number of letters to insert, delete, change or swap with their neighbour that make a into b
-/// (restricted Damerau–Levenshtein distance).
+/// The number of letters to insert, delete, change or swap with a neighbour that turns a into b (restricted
+/// Damerau–Levenshtein distance).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), std::size_t{0});
@@ -53,7 +53,7 @@ std::string counted(std::size_t number, std::string_view what) {
 std::string shortened(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   text = text.substr(0, longest);
-  // Never in the middle of a UTF-8 character.
+  // A UTF-8 character is never cut in its middle.
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.remove_suffix(1);
   if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0) text.remove_suffix(1);
   return std::string(text) + "…";
@@ -65,8 +65,8 @@ std::string in_quotes(std::string_view word) {
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest = 100;  // longer words are no slips of the pen
-  constexpr std::size_t most = 1000;    // among more it would take long
+  constexpr std::size_t longest = 100;  // longer words are not typing errors
+  constexpr std::size_t most = 1000;    // a search among more would take long
   if (word.size() > longest || candidates.size() > most) return {};
   // A third of the letters may differ, but never all of them.
   std::size_t best = word.size() < 2 ? 1 : std::min(word.size(), std::max<std::size_t>(2, word.size() / 3 + 1));

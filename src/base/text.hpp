@@ -1,4 +1,4 @@
-// Words in messages: users' own in quotes, and the word that a misspelt one was meant to be.
+// Words in messages: quoting of the user's words, and suggestions for misspelt ones.
 #pragma once
 
 #include <cstddef>
@@ -8,25 +8,25 @@
 
 namespace stillpoint {
 
-/// A text with its control characters escaped: one line, with which no scene can drive a terminal.
+/// A text with its control characters escaped: one line, so that no text from a scene can control a terminal.
 std::string one_line(std::string_view text);
 
-/// "1 spring", "2 springs".
+/// A number with its noun: "1 spring", "2 springs".
 std::string counted(std::size_t number, std::string_view what);
 
-/// A text whose end is replaced by "…" if it is longer, in bytes.
+/// The text, with its end replaced by "…" if it is longer than `longest` bytes.
 std::string shortened(std::string_view text, std::size_t longest);
 
-/// 'word' for a message, one line without the end of a very long word.
+/// 'word' for a message: in one line, and without the end of a very long word.
 std::string in_quotes(std::string_view word);
 
 /// The candidate with the smallest edit distance to word, for "did you mean"; empty if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// "unknown value 'x'; did you mean 'y'?", or with the values on offer if none is near.
+/// "unknown value 'x'; did you mean 'y'?", or with the permitted values if none is near.
 std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates);
 
-/// Whether a program may give something this name in scenes; what_a_plain_word_is says when it may, for messages.
+/// Whether a program may give something this name in scenes; what_a_plain_word_is states the rule for messages.
 bool is_plain_word(std::string_view name);
 inline constexpr std::string_view what_a_plain_word_is =
     "lower-case letters, digits and hyphens, beginning with a letter";

@@ -12,7 +12,7 @@ namespace stillpoint {
 namespace {
 
 /// The winding of a triangle's projection along x about (y, z): 1 if its normal points to greater x, −1 if to smaller
-/// ones, 0 if (y, z) is outside. Each edge is looked at from its lower end whichever triangle asks.
+/// x, 0 if (y, z) is outside. An edge is always evaluated from its lower end, so that both of its triangles agree.
 int orientation_about(const Facet& triangle, double y, double z) {
   int winding = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -26,7 +26,7 @@ int orientation_about(const Facet& triangle, double y, double z) {
   return winding;
 }
 
-/// Where its plane is at (y, z), no further than the triangle.
+/// The x of the triangle's plane at (y, z), limited to the range of the triangle.
 double x_at(const Facet& t, double y, double z) {
   const double y1 = t[1][1] - t[0][1], z1 = t[1][2] - t[0][2], y2 = t[2][1] - t[0][1], z2 = t[2][2] - t[0][2];
   const double area = y1 * z2 - y2 * z1;
@@ -39,7 +39,7 @@ double x_at(const Facet& t, double y, double z) {
 
 using FacetPart = std::vector<SpacePoint>;
 
-/// The part where direction · (x_axis − border) ≥ 0.
+/// The part of the face where direction · (x_axis − border) ≥ 0.
 FacetPart cut(const FacetPart& face, std::size_t axis, double border, double direction) {
   FacetPart kept;
   for (std::size_t k = 0; k < face.size(); ++k) {
@@ -56,7 +56,7 @@ FacetPart cut(const FacetPart& face, std::size_t axis, double border, double dir
   return kept;
 }
 
-/// Of columns along x under faces: from x_low to the face, or to a height.
+/// A rule for columns along x below faces: from x_low to the face, or to a given height.
 class ColumnRule {
  public:
   ColumnRule(double x_low, int degree) : x_low_(x_low), along_(degree), across_(degree + 2) {}
@@ -67,7 +67,7 @@ class ColumnRule {
   SpaceRule take() { return std::move(rule_); }
 
  private:
-  // (1 − s) a + s ((1 − t) b + t c), s and t in [0, 1]: 2 A s ds dt
+  // Points (1 − s) a + s ((1 − t) b + t c), s and t in [0, 1], with the area element 2 A s ds dt.
   void add(const Facet& t, std::optional<double> x_high) {
     const double area = (t[1][1] - t[0][1]) * (t[2][2] - t[0][2]) - (t[2][1] - t[0][1]) * (t[1][2] - t[0][2]);
     if (area == 0) return;
@@ -109,7 +109,7 @@ bool meet(const SpaceBox& a, const SpaceBox& b, std::size_t axis) {
 }  // namespace
 
 std::optional<OpenEdge> open_edge(const std::vector<Facet>& triangles) {
-  std::map<std::pair<SpacePoint, SpacePoint>, int> passed;  // upwards less downwards
+  std::map<std::pair<SpacePoint, SpacePoint>, int> passed;  // passages upwards less those downwards
   for (const Facet& triangle : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const SpacePoint &from = triangle[k], &to = triangle[(k + 1) % 3];
@@ -122,7 +122,7 @@ std::optional<OpenEdge> open_edge(const std::vector<Facet>& triangles) {
   return std::nullopt;
 }
 
-// ⅙ Σ a · (b × c), from a position nearby
+// ⅙ Σ a · (b × c), with positions relative to a nearby one
 double signed_volume(const std::vector<Facet>& triangles) {
   double sum = 0;
   for (const Facet& triangle : triangles) {

@@ -1,5 +1,5 @@
-// Loops over a few components, written out by the compiler before it looks for vectors: inside a loop over points a
-// nested one, however short, can keep it from finding them.
+// Loops over a few components that the compiler unrolls before it vectorises: inside a loop over points a nested loop,
+// however short, can prevent vectorisation.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace stillpoint {
 
-/// body(0), …, body(N − 1)
+/// Calls body(0), …, body(N − 1).
 template <int N, class Body>
 [[gnu::always_inline]] inline void unroll(const Body& body) {
   [&]<int... c>(std::integer_sequence<int, c...>) __attribute__((always_inline)) {

@@ -1,4 +1,4 @@
-// Versions of the program and of the libraries that its numbers come from.
+// Versions of the program and of the libraries that its results depend on.
 #pragma once
 
 #include <string>

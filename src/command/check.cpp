@@ -1,4 +1,4 @@
-// stillpoint check: what would be modelled; nothing runs and nothing is written.
+// stillpoint check: describes the model of a scene; nothing runs and nothing is written.
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>

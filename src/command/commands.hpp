@@ -17,9 +17,9 @@ struct SceneArguments {
 
 struct RunArguments {
   SceneArguments scene;
-  std::filesystem::path resume;  // a run's folder or a checkpoint to go on from, in place of a scene
+  std::filesystem::path resume;  // a run's folder or a checkpoint to continue, instead of a scene
   std::filesystem::path out;     // empty: out/<scene's stem>
-  int threads = 0;               // 0: as many as OpenMP would take
+  int threads = 0;               // 0: OpenMP's own choice
   bool quiet = false;
 };
 
@@ -44,7 +44,7 @@ int compare(const CompareArguments& arguments);
 int converge(const ConvergeArguments& arguments);
 int check(const SceneArguments& arguments);
 int spectrum(const SceneArguments& arguments);
-/// topic: integrators, dampings, relaxations, solvers, materials, bases, keys, or empty for all. format: text, or of
+/// topic: integrators, dampings, relaxations, solvers, materials, bases, keys, or empty for all. format: text, or for
 /// keys alone markdown or schema.
 int list(const std::string& topic, const std::string& format = "text");
 

@@ -26,7 +26,7 @@ std::string seconds(double s) {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 std::string small(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1e}", value); }
 
-// By what a user would pick: those that arrived, the fastest first.
+// The rows in the order in which a user would choose: runs that converged first, the fastest at the top.
 std::vector<const ComparedRun*> ranked(const Comparison& c) {
   std::vector<const ComparedRun*> rows;
   for (const ComparedRun& run : c.runs) rows.push_back(&run);

@@ -1,4 +1,4 @@
-// stillpoint converge: one scene on ever finer levels, its errors and their orders.
+// stillpoint converge: one scene on successively finer levels, its errors and their orders.
 #include <stillpoint/converge.hpp>
 
 #include <algorithm>
@@ -107,7 +107,7 @@ int converge(const ConvergeArguments& arguments) {
     fmt::print("  written: {}\n", out.string());
   }
   tell_of_interrupt(series, options.keep);
-  int status = 0;  // the worst of the levels
+  int status = 0;  // the worst status of the levels
   for (const ConvergenceStudy& study : series) {
     if (study.interrupted) status = std::max(status, 3);
     for (const ConvergenceLevel& level : study.levels)

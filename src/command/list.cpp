@@ -1,4 +1,4 @@
-// stillpoint list: what there is to choose from.
+// stillpoint list: the choices that a scene offers.
 #include <stillpoint/integrator.hpp>
 
 #include <string>

@@ -1,5 +1,5 @@
-// stillpoint: the command. Exit status: 0 as asked, 2 bad input, 3 not in equilibrium within the limits, 4 failed.
-#include <stillpoint/problem.hpp>
+// stillpoint: the command. Exit status: 0 success, 2 bad input, 3 not in equilibrium within the limits, 4 failed.
+#include <stillpoint/scene_error.hpp>
 #include <stillpoint/state_archive.hpp>
 
 #include <cerrno>
@@ -102,16 +102,16 @@ CLI::App& add_converge(CLI::App& app, ConvergeArguments& arguments) {
   return converge;
 }
 
-// OpenMP's threads wait for the next loop in a busy loop of their own, for milliseconds: best alone on a machine, and
-// ten times slower than one thread if another program wants a core. So they wait for microseconds here, unless the
-// user has said otherwise. The library reads its environment before main(): the program starts itself once more, which
+// OpenMP's threads wait for the next loop by spinning, for milliseconds: best alone on a machine, but ten times slower
+// than one thread if another program wants a core. They therefore wait for microseconds here, unless the user has
+// chosen otherwise. The OpenMP library reads its environment before main(): the program starts itself once more, which
 // takes 20 ms.
 void wait_briefly(char** argv, int threads) {
   if (threads == 1 || std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", argv);
 }
 
-// Of threads: the word becomes 0.
+// A check for the number of threads: the word "auto" becomes 0.
 std::string number_or_auto(std::string& text) {
   constexpr std::string_view all_or_one = "auto";
   if (text != all_or_one) return CLI::Range(1, 1024)(text);
@@ -170,7 +170,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
-  if (app.get_subcommands().empty()) {  // asked for here, so that a misspelt one is reported by its name
+  if (app.get_subcommands().empty()) {  // checked here, so that a misspelt subcommand is reported by its name
     fmt::print(stderr, "{}", app.help());
     return bad_input;
   }
@@ -214,7 +214,7 @@ int exit_status(int argc, char** argv) {
   }
 }
 
-// What was printed may still wait to be written.
+// Flushes the standard output: a failure to write it may show only now.
 int status_after_output(int status) {
   errno = 0;
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
@@ -224,8 +224,8 @@ int status_after_output(int status) {
   return failed;
 }
 
-// What one phase gives back the next one takes again: handed to the system in between, each page would have to be
-// zeroed anew, which took 7 % of a slope's time.
+// The next phase reuses the memory that a phase frees: returned to the system in between, each page would have to be
+// zeroed anew, which took 7 % of the time of the slope scene.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int of_one_array = 4 << 20, unused_at_the_end = 64 << 20;  // [bytes]
@@ -236,7 +236,7 @@ void keep_freed_memory() {
 
 }  // namespace
 
-// What still works in a thread that nobody waits for must find all that it uses, to the last moment.
+// A thread with abandoned work must find everything it uses until the process ends: nothing is destroyed then.
 int main(int argc, char** argv) {
   keep_freed_memory();
   const int status = status_after_output(exit_status(argc, argv));

@@ -1,4 +1,4 @@
-// stillpoint run: relaxes a scene and ends in a short table.
+// stillpoint run: relaxes a scene and prints a short table.
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/run.hpp>
 
@@ -24,7 +24,7 @@ std::string way_to_rest(const Summary& s) {
   return hosted ? s.damping + ", an iteration of its own" : fmt::format("{}, {} damping", s.integrator, s.damping);
 }
 
-// Empty: not known.
+// The distance from equilibrium as text; empty if it is not known.
 std::string distance_of(const Summary& s) {
   std::string said;
   if (s.distance) said = fmt::format("   distance from equilibrium {:.3e}", *s.distance);

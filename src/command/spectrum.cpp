@@ -1,4 +1,4 @@
-// stillpoint spectrum: frequencies by every method that the scene allows, and what follows from them.
+// stillpoint spectrum: frequencies by every method that the scene allows, and the quantities that follow from them.
 #include <fmt/format.h>
 
 #include "command/commands.hpp"

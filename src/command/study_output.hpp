@@ -1,4 +1,4 @@
-// Where a study writes to, and its progress.
+// The output folder of a study, and its progress.
 #pragma once
 
 #include <stillpoint/study_progress.hpp>
@@ -10,7 +10,7 @@
 
 namespace stillpoint::command {
 
-/// "[3/40] what is done  about 12 s left": one line that rewrites itself on a terminal, plain lines now and then
+/// "[3/40] what is done  about 12 s left": one line that rewrites itself on a terminal, occasional plain lines
 /// elsewhere.
 class CountLine {
  public:
@@ -24,8 +24,8 @@ class CountLine {
   double next_plain_line_ = 10;  // [s]
 };
 
-/// The folder to write into, made before anything runs, since one that cannot be made is bad input. It does not stay
-/// if nothing came of it, and nobody else writes into it meanwhile.
+/// The output folder, made before anything runs, since a folder that cannot be made is bad input. It is removed again
+/// if it stays empty, and locked against other runs meanwhile.
 class OutputFolder {
  public:
   explicit OutputFolder(const std::filesystem::path& path);

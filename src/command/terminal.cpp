@@ -16,7 +16,7 @@ namespace {
 
 std::atomic<bool> was_interrupted = false;
 
-// The signals among these that whoever started the process does not want it to ignore, as nohup does.
+// Those of the three signals that the parent process has not set to be ignored, as nohup does.
 sigset_t heeded_signals() {
   sigset_t heeded;
   sigemptyset(&heeded);
@@ -28,7 +28,7 @@ sigset_t heeded_signals() {
   return heeded;
 }
 
-// The second one ends the process, as it would have without us.
+// The second signal ends the process, as it would have without this thread.
 void wait_for_signals(const sigset_t& heeded) {
   int number = 0;
   sigwait(&heeded, &number);
@@ -39,8 +39,8 @@ void wait_for_signals(const sigset_t& heeded) {
   raise(number);
 }
 
-// Share of the way done: of the time to the end, or of the fall of the residual on a logarithmic scale. Of what is left
-// once that is over nobody knows how long it takes.
+// The share of the run that is done: of the time to its end, or of the fall of the residual on a logarithmic scale.
+// Empty once the residual has met its goal, as the rest cannot be predicted.
 std::optional<double> share_done(const Progress& p, double start_residual) {
   if (p.end_time > 0 && p.residual_goal <= 0) return p.t / p.end_time;
   if (p.residual_goal > 0 && p.residual > p.residual_goal && start_residual > p.residual_goal) {
@@ -54,8 +54,8 @@ std::optional<double> share_done(const Progress& p, double start_residual) {
 
 bool interrupted() { return was_interrupted; }
 
-// A thread waits for the signals, and all others are closed to them: METIS, which orders the unknowns for a factor,
-// puts a handler of its own in the place of any for SIGTERM, and jumps away from what it was doing.
+// One thread waits for the signals, and they are blocked in all others: METIS, which orders the unknowns for a factor,
+// replaces any handler of SIGTERM by its own, and jumps away from the interrupted work.
 void watch_for_interrupt() {
   const sigset_t heeded = heeded_signals();
   pthread_sigmask(SIG_BLOCK, &heeded, nullptr);
@@ -80,7 +80,7 @@ void ProgressLine::show(const Progress& p) {
   shown_ = true;
 }
 
-// A residual that does not fall has no time left that could be told.
+// For a residual that does not fall no remaining time can be given.
 std::string ProgressLine::outlook(const Progress& p) const {
   const bool by_residual = p.residual_goal > 0;
   if (by_residual && p.residual <= p.residual_goal) return p.waits_for.empty() ? "" : "  waits for: " + p.waits_for;
@@ -90,7 +90,7 @@ std::string ProgressLine::outlook(const Progress& p) const {
   if (!by_residual) return done + fmt::format("  about {:.0f} s left", p.wall_s * (1 - *share) / *share);
   const auto& [since, before] = lately_.front();
   const double fallen = std::log(before / p.residual), to_fall = std::log(p.residual / p.residual_goal);
-  constexpr double little = 1e-3;  // of a factor e
+  constexpr double little = 1e-3;  // as a power of e
   if (!(fallen > little)) return done + "  the residual does not fall";
   return done + fmt::format("  about {:.0f} s left", (p.wall_s - since) * to_fall / fallen);
 }

@@ -1,4 +1,4 @@
-// Progress with time left: one line that rewrites itself on a terminal, plain lines now and then elsewhere.
+// Progress with the time left: one line that rewrites itself on a terminal, occasional plain lines elsewhere.
 #pragma once
 
 #include <stillpoint/simulation.hpp>
@@ -23,13 +23,13 @@ class ProgressLine {
   bool shown_ = false;
   double next_plain_line_ = 10;  // [s]
   double start_residual_ = 0;
-  std::deque<std::pair<double, double>> lately_;  // wall time [s] and residual, of the last half of the run
+  std::deque<std::pair<double, double>> lately_;  // wall time [s] and residual, over the last half of the run
 };
 
-/// Whether Ctrl-C was pressed since watch_for_interrupt(), or the process asked to end by SIGTERM or SIGHUP; once more
-/// ends it at once.
+/// Whether Ctrl-C was pressed since watch_for_interrupt(), or SIGTERM or SIGHUP was received; a second signal ends the
+/// process at once.
 bool interrupted();
-/// To be called while there is one thread.
+/// Has to be called while there is only one thread.
 void watch_for_interrupt();
 
 }  // namespace stillpoint::command

@@ -1,4 +1,4 @@
-// What Saint-Venant's bars along x have in common.
+// Checks that Saint-Venant's bars along x share.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace stillpoint {
 
-/// The body has to be the bar that it is said to be: boxes that reach from `from` to `from + size` along an axis.
+/// Whether the body is the bar that the parameters describe: boxes that reach from `from` to `from + size` along an
+/// axis.
 inline std::optional<SolutionFault> fault_of_extent(const Problem& problem, const char* key, std::size_t axis,
                                                     double from, double size) {
   constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
@@ -27,7 +28,7 @@ inline std::optional<SolutionFault> fault_of_extent(const Problem& problem, cons
                                         high, "xyz"[axis], from, from + size)};
 }
 
-/// The section |y − y0| ≤ depth/2, |z − z0| ≤ width/2.
+/// Checks the section |y − y0| ≤ depth/2, |z − z0| ≤ width/2.
 inline std::optional<SolutionFault> fault_of_section(const Problem& problem) {
   const double depth = parameter(problem, "depth"), width = parameter(problem, "width");
   if (auto fault = fault_of_extent(problem, "depth", 1, parameter(problem, "y0") - depth / 2, depth)) return fault;

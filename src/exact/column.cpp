@@ -10,7 +10,7 @@
 //   Hencky           P = M e/F,  W = M e²/2             e = −W_0(p/M)  (Lambert's W)
 //   neo-Hookean      P = μ (F − 1/F) + λ e/F,  W = μ ((F² − 1)/2 − e) + λ e²/2
 //
-// The section stays as it is, so that the Cauchy stress along the column is −p for each of them.
+// The section keeps its width, so that the Cauchy stress along the column is −p for each of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ namespace {
 
 double modulus(const ElasticConstants& of) { return of.lambda + 2 * of.mu; }
 
-/// What a law makes of the pressure p at a section [Pa].
+/// The response of a law to the pressure p at a section [Pa].
 struct ColumnLaw {
   std::string_view name;
   bool finite_strain;
@@ -65,7 +65,7 @@ class Column final : public ExactSolution {
         base_(parameter(problem, "base")),
         height_(parameter(problem, "height")),
         weight_(of_.rho * parameter(problem, "g")) {
-    if (problem.state == StressState::uniaxial_stress) of_.lambda = 0, of_.mu = of_.E / 2;  // nothing is confined
+    if (problem.state == StressState::uniaxial_stress) of_.lambda = 0, of_.mu = of_.E / 2;  // free to contract sideways
     at_base_ = settlement(weight_ * height_);
   }
 
@@ -103,7 +103,7 @@ class Column final : public ExactSolution {
   double at_base_ = 0;    // (F − 1) P − W [Pa]
 };
 
-// It has to be the column that it is said to be: boxes and polygons from its base to its top.
+// Checks that the body is the column that the parameters describe: boxes and polygons from its base to its top.
 std::optional<SolutionFault> fault_of_height(const Problem& problem) {
   constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
   const std::size_t vertical = dimension_info(problem.dim).vertical;

@@ -34,7 +34,8 @@ class Elastica final : public ExactSolution {
                            depth * depth * depth / 12;  // E I [N m²]
     beta_ = std::sqrt(parameter(problem, "load") / bending);
     const auto start = [](double k) { return std::asin(std::min(1.0, std::numbers::sqrt2 / (2 * k))); };
-    // k goes from 1/√2, without a load, to 1; the load of a k short of 1 by rounding is some hundred times E I/L².
+    // k goes from 1/√2, without a load, to 1; the load at a k that rounding separates from 1 is some hundred times
+    // E I/L².
     k_ = zero_between(std::numbers::sqrt2 / 2, 1 - 1e-15,
                       [&](double k) { return elliptic_k(k) - elliptic_f(start(k), k) - beta_ * length_; });
     phi_0_ = start(k_);
@@ -42,7 +43,7 @@ class Elastica final : public ExactSolution {
     E_0_ = elliptic_e(phi_0_, k_);
   }
 
-  // Beyond the ends of the axis it goes straight on.
+  // Beyond its ends the axis continues as a straight line.
   void displacement(std::span<const double> X, double, std::span<double> u) const override {
     const double s = X[0] - clamped_, eta = X[1] - axis_, within = std::clamp(s, 0.0, length_);
     const auto [sn, cn] = jacobi(F_0_ + beta_ * within, k_);
@@ -65,7 +66,7 @@ class Elastica final : public ExactSolution {
 };
 
 std::optional<SolutionFault> elastica_fault(const Problem& problem) {
-  constexpr double least = 1e-3, most = 200;  // where nothing cancels, or rounds k to 1
+  constexpr double least = 1e-3, most = 200;  // within them nothing cancels and k < 1
   const ElasticConstants of = elastic_constants(problem);
   const double depth = parameter(problem, "depth"), length = parameter(problem, "length");
   const double modulus = of.is_plane_stress ? of.E : of.E / (1 - of.nu * of.nu);

@@ -8,7 +8,7 @@
 namespace stillpoint {
 namespace {
 
-/// A scene's own formulas.
+/// A solution given by the scene's own formulas.
 class FormulaSolution final : public ExactSolution {
  public:
   explicit FormulaSolution(const ExactSpec& exact) : exact_(exact) {}

@@ -9,8 +9,9 @@
 //   u_y = (W/EI) [ν (l − x)(y² − z²)/2 + l x²/2 − x³/6] + θ x,
 //   χ = (1 + ν/2)(y³/3 − y z²) − ((1 + ν) a² − ν b²/3) y + (4ν b³/π³) Σ_n (−1)ⁿ/n³ cos(k_n z) sinh(k_n y)/cosh(k_n a)
 //
-// The section at x = 0 warps, and its mean rotation ∫ y u_x dA/I is 0 [Cowper 1966]: θ = (W/EI)[(0.8 + 0.9 ν) a² −
-// ν b²/6], of a square section W/(k G A) with k = 10 (1 + ν)/(12 + 11 ν), Timoshenko's shear coefficient.
+// The section at x = 0 warps, and its mean rotation ∫ y u_x dA/I is 0 [Cowper 1966]:
+// θ = (W/EI)[(0.8 + 0.9 ν) a² − ν b²/6], for a square section W/(k G A) with k = 10 (1 + ν)/(12 + 11 ν), Timoshenko's
+// shear coefficient.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +25,7 @@
 namespace stillpoint {
 namespace {
 
-/// What χ/ν, ∂φ/∂z and ∂φ/∂y take of the series.
+/// The sums of the series in χ/ν, ∂φ/∂z and ∂φ/∂y.
 struct Series {
   double warping = 0;               // (4b³/π³) Σ (−1)ⁿ/n³ cos(k_n z) sinh(k_n y)/cosh(k_n a) [m³]
   double along_y = 0, along_z = 0;  // (2b²/π²) Σ (−1)ⁿ/n² cos cosh/cosh, and sin sinh/cosh [m²]
@@ -32,7 +33,7 @@ struct Series {
 
 Series series(double a, double b, double y, double z) {
   constexpr double pi = std::numbers::pi, rounding = 1e-17;
-  constexpr int most = 4000;  // terms: at the top and the bottom they fall as 1/n² alone
+  constexpr int most = 4000;  // terms: at the top and the bottom they fall only as 1/n²
   Series sum;
   double sign = -1;
   for (int n = 1; n <= most; ++n, sign = -sign) {
@@ -81,9 +82,9 @@ class Flexure final : public ExactSolution {
   double nu_;
   double l_, a_, b_;             // [m]
   double per_I_;                 // W/I [N/m⁴]
-  double curvature_;             // W/EI, that of the axis per length [1/m²]
+  double curvature_;             // W/EI, curvature of the axis per length [1/m²]
   double theta_;                 // θ
-  std::array<double, 3> start_;  // of the axis [m]
+  std::array<double, 3> start_;  // start of the axis [m]
 };
 
 std::optional<SolutionFault> flexure_fault(const Problem& problem) {

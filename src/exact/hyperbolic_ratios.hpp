@@ -1,5 +1,5 @@
-// sinh x/cosh c and cosh x/cosh c for |x| ≤ c, where cosh c itself may be too large for a number: the terms of Fourier
-// series across a rectangle.
+// sinh x/cosh c and cosh x/cosh c for |x| ≤ c, also if cosh c itself overflows: terms of Fourier series across a
+// rectangle.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The exact solutions that the program knows: a file for each, and a row here.
+// The exact solutions that the program knows: each has a file of its own, and a row here.
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
@@ -11,13 +11,13 @@ namespace stillpoint {
 
 struct KnownSolution {
   SolutionInfo about;
-  /// Of a scene that has passed the checks of its parameters.
+  /// Makes the solution for a scene whose parameters have been checked.
   std::unique_ptr<ExactSolution> (*make)(const Problem& problem);
 };
 
 const std::vector<KnownSolution>& known_solutions();
 
-// The rows.
+// The rows:
 KnownSolution column_solution();
 KnownSolution lame_cylinder_solution();
 KnownSolution kirsch_solution();

@@ -4,7 +4,8 @@
 //   σ_rr, σ_θθ = A ∓ B/r²,   2μ u_r = A r (κ − 1)/2 + B/r,
 //   A = (p_a a² − p_b b²)/(b² − a²),   B = (p_a − p_b) a² b²/(b² − a²)
 //
-// with Kolosov's κ; in plane strain and around an axis the cylinder is held in length, in plane stress it is a ring.
+// with Kolosov's κ; in plane strain and axisymmetric scenes the length of the cylinder is fixed, in plane stress it is
+// a ring.
 #include <fmt/format.h>
 
 #include "exact/known_solutions.hpp"

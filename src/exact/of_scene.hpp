@@ -1,4 +1,4 @@
-// What an exact solution takes from its scene.
+// The data of a scene that exact solutions use.
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
@@ -11,11 +11,11 @@
 
 namespace stillpoint {
 
-/// Of the one material that the bodies have, and of their state.
+/// The constants of the single material of the bodies, and their stress state.
 struct ElasticConstants {
   double E, nu, rho;     // [Pa], [1], [kg/m³]
   double lambda, mu;     // Lamé's [Pa]
-  double kappa;          // Kolosov's: 3 − 4ν in plane strain and around an axis, (3 − ν)/(1 + ν) in plane stress
+  double kappa;          // Kolosov's: 3 − 4ν in plane strain and axisymmetry, (3 − ν)/(1 + ν) in plane stress
   bool is_plane_stress;  // σ_zz = 0, otherwise ε_zz = 0
 };
 
@@ -36,14 +36,14 @@ inline ElasticConstants elastic_constants(const Problem& problem) {
           .is_plane_stress = is_plane_stress};
 }
 
-/// σ_zz of a plane body.
+/// σ_zz in a plane body.
 inline double across(const ElasticConstants& of, double sigma_xx, double sigma_yy) {
   return of.is_plane_stress ? 0 : of.nu * (sigma_xx + sigma_yy);
 }
 
 inline double parameter(const Problem& problem, const char* name) { return problem.exact.parameters.at(name); }
 
-/// A centre x0, y0 away from the axis.
+/// The fault of an axisymmetric scene that gives a centre x0, y0 off the axis.
 inline std::optional<SolutionFault> fault_of_centre(const Problem& problem) {
   if (problem.state != StressState::axisymmetric) return std::nullopt;
   for (const char* key : {"x0", "y0"}) {
@@ -53,7 +53,7 @@ inline std::optional<SolutionFault> fault_of_centre(const Problem& problem) {
   return std::nullopt;
 }
 
-// Rows of parameters.
+// Rows of parameters:
 inline ParameterInfo positive_parameter(std::string_view name, std::string_view unit, std::string_view meaning) {
   return {name, unit, meaning, 0, std::numeric_limits<double>::infinity(), false, true, 0};
 }

@@ -1,12 +1,11 @@
-// Free vibration of a solid cylinder along its radius, in plane stress of a disc [Love 1927, art. 200; Pochhammer
-// 1876]:
+// Free radial vibration of a solid cylinder, or in plane stress of a disc [Love 1927, art. 200; Pochhammer 1876]:
 //
 //   u_r = A J_1(k r) cos(ω t),   ω = c k,   ρ c² = λ' + 2μ
 //   free edge   (λ' + 2μ) k R J_0(k R) = 2μ J_1(k R)       held edge   J_1(k R) = 0
 //
-// λ' = λ where the length is held (plane strain, around an axis), 2λμ/(λ + 2μ) in plane stress; k R is the number-th
-// positive root. Between two zeros of J_1, on which J_0 has its extrema, the free edge's equation has one root, and one
-// before the first.
+// λ' = λ if the length is fixed (plane strain, axisymmetric), 2λμ/(λ + 2μ) in plane stress; k R is the number-th
+// positive root. The free edge's equation has one root between two successive zeros of J_1, on which J_0 has its
+// extrema, and one before the first zero.
 #include <cmath>
 #include <numbers>
 
@@ -40,7 +39,7 @@ class RadialMode final : public ExactSolution {
     double root = zero_of_j1(n);
     if (problem.exact.choices.at("edge") == "free") {
       const auto pressure = [&](double x) { return modulus * x * bessel_j0(x) - 2 * of_.mu * bessel_j1(x); };
-      // At 0 it is 0 as well, and rises with λ' + μ.
+      // The function also vanishes at 0, where it rises with λ' + μ.
       root = zero_between(n == 1 ? 1e-6 : zero_of_j1(n - 1), root, pressure);
     }
     k_ = root / parameter(problem, "radius");
@@ -63,7 +62,7 @@ class RadialMode final : public ExactSolution {
   void stress(std::span<const double> X, double t, std::span<double> sigma) const override {
     const PolarPosition at(X, centre_);
     const double r = is_around_axis_ ? X[0] : at.r, swing = amplitude_ * std::cos(omega_ * t);
-    // J_1' = J_0 − J_1/x
+    // By J_1' = J_0 − J_1/x:
     const double hoop = swing * (k_ * r > 0 ? bessel_j1(k_ * r) / r : k_ / 2);
     const double radial = swing * k_ * bessel_j0(k_ * r) - hoop;
     const double volumetric = of_.lambda * (radial + hoop);

@@ -7,7 +7,8 @@
 //
 //   2μ (u_x + i u_y) = κ φ(ζ) + φ(ζ̄) − (ζ − ζ̄) conj φ'(ζ),   φ = C [(ζ − b) ln(ζ − b) − (ζ + b) ln(ζ + b)]
 //
-// It grows as ln r, so that it is told relative to the point at a depth under the middle that a scene holds.
+// It grows as ln r, so that it is given relative to a point at some depth under the middle, which the scene holds
+// fixed.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -44,7 +45,7 @@ class StripLoad final : public ExactSolution {
     for (const double sign : {1.0, -1.0}) {
       const double x = X[0] - x0_ + sign * b_, square = x * x + z * z;
       angle += sign * std::atan2(x, z);
-      if (square == 0) continue;  // at an end of the strip: the mean of both sides
+      if (square == 0) continue;  // at an end of the strip, where the mean of both sides is taken
       sines += sign * z * x / square;
       shear -= sign * z * z / square;
     }
@@ -58,16 +59,16 @@ class StripLoad final : public ExactSolution {
  private:
   double depth(std::span<const double> X) const { return std::max(surface_ - X[1], 0.0); }
 
-  // 2μ (u_x + i u_y) up to a motion of the whole.
+  // 2μ (u_x + i u_y) up to a rigid motion.
   Complex potential(double x, double z) const {
     const Complex C(0, -q_ / (2 * std::numbers::pi));
     const auto phi = [&](const Complex& at) { return C * (product(at - b_) - product(at + b_)); };
-    const Complex at(x, z == 0 ? -0.0 : -z);  // below the cuts of the logarithms
-    // (ζ − ζ̄) conj φ'(ζ) = −2 i z conj φ'; of the end of the strip, where ln diverges, z is 0
+    const Complex at(x, z == 0 ? -0.0 : -z);  // below the branch cuts of the logarithms
+    // (ζ − ζ̄) conj φ'(ζ) = −2 i z conj φ'; at the ends of the strip, where ln diverges, z is 0
     const Complex correction = z == 0 ? 0 : Complex(0, -2 * z) * std::conj(C * (std::log(at - b_) - std::log(at + b_)));
     return of_.kappa * phi(at) + phi(std::conj(at)) - correction;
   }
-  // w ln w, 0 at 0.
+  // w ln w, continued by 0 at w = 0.
   static Complex product(const Complex& w) { return w == Complex(0) ? 0 : w * std::log(w); }
 
   ElasticConstants of_;

@@ -4,8 +4,8 @@
 //   u_x = α ψ(y, z),  u_y = −α x z,  u_z = α x y,   τ_xy = μ α (∂ψ/∂y − z),  τ_zx = μ α (∂ψ/∂z + y),
 //   ψ = y z − (32 a²/π³) Σ_n (−1)ⁿ/(2n + 1)³ sin(k_n y) sinh(k_n z)/cosh(k_n b),   k_n = (2n + 1) π/(2a)
 //
-// ψ is harmonic, and no traction acts on the sides. With y and z in each other's place it is −ψ: of the two series the
-// one is taken whose terms fade sooner.
+// ψ is harmonic, and no traction acts on the sides. Exchanging y and z gives −ψ: of the two series the one whose terms
+// decay faster is used.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ struct Warping {
 
 Warping series_along_y(double a, double b, double y, double z) {
   constexpr double pi = std::numbers::pi, rounding = 1e-17;
-  constexpr int most = 2000;  // terms: at an edge they fall as 1/n² alone
+  constexpr int most = 2000;  // terms: at an edge they fall only as 1/n²
   Warping sum{y * z, z, y};
   double sign = 1;
   for (int n = 0; n < most; ++n, sign = -sign) {
@@ -73,7 +73,7 @@ class Torsion final : public ExactSolution {
   double mu_;                    // [Pa]
   double a_, b_;                 // halves of the section's sides along y and z [m]
   double alpha_;                 // [rad/m]
-  std::array<double, 3> start_;  // of the axis, where nothing turns [m]
+  std::array<double, 3> start_;  // start of the axis, which does not rotate [m]
 };
 
 }  // namespace

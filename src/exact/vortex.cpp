@@ -1,10 +1,10 @@
-// A generalised vortex: a ring R_1 < R < R_2 turns inside itself, each circle as a whole, and nothing moves elsewhere
+// A generalised vortex: in a ring R_1 < R < R_2 each circle rotates as a whole, and nothing moves outside the ring
 // [after Kamojjala, Brannon, Sadeghirad and Guilkey 2015, Eng. Comput. 31:193-213]:
 //
 //   x = Q(α(R)) X,   α = A (1 − s²)ⁿ,   s = (2R − R_1 − R_2)/(R_2 − R_1)
 //
-// or all of a disc R < R_2 with s = R/R_2, of which α is as smooth at the centre as anywhere. Nothing changes its
-// volume. For the neo-Hookean law, in the directions of the angle Θ + α and with γ = R α':
+// or the whole of a disc R < R_2 with s = R/R_2, for which α is as smooth at the centre as anywhere. The motion
+// preserves volume. For the neo-Hookean law, in the directions of the angle Θ + α and with γ = R α':
 //
 //   σ_rθ = μ γ,   σ_θθ = μ γ²,   σ_rr = σ_zz = 0
 //
@@ -36,7 +36,7 @@ class Vortex final : public ExactSolution {
   void displacement(std::span<const double> X, double, std::span<double> u) const override {
     const PolarPosition at(X, centre_);
     const double angle = angle_at(at.r).first;
-    // Q − I, by half the angle: a small one keeps its digits
+    // Q − I by half the angle, so that a small one keeps its digits
     const double c = -2 * std::sin(angle / 2) * std::sin(angle / 2), s = std::sin(angle);
     const double x = at.r * at.cos, y = at.r * at.sin;
     u[0] = c * x - s * y;
@@ -59,7 +59,7 @@ class Vortex final : public ExactSolution {
 
  private:
   static bool is_disc(const Problem& problem) { return parameter(problem, "inner_radius") == 0; }
-  // α and α'
+  // α and α' at R.
   std::pair<double, double> angle_at(double R) const {
     const double s = (R - middle_) / half_, q = 1 - s * s;
     if (!(q > 0)) return {0, 0};
@@ -68,7 +68,7 @@ class Vortex final : public ExactSolution {
 
   double mu_;                     // [Pa]
   std::array<double, 2> centre_;  // [m]
-  double middle_, half_;          // of the ring; 0 and R_2 of a disc [m]
+  double middle_, half_;          // of the ring; for a disc 0 and R_2 [m]
   double A_, n_;
 };
 

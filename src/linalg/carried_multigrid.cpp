@@ -20,7 +20,7 @@ ConstVec position(const NodalLayout& layout, int node) {
   return ConstVec(layout.positions).subspan(static_cast<std::size_t>(node) * dim, dim);
 }
 
-// For each unknown of `to` the one of `from` at the same place in the same direction, or none.
+// For each unknown of `to`, the unknown of `from` at the same place in the same direction, or none.
 std::vector<int> matches(const NodalLayout& from, const NodalLayout& to) {
   const auto before = [](ConstVec a, ConstVec b) { return std::ranges::lexicographical_compare(a, b); };
   const auto place = [&from](int unknown) { return position(from, from.node[static_cast<std::size_t>(unknown)]); };

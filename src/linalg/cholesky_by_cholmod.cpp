@@ -1,5 +1,6 @@
 // A = L Lᵀ by CHOLMOD [Chen, Davis, Hager, Rajamanickam, ACM TOMS 35(3), 2008, algorithm 887].
-// The C API itself: cholmod_solve2 keeps its workspaces from call to call, Eigen's wrapper allocates on each solve.
+// It calls the C API itself, because cholmod_solve2 keeps its workspaces between calls, while Eigen's wrapper allocates
+// on each solve.
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -14,7 +15,7 @@
 namespace stillpoint {
 namespace {
 
-// CHOLMOD's views of memory that stays ours. It reads them only, but its structs have no const.
+// CHOLMOD's views of memory that the caller owns. It only reads them, but its structs have no const.
 cholmod_sparse lower_triangle_of(const SparseMatrix& A) {
   cholmod_sparse view{};
   view.nrow = static_cast<std::size_t>(A.rows());
@@ -41,7 +42,7 @@ cholmod_dense column(ConstVec b) {
   return view;
 }
 
-// Owns every CHOLMOD object of one factorisation.
+// Owns all CHOLMOD objects of one factorisation.
 class CholmodFactor final : public CholeskyFactor {
  public:
   CholmodFactor() {
@@ -50,7 +51,7 @@ class CholmodFactor final : public CholeskyFactor {
     common.quick_return_if_not_posdef = 1;
     common.supernodal = CHOLMOD_AUTO;  // simplicial if there is little work per entry of L: bands, small systems
     common.final_asis = 0;
-    common.final_ll = 1;  // L Lᵀ, not L D Lᵀ, which would go through with a negative D
+    common.final_ll = 1;  // L Lᵀ, not L D Lᵀ, which would accept a negative D
     common.final_super = 1;
     common.final_pack = common.final_monotonic = 1;
   }
@@ -72,7 +73,7 @@ class CholmodFactor final : public CholeskyFactor {
     check("analyze");
     cholmod_factorize(&view, L, &common);
     check("factorize");
-    // A NaN passes CHOLMOD's own test d ≤ 0; its condition estimate (min L_ii/max L_ii)² is 0 then.
+    // A NaN passes CHOLMOD's own test d ≤ 0; its condition estimate (min L_ii/max L_ii)² is then 0.
     ratio = cholmod_rcond(L, &common);
     const bool positive_definite = L->minor == n && ratio > 0;
     check("rcond");
@@ -82,7 +83,7 @@ class CholmodFactor final : public CholeskyFactor {
   double pivot_ratio() const override { return ratio; }
 
   void solve(ConstVec b, Vec x) override {
-    std::optional<OneBlasThread> same_bits;  // of a supernodal factor: to set it takes longer than a small solve
+    std::optional<OneBlasThread> same_bits;  // for a supernodal factor only: setting it takes longer than a small solve
     if (L->is_super) same_bits.emplace();
     cholmod_dense B = column(b);
     if (Y && !L->is_super) {  // a simplicial solve asks for Y (4 × n), but leaves the header at (1 × n): allocated anew
@@ -98,7 +99,7 @@ class CholmodFactor final : public CholeskyFactor {
   std::size_t bytes() const override { return common.memory_inuse; }
 
  private:
-  // The one check of CHOLMOD's status: errors are negative, CHOLMOD_NOT_POSDEF and other warnings positive.
+  // All CHOLMOD statuses are checked here: errors are negative, CHOLMOD_NOT_POSDEF and other warnings positive.
   void check(const char* step) const {
     if (common.status >= CHOLMOD_OK) return;
     const char* why = common.status == CHOLMOD_OUT_OF_MEMORY ? "out of memory"
@@ -112,7 +113,7 @@ class CholmodFactor final : public CholeskyFactor {
   cholmod_factor* L = nullptr;
   cholmod_dense *X = nullptr, *Y = nullptr, *E = nullptr;  // result and workspaces of cholmod_solve2
   std::size_t n = 0;
-  double ratio = 0;  // of pivots
+  double ratio = 0;  // pivot ratio of the factor
 };
 
 }  // namespace

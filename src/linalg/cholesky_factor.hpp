@@ -1,4 +1,4 @@
-// What SparseCholesky keeps: a factor by CHOLMOD, or by Eigen in a build without the libraries under the GPL.
+// The factor inside SparseCholesky: by CHOLMOD, or by Eigen in a build without the libraries under the GPL.
 #pragma once
 
 #include <stillpoint/sparse_matrix.hpp>
@@ -10,7 +10,7 @@
 
 namespace stillpoint {
 
-/// Of an A that has one row or more. Its address never changes.
+/// A factor of a matrix A with at least one row. The object never moves in memory.
 class CholeskyFactor {
  public:
   CholeskyFactor() = default;
@@ -18,12 +18,12 @@ class CholeskyFactor {
   CholeskyFactor& operator=(const CholeskyFactor&) = delete;
   virtual ~CholeskyFactor() = default;
 
-  /// A: compressed. True: it is positive definite, and the factor solves. Throws std::runtime_error if no memory is
-  /// left.
+  /// Factorises A, which has to be compressed. True if it is positive definite, so that solve() may be called. Throws
+  /// std::runtime_error if no memory is left.
   virtual bool factorise(const SparseMatrix& A) = 0;
-  /// (min L_kk/max L_kk)²; of one that solves.
+  /// (min L_kk/max L_kk)²; only after factorise() returned true.
   virtual double pivot_ratio() const = 0;
-  /// As SparseCholesky's; the first call may allocate.
+  /// Solves as SparseCholesky::solve() does; the first call may allocate.
   virtual void solve(ConstVec b, Vec x) = 0;
   virtual std::size_t bytes() const = 0;
 };

@@ -1,5 +1,5 @@
 // P A Pᵀ = L Lᵀ by Eigen, row by row [Davis, ACM TOMS 31(4), 2005, algorithm 849], in an order of minimum degree.
-// Its own steps of a solution: solve() of Eigen allocates.
+// It solves in steps of its own, because Eigen's solve() allocates.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -60,7 +60,7 @@ class EigenCholesky final : public CholeskyFactor {
   }
 
  private:
-  // The factor itself; matrixL() is a view of it.
+  // The factor L itself; matrixL() is a view of it.
   const Wide& factor() const { return llt_.matrixL().nestedExpression(); }
 
   // A NaN passes Eigen's own test d ≤ 0. The first entry of a column is L_kk.

@@ -1,4 +1,4 @@
-// The one file that calls PETSc: compiled into a module of its own, which multigrid.cpp loads when it is needed.
+// The only file that calls PETSc: compiled into a module of its own, which multigrid.cpp loads when it is needed.
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,7 +16,7 @@
 namespace stillpoint {
 namespace {
 
-// PETSc is not made for several threads at once, and its handler of errors is one for all.
+// PETSc may not be called by several threads at once, and its error handler is shared by all.
 std::mutex petsc;
 std::string first_message;
 
@@ -31,8 +31,8 @@ void check(PetscErrorCode code) {
   if (code != 0) throw std::runtime_error(fmt::format("PETSc fails: {} (error {})", first_message, code));
 }
 
-// One process, whoever has started it: without these OpenMPI looks for networks and a launcher, a third of a second.
-// What the user has set stays.
+// PETSc runs in one process, however that was started: without these settings OpenMPI looks for networks and a
+// launcher, a third of a second. Values that the user has set are kept.
 void start_petsc() {
   static const bool started = [] {
     constexpr int keep = 0;
@@ -40,7 +40,7 @@ void start_petsc() {
     setenv("OMPI_MCA_btl", "self", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));  // the program has its own
-    check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"));       // its runs are the scene's alone
+    check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"));       // results depend on the scene alone
     check(PetscInitializeNoArguments());
     check(PetscPushErrorHandler(remember, nullptr));
     std::atexit([] { PetscFinalize(); });
@@ -79,7 +79,7 @@ class Gamg final : public Multigrid {
     const std::scoped_lock lock(petsc);
     double *to = nullptr, *from = nullptr;
     check(VecGetArrayWrite(b_, &to));
-    for (std::size_t k = 0; k < row_.size(); ++k) to[row_[k]] = b[k];  // 0 in the others
+    for (std::size_t k = 0; k < row_.size(); ++k) to[row_[k]] = b[k];  // the other rows stay 0
     check(VecRestoreArrayWrite(b_, &to));
     check(PCApply(cycle_, b_, x_));
     check(VecGetArray(x_, &from));
@@ -105,7 +105,7 @@ class Gamg final : public Multigrid {
   }
 
  private:
-  // By rows: a value and a column each.
+  // Memory of a matrix stored by rows, with a value and a column for each entry [bytes].
   static double memory_of(Mat A) {
     MatInfo info{};
     PetscInt rows = 0;
@@ -114,20 +114,20 @@ class Gamg final : public Multigrid {
            rows * sizeof(PetscInt);
   }
 
-  // Smoothing by Chebyshev polynomials of degree 3 over Jacobi: no product is quicker than with 2 or 4, and 15
-  // iterations do where 17 and 14 would. Without a threshold on what couples strongly: with one of 0.001 to 0.1 a body
-  // with an inclusion 10⁶ times as stiff takes 40 where it now takes 25, and others as many.
+  // Smoothing is by Chebyshev polynomials of degree 3 over Jacobi: no product is quicker than with 2 or 4, and it needs
+  // 15 iterations where those need 17 and 14. There is no threshold on strong coupling: with one of 0.001 to 0.1 a body
+  // with an inclusion 10⁶ times as stiff takes 40 iterations in place of 25, and others as many as without.
   void set_options() {
     const auto set = [](const char* name, const char* value) { check(PetscOptionsSetValue(nullptr, name, value)); };
     set("-stillpoint_pc_gamg_threshold", "0");
     set("-stillpoint_pc_gamg_agg_nsmooths", "1");
-    set("-matptap_via", "rap");  // coarse levels in space in half the time of the default
+    set("-matptap_via", "rap");  // halves the time for coarse levels in space
     set("-stillpoint_mg_levels_ksp_type", "chebyshev");
     set("-stillpoint_mg_levels_pc_type", "jacobi");
     set("-stillpoint_mg_levels_ksp_max_it", "3");
   }
 
-  // K with all components of each node: what is held has a row of its own, of the size of the others.
+  // K with all components of each node: a held component has a row of its own, of the size of the others.
   void make_matrix(const SparseMatrix& K) {
     const auto dim = static_cast<std::size_t>(layout_.dim);
     row_.resize(layout_.node.size());
@@ -170,9 +170,9 @@ class Gamg final : public Multigrid {
   }
 
   NodalLayout layout_;
-  std::vector<PetscInt> row_;  // of each unknown
+  std::vector<PetscInt> row_;  // row of each unknown
   PetscInt rows_ = 0;
-  std::vector<PetscInt> begin_, column_;  // of K_, which reads them in place
+  std::vector<PetscInt> begin_, column_;  // arrays of K_, which reads them in place
   std::vector<double> value_;
   Mat K_ = nullptr;
   PC cycle_ = nullptr;

@@ -20,14 +20,14 @@ namespace {
 
 constexpr int directions = 60;
 
-// What SUNDIALS calls back with.
+// The data with which SUNDIALS calls back.
 struct Operators {
   const LinearMap &A, &B;
   std::size_t n;
   int products = 0;
-  std::exception_ptr exception{};  // cannot cross C: kept, and thrown again on this side
+  std::exception_ptr exception{};  // kept, as it cannot cross C, and thrown again on this side
 
-  // 0: done, −1: an exception was thrown
+  // Returns 0 for done, −1 if an exception was thrown.
   int call(const LinearMap& map, N_Vector x, N_Vector y) noexcept {
     try {
       heed_stop_request();

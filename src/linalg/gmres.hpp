@@ -7,7 +7,7 @@
 namespace stillpoint {
 
 /// x = A⁻¹ b from x = 0 with the preconditioner B ≈ A⁻¹ from the right, until ‖b − A x‖ ≤ tolerance ‖b‖. b, x: (n).
-/// Begins again every 60 products, and keeps as many vectors. Throws std::runtime_error if SUNDIALS cannot be set up.
+/// Restarts every 60 products, and keeps as many vectors. Throws std::runtime_error if SUNDIALS cannot be set up.
 IterativeResult gmres(const LinearMap& A, const LinearMap& B, ConstVec b, Vec x, double tolerance, int max_iterations);
 
 }  // namespace stillpoint

@@ -23,7 +23,7 @@ Eigensystem eigensystem(const std::vector<double>& alpha, const std::vector<doub
   return T;
 }
 
-// The eigenvalue at one end of T, beside the one next to it; beta: what T's last row lacks.
+// The eigenvalue at one end of T, with the one next to it for the gap; beta: the β_m that belongs to T's next row.
 Lanczos::Largest at_end(const Eigensystem& T, double beta, Eigen::Index end, Eigen::Index next) {
   const Eigen::Index m = T.eigenvalues().size();
   const double theta = T.eigenvalues()(end), r = beta * std::abs(T.eigenvectors()(m - 1, end));
@@ -48,7 +48,7 @@ Lanczos::Lanczos(LinearMap apply_A, LinearMap solve_B, Vector b, bool keeps_vect
   divide(norm);
 }
 
-// q and w by their norm.
+// Divides q and w by the norm.
 void Lanczos::divide(double norm) {
   for_each_index(q_.size(), [=, q = q_.span().data(), w = w_.span().data()](std::size_t i) {
     q[i] /= norm;

@@ -1,4 +1,4 @@
-// A linear operator by what it does to a vector.
+// A linear operator, given by its action on a vector.
 #pragma once
 
 #include <stillpoint/types.hpp>

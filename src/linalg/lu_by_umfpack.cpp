@@ -1,5 +1,6 @@
 // P R A Q = L U by UMFPACK [Davis, ACM TOMS 30(2), 2004, algorithm 832].
-// The C API itself: its wsolve takes the work space, Eigen's wrapper allocates on each solve.
+// It calls the C API itself, because UMFPACK's wsolve takes a given work space, while Eigen's wrapper allocates on each
+// solve.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,7 +60,7 @@ class UmfpackFactor final : public LuFactor {
   }
 
  private:
-  // The one check of UMFPACK's status: errors are negative, a singular matrix and other warnings positive.
+  // All UMFPACK statuses are checked here: errors are negative, a singular matrix and other warnings positive.
   void check(int status, const char* step) const {
     if (status >= UMFPACK_OK) return;
     const char* why = status == UMFPACK_ERROR_out_of_memory ? "out of memory" : "internal error";
@@ -72,8 +73,8 @@ class UmfpackFactor final : public LuFactor {
   std::array<double, UMFPACK_CONTROL> control{};
   std::array<double, UMFPACK_INFO> info{};
   void* numeric = nullptr;
-  std::vector<int> integers;            // Wi of wsolve
-  std::vector<double> reals, solution;  // its W; and x, which must not be b
+  std::vector<int> integers;            // work space Wi of wsolve
+  std::vector<double> reals, solution;  // work space W of wsolve; x, which must not be b
 };
 
 }  // namespace

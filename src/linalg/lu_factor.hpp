@@ -1,4 +1,4 @@
-// What SparseLu keeps: a factor by UMFPACK, or by Eigen in a build without the libraries under the GPL.
+// The factor inside SparseLu: by UMFPACK, or by Eigen in a build without the libraries under the GPL.
 #pragma once
 
 #include <stillpoint/sparse_matrix.hpp>
@@ -10,7 +10,7 @@
 
 namespace stillpoint {
 
-/// Of an A that has one entry or more. Its address never changes.
+/// A factor of a matrix A with at least one entry. The object never moves in memory.
 class LuFactor {
  public:
   LuFactor() = default;
@@ -18,17 +18,18 @@ class LuFactor {
   LuFactor& operator=(const LuFactor&) = delete;
   virtual ~LuFactor() = default;
 
-  /// True: A is regular, and the factor solves. Throws std::runtime_error if no memory is left.
+  /// Factorises A. True if it is regular, so that solve() may be called. Throws std::runtime_error if no memory is
+  /// left.
   virtual bool factorise() = 0;
-  /// min |U_kk|/max |U_kk|; of one that solves.
+  /// min |U_kk|/max |U_kk|; only after factorise() returned true.
   virtual double pivot_ratio() const = 0;
-  /// As SparseLu's.
+  /// Solves as SparseLu::solve() does.
   virtual void solve(ConstVec b, Vec x) = 0;
-  /// With its copy of A.
+  /// The memory of the factor and of its copy of A [bytes].
   virtual std::size_t bytes() const = 0;
 };
 
-/// Keeps a copy of A.
+/// A factor object that keeps a copy of A.
 std::shared_ptr<LuFactor> make_lu_factor(const SparseMatrix& A);
 
 std::string_view lu_library();

@@ -1,6 +1,6 @@
 // P R A Q = L U by Eigen, in supernodes [Demmel, Eisenstat, Gilbert, Li and Liu, SIAM J. Matrix Anal. Appl. 20(3),
-// 1999], in the order of COLAMD; R divides each row by the sum of its magnitudes. Its own steps of a solution: solve()
-// of Eigen allocates.
+// 1999], in the order of COLAMD; R divides each row by the sum of its magnitudes. It solves in steps of its own,
+// because Eigen's solve() allocates.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,13 +22,13 @@ using Eigen::VectorXd;
 using Entry = std::int64_t;  // L and U of a large A have more than 2³¹ of them
 using Wide = Eigen::SparseMatrix<double, Eigen::ColMajor, Entry>;
 
-// Eigen's, which keeps a row of L and U in common: a supernode is a few columns with the same rows, whose values are
-// dense, the triangle of U on its diagonal above L.
+// Eigen's factor, which stores L and U together: a supernode is a few columns with the same rows, whose values are
+// dense, with the triangle of U on its diagonal above L.
 class Supernodes : public Eigen::SparseLU<Wide, Eigen::COLAMDOrdering<Entry>> {
  public:
   bool no_memory() const { return m_lastError.starts_with("UNABLE TO"); }
 
-  /// The smallest |U_kk|/the largest.
+  /// min |U_kk|/max |U_kk|.
   double pivot_ratio() const {
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (Index s = 0; s < count(); ++s) {
@@ -42,7 +42,7 @@ class Supernodes : public Eigen::SparseLU<Wide, Eigen::COLAMDOrdering<Entry>> {
     return most > 0 ? least / most : 0;
   }
 
-  /// y = U⁻¹ L⁻¹ y; work: (n).
+  /// Replaces y by U⁻¹ L⁻¹ y; work: (n).
   void solve_in_place(VectorXd& y, VectorXd& work) const {
     for (Index s = 0; s < count(); ++s) {
       const Index below = rows_below(s);
@@ -127,7 +127,7 @@ class EigenLu final : public LuFactor {
   }
 
  private:
-  // solution += Q U⁻¹ L⁻¹ P R residual.
+  // Computes solution += Q U⁻¹ L⁻¹ P R residual.
   void add_correction() {
     residual_.array() *= scale_.array();
     permuted_ = lu_.rowsPermutation() * residual_;
@@ -142,7 +142,7 @@ class EigenLu final : public LuFactor {
   }
 
   SparseMatrix A_;
-  VectorXd scale_;  // R's diagonal
+  VectorXd scale_;  // diagonal of R
   Supernodes lu_;
   VectorXd solution_, residual_, permuted_, work_;  // (n)
 };

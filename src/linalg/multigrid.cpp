@@ -17,10 +17,10 @@ using MakeGamg = Multigrid* (*)(const SparseMatrix&, const NodalLayout&);
 
 struct Module {
   MakeGamg make = nullptr;
-  std::string missing;  // why there is none
+  std::string missing;  // why there is no module
 };
 
-// The folder of the program, or of the shared library, that this code is in.
+// The folder of the program, or of the shared library, that contains this code.
 std::filesystem::path own_folder() {
   Dl_info info{};
   static const char anchor = 0;
@@ -30,9 +30,9 @@ std::filesystem::path own_folder() {
   return ignored ? std::filesystem::path() : file.parent_path();
 }
 
-// Beside the program as it was built; installed, in the folder of libraries, wherever the two were put. Two folders
-// below are the Python module, installed in python3/dist-packages in the folder of libraries, and the library for a
-// wider processor, in glibc-hwcaps/NAME.
+// The module lies beside the program where that was built; if installed, it is in the folder of libraries, wherever the
+// two were put. The Python module, installed in python3/dist-packages in the folder of libraries, and the library for a
+// wider processor, in glibc-hwcaps/NAME, lie two folders below it.
 Module load_module() {
   const std::string file = STILLPOINT_MULTIGRID_MODULE;
   if (file.empty()) return {nullptr, std::string(why_no_petsc())};

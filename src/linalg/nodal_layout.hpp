@@ -1,4 +1,4 @@
-// Where the unknowns of a stiffness stand, which a hierarchy of coarser levels has to know beside it.
+// The nodes and components of a stiffness's unknowns, which a hierarchy of coarser levels needs besides the matrix.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@ namespace stillpoint {
 
 struct NodalLayout {
   int dim = 0;
-  std::vector<int> node;          // of each unknown, from 0, ascending, (n)
-  std::vector<int> component;     // of each unknown, in 0 … dim − 1, ascending in a node, (n)
+  std::vector<int> node;          // node of each unknown, from 0, ascending, (n)
+  std::vector<int> component;     // component of each unknown, in 0 … dim − 1, ascending in a node, (n)
   std::vector<double> positions;  // (nodes × dim) [m]
 
   bool empty() const { return node.empty(); }

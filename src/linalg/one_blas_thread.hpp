@@ -1,12 +1,12 @@
 // BLAS on one thread: a product that is divided among threads is summed in another order for another number of them,
-// and results are to be the same bits for any. CHOLMOD's own loops ask for four threads each, whatever OpenMP was told,
-// to wake and to wait for at each supernode: they get one as well.
+// and results have to be the same bits for any number. CHOLMOD's own loops ask for four threads each, whatever OpenMP
+// was told, to be woken and waited for at each supernode: they get one as well.
 #pragma once
 
 #include <omp.h>
 
 extern "C" {
-// Of OpenBLAS, if that is the BLAS which the program has found.
+// Functions of OpenBLAS, null if the program is linked with another BLAS.
 [[gnu::weak]] int openblas_get_parallel();  // 0: sequential, 1: threads of its own, 2: OpenMP's
 [[gnu::weak]] int openblas_get_num_threads();
 [[gnu::weak]] void openblas_set_num_threads(int threads);
@@ -14,7 +14,7 @@ extern "C" {
 
 namespace stillpoint {
 
-/// While it lives, BLAS and what calls it take one thread; afterwards as many as before.
+/// During its lifetime BLAS and its callers use one thread; afterwards as many as before.
 class OneBlasThread {
  public:
   OneBlasThread() : of_openmp_(omp_get_max_threads()), active_levels_(omp_get_max_active_levels()) {
@@ -35,7 +35,7 @@ class OneBlasThread {
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 
  private:
-  int of_openmp_, of_openblas_ = 0;  // threads before; 0: not ours to set
+  int of_openmp_, of_openblas_ = 0;  // threads before; 0: not changed
   int active_levels_;
 };
 

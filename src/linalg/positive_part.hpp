@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-/// A ← Σ max(λ, 0) v vᵀ over the eigenpairs of A's symmetric part; A: (N × N) by rows, finite.
+/// Replaces A by Σ max(λ, 0) v vᵀ over the eigenpairs of A's symmetric part; A: (N × N) by rows, finite.
 template <std::size_t N2>
 void take_positive_part(std::array<double, N2>& A) {
   constexpr int n = [] {

@@ -14,17 +14,18 @@
 namespace stillpoint {
 namespace {
 
-// What ρ_k still misses, from its changes δ_k = ρ_k − ρ_{k−1}. The change alone would stop a slow iteration far from λ.
+// Estimates the error that ρ_k still has, from its changes δ_k = ρ_k − ρ_{k−1}. The change alone would stop a slow
+// iteration far from λ.
 //   one mode left beside the dominant one:  λ − ρ_k = δ_k (q + q² + …) = δ_k q/(1 − q),   q = δ_k/δ_{k−1};
 //   many, if the spectrum is crowded near λ, and q still grows:  λ − ρ_k ∝ 1/k, so λ − ρ_k ≈ k δ_k.
-// The larger one has to be within the tolerance three times running. Changes of rounding size end the iteration as
-// well. A B⁻¹ of condition κ adds noise of κ eps to ρ, which exact iteration never lets fall: after many a fall ρ is as
-// good as it will be, whatever the tolerance, and no estimate of the above makes sense.
+// The larger estimate has to be within the tolerance three times running. Changes of rounding size end the iteration as
+// well. A B⁻¹ of condition κ adds noise of κ eps to ρ, which never falls in exact arithmetic: after many falls ρ is as
+// good as it will be, whatever the tolerance is, and the estimates above mean nothing.
 class MissingPart {
  public:
   explicit MissingPart(double tolerance) : tolerance_(tolerance) {}
 
-  // rho after k iterations.
+  // Whether the iteration has converged; rho: its value after k iterations.
   bool converged(double rho, int k) {
     const double change = std::abs(rho - previous_), q = change / previous_change_;
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(rho);
@@ -35,7 +36,7 @@ class MissingPart {
           q < 1 ? change * std::max<double>(q / (1 - q), k) / std::abs(rho) : std::numeric_limits<double>::infinity();
     }
     held_ = error_ <= std::max(tolerance_, std::numeric_limits<double>::epsilon()) ? held_ + 1 : 0;
-    constexpr double noticeable = 1e-6;  // a larger fall is that of an indefinite A
+    constexpr double noticeable = 1e-6;  // a larger fall comes from an indefinite A
     if (rho < previous_ && change > rounding && change < noticeable * std::abs(rho)) {
       ++falls_;
       noise_ = std::max(noise_, change / std::abs(rho));
@@ -51,7 +52,7 @@ class MissingPart {
   static constexpr int most_falls = 16;
 
   double tolerance_;
-  double previous_ = std::numeric_limits<double>::quiet_NaN(), previous_change_ = previous_;  // none so far
+  double previous_ = std::numeric_limits<double>::quiet_NaN(), previous_change_ = previous_;  // no value so far
   double error_ = std::numeric_limits<double>::infinity();
   int held_ = 0;
   int falls_ = 0;

@@ -10,7 +10,7 @@
 
 namespace stillpoint {
 
-/// Keeps A, by rows.
+/// The product with A, of which it keeps a copy stored by rows.
 inline LinearMap row_product(const SparseMatrix& A) {
   using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   return [rows = Rows(A)](ConstVec x, Vec y) {

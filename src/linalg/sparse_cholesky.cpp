@@ -14,7 +14,7 @@
 namespace stillpoint {
 
 struct SparseCholesky::Impl {
-  std::shared_ptr<CholeskyFactor> factor = make_cholesky_factor();  // its factorisation may be left to itself
+  std::shared_ptr<CholeskyFactor> factor = make_cholesky_factor();  // an abandoned factorisation may still use it
   std::size_t n = 0;
   bool positive_definite = false;
 };
@@ -22,7 +22,7 @@ struct SparseCholesky::Impl {
 namespace {
 
 bool factorise(const std::shared_ptr<CholeskyFactor>& factor, const SparseMatrix& A) {
-  constexpr Eigen::Index takes_long = 5000;  // unknowns, some hundredths of a second
+  constexpr Eigen::Index takes_long = 5000;  // unknowns for which a factor takes some hundredths of a second
   if (A.rows() < takes_long || !may_be_stopped()) return factor->factorise(A);
   const auto done = std::make_shared<bool>(false);
   work_apart([factor, done, own = std::make_shared<const SparseMatrix>(A)] { *done = factor->factorise(*own); });
@@ -45,7 +45,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& A) : impl_(std::make_unique<I
     compressed.makeCompressed();
     impl_->positive_definite = factorise(impl_->factor, compressed);
   }
-  if (positive_definite()) {  // a first solve makes the workspaces
+  if (positive_definite()) {  // a first solve allocates the workspaces
     std::vector<double> zero(size(), 0.0);
     solve(zero, zero);
   }

@@ -1,4 +1,4 @@
-// A sparse Cholesky factor that solves again and again without allocating.
+// A sparse Cholesky factor that solves repeatedly without allocating.
 #pragma once
 
 #include <stillpoint/sparse_matrix.hpp>
@@ -10,7 +10,7 @@
 
 namespace stillpoint {
 
-/// A = L Lᵀ for a symmetric positive definite A (n × n).
+/// The factor A = L Lᵀ of a symmetric positive definite A (n × n).
 class SparseCholesky {
  public:
   /// Factorises A. Throws std::runtime_error if the library itself fails (memory);
@@ -20,18 +20,18 @@ class SparseCholesky {
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
   ~SparseCholesky();
 
-  /// Whether the factorisation went through: a proof (to rounding) that A is positive definite.
+  /// Whether the factorisation succeeded, which proves (up to rounding) that A is positive definite.
   bool positive_definite() const;
-  /// The smallest pivot beside the largest, (min L_kk/max L_kk)², an upper bound of 1/κ(A): if it is of the size of
-  /// rounding, A may be singular. 1 if n = 0; needs positive_definite().
+  /// The ratio of the smallest to the largest pivot, (min L_kk/max L_kk)², an upper bound of 1/κ(A): if it is of the
+  /// size of rounding, A may be singular. 1 if n = 0; needs positive_definite().
   double pivot_ratio() const;
   /// x = A⁻¹ b; b, x: (n), may be the same array. Allocates nothing after the first call. Needs positive_definite().
   void solve(ConstVec b, Vec x) const;
   std::size_t size() const;
-  /// What the factor and its work space take [bytes].
+  /// The memory of the factor and its work space [bytes].
   std::size_t bytes() const;
 
-  /// By which it is made.
+  /// The name of the library that makes the factor.
   static std::string_view library();
 
  private:

@@ -11,7 +11,7 @@
 namespace stillpoint {
 
 struct SparseLu::Impl {
-  std::shared_ptr<LuFactor> factor;  // its factorisation may be left to itself
+  std::shared_ptr<LuFactor> factor;  // an abandoned factorisation may still use it
   std::size_t n = 0;
   bool regular = false;
 };
@@ -19,7 +19,7 @@ struct SparseLu::Impl {
 namespace {
 
 bool factorise(const std::shared_ptr<LuFactor>& factor, std::size_t n) {
-  constexpr std::size_t takes_long = 2000;  // unknowns, some hundredths of a second
+  constexpr std::size_t takes_long = 2000;  // unknowns for which a factor takes some hundredths of a second
   if (n < takes_long) return factor->factorise();
   const auto done = std::make_shared<bool>(false);
   work_apart([factor, done] { *done = factor->factorise(); });

@@ -1,4 +1,4 @@
-// All that differs between SUNDIALS 6.4 (Debian's) and 7.x, so that no other file asks for the version.
+// All differences between SUNDIALS 6.4 (Debian's) and 7.x, so that no other file asks for the version.
 #pragma once
 
 #include <cstdio>  // arkode_butcher.h uses FILE and does not include it
@@ -27,7 +27,7 @@ inline SUNContext create_context() {
   return context;
 }
 
-// ERKStepXxx became ARKodeXxx in 7.1; only what is peculiar to ERKStep kept its name.
+// ERKStepXxx became ARKodeXxx in 7.1; only functions that are specific to ERKStep kept their names.
 #if STILLPOINT_SUNDIALS_AT_LEAST(7, 1)
 #define STILLPOINT_ARKODE(name) inline constexpr auto name = &ARKode##name
 #else
@@ -58,8 +58,8 @@ STILLPOINT_ARKODE(WFtolerances);
 /// Before 6.7 ERKStep takes every table with c_s = 1 for first-same-as-last and reuses the wrong f (issue 311).
 inline constexpr bool reuses_last_stage_wrongly = !STILLPOINT_SUNDIALS_AT_LEAST(6, 7);
 
-/// The dense output that costs least; this library never asks for any. Before 7.1 it cannot be switched off,
-/// and a Lagrange interpolant of degree 0 (one copy of y a step) is the cheapest.
+/// Selects the cheapest dense output, as this library never asks for any. Before 7.1 it cannot be switched off, and a
+/// Lagrange interpolant of degree 0 (one copy of y a step) is the cheapest.
 inline int set_cheapest_interpolant(void* arkode) {
 #if STILLPOINT_SUNDIALS_AT_LEAST(7, 1)
   return SetInterpolantType(arkode, ARK_INTERP_NONE);
@@ -69,13 +69,13 @@ inline int set_cheapest_interpolant(void* arkode) {
 #endif
 }
 
-/// Cubic dense output from both ends' values and derivatives, for what has to be found inside a step.
+/// Selects cubic dense output from the values and derivatives at both ends, for events that are located inside a step.
 inline int set_hermite_interpolant(void* arkode) {
   const int code = SetInterpolantType(arkode, ARK_INTERP_HERMITE);
   return code == 0 ? SetInterpolantDegree(arkode, 3) : code;
 }
 
-/// Keeps SUNDIALS' last message in `last` in place of printing it; `last` outlives the integrator.
+/// Keeps SUNDIALS' last message in `last` instead of printing it; `last` has to outlive the integrator.
 #if STILLPOINT_SUNDIALS_AT_LEAST(7, 0)
 inline int capture_messages(void* /*arkode*/, SUNContext context, std::string& last) {
   SUNContext_ClearErrHandlers(context);
@@ -86,7 +86,7 @@ inline int capture_messages(void* /*arkode*/, SUNContext context, std::string& l
       },
       &last);
 }
-/// Ends capture_messages(): messages go nowhere.
+/// Ends capture_messages(): messages are dropped.
 inline void release_messages(SUNContext context) { SUNContext_ClearErrHandlers(context); }
 #else
 inline int capture_messages(void* arkode, SUNContext /*context*/, std::string& last) {
@@ -100,13 +100,13 @@ inline int capture_messages(void* arkode, SUNContext /*context*/, std::string& l
 inline void release_messages(SUNContext /*context*/) {}
 #endif
 
-/// The name of one of ARKODE's explicit tables, as in its enumeration; empty if it is not known.
+/// The name of one of ARKODE's explicit tables, as in its enumeration; empty if it is unknown.
 inline std::string table_name(int id) {
 #if STILLPOINT_SUNDIALS_AT_LEAST(7, 1)
   const char* name = ARKodeButcherTable_ERKIDToName(static_cast<ARKODE_ERKTableID>(id));
   return name ? name : "";
 #else
-  // 6.x has no function for it; the enumeration only ever grows at its end.
+  // 6.x has no function for the name; the enumeration only ever grows at its end.
   static const char* const names[] = {"ARKODE_HEUN_EULER_2_1_2",
                                       "ARKODE_BOGACKI_SHAMPINE_4_2_3",
                                       "ARKODE_ARK324L2SA_ERK_4_2_3",

@@ -40,7 +40,7 @@ Vector::~Vector() {
 
 std::size_t Vector::size() const {
   const auto& ops = *handle_->ops;
-  // Of a distributed vector, the part that lies here.
+  // For a distributed vector, the length of the local part.
   return static_cast<std::size_t>(ops.nvgetlocallength ? ops.nvgetlocallength(handle_) : N_VGetLength(handle_));
 }
 

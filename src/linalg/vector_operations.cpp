@@ -18,8 +18,8 @@ double* entries(N_Vector v) { return NV_DATA_S(v); }
 std::size_t length(N_Vector v) { return static_cast<std::size_t>(NV_LENGTH_S(v)); }
 
 // --- entry by entry ---
-// Arguments may be the same vector. Factors of ±1 need no case of their own: the product is exact and memory sets the
-// speed.
+// Arguments may be the same vector. Factors of ±1 need no case of their own: the product is exact, and the speed is
+// limited by memory.
 
 // z = a x + b y
 void linear_sum(sunrealtype a, N_Vector x_vector, sunrealtype b, N_Vector y_vector, N_Vector z_vector) {
@@ -80,7 +80,8 @@ sunrealtype dot_product(N_Vector x_vector, N_Vector y_vector) {
   return sum_over(length(x_vector), [=](std::size_t i) { return x[i] * y[i]; });
 }
 
-// max |x_i|. Without its sign a double orders like its bits, and NaN comes after infinity, so that NaN survives.
+// max |x_i|. Without its sign bit a double orders like an integer of the same bits, and NaN comes after infinity, so
+// that NaN survives.
 sunrealtype max_norm_of(N_Vector x_vector) {
   const double* x = entries(x_vector);
   constexpr std::int64_t without_sign = INT64_MAX;
@@ -113,16 +114,16 @@ sunrealtype minimum(N_Vector x_vector) {
       [](double a, double b) { return b < a ? b : a; });
 }
 
-// --- several vectors in one pass: what a Runge–Kutta stage is made of ---
+// --- several vectors in one pass, as in a Runge–Kutta stage ---
 
-constexpr std::size_t most_terms = 16;  // of one pass: Fehlberg's 13 stages and y, with room
+constexpr std::size_t most_terms = 16;  // terms of one pass: Fehlberg's 13 stages and y, with some to spare
 
 struct Terms {
   std::array<double, most_terms> factor;
   std::array<const double*, most_terms> entry;
 };
 
-// z = Σ_{k<N} c_k x_k, each entry read and written once
+// z = Σ_{k<N} c_k x_k, with each entry read and written once
 template <std::size_t... k>
 void combine_terms(std::size_t n, const Terms& terms, double* z, std::index_sequence<k...>) {
   const std::array<double, sizeof...(k)> c = {terms.factor[k]...};
@@ -174,9 +175,9 @@ int scale_add_multi(int count, sunrealtype* a, N_Vector x, N_Vector* Y, N_Vector
   return 0;
 }
 
-// x·Y_k, the bits of dot_product()
+// x·Y_k, equal to dot_product() to the bit
 int dot_product_multi(int count, N_Vector x_vector, N_Vector* Y, sunrealtype* products) {
-  constexpr int most = 8;  // of one pass
+  constexpr int most = 8;  // products of one pass
   const double* x = entries(x_vector);
   for (int done = 0; done < count; done += most) {
     const int now = std::min(most, count - done);

@@ -5,13 +5,13 @@
 
 namespace stillpoint {
 
-/// Puts our operations into a vector made by N_VNew_Serial or N_VMake_Serial; its clones carry them.
+/// Installs these operations in a vector made by N_VNew_Serial or N_VMake_Serial; its clones carry them.
 void use_fast_operations(NVectorHandle serial);
-/// Whether two vectors have the same implementation and so may meet in one operation.
+/// Whether two vectors have the same implementation, so that they may be operands of one operation.
 bool same_kind(const Vector& a, const Vector& b);
-/// to = from, of the same kind and length.
+/// Copies `from` to `to`, of the same kind and length.
 void copy(const Vector& from, Vector& to);
-/// Whether use_fast_operations() was called on it or on what it was cloned from.
+/// Whether use_fast_operations() was called on the vector or on the one it was cloned from.
 bool has_fast_operations(NVectorHandle any);
 
 }  // namespace stillpoint

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using hdf5::Handle, hdf5::Quiet;
 
-constexpr std::size_t head_size = 512;  // no more than the least block that HDF5 leaves free
+constexpr std::size_t head_size = 512;  // at most the smallest user block of HDF5
 constexpr const char* head_format =
     "Stillpoint checkpoint, format 2\nCRC-32 %" PRIx64 " of the %" PRIu64 " bytes after these 512\n";
 
@@ -44,7 +44,7 @@ struct Head {
   std::uint64_t size = 0;
 };
 
-// Of what follows the head.
+// Computes the head for the bytes that follow it in the file.
 Head head_of(std::istream& file) {
   Head head;
   std::vector<char> block(1 << 16);
@@ -66,7 +66,7 @@ void write_head(OutputFile& file) {
   file.write(text, 0);
 }
 
-// Why the file is not to be read; empty: it is whole.
+// Why the file is not to be read; empty if it is complete.
 std::string fault_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return "cannot be read";
@@ -83,7 +83,8 @@ std::string fault_of(const fs::path& path) {
 
 // --- the table -------------------------------------------------------------------------------------------------------
 
-// A line of it for each value: its kind, the byte of the file where it begins, how many numbers it has, its name.
+// The table has a line for each value: its kind, the byte of the file at which it begins, how many numbers it has, its
+// name.
 enum class Kind { real, whole, text };
 constexpr std::array<std::string_view, 3> kind_names = {"real", "whole", "text"};
 
@@ -97,8 +98,7 @@ std::string line_of(Kind kind, std::uint64_t begin, std::uint64_t count, const s
   return fmt::format("{} {} {} {}\n", kind_names[static_cast<std::size_t>(kind)], begin, count, name);
 }
 
-// The bytes before HDF5's own, of which there is a power of two: the head, the table, whatever it says, and an empty
-// line.
+// The size of HDF5's user block, a power of two: room for the head, the table with any numbers, and an empty line.
 std::uint64_t bytes_before(const SavedState& state) {
   constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t bytes = head_size + 1;
@@ -135,7 +135,8 @@ class Writer {
   }
 
  private:
-  // Returns where the numbers begin in the file. A text is written as its bytes: it may be empty, and may hold any.
+  // Returns the byte at which the numbers begin in the file. A text is written as its bytes: it may be empty, and may
+  // hold any bytes.
   std::uint64_t write(hid_t links, const std::string& name, Kind kind, hsize_t count, const void* data) {
     const hid_t type = kind == Kind::real    ? H5T_NATIVE_DOUBLE
                        : kind == Kind::whole ? H5T_NATIVE_INT64
@@ -165,7 +166,7 @@ class Writer {
   }
 
   const fs::path& path_;
-  std::uint64_t before_;  // bytes before those of HDF5
+  std::uint64_t before_;  // bytes of the user block, before those of HDF5
   Hdf5Output output_;
   std::string table_;
 };
@@ -211,7 +212,7 @@ class Reader {
     return {name, values<std::string>(begin, count)};
   }
 
-  // No byte belongs to two values, so that all of them are no larger than the file, whatever the table says.
+  // No byte belongs to two values, so that together they are no larger than the file, whatever the table says.
   template <class Values>
   Values values(std::uint64_t begin, std::uint64_t count) {
     constexpr std::size_t size = sizeof(typename Values::value_type);
@@ -232,10 +233,10 @@ class Reader {
 
   const fs::path& path_;
   std::ifstream file_;
-  std::uint64_t left_;  // bytes of the file that are not yet those of a value
+  std::uint64_t left_;  // bytes of the file that no value has claimed yet
 };
 
-// There is a checkpoint at any moment: the one before gets its second name while it has the first.
+// There is a checkpoint at any moment: the former one gets its second name while it still has the first.
 void keep_previous(const fs::path& file) {
   std::error_code no_links;
   const fs::path link = partial_name(previous_checkpoint(file));

@@ -17,7 +17,7 @@
 namespace stillpoint {
 namespace {
 
-// Σ V |a − b|², Σ V |b|² and the largest of each, gathered point by point.
+// Σ V |a − b|², Σ V |b|² and the largest |a − b| and |b|, gathered point by point.
 struct Norms {
   double difference = 0, exact = 0, max_difference = 0, max_exact = 0;
   void add(double V, double value, double expected) {
@@ -29,14 +29,14 @@ struct Norms {
   double rel_l2() const { return std::sqrt(difference / exact); }
 };
 
-// σ:σ from xx; or xx, yy, zz, xy; or those and yz, zx.
+// σ:σ from the components xx; or xx, yy, zz, xy; or those and yz, zx.
 double contracted(std::span<const double> sigma) {
   double sum = 0;
   for (std::size_t k = 0; k < sigma.size(); ++k) sum += (k < 3 ? 1 : 2) * sigma[k] * sigma[k];
   return sum;
 }
 
-/// visit(p, σ_h − σ, σ) for every material point.
+/// Calls visit(p, σ_h − σ, σ) for every material point.
 template <class Visit>
 void for_stresses(const ExactSolution& solution, const LagrangianPhase& phase, const PointData& data, double t,
                   ConstVec u, const Visit& visit) {
@@ -51,8 +51,8 @@ void for_stresses(const ExactSolution& solution, const LagrangianPhase& phase, c
   }
 }
 
-// σ:C⁻¹:σ = [(1 + ν) σ:σ − ν (tr σ)²]/E in space, and in the plane, whose σ_zz does no work there; on a line σ²/E if
-// the section is free to contract, or else σ²/(λ + 2μ).
+// σ:C⁻¹:σ = [(1 + ν) σ:σ − ν (tr σ)²]/E in space, and in the plane, in which σ_zz does no work; on a line σ²/E if the
+// section is free to contract, else σ²/(λ + 2μ).
 double energy(const MaterialSpec& material, StressState state, std::span<const double> sigma) {
   const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
   if (state == StressState::uniaxial_stress) return contracted(sigma) / E;
@@ -96,7 +96,7 @@ EnergyError energy_error(const Problem& problem, const LagrangianPhase& phase, d
     return {{}, "the scene has no exact stress; expected exact.stress, or a solution that has it"};
   std::set<std::string> names;
   for (const BodySpec& body : problem.bodies) names.insert(body.material);
-  std::vector<const MaterialSpec*> materials;  // by number, in the order of the names of those that bodies have
+  std::vector<const MaterialSpec*> materials;  // by number, in the order of the names of the materials that bodies have
   for (const std::string& name : names) {
     const MaterialSpec& material = problem.materials.at(name);
     const LawInfo& law = *std::ranges::find(material_laws(), material.law, &LawInfo::name);

@@ -69,7 +69,7 @@ constexpr std::string_view int32 = R"(NumberType="Int" Precision="4")";
 std::string grid_begin(std::string_view frame) { return fmt::format(R"(      <Grid Name="{}")", frame); }
 constexpr std::string_view grid_end = "      </Grid>\n";
 
-// A frame's grid: single points, and their attributes.
+// The text of a frame's grid: single points, and their attributes.
 class GridText {
  public:
   GridText(std::string group, double t, std::size_t points, const std::string& vertices)
@@ -100,7 +100,7 @@ class GridText {
 
 std::string frame_name(std::size_t k) { return fmt::format("frame_{:04}", k); }
 
-// 0 … points − 1. ParaView's readers of XDMF 3 show no points without it.
+// Writes the numbers 0 … points − 1, without which ParaView's readers of XDMF 3 show no points.
 std::string write_vertices(std::size_t points, Hdf5File& file) {
   std::string name = fmt::format("/vertex/{}", points);
   std::vector<int> numbers(points);
@@ -110,8 +110,8 @@ std::string write_vertices(std::size_t points, Hdf5File& file) {
   return name;
 }
 
-// A stress becomes scalars. As a Tensor6 its components would have the right names in ParaView's reader of XDMF 2,
-// and one another's in those of XDMF 3: these take xx, xy, xz, yy, yz, zz for xx, yy, zz, xy, yz, xz.
+// A stress becomes scalars. As a Tensor6 its components would have the right names in ParaView's reader of XDMF 2, but
+// permuted ones in those of XDMF 3: these take xx, xy, xz, yy, yz, zz for xx, yy, zz, xy, yz, xz.
 void write(const PointField& field, const std::string& group, Hdf5File& file, GridText& grid) {
   const auto width = static_cast<std::size_t>(field.components);
   const auto in_group = [&](const std::string& name) { return fmt::format("{}/{}", group, name); };
@@ -130,7 +130,7 @@ void write(const PointField& field, const std::string& group, Hdf5File& file, Gr
   }
 }
 
-// Its text in fields.xdmf.
+// Writes a frame to the file; returns its text in fields.xdmf.
 std::string write(const FieldFrame& frame, const std::string& group, Hdf5File& file) {
   file.make_group(group);
   file.write_attribute(group, "t", frame.t);
@@ -160,14 +160,14 @@ void remove_quietly(const fs::path& path) {
 
 }  // namespace
 
-// Each frame has a file of its own, with its text for ParaView beside it, which is not touched again before all of them
-// are joined: whatever happens then, they are there.
+// Each frame has a file of its own, with its text for ParaView beside it. These are not touched again before all of
+// them are joined: whatever happens then, they are there.
 class FieldWriter::Files {
  public:
   Files(const fs::path& folder, std::size_t frames) : folder_(folder), frames_(frames) {
     if (frames == 0) fs::remove_all(parts());
     fs::create_directories(parts());
-    // A run that is killed while it removes the parts leaves either file of one.
+    // A run that is killed while it removes the parts may leave only one of a frame's two files.
     for (std::size_t k = 0; k < frames; ++k) {
       if (!fs::exists(part(k)) || !fs::exists(part(k).replace_extension(".xdmf"))) split(k);
     }
@@ -198,7 +198,7 @@ class FieldWriter::Files {
       xdmf.write(xdmf_head);
       for (std::size_t k = 0; k < frames_; ++k) xdmf.write(text_of(part(k).replace_extension(".xdmf")));
       xdmf.write(foot);
-      fs::rename(partial_name(whole), whole);  // before the other, which refers to it
+      fs::rename(partial_name(whole), whole);  // before fields.xdmf, which refers to it
       xdmf.finish();
     } catch (...) {
       remove_quietly(partial_name(whole));
@@ -227,7 +227,7 @@ class FieldWriter::Files {
     whole.close();
   }
 
-  // A run that has joined its frames and goes on all the same.
+  // Takes frame k out of the joined files again, for a run that has joined its frames and is continued.
   void split(std::size_t k) const {
     const std::string begin = grid_begin(frame_name(k)), xdmf = text_of(folder_ / "fields.xdmf");
     const std::size_t from = xdmf.find(begin), to = xdmf.find(grid_end, std::min(from, xdmf.size()));

@@ -30,14 +30,14 @@ int open_lock(const fs::path& file) {
   return descriptor;
 }
 
-// What the process that holds it has written there.
+// The number of the process that holds the lock, which it has written to the file.
 std::string holder(int descriptor) {
   std::array<char, 32> text{};
   const ssize_t size = pread(descriptor, text.data(), text.size() - 1, 0);
   return size > 0 ? fmt::format("process {}", std::atol(text.data())) : "another process";
 }
 
-// Who had the lock before may have taken the file away since it was opened.
+// Whether the opened file is still there: its former holder may have removed it since it was opened.
 bool is_the_file(int descriptor, const fs::path& file) {
   struct stat opened {
   }, there{};
@@ -47,7 +47,7 @@ bool is_the_file(int descriptor, const fs::path& file) {
 
 }  // namespace
 
-// A file system without locks lets everybody in.
+// On a file system without locks every process gets the lock.
 FolderLock::FolderLock(const fs::path& folder) : file_(folder / lock_name), descriptor_(open_lock(file_)) {
   for (;;) {
     int wrong = 0;

@@ -1,4 +1,4 @@
-// Nobody else runs into a folder while one run does.
+// A lock that keeps other runs out of the folder of a run.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +6,10 @@
 
 namespace stillpoint {
 
-/// Held as long as it lives; when a process ends, however it does, its locks end with it.
+/// The lock is held during the object's lifetime; when a process ends in any way, its locks end with it.
 class FolderLock {
  public:
-  /// Throws SceneError, with the number of the process that holds it, or std::filesystem::filesystem_error.
+  /// Throws SceneError, with the number of the process that holds the lock, or std::filesystem::filesystem_error.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
@@ -20,8 +20,8 @@ class FolderLock {
   int descriptor_;
 };
 
-/// That of the folder, which is there; a SceneError as well if it cannot be written. Who has it already in this thread
-/// shares it, as a run does with its simulation.
+/// The lock of an existing folder. Throws SceneError also if the folder cannot be written. Holders in the same thread
+/// share the lock, as a run does with its simulation.
 std::shared_ptr<FolderLock> lock_folder(const std::filesystem::path& folder);
 
 }  // namespace stillpoint

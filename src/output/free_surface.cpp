@@ -13,18 +13,18 @@
 namespace stillpoint {
 namespace {
 
-// A square of side w with points in it, [column, column + 1) × [row, row + 1) in units of w. Whole numbers, but of type
-// double: they hold any position.
+// A square of side w with points in it, [column, column + 1) × [row, row + 1) in units of w. The numbers are whole, but
+// of type double, so that they hold any position.
 struct Square {
   double column, row;
-  std::size_t points;   // in it
-  double x, y;          // of the highest
-  std::size_t cluster;  // 0: not known yet
+  std::size_t points;   // number of points in it
+  double x, y;          // its highest point
+  std::size_t cluster;  // number of its cluster; 0: not known yet
 };
 
 bool before(const Square& a, const Square& b) { return std::tie(a.column, a.row) < std::tie(b.column, b.row); }
 
-// In order of their columns, and from below.
+// The squares that have points, by columns and from below in each.
 std::vector<Square> occupied_squares(ConstVec position, double w) {
   std::vector<Square> squares;
   for (std::size_t k = 0; k + 1 < position.size(); k += 2) {
@@ -35,7 +35,7 @@ std::vector<Square> occupied_squares(ConstVec position, double w) {
     return std::tie(a.column, a.row, b.y, a.x) < std::tie(b.column, b.row, a.y, b.x);
   });
   std::size_t kept = 0;
-  for (const Square& each : squares) {  // the first of a square is its highest point
+  for (const Square& each : squares) {  // the first entry of a square is its highest point
     if (kept > 0 && !before(squares[kept - 1], each)) {
       ++squares[kept - 1].points;
     } else {
@@ -46,7 +46,7 @@ std::vector<Square> occupied_squares(ConstVec position, double w) {
   return squares;
 }
 
-// Gives square `first` and all that hang together with it the number of their cluster; returns its number of points.
+// Gives square `first` and all connected with it the number of their cluster; returns their number of points.
 std::size_t spread(std::vector<Square>& squares, std::size_t first, std::size_t cluster) {
   std::size_t points = 0;
   std::vector<std::size_t> waiting = {first};

@@ -15,7 +15,7 @@ namespace stillpoint {
 
 using hdf5::Handle, hdf5::Quiet;
 
-// Every return code of the library comes here: a negative one is its failure.
+// Checks a return code of the library: a negative one means failure.
 template <class Code>
 Code Hdf5File::check(Code code, const char* failed) const {
   if (output_) output_->throw_failure();
@@ -90,9 +90,9 @@ void Hdf5File::write(const std::string& name, const std::vector<int>& values) {
   write(name, H5T_STD_I32LE, H5T_NATIVE_INT, values, {1, 0, 1, 1});
 }
 
-// Chunks are within the library's cache of 1 MiB. They are compressed at the level that costs least, after bytes of
-// equal weight were put side by side, since it is the leading ones of neighbours that are alike. The rows go by way of
-// a block as large as a chunk: from selected columns of a large array HDF5 would first make a list as large as that.
+// Chunks are smaller than the library's cache of 1 MiB. They are compressed at the cheapest level, after bytes of equal
+// weight were put side by side, since the leading bytes of neighbours are alike. The rows are copied through a block as
+// large as a chunk: from selected columns of a large array HDF5 would first make a list as large as that.
 template <class Number>
 void Hdf5File::write(const std::string& name, hid_t type, hid_t native_type, const std::vector<Number>& values,
                      const Columns& columns) {

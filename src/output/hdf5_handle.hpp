@@ -1,4 +1,4 @@
-// What every use of HDF5 needs: its errors as text, its silence, and identifiers that are given back.
+// Helpers for every use of HDF5: its errors as text, its silence, and identifiers that are released automatically.
 #pragma once
 
 #include <cerrno>
@@ -12,8 +12,8 @@ namespace stillpoint::hdf5 {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>);
 
-// The innermost entry of the library's error stack says most: "…, errno = 28, error message = 'No space left on
-// device'".
+// The innermost entry of the library's error stack is the most specific: "…, errno = 28, error message = 'No space left
+// on device'".
 inline std::string error_text() {
   std::string text = "HDF5 gives no reason";
   const auto keep_first = [](unsigned number, const H5E_error2_t* entry, void* kept) -> herr_t {
@@ -24,7 +24,7 @@ inline std::string error_text() {
   return text;
 }
 
-// While one lives, the library prints nothing of its own, and an errno is one of this time.
+// While an object exists, the library prints nothing of its own; errno is 0 at its beginning.
 class Quiet {
  public:
   Quiet() {
@@ -41,7 +41,7 @@ class Quiet {
   void* data_ = nullptr;
 };
 
-// An identifier that is given back at the end.
+// An identifier that is released at the end of its scope.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*give_back)(hid_t)) : id_(id), give_back_(give_back) {}
@@ -51,7 +51,7 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
-  // Gives it back now: that a last chunk cannot be written shows only here.
+  // Releases it now: a failure to write the last chunk shows only here.
   [[nodiscard]] herr_t close() { return give_back_(std::exchange(id_, H5I_INVALID_HID)); }
 
  private:

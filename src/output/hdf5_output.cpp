@@ -16,7 +16,7 @@ namespace {
 
 using hdf5::Handle, hdf5::Quiet;
 
-// What HDF5 knows of the file; it takes a pointer to the first member for one to the whole.
+// HDF5's view of the file; HDF5 takes a pointer to the first member for one to the whole.
 struct OpenFile {
   H5FD_t of_library;
   Hdf5Output* output;
@@ -66,7 +66,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t at, 
   return 0;
 }
 
-// What was allocated last need not have been written.
+// The file is brought to its allocated size: its last part need not have been written.
 herr_t truncate(H5FD_t* file, hid_t /*transfer*/, hbool_t /*closing*/) {
   OpenFile& mine = own(file);
   if (mine.end == mine.allocated) return 0;
@@ -80,11 +80,11 @@ hid_t driver() {
     H5FD_class_t driver{};
 #ifdef H5FD_CLASS_VERSION
     driver.version = H5FD_CLASS_VERSION;
-    driver.value = static_cast<H5FD_class_value_t>(512);  // from 512 on they are free to take
+    driver.value = static_cast<H5FD_class_value_t>(512);  // values from 512 on are free for use
 #endif
     driver.name = "checked";
     driver.maxaddr = (haddr_t{1} << 62) - 1;
-    driver.fc_degree = H5F_CLOSE_STRONG;  // closed is closed, even after a failure
+    driver.fc_degree = H5F_CLOSE_STRONG;  // closing always succeeds, even after a failure
     driver.fapl_size = sizeof(Settings);
     driver.open = open_file;
     driver.close = close_file;

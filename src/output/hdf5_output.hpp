@@ -1,5 +1,6 @@
-// The file that HDF5 writes into. HDF5 does not survive a file that it cannot write to its end: so it never hears of
-// one. Its bytes come to the disk by our own calls, and the first that fails is thrown once HDF5 is done with the file.
+// The file that HDF5 writes into. HDF5 does not survive a file that it cannot write to its end, so it never learns of a
+// failure: the bytes are written by calls of this class, and the first failure is thrown once HDF5 is done with the
+// file.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace stillpoint {
 class Hdf5Output {
  public:
   /// Replaces a file that is there; head: bytes at its beginning that are not HDF5's, 0 or a power of 2 from 512 on.
-  /// It and close() throw std::filesystem::filesystem_error.
+  /// The constructor and close() throw std::filesystem::filesystem_error.
   explicit Hdf5Output(const std::filesystem::path& path, std::uint64_t head = 0);
   ~Hdf5Output();
   Hdf5Output(const Hdf5Output&) = delete;
@@ -21,10 +22,10 @@ class Hdf5Output {
 
   /// HDF5's identifier, a hid_t.
   std::int64_t id() const { return id_; }
-  /// Takes the file from HDF5. What is under `path` afterwards is whole, or this throws what went wrong first; the disk
-  /// need not have it yet.
+  /// Takes the file from HDF5. Afterwards the file under `path` is complete, or this throws the first failure; the file
+  /// need not be on the disk yet.
   OutputFile& close();
-  /// Throws what has gone wrong so far.
+  /// Throws the first failure so far, if any.
   void throw_failure() const {
     if (failure_) std::rethrow_exception(failure_);
   }

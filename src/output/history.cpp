@@ -17,7 +17,7 @@ History::History(const std::filesystem::path& folder, const std::vector<std::str
 
 void History::add(const HistoryRow& row, const std::vector<double>& probes) {
   if (!file_) return;
-  // 17 significant digits bring every double back
+  // 17 significant digits restore every double exactly
   std::string line = fmt::format("{:.17g},{},{},{:.17g},{:.17g}", row.t, row.steps, row.rhs_evaluations, row.residual,
                                  row.kinetic_energy);
   for (const double value : probes) fmt::format_to(std::back_inserter(line), ",{:.17g}", value);

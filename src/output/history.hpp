@@ -21,9 +21,9 @@ struct HistoryRow {
 
 class History {
  public:
-  /// An empty folder: rows are not written. resumed: archive() opens the file, which is there.
+  /// folder: empty if no rows are to be written. resumed: the file exists, and archive() opens it.
   History(const std::filesystem::path& folder, const std::vector<std::string>& probe_columns, bool resumed = false);
-  /// Restoring takes away what rows came after.
+  /// Restoring removes the rows that were written after the archived state.
   void archive(const StateArchive& state);
   void add(const HistoryRow& row, const std::vector<double>& probes);
   void finish();

@@ -9,7 +9,7 @@
 namespace stillpoint {
 namespace {
 
-// X with X + u(X) = x, by X ← x − u(X): that contracts, since a phase strains by little.
+// Solves X + u(X) = x by X ← x − u(X), which contracts, since a phase strains by little.
 std::optional<std::vector<double>> material_at(const std::vector<double>& x, const PlaceReader& places) {
   constexpr int most = 100;
   constexpr double rounding = 1e-12;
@@ -73,7 +73,7 @@ void MovingPlace::end_phase(ProbedMoment& moment) {
   for (std::size_t d = 0; d < u.size(); ++d) next_[d] = x_[d] + u[d];
 }
 
-// Only now: where the next phase cannot begin, the one before is read once more.
+// Called only now because the place is read once more if the next phase cannot begin.
 void MovingPlace::begin_phase(ProbedMoment& moment) {
   if (lost_at_) return;
   x_ = next_;

@@ -1,4 +1,4 @@
-// Probes of places: one that moves with the material, and one that stays where it is.
+// Probes of places: one that moves with the material, and one that is fixed in space.
 #pragma once
 
 #include "output/point_fields.hpp"
@@ -6,13 +6,13 @@
 
 namespace stillpoint {
 
-/// What a place can be asked for.
+/// The fields that can be read at a place.
 class PlaceFields {
  public:
   PlaceFields(const LagrangianPhase& phase, const std::vector<std::string>& names);
   std::size_t size() const { return fields_.size(); }
-  /// Appends the value of each field at x, a position when the phase began; of the displacement that since then and
-  /// before, (dim).
+  /// Appends the value of each field at x, a position when the phase began. The displacement is the sum of that since
+  /// then and moved_before, (dim).
   void read(const PlaceReader& places, const std::vector<double>& x, const std::vector<double>& moved_before,
             std::vector<double>& values) const;
 
@@ -20,7 +20,8 @@ class PlaceFields {
   std::vector<PointFieldComponent> fields_;
 };
 
-/// x += Σ_a N_a(x) u_a when a phase ends. Once no material reaches it, it is lost: its values are NaN.
+/// A place that moves by x += Σ_a N_a(x) u_a when a phase ends. Once no material reaches it, it is lost: its values are
+/// NaN.
 class MovingPlace final : public Probe {
  public:
   MovingPlace(const LagrangianPhase& phase, const ProbeSpec& spec);
@@ -34,11 +35,11 @@ class MovingPlace final : public Probe {
  private:
   std::string name_;
   PlaceFields fields_;
-  std::vector<double> start_, x_, next_;  // when the run began, this phase, and the next one [m]
-  std::optional<double> lost_at_;         // [s]
+  std::vector<double> start_, x_, next_;  // at the beginning of the run, of this phase and of the next [m]
+  std::optional<double> lost_at_;         // time of the loss [s]
 };
 
-/// Reads what is there at each moment: the material whose place X when the phase began has X + u(X) = x. NaN while
+/// Reads the material at the place at each moment: that whose place X when the phase began has X + u(X) = x. NaN while
 /// there is none.
 class FixedPlace final : public Probe {
  public:

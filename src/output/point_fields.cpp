@@ -9,7 +9,7 @@
 namespace stillpoint {
 namespace {
 
-// Of its components; of the only one it is empty.
+// The suffixes of a field's components; empty for a single component.
 std::vector<std::string> suffixes(const LagrangianPhase& phase, const std::string& name) {
   const PhaseInfo& info = phase.info();
   std::vector<std::string> components;

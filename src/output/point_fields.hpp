@@ -1,4 +1,4 @@
-// Fields at the material points, by the names that scenes and outputs use.
+// Fields at the material points, by the names in scenes and outputs.
 #pragma once
 
 #include <string>
@@ -8,21 +8,21 @@
 
 namespace stillpoint {
 
-/// "u", "v", "strain", "stress", "volume" and what the laws remember ("plastic_strain"), as (P × components). Throws
-/// std::invalid_argument for another name.
+/// "u", "v", "strain", "stress", "volume" and the history variables of the laws ("plastic_strain"), as
+/// (P × components). Throws std::invalid_argument for another name.
 std::vector<double> point_field(const LagrangianPhase& phase, const std::string& name, double t, ConstVec u,
                                 ConstVec v);
 
-/// Whether there is such a field.
+/// Whether there is a field of this name.
 bool is_field(const LagrangianPhase& phase, const std::string& name);
 
-/// Where the points are at (t, u), (P × dim) [m].
+/// The positions of the points at (t, u), (P × dim) [m].
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u);
 
-/// What a motion x, (n), changes of a quantity at the points by itself, without what supports do: (P × components).
+/// The change of a quantity at the points by a motion x, (n), alone, without that by supports: (P × components).
 std::vector<double> change_of(const LagrangianPhase& phase, PointQuantity quantity, double t, ConstVec x);
 
-/// A field as a probe names it, "u" in one dimension, "stress.xy" in the plane.
+/// A field component as a probe names it, "u" in one dimension, "stress.xy" in the plane.
 struct PointFieldComponent {
   std::string name;
   std::size_t component, components;

@@ -1,4 +1,4 @@
-// A probe, of whatever kind, and the moment at which it is read.
+// The interface of all kinds of probes, and the moment at which they are read.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -15,19 +15,20 @@
 
 namespace stillpoint {
 
-/// What probes look at, each field made once and only if one asks for it. The state is that of the last commit.
+/// The data that probes read, each field made once and only if a probe asks for it. The state is that of the last
+/// commit.
 class ProbedMoment {
  public:
-  /// All outlive this.
+  /// All arguments have to outlive this object.
   ProbedMoment(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u, ConstVec v)
       : problem_(problem), phase_(phase), t_(t), u_(u), v_(v) {}
 
   double t() const { return t_; }
   const LagrangianPhase& phase() const { return phase_; }
-  /// At the material points, as point_field() gives it; "position" too.
+  /// A field at the material points, as point_field() gives it, and also "position".
   const std::vector<double>& field(const std::string& name);
   const PlaceReader& places();
-  /// Of the free surface [degrees].
+  /// The angle of the free surface's slope [degrees].
   double slope_angle();
 
  private:
@@ -45,13 +46,13 @@ class Probe {
   virtual ~Probe() = default;
   /// Appends a value for each field.
   virtual void read(ProbedMoment& moment, std::vector<double>& values) = 0;
-  /// Where it was when the run began, (dim) [m]; empty if it is not of a point.
+  /// Its position when the run began, (dim) [m]; empty if the probe has no point.
   virtual std::vector<double> position() const { return {}; }
-  /// Before a phase ends, and once the next has begun, if it has.
+  /// end_phase() is called before a phase ends, begin_phase() once the next has begun, if it has.
   virtual void end_phase(ProbedMoment&) {}
   virtual void begin_phase(ProbedMoment&) {}
   virtual void archive(const StateArchive&) {}
-  /// What a user should know of its values.
+  /// A sentence on the values that the user should know, if any.
   virtual std::optional<std::string> note() const { return std::nullopt; }
 };
 

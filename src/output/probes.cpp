@@ -14,7 +14,7 @@
 namespace stillpoint {
 namespace {
 
-/// A material point.
+/// Reads fields of a material point.
 class PointProbe final : public Probe {
  public:
   PointProbe(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec)
@@ -41,7 +41,7 @@ class SlopeAngle final : public Probe {
   void read(ProbedMoment& moment, std::vector<double>& values) override { values.push_back(moment.slope_angle()); }
 };
 
-/// In space, of the points that lie in a box, seen along z.
+/// The slope angle in space, of the points that lie in a box, seen along z.
 class SlopeAngleInBox final : public Probe {
  public:
   SlopeAngleInBox(const Problem& problem, const ProbeSpec& spec) : problem_(problem), spec_(spec) {}
@@ -83,14 +83,14 @@ std::unique_ptr<Probe> make_probe(const Problem& problem, const LagrangianPhase&
   return std::make_unique<FixedPlace>(phase, spec);
 }
 
-/// ".shear"; in space ".shear.y" and ".shear.z" of a wall across x.
+/// ".shear", and in space ".shear.y" and ".shear.z" for a wall across x.
 std::vector<std::string> shear_components(const WallReaction& wall, int dim) {
   std::vector<std::string> along = axis_names(dim);
-  if (along.size() > 1) along.erase(along.begin() + wall.axis);  // the end of a line has a shear as well: 0
+  if (along.size() > 1) along.erase(along.begin() + wall.axis);  // a wall at the end of a line has a shear as well: 0
   return component_names(".shear", along);
 }
 
-/// A field that some law has to remember.
+/// Throws SceneError if a field of the probe exists in no law of the scene's materials.
 void require_fields(const Problem& problem, const LagrangianPhase& phase, std::size_t number) {
   const ProbeSpec& probe = problem.probes[number];
   for (std::size_t f = 0; f < probe.fields.size() && probe.kind != ProbeKind::body; ++f) {

@@ -15,19 +15,19 @@ namespace stillpoint {
 
 class Probes {
  public:
-  /// All outlive it. The run begins. Throws SceneError if a probe names a field that no law remembers.
+  /// Begins the run. All arguments have to outlive it. Throws SceneError if a probe names a field that no law has.
   Probes(const Problem& problem, const LagrangianPhase& phase);
 
   const std::vector<std::string>& columns() const { return columns_; }  // "<probe>.<field>"
-  /// Where each probe of a point was when the run began, by name, (dim) [m].
+  /// The position of each point's probe when the run began, by name, (dim) [m].
   std::map<std::string, std::vector<double>> positions() const;
-  /// Values at (t, u, v), in the order of columns(); the state is that of the last commit.
+  /// The values at (t, u, v), in the order of columns(); the state is that of the last commit.
   std::vector<double> read(double t, ConstVec u, ConstVec v);
-  /// Before a phase ends at (t, u, v), and once the next has begun, if it has.
+  /// end_phase() is called before a phase ends at (t, u, v), begin_phase() once the next has begun, if it has.
   void end_phase(double t, ConstVec u, ConstVec v);
   void begin_phase(double t, ConstVec u, ConstVec v);
   void archive(const StateArchive& state);
-  /// What a user should know of the values, a sentence each.
+  /// Remarks on the values that the user should know, a sentence each.
   std::vector<std::string> notes() const;
 
  private:
@@ -37,8 +37,8 @@ class Probes {
   std::vector<std::string> columns_;
 };
 
-/// Throws SceneError if the body cannot answer a probe: it has no such material point, no material at a place or in a
-/// box. phase: the first.
+/// Throws SceneError if the body cannot answer a probe: it has no such material point, or no material at a place or in
+/// a box. phase: the first phase.
 void check_probes(const Problem& problem, const LagrangianPhase& phase);
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// Stages of a run: the moments at which all fields are written.
+// The moments of a run at which all fields are written.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -13,20 +13,20 @@
 
 namespace stillpoint {
 
-/// At the times of output.snapshots and every output.fields_every; a run that ends writes its last state as well.
+/// Writes at the times of output.snapshots and every output.fields_every, and the last state when the run ends.
 class Snapshots {
  public:
-  /// Nothing is written if the scene asks for no fields or the folder is empty; angles are taken all the same.
-  /// resumed: archive() opens the files, which are there.
+  /// Nothing is written if the scene asks for no fields or the folder is empty, but slope angles are recorded all the
+  /// same. resumed: the files exist, and archive() opens them.
   Snapshots(const Problem& problem, const LagrangianPhase& phase, const std::filesystem::path& folder,
             bool resumed = false);
   void archive(const StateArchive& state);
 
-  /// The next moment that a step must not pass; infinite if there is none.
+  /// The next time that a step must not pass [s]; infinite if there is none.
   double next_time() const;
   /// Writes the state at (t, u, v) if it is due.
   void sample(double t, ConstVec u, ConstVec v);
-  /// The state in which the run ends, if the scene asks for fields.
+  /// Writes the state in which the run ends, if the scene asks for fields.
   void take_last(double t, ConstVec u, ConstVec v);
   /// Closes the files.
   void finish();
@@ -45,10 +45,9 @@ class Snapshots {
   std::vector<Snapshot> taken_;
 };
 
-/// The angle of the free surface of the points as they are at (t, u), in a scene of the plane [degrees]; NaN if
-/// there is no slope.
+/// The angle of the free surface of the points at (t, u), in a plane scene [degrees]; NaN if there is no slope.
 double slope_angle_of(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u);
-/// Of points at these places along x and y, in columns as wide as a cell; position: (points × 2) [m].
+/// The same angle from the positions of points along x and y, in columns as wide as a cell; position: (points × 2) [m].
 double slope_angle_of(const Problem& problem, ConstVec position);
 
 }  // namespace stillpoint

@@ -47,7 +47,7 @@ std::string to_json(const Summary& s) {
              {"u_rel_max", number(s.error->u_rel_max)},
              {"stress_rel_l2", number(s.error->stress_rel_l2)}};
   }
-  Json::object_t probes;  // names differ, and to look for each among all before it would take long
+  Json::object_t probes;  // names differ, and searching for each among all earlier ones would take long
   for (const auto& [name, fields] : s.probes) {
     Json of_probe = Json::object();
     for (const auto& [field, value] : fields) of_probe[field] = number(value);

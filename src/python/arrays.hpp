@@ -1,4 +1,4 @@
-// numpy arrays of doubles from and over memory of ours.
+// numpy arrays of doubles: views of the library's memory, and copies.
 #pragma once
 
 #include <stillpoint/types.hpp>
@@ -19,7 +19,7 @@ using Shape = std::vector<pybind11::ssize_t>;
 
 inline void make_read_only(pybind11::array& array) { array.attr("flags").attr("writeable") = false; }
 
-/// Over memory that owner keeps, without a copy; read only.
+/// A read-only view of memory that `owner` keeps, without a copy.
 inline Array view_of(ConstVec values, std::shared_ptr<const void> owner) {
   const pybind11::capsule keeps(new std::shared_ptr<const void>(std::move(owner)),
                                 [](void* kept) { delete static_cast<std::shared_ptr<const void>*>(kept); });
@@ -28,7 +28,7 @@ inline Array view_of(ConstVec values, std::shared_ptr<const void> owner) {
   return array;
 }
 
-/// A copy, of this shape.
+/// A copy of the values in an array of this shape.
 inline Array copy_of(ConstVec values, Shape shape) {
   Array array(std::move(shape));
   std::ranges::copy(values, array.mutable_data());

@@ -1,4 +1,4 @@
-// The parts of the module stillpoint._core, a file each.
+// The parts of the module stillpoint._core, each in a file of its own.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,4 +1,4 @@
-// What this library throws, as Python's exceptions. Those that have no match there are classes of stillpoint/errors.py.
+// The library's exceptions as Python's. Those without a counterpart in Python are classes of stillpoint/errors.py.
 #include <stillpoint/scene_error.hpp>
 #include <stillpoint/simulation.hpp>
 #include <stillpoint/state_archive.hpp>
@@ -24,7 +24,7 @@ py::object problems_of(const SceneError& error) {
   return problems;
 }
 
-// A module of this package, which is imported by now.
+// An attribute of stillpoint.errors, a module of this package that is imported by now.
 py::object of_errors(const char* name) { return py::module_::import("stillpoint.errors").attr(name); }
 
 void translate(std::exception_ptr thrown) {

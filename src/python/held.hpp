@@ -1,4 +1,4 @@
-// Python objects that C++ keeps: they are let go of with the GIL held, whichever thread does it.
+// Python objects that C++ keeps: they are released with the GIL held, whichever thread does it.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ inline Held hold(pybind11::object object) {
           }};
 }
 
-/// For what stays to the end of the process, when there may be no Python any more to let go of it.
+/// Holds an object to the end of the process, when there may be no Python any more to release it.
 inline Held hold_for_good(pybind11::object object) {
   return {new pybind11::object(std::move(object)), [](const pybind11::object*) {}};
 }

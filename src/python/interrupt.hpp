@@ -1,4 +1,4 @@
-// Ctrl-C while C++ is at work, which has let go of the GIL: Python only notes the signal then, and somebody has to ask.
+// Ctrl-C while C++ works without the GIL: Python only notes the signal then, and the working code has to ask for it.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@ namespace stillpoint::python {
 
 class Interrupt {
  public:
-  /// Whether Python's handlers of the signals that came have raised. It looks now and then, and takes the GIL for that.
-  /// From then on it is true, until what they raised is thrown.
+  /// Whether Python's signal handlers have raised an exception. Checks at intervals, and takes the GIL for that. Once
+  /// true it stays true until throw_what_was_raised().
   bool asked() {
     if (raised_) return true;
     const auto now = Clock::now();
@@ -21,15 +21,15 @@ class Interrupt {
     if (PyErr_CheckSignals() != 0) raised_ = std::make_unique<pybind11::error_already_set>();
     return raised_ != nullptr;
   }
-  /// The same of something that should be over soon: not before it has taken half a second.
+  /// Like asked(), for work that is usually short: checks only after half a second.
   bool asked_of_what_takes_long() { return raised_ || (Clock::now() >= begun_ + long_time && asked()); }
   void begin() { begun_ = Clock::now(); }
-  /// With the GIL held.
+  /// Needs the GIL.
   void throw_what_was_raised() {
     if (!raised_) return;
     const pybind11::error_already_set error = *raised_;
     raised_.reset();
-    throw error;  // NOLINT(misc-throw-by-value-catch-by-reference): a copy is what is thrown
+    throw error;  // NOLINT(misc-throw-by-value-catch-by-reference): throws a copy
   }
 
  private:

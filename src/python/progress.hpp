@@ -1,4 +1,4 @@
-// What is told to a Python callable while C++ works.
+// Progress reports to a Python callable while C++ works.
 #pragma once
 
 #include <stillpoint/simulation.hpp>
@@ -10,7 +10,7 @@
 
 namespace stillpoint::python {
 
-/// None: nobody is told.
+/// The reporting function; empty if the callable is None.
 inline std::function<void(const Progress&)> progress_to(const pybind11::object& callable) {
   if (callable.is_none()) return {};
   return [held = hold(callable)](const Progress& p) {

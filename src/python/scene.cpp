@@ -1,4 +1,4 @@
-// Scenes: read, checked, and seen from outside.
+// The Python interface of scenes: reading, checking, and attributes.
 #include <stillpoint/scene.hpp>
 #include <stillpoint/simulation.hpp>
 

@@ -1,4 +1,4 @@
-// Simulations, step by step.
+// The Python interface of simulations, step by step.
 #include "python/simulation.hpp"
 
 #include <limits>
@@ -78,7 +78,7 @@ void SimulationObject::run(double until) {
   interrupt_.throw_what_was_raised();
 }
 
-// Truth ends the simulation, and a string says why.
+// Asks the program's stopping test: a true answer ends the simulation, and a string gives the reason.
 std::string SimulationObject::ask_stop_test() {
   const py::gil_scoped_acquire gil;
   in_stop_test_ = true;

@@ -1,5 +1,5 @@
-// A simulation as Python has it: nobody touches it while another thread steps it, and what looks at it from within a
-// step is told that it cannot.
+// A simulation as a Python object: other threads cannot use it while one thread steps it, and calls from within a step
+// that need it at rest throw.
 #pragma once
 
 #include <stillpoint/simulation.hpp>
@@ -14,7 +14,7 @@
 
 namespace stillpoint::python {
 
-/// What a constructor takes; callables may be None.
+/// The arguments of the constructor; callables may be None.
 struct SimulationArguments {
   std::string out, resume;
   int threads = 0;
@@ -27,14 +27,14 @@ class SimulationObject {
   SimulationObject(const SimulationObject&) = delete;
   SimulationObject& operator=(const SimulationObject&) = delete;
 
-  /// With the GIL, which is let go of. Throws what callables or Ctrl-C have raised.
+  /// Called with the GIL, which is released meanwhile. Throws the exceptions that callables or Ctrl-C have raised.
   bool step(double t_stop);
   void run(double until);
 
-  /// The simulation at rest between two steps, or in its stopping test. Throws std::runtime_error if it is not, or if
-  /// that is another thread's.
+  /// The simulation at rest between two steps, or in its stopping test. Throws std::runtime_error if it is not at rest,
+  /// or if another thread's test is running.
   Simulation& at_rest();
-  /// The same, done without the GIL.
+  /// Calls the function with the simulation at rest, without the GIL.
   template <class Function>
   auto without_gil(const Function& function) {
     Simulation& simulation = at_rest();
@@ -47,7 +47,7 @@ class SimulationObject {
   const std::vector<double>& rows() const { return rows_; }  // (rows × columns)
 
  private:
-  /// This thread is at work on it, and nobody else, while it lives.
+  /// During its lifetime this thread alone works on the simulation.
   class Work {
    public:
     explicit Work(SimulationObject& object)
@@ -71,14 +71,14 @@ class SimulationObject {
   Simulation& idle();
   std::string ask_stop_test();
 
-  // Changed with the GIL alone:
-  std::thread::id worker_{};   // the thread that is at work on it; none: it is at rest
-  bool in_stop_test_ = false;  // of that thread
+  // Changed only with the GIL held:
+  std::thread::id worker_{};   // the thread that works on it; none if it is at rest
+  bool in_stop_test_ = false;  // of the working thread
   Interrupt interrupt_;
   Held stop_, progress_;
   std::vector<std::string> columns_;
   std::vector<double> rows_;
-  std::unique_ptr<Simulation> simulation_;  // last: what it calls is there until it is gone
+  std::unique_ptr<Simulation> simulation_;  // last, so that everything it calls outlives it
 };
 
 }  // namespace stillpoint::python

@@ -1,4 +1,4 @@
-// Dampings, loads and relaxations that are written in Python.
+// Dampings, loads and relaxations written in Python.
 #include <stillpoint/own_damping.hpp>
 #include <stillpoint/own_load.hpp>
 #include <stillpoint/own_relaxation.hpp>
@@ -16,7 +16,7 @@ namespace {
 
 namespace py = pybind11;
 
-// An array that C++ fills again and again, and Python only reads.
+// An array that C++ fills repeatedly, and that Python only reads.
 class Shown {
  public:
   const Array& array() const { return array_; }
@@ -26,7 +26,7 @@ class Shown {
       array_ = Array(n);
       make_read_only(array_);
     }
-    std::ranges::copy(values, const_cast<double*>(array_.data()));  // it is ours
+    std::ranges::copy(values, const_cast<double*>(array_.data()));  // the memory belongs to C++
   }
 
  private:
@@ -35,11 +35,10 @@ class Shown {
 
 }  // namespace
 
-/// MotionNow as Python sees it: copies that are made when they are asked for, so that nothing that is kept of them
-/// dangles.
+/// MotionNow as Python sees it: copies that are made on access, so that references kept by the program do not dangle.
 class MotionObject {
  public:
-  /// What it shows during a call.
+  /// The motion that is shown during a call.
   class Showing {
    public:
     Showing(MotionObject& object, const MotionNow& now) : object_(object) {
@@ -73,7 +72,7 @@ class MotionObject {
 
 namespace {
 
-// None if there is no such method.
+// The method of this name, or None.
 py::object method_of(const py::object& object, const char* name) { return py::getattr(object, name, py::none()); }
 
 class PythonRelaxation final : public OwnRelaxation {

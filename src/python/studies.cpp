@@ -1,4 +1,4 @@
-// Whole runs, and studies of many.
+// The Python interface of whole runs, and of studies of many runs.
 #include <stillpoint/compare.hpp>
 #include <stillpoint/converge.hpp>
 #include <stillpoint/run.hpp>
@@ -23,8 +23,9 @@ namespace {
 
 namespace py = pybind11;
 
-// function(asked) in a thread of its own, without the GIL, while this one looks for signals, as only Python's first
-// thread can. asked(): whether Ctrl-C wants an end, which comes in good order and is raised then.
+// Runs function(asked) in a thread of its own, without the GIL, while this thread checks for signals, which only
+// Python's first thread can do. asked(): whether Ctrl-C was pressed; the function then ends in good order and the
+// exception is raised.
 template <class Function>
 auto interruptible(const Function& function) {
   std::atomic<bool> asked = false;
@@ -53,7 +54,7 @@ std::string run_with_files(const Scene& scene, const std::string& out, const std
   });
 }
 
-// compare.json and compare.csv in a folder.
+// Writes compare.json and compare.csv into a folder.
 void compare_into(const std::string& folder, const std::string& scene, const std::vector<std::string>& overrides,
                   CompareOptions options, const py::object& progress) {
   options.progress = study_progress_to(progress);
@@ -64,7 +65,7 @@ void compare_into(const std::string& folder, const std::string& scene, const std
   });
 }
 
-// converge.json and converge.csv in a folder.
+// Writes converge.json and converge.csv into a folder.
 void converge_into(const std::string& folder, const std::string& scene, const std::vector<std::string>& overrides,
                    const std::vector<std::string>& refine, const std::vector<std::string>& vary,
                    ConvergeOptions options, const py::object& progress) {

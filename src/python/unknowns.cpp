@@ -14,15 +14,15 @@ namespace {
 
 namespace py = pybind11;
 
-// What is the same in all phases, from the points themselves.
+// Fields that are the same in all phases, from the data of the points.
 const std::map<std::string, std::vector<double> PointData::*> constant_fields = {
     {"initial_position", &PointData::initial_positions}, {"mass", &PointData::masses}};
-// In Python's words, and in those of Simulation::field().
+// Names of fields in Python, and those in Simulation::field().
 const std::map<std::string, std::string> computed_fields = {{"position", "position"}, {"displacement", "u"},
                                                             {"velocity", "v"},        {"strain", "strain"},
                                                             {"stress", "stress"},     {"volume", "volume"}};
 
-// (P × components), or (P) of a single one.
+// An array (P × components), or (P) if there is a single component.
 Array array_of_points(ConstVec values, std::size_t points) {
   const std::size_t components = values.size() / points;
   Shape shape = {static_cast<py::ssize_t>(points)};
@@ -55,7 +55,7 @@ TrialState& Unknowns::trial(Simulation& now) {
   return *trial_;
 }
 
-// function(phase, t, u, out), out: (n).
+// Calls function(phase, t, u, out), out: (n), and returns out as an array.
 template <class Function>
 Array Unknowns::evaluate(const py::object& u, const py::object& t, const Function& function) {
   Simulation& now = simulation().at_rest();

@@ -9,7 +9,7 @@
 
 namespace stillpoint::python {
 
-/// What belongs to a simulation, and keeps it alive.
+/// The base of objects that belong to a simulation, and keep it alive.
 class OfSimulation {
  public:
   explicit OfSimulation(pybind11::object simulation)
@@ -29,7 +29,7 @@ class Unknowns : public OfSimulation {
   std::size_t size() { return simulation().at_rest().system().size(); }
   Array u();
   Array v();
-  /// Q = F − R(u), R(u) and F(u) at t; None: as they are. (n) each.
+  /// Q = F − R(u), R(u) and F(u) at t; None: the present u or t. (n) each.
   Array residual(const pybind11::object& u, const pybind11::object& t);
   Array internal_force(const pybind11::object& u, const pybind11::object& t);
   Array external_force(const pybind11::object& u, const pybind11::object& t);
@@ -42,7 +42,7 @@ class Unknowns : public OfSimulation {
   TrialState& trial(Simulation& simulation);
 
   std::unique_ptr<TrialState> trial_;
-  int phase_ = 0;  // that it is of
+  int phase_ = 0;  // phase of the trial
 };
 
 class Points : public OfSimulation {
@@ -50,7 +50,7 @@ class Points : public OfSimulation {
   using OfSimulation::OfSimulation;
   std::size_t size() { return simulation().at_rest().points(); }
   std::vector<std::string> names();
-  /// Throws py::attribute_error if there is none of that name.
+  /// Throws py::attribute_error if there is no field of that name.
   Array field(const std::string& name);
 };
 

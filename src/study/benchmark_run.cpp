@@ -15,12 +15,12 @@
 namespace stillpoint {
 namespace {
 
-/// Where the way to the goal was for good, and whether it still leads anywhere.
+/// Records when the goal was met for good, and whether the run still makes progress.
 class ConvergenceTracker {
  public:
   explicit ConvergenceTracker(double goal) : goal_(goal) {}
 
-  /// counts: whether the loads are what they will be; before, the goal is not there to be met.
+  /// counts: whether the loads have reached their final values; before that the goal cannot be met.
   void sample(long steps, long evaluations, double seconds, double seen, bool counts) {
     last_but_one_ = std::exchange(last_, seen);
     const double measure = counts ? seen : 1;
@@ -37,15 +37,16 @@ class ConvergenceTracker {
     }
     best_ = std::min(best_, measure);
   }
-  /// Whether the next state may be the one at the goal, or one gone wrong: each of these is looked at, so that where
-  /// the goal is met is known to the step. Further off a few in a hundred are enough, unless from one to the next it
-  /// comes nearer so fast that the goal may lie between.
+  /// Whether the next state may be at the goal, or may have gone wrong: each of these is measured, so that the step at
+  /// which the goal is met is known exactly. Further off, a few measurements in a hundred steps are enough, unless the
+  /// error falls so fast from one to the next that the goal may lie between.
   bool looks_closely() const {
     constexpr double near = 100, worse_than_nothing = 2;
     const double next = last_ * std::min(1.0, last_ / last_but_one_);
     return !(next > near * goal_ && last_ < worse_than_nothing);
   }
-  /// Below the goal for a tenth of the way again, so that an error that swings through it does not count.
+  /// Whether the run has stayed below the goal for a tenth of the way again, so that an error that swings through it
+  /// does not count.
   bool arrived(long evaluations) const {
     return inside_evaluations_ > 0 && evaluations - inside_evaluations_ >= std::max(50L, inside_evaluations_ / 10);
   }
@@ -64,18 +65,18 @@ class ConvergenceTracker {
   double best_ = std::numeric_limits<double>::infinity(), earlier_best_ = best_, half_way_best_ = best_;
 };
 
-// Points, and about ten vectors of unknowns.
+// The memory of the points and about ten vectors of unknowns [bytes].
 std::size_t memory_of(const LagrangianPhase& phase) {
   return static_cast<std::size_t>(10.0 * sizeof(double) * static_cast<double>(phase.size()) +
                                   phase.bytes_per_point() * static_cast<double>(phase.points()));
 }
 
-// Steps as the method takes them by itself, with no end but a failure.
+// A simulation that steps by the method alone, with no end but a failure.
 Simulation free_running(const Problem& problem, int threads, SetUpStore& store) {
   return Simulation(problem, {.threads = threads, .records = false, .stops = false, .store = &store});
 }
 
-/// One run, and how much of it is looked at.
+/// One run and its measurements.
 class Benchmark {
  public:
   Benchmark(const Problem& problem, const ReferenceSolution& exact, const BenchmarkLimits& limits, SetUpStore& store,
@@ -98,7 +99,7 @@ class Benchmark {
       const RunStatus status = simulation_.step();
       stepping_s_ += watch.seconds();
       if (status != RunStatus::running) {
-        // An iteration that cannot get any nearer for rounding has arrived where it could.
+        // An iteration that rounding keeps from getting any nearer has converged as far as it can.
         const bool arrived = tracker_.evaluations() > 0;
         end(arrived ? ComparedStatus::converged : ComparedStatus::diverged, simulation_.reason());
         break;
@@ -111,7 +112,7 @@ class Benchmark {
  private:
   long evaluations() const { return simulation_.evaluations() + run_.estimating; }
 
-  // A point of the way, evenly spaced by the logarithm of the evaluations; and, near the goal, what it is measured by.
+  // Samples the run, evenly spaced by the logarithm of the evaluations; near the goal it measures more often.
   void look(bool at_start) {
     const bool due = at_start || evaluations() >= next_sample_;
     if (!due && !tracker_.looks_closely()) return;
@@ -125,7 +126,7 @@ class Benchmark {
   void measure(bool all) {
     if (all || limits_.by_residual) run_.residual = simulation_.residual();
     {
-      const ThreadScope threads(std::max(1, limits_.threads));  // a short loop, which others may hold up
+      const ThreadScope threads(std::max(1, limits_.threads));  // a short loop, which other threads may hold up
       run_.error = exact_.error(simulation_.u());
     }
     if (all) run_.distance = simulation_.distance();

@@ -1,4 +1,4 @@
-// Places at which levels of different points are compared.
+// Places at which levels with different points are compared.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -9,21 +9,21 @@
 
 namespace stillpoint {
 
-/// In the body at the start.
+/// Places in the body at the start.
 struct CommonPlaces {
   std::vector<double> x;       // (places × dim) [m]
-  std::vector<double> volume;  // what each stands for [m³]
+  std::vector<double> volume;  // volume that each place stands for [m³]
   std::size_t size() const { return volume.size(); }
 };
 
-/// Two along each axis of every cell of the scene's grid, at Gauss–Legendre positions: in the cells of a coarser level
-/// they lie at many positions, and nowhere on a node, where a displacement may be far better than elsewhere. Of a body
-/// from a file its points.
+/// Two places along each axis of every cell of the scene's grid, at Gauss–Legendre positions: in the cells of a coarser
+/// level they lie at many positions, and nowhere on a node, at which a displacement may be far better than elsewhere.
+/// For a body from a file, its points.
 CommonPlaces common_places(const Problem& problem);
-/// How many that are at most.
+/// An upper bound of their number.
 double count_of_places(const Problem& problem);
 
-/// u and stress there, (places × dim) and (places × components); NaN where they cannot be read.
+/// u and stress at the places, (places × dim) and (places × components); NaN where they cannot be read.
 struct FieldsAtPlaces {
   std::vector<double> u, stress;
 };

@@ -77,7 +77,7 @@ class Comparing {
     all.insert(all.end(), more.begin(), more.end());
     return load_scene(file_, all);
   }
-  // What the user has set for strategies that take it stays out of the others.
+  // Settings by the user for strategies that take them are kept from other candidates.
   Scene load_for(const Candidate& candidate) const {
     std::vector<std::string> all;
     for (const std::string& given : overrides_) {
@@ -88,7 +88,7 @@ class Comparing {
   }
   double end_time() const { return scene_.stop.time; }
 
-  // Without one nothing is compared: whoever interrupts this interrupts every candidate.
+  // Without a reference nothing is compared: an interrupt here is an interrupt of every candidate.
   void find_reference() {
     const StopScope scope(options_.interrupted);
     const ThreadScope threads(threads_of_solvers_);
@@ -113,8 +113,8 @@ class Comparing {
     exact_.emplace(std::move(found.state));
   }
 
-  // κ of the elastic tangent where the body comes to rest. In a linear body that is the one at the start, whose ω₁ the
-  // runs need as well.
+  // κ of the elastic tangent at equilibrium. In a linear body that is the tangent at the start, whose ω₁ the runs need
+  // as well.
   void measure_spectrum() {
     std::unique_ptr<LagrangianPhase> phase = store_.phase(scene_).phase;
     const std::vector<double>& u = exact_->u();
@@ -150,8 +150,8 @@ class Comparing {
     result_.reference = transient_->what;
   }
 
-  // Runs of a small body count side by side, and are timed later. One of a large body keeps all cores busy, and may as
-  // well be timed at once.
+  // Runs of a small body are counted side by side, and timed later. A run of a large body keeps all cores busy, and may
+  // as well be timed at once.
   void count() {
     constexpr std::size_t large_body = 20'000;
     const bool one_by_one = result_.points > large_body || result_.threads == 1;
@@ -163,7 +163,7 @@ class Comparing {
     });
   }
 
-  // Returns the wall time of its steps.
+  // Returns the wall time of the candidate's steps [s].
   double try_candidate(Candidate& candidate, int threads) {
     if (is_interrupted()) {
       candidate.run.status = ComparedStatus::interrupted;
@@ -172,7 +172,7 @@ class Comparing {
     const StopScope scope(options_.interrupted);
     try {
       const Scene scene = load_for(candidate);
-      const ThreadScope all(threads > 0 ? threads : result_.threads);  // of which the run may choose
+      const ThreadScope all(threads > 0 ? threads : result_.threads);  // the run may use fewer
       if (result_.transient)
         return run_transient(scene, *transient_, threads, options_.interrupted, store_, candidate.run);
       if (candidate.is_newton) return solve(scene, threads > 0 ? threads : threads_of_solvers_, candidate.run);
@@ -180,7 +180,7 @@ class Comparing {
     } catch (const SceneError& error) {
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.problems().front().message;
-    } catch (const std::invalid_argument& error) {  // as Newton's method, if walls touch
+    } catch (const std::invalid_argument& error) {  // for example from Newton's method, if walls touch the body
       candidate.run.status = ComparedStatus::refused;
       candidate.run.reason = error.what();
     } catch (const Stopped&) {
@@ -204,7 +204,7 @@ class Comparing {
             .interrupted = options_.interrupted};
   }
 
-  // Newton's method from the scene's start to the goal.
+  // Solves by Newton's method from the scene's start to the goal.
   double solve(const Scene& scene, int threads, ComparedRun& run) {
     const ThreadScope scope(threads);
     auto [phase, setup_s, made_now] = store_.phase(scene);
@@ -215,7 +215,7 @@ class Comparing {
     const bool is_multigrid = scene.mass.kind == MassKind::multigrid;
     const auto multigrid = is_multigrid ? find_multigrid(scene, *phase, u, run) : nullptr;
     if (multigrid) precondition(of_newton, multigrid->mass);
-    // An error below the goal needs a residual that is smaller by up to κ: as far as rounding goes.
+    // An error below the goal needs a residual that is smaller by up to κ, as far as rounding allows.
     of_newton.tolerance = result_.by_residual ? options_.goal : std::max(1e-3 * options_.goal, reference_residual);
     const StaticReport report = newton(*phase, end_time(), u, of_newton);
     run.status = report.converged ? ComparedStatus::converged : ComparedStatus::diverged;
@@ -245,7 +245,7 @@ class Comparing {
     return made.mass;
   }
 
-  // Those that arrived, in random order, so that what the machine does meanwhile falls on all alike.
+  // Times the candidates that converged, in random order, so that other load on the machine affects all of them alike.
   void time() {
     std::vector<std::size_t> jobs;
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
@@ -258,7 +258,7 @@ class Comparing {
     for (const std::size_t k : jobs) {
       if (is_interrupted()) break;
       Candidate& candidate = candidates_[k];
-      constexpr double enough = 3;  // seconds of one candidate: a long run says by itself how long it takes
+      constexpr double enough = 3;  // [s] for one candidate: one long run gives its time reliably
       if (std::reduce(seconds_[k].begin(), seconds_[k].end()) > enough) {
         --total_;
         continue;
@@ -292,7 +292,7 @@ class Comparing {
   Scene scene_;
   Comparison result_;
   std::vector<Candidate> candidates_;
-  std::vector<std::vector<double>> seconds_;  // wall times of each
+  std::vector<std::vector<double>> seconds_;  // wall times of each candidate [s]
   int threads_of_solvers_ = 1;
   SetUpStore store_;
   std::optional<ReferenceSolution> exact_, ramp_;

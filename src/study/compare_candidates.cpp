@@ -37,7 +37,7 @@ std::string name_of(std::string_view strategy) {
   return std::string(strategy);
 }
 
-// Whether a way to rest goes with a mass that is known by its inverse alone.
+// Whether a relaxation or a damping works with a mass of which only the inverse is known.
 bool takes_multigrid(const StrategyInfo& info) {
   return info.is_relaxation ? info.takes_inverse_mass : info.damps && !info.is_local && !info.is_identity;
 }
@@ -67,7 +67,7 @@ void check_integrator(const std::string& integrator) {
   throw_option_error("--integrators", integrator, unknown_word("there is no integrator", method_of(integrator), names));
 }
 
-// The same ways once more, with a multigrid mass, where they go with it.
+// Adds each strategy once more with a multigrid mass, if it works with one.
 void add_multigrid(std::vector<std::string>& strategies) {
   const std::vector<std::string> all = strategies;
   for (const std::string& strategy : all) {
@@ -86,7 +86,7 @@ Candidate stepping(const Scene& scene, const StrategyInfo& info, const std::stri
   candidate.run.step_fraction = fraction;
   candidate.run.rtol = rtol;
   candidate.overrides = {"damping.strategy=" + strategy, "integrator.method=" + candidate.run.integrator};
-  // A number in the scene is meant for the strategy beside it.
+  // A number in the scene belongs to the scene's own strategy.
   if (info.uses("c") && strategy != scene.damping.strategy) candidate.overrides.emplace_back("damping.c=critical");
   if (fraction) candidate.overrides.push_back(fmt::format("integrator.step_fraction={:.17g}", *fraction));
   if (rtol) candidate.overrides.push_back(fmt::format("integrator.rtol={:.17g}", *rtol));
@@ -134,7 +134,7 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
     const StrategyInfo& info = *catalogue().strategy(strategy);
     for (const std::string& integrator : integrators) {
       if (!info.goes_with(method_of(integrator))) continue;
-      // Without being asked for, Runge-Kutta methods are tried with the damping that is best for them.
+      // Unless they are asked for, Runge-Kutta methods are tried only with the damping that suits them best.
       const bool is_default =
           integrator == default_integrators.front() || (strategy == best_with_runge_kutta && !multigrid);
       const bool of_interest = transient || is_default || !options.integrators.empty() || !options.strategies.empty();

@@ -1,4 +1,4 @@
-// A row of a comparison: its names, and what it is beside the Chebyshev estimate.
+// A row of a comparison: its names, and its evaluations relative to the Chebyshev estimate.
 #include <stillpoint/compare.hpp>
 
 #include <cmath>

@@ -24,10 +24,10 @@
 namespace stillpoint {
 namespace {
 
-/// Runs that are independent, side by side; results do not depend on how many there are.
+/// One of the independent runs that are done side by side; results do not depend on how many there are.
 struct Job {
-  std::vector<std::string> set;  // beside what the user has set
-  std::string doing, name;       // the name under which it is kept
+  std::vector<std::string> set;  // overrides in addition to those of the user
+  std::string doing, name;       // progress text; name under which the run is kept
   LevelRun run{};
   bool is_done = false;
 };
@@ -37,7 +37,7 @@ std::vector<std::string> both(std::vector<std::string> first, const std::vector<
   return first;
 }
 
-// What a file may be called.
+// A name for a file, made from the varied settings.
 std::string file_name_of(const std::vector<std::string>& varied) {
   std::string name;
   for (const std::string& set : varied) name += set + "-";
@@ -80,7 +80,7 @@ class Converging {
   std::size_t runs() const { return study_.runs; }
   const Scene& scene() const { return scene_; }
 
-  /// done: told after each run, what it was.
+  /// Runs all levels; done: called after each run with a description of it.
   ConvergenceStudy converge(const std::function<void(const std::string&)>& done) {
     for (const std::vector<Job>* jobs : {&levels_, &sources_})
       for (const Job& job : *jobs) kept_.begin(job.name);
@@ -102,7 +102,7 @@ class Converging {
  private:
   Scene load(const std::vector<std::string>& more) const { return load_scene(file_, both(overrides_, more)); }
 
-  // In the cells of the finest level, if they are not too many to read.
+  // Chooses places in the cells of the finest level at which they are not too many to read.
   void choose_places() {
     if (has_same_points(options_.refine) || scene_.exact.known()) return;
     constexpr double most = 2e5;
@@ -125,14 +125,14 @@ class Converging {
     job.is_done = true;
   }
 
-  // The finest first, which take longest.
+  // Runs the finest level first, which takes longest.
   void run(std::vector<Job>& jobs, const std::function<void(const std::string&)>& done) {
     side_by_side(options_.threads > 0 ? options_.threads : omp_get_max_threads(), jobs.size(), [&](std::size_t k) {
       Job& job = jobs[jobs.size() - 1 - k];
       if (!job.is_done && !is_interrupted()) {
         job.run = run_level(load(job.set), places_ ? &*places_ : nullptr, options_.interrupted);
         job.run.level.set = job.set;
-        // Errors against the exact solution are known: nothing else is made of these.
+        // Errors relative to the exact solution are already computed: these arrays serve nothing else.
         if (!has_same_points(options_.refine) && !places_) job.run.u = job.run.stress = job.run.volume = {};
         kept_.keep(job.name, job.run);
         job.is_done = job.run.is_there;
@@ -159,9 +159,9 @@ class Converging {
     std::ranges::copy(finest.notes, std::back_inserter(study_.notes));
   }
 
-  // --- which error is the largest ---
+  // --- the largest source of error ---
 
-  // At the finest level but one.
+  // Adds the runs in which one source of error at a time is refined, at the finest level but one.
   void add_sources() {
     if (!options_.finds_dominant || levels_.size() < 2) return;
     const std::vector<std::string>& base = levels_[levels_.size() - 2].set;
@@ -208,11 +208,11 @@ class Converging {
   Scene scene_;
   KeptRuns kept_;
   std::vector<Job> levels_, sources_;
-  std::optional<CommonPlaces> places_;  // at which levels are compared; empty: at their points, or not at all
+  std::optional<CommonPlaces> places_;  // common places of the levels; empty: the points themselves, or no comparison
   ConvergenceStudy study_;
 };
 
-// Every value, or every pair of values, "key=value".
+// All combinations of one value for each varied key, "key=value".
 std::vector<std::vector<std::string>> combinations(const std::vector<Variation>& varied) {
   std::vector<std::vector<std::string>> all(1);
   for (const Variation& variation : varied) {

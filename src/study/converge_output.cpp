@@ -15,16 +15,16 @@ namespace {
 
 std::string number_or_nothing(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : ""; }
 
-// Columns that every study has, empty where it has no such error.
+// The columns that every study has; a field is empty if the study has no such error.
 const std::vector<std::string> norms = {"u_l2", "u_max", "u_energy", "stress_l2"};
 
-// The keys that are varied, from "key=value".
+// The varied keys, from "key=value".
 std::vector<std::string> keys_of(const ConvergenceStudy& study) {
   std::vector<std::string> keys;
   for (const std::string& set : study.varied) keys.push_back(set.substr(0, set.find('=')));
   return keys;
 }
-// "key=value" as the value's field of a CSV file.
+// The value of "key=value" as a field of a CSV file.
 std::string value_field(const std::string& set) {
   const std::string value = set.substr(set.find('=') + 1);
   return value.find_first_of(",\"") == std::string::npos ? value : quoted(value);

@@ -1,4 +1,4 @@
-// Text as a field of a CSV file.
+// Text quoted as a field of a CSV file.
 #pragma once
 
 #include <string>

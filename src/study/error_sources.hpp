@@ -1,4 +1,4 @@
-// Which error of a scene is the largest: each of its sources alone made finer.
+// The largest source of error of a scene, found by refining each source alone.
 #pragma once
 
 #include <stillpoint/converge.hpp>
@@ -8,19 +8,19 @@
 
 namespace stillpoint {
 
-/// A source of error, and the settings, "key=value", that make it alone smaller.
+/// A source of error, and the settings, "key=value", that reduce it alone.
 struct RefinedSource {
   std::string name;
   std::vector<std::string> set;
 };
 
-/// Those of a scene, but for what is refined from level to level.
+/// The sources of a scene's error, except those that are refined from level to level.
 std::vector<RefinedSource> other_sources(const Problem& problem, const std::vector<Refinement>& refined);
 
-/// "space", "quadrature", "phases" or "time".
+/// The name of the source of error that a refinement reduces: "space", "quadrature", "phases" or "time".
 std::string source_of(Refinement refinement);
 
-/// Whether a scene follows a motion in time, whose error depends on the step.
+/// Whether a scene follows a motion in time, so that its error depends on the step.
 bool is_transient(const Problem& problem);
 
 }  // namespace stillpoint

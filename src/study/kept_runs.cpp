@@ -19,7 +19,7 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// NaN is null in JSON; every other number comes back bit by bit.
+// NaN is null in JSON; every other number is restored bit by bit.
 Json list_of(const std::vector<double>& values) {
   Json list = Json::array();
   for (const double value : values) list.push_back(number(value));

@@ -1,4 +1,4 @@
-// Finished runs of a study on the disk, so that one that was stopped can go on.
+// Finished runs of a study on the disk, so that an interrupted study can be resumed.
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -15,15 +15,16 @@ namespace stillpoint {
 
 class KeptRuns {
  public:
-  /// folder: empty: nothing is kept. resumes: whether to take what is there. A kept run is one of the scene's text, its
-  /// overrides and its files of points, by this version.
+  /// folder: empty if nothing is kept. resumes: whether existing files are used. A kept run is identified by the
+  /// scene's text, its overrides, its files of points, and this version of the program.
   KeptRuns(std::filesystem::path folder, bool resumes, const Scene& scene);
 
   /// The finished run of this name. Throws StateError if the file is damaged, or of another scene, version or set.
   std::optional<LevelRun> find(const std::string& name, const std::vector<std::string>& set) const;
-  /// Takes away what was kept of an earlier study that is not resumed.
+  /// Removes a run that an earlier study has kept, unless the study is resumed.
   void begin(const std::string& name) const;
-  /// Writes it at once, whole or not at all; only what came to its end. Throws std::filesystem::filesystem_error.
+  /// Writes a run at once, completely or not at all, and only if it came to its end. Throws
+  /// std::filesystem::filesystem_error.
   void keep(const std::string& name, const LevelRun& run) const;
 
  private:
@@ -31,7 +32,7 @@ class KeptRuns {
 
   std::filesystem::path folder_;
   bool resumes_;
-  Json scene_;  // what it is a run of
+  Json scene_;  // identity of the scene whose runs these are
 };
 
 }  // namespace stillpoint

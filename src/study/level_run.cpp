@@ -19,7 +19,7 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-// Of the displacement and the stress, where they are known.
+// The exact value of a field's component; NaN unless it is a displacement or a known stress.
 double exact_value(const ExactSolution* exact, const LagrangianPhase& phase, const std::string& field, ConstVec x,
                    double t) {
   const auto [name, component, components] = find_point_field(phase, field);
@@ -34,7 +34,7 @@ double exact_value(const ExactSolution* exact, const LagrangianPhase& phase, con
   return values[component];
 }
 
-// The grid's functions belong to places when the phase began: those of the start in a single phase alone.
+// Reads fields at the places in a single phase only: shape functions belong to positions at the beginning of a phase.
 void read_at_places(Simulation& simulation, const CommonPlaces& places, LevelRun& run) {
   const LagrangianPhase& phase = simulation.phase();
   if (phase.info().updated_lagrangian) return;
@@ -74,8 +74,9 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
   run.volume = simulation.phase().point_data().volumes;
 }
 
-// What rounding leaves, of an equilibrium as many digits as its condition number κ = (ω_max/ω₁)² has, and what is out
-// of balance: a solver that stops at a residual r is off by about as much, and by some times more in soft motions.
+// The relative error from other sources than the level: rounding, amplified in an equilibrium by its condition number
+// κ = (ω_max/ω₁)², and the residual: a solver that stops at a residual r is off by about as much, and by several times
+// more in soft modes.
 double floor_of(const Scene& scene, const Summary& s) {
   constexpr double rounding = 1e-13, of_unknown_condition = 1e-12, times_more = 10;
   if (!scene.solve.is_static() && !scene.stop.wants_equilibrium()) return rounding;
@@ -85,7 +86,7 @@ double floor_of(const Scene& scene, const Summary& s) {
                   times_more * s.residual);
 }
 
-// Files, and rows that steps land on, are none of a study's.
+// Removes output files and output rows that the steps would have to land on, as a study needs neither.
 Scene without_files(Scene scene) {
   scene.output.snapshots.clear();
   scene.output.fields_every = 0;
@@ -115,13 +116,13 @@ LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::fu
     run.notes = s.notes;
     run.is_there = s.exit_status == 0;
     run.floor = floor_of(own, s);
-    level.wall_s = watch.seconds();  // what is read for the study is no part of it
+    level.wall_s = watch.seconds();  // reading the results is not included
     if (run.is_there) read_end(own, simulation, s, places, run);
   } catch (const SetUpStopped& stopped) {
     level.status = stopped.status();
     level.exit_status = 3;
     level.reason = stopped.what();
-  } catch (const SceneError& error) {  // as on a level that needs more memory than there is
+  } catch (const SceneError& error) {  // for example on a level that needs more memory than there is
     level.status = RunStatus::failed;
     level.exit_status = 2;
     level.reason = error.problems().front().message;
@@ -140,7 +141,7 @@ void check_set_up(const Scene& scene, const std::function<bool()>& interrupted) 
   } catch (const SceneError&) {
     throw;
   } catch (const std::exception&) {
-    // as of an interrupt, or a frequency that is not found: its level will tell
+    // for example an interrupt, or a frequency that is not found: the run of the level reports it
   }
 }
 

@@ -15,7 +15,7 @@ struct Range {
   std::size_t levels() const { return last - first + 1; }
 };
 
-// The finest levels on end that have an error, and one that is more than what the solver leaves.
+// The range of the finest consecutive levels that have an error greater than the solver's own.
 std::optional<Range> with_errors(ConstVec errors, ConstVec floors) {
   const auto has = [&](std::size_t k) {
     return std::isfinite(errors[k]) && errors[k] > 0 && (floors.empty() || errors[k] > floors[k]);
@@ -28,16 +28,16 @@ std::optional<Range> with_errors(ConstVec errors, ConstVec floors) {
   return Range{begin, end - 1};
 }
 
-// From level k to the next.
+// The order from level k to the next.
 double local_order(ConstVec sizes, ConstVec errors, std::size_t k) {
   return std::log(errors[k] / errors[k + 1]) / std::log(sizes[k] / sizes[k + 1]);
 }
 
 constexpr std::size_t fewest = 3;
 
-// An error that is that of something else, which is not refined, falls no more.
+// Leaves out fine levels at which another error, which is not refined, dominates, so that the error falls no more.
 void leave_out_floor(ConstVec sizes, ConstVec errors, Range& range) {
-  constexpr double falls_no_more = 0.5;  // of the steepest before
+  constexpr double falls_no_more = 0.5;  // relative to the steepest fall before
   while (range.levels() > fewest) {
     double steepest = 0;
     for (std::size_t k = range.first; k + 1 < range.last; ++k)
@@ -55,7 +55,7 @@ void leave_out_coarse(ConstVec sizes, ConstVec errors, Range& range) {
 
 }  // namespace
 
-// Of n levels the slope has n − 2 degrees of freedom; 95 % of Student's distribution lie within ± t.
+// The slope over n levels has n − 2 degrees of freedom; 95 % of Student's distribution lie within ± t.
 std::optional<ObservedOrder> observed_order(ConstVec sizes, ConstVec errors, ConstVec floors) {
   std::optional<Range> range = with_errors(errors, floors);
   if (!range) return std::nullopt;

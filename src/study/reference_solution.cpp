@@ -21,7 +21,7 @@ namespace {
 
 constexpr double tight_in_motion = 1e-10;
 
-// ‖a − b‖_M, in one pass where M is diagonal.
+// ‖a − b‖_M, in one pass if M is diagonal.
 double mass_norm_of_difference(const Mass& mass, ConstVec a, ConstVec b) {
   const std::size_t n = a.size();
   const double* const a_ = a.data();
@@ -44,13 +44,13 @@ struct Found {
   double residual = 0;
 };
 
-// The same scene for Newton's method, in which no time passes: its materials are not viscous.
+// The same scene for Newton's method, in which no time passes, so that its materials are not viscous.
 Problem without_time(Problem problem) {
   problem.solve.method = "newton";
   return problem;
 }
 
-// As near as rounding lets it come. Leaves what it found in the phase.
+// Solves as accurately as rounding allows. Leaves the solution in the phase.
 std::optional<Found> solve(const Problem& problem, LagrangianPhase& phase, std::vector<std::string>& notes) {
   constexpr double near_enough = 1e4 * reference_residual;
   std::vector<double> u = phase.initial_displacement(problem.stop.time);
@@ -125,7 +125,7 @@ Equilibrium find_equilibrium(const Problem& problem, int threads, const std::fun
                           .residual = found->residual,
                           .unique = unique,
                           .notes = std::move(notes)};
-  if (!(equilibrium.state.size() > 0)) refuse();  // as where walls do not move
+  if (!(equilibrium.state.size() > 0)) refuse();  // for example if the walls do not move
   return equilibrium;
 }
 

@@ -1,4 +1,4 @@
-// The exact discrete equilibrium of a scene, which relaxation is measured against.
+// The exact discrete equilibrium of a scene, relative to which relaxation is measured.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -17,12 +17,12 @@ inline constexpr double reference_residual = 1e-12;
 
 class ReferenceSolution {
  public:
-  /// u: u*, (n); mass: what errors are measured with.
+  /// u: the equilibrium u*, (n); mass: M of the norm in which errors are measured.
   ReferenceSolution(std::vector<double> u, Mass mass);
   const std::vector<double>& u() const { return u_; }
-  /// ‖u*‖_M
+  /// The norm ‖u*‖_M.
   double size() const { return size_; }
-  /// ‖u − u*‖_M/‖u*‖_M
+  /// The relative error ‖u − u*‖_M/‖u*‖_M.
   double error(ConstVec u) const;
 
  private:
@@ -31,24 +31,23 @@ class ReferenceSolution {
   double size_;
 };
 
-/// Where it comes from.
+/// The reference solution and its origin.
 struct Equilibrium {
   ReferenceSolution state;
   std::size_t points = 0;
   std::string method;
   double residual = 0;  // ‖F − R‖/‖F‖
-  bool unique = true;   // whether all ways lead there: no history, no contact
+  bool unique = true;   // whether it does not depend on the path: no history, no contact
   std::vector<std::string> notes;
 };
 
-/// By Newton's method in one load step, or if it has no answer by the scene's own relaxation. At stop.time if
-/// that is set. Throws SceneError for a scene of several phases, with loads that have no end, or if nothing is
-/// displaced.
+/// Finds the equilibrium by Newton's method in one load step, or if that fails by the scene's own relaxation; at
+/// stop.time if that is set. Throws SceneError for a scene of several phases, with loads that have no end, or if
+/// nothing is displaced.
 Equilibrium find_equilibrium(const Problem& problem, int threads, const std::function<bool()>& interrupted,
                              SetUpStore& store);
 
-/// The limit of slow loading: equilibrium after equilibrium, in 64 load steps. Nothing, and a note, if there is
-/// none.
+/// The limit of slow loading: a sequence of equilibria, in 64 load steps. Empty, with a note, if there is none.
 std::optional<ReferenceSolution> slow_ramp(const Problem& problem, SetUpStore& store, std::vector<std::string>& notes);
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// How a scene is refined: which keys, by how much, and what size that is.
+// The refinement of a scene: the keys it changes, by how much, and the size that results.
 #pragma once
 
 #include <stillpoint/converge.hpp>
@@ -8,11 +8,11 @@
 
 namespace stillpoint {
 
-/// The settings, "key=value", that make what is refined `factor` times finer than in the scene. Throws SceneError if
-/// the scene has nothing of the kind.
+/// The settings, "key=value", that make the refined quantity `factor` times finer than in the scene. Throws SceneError
+/// if the scene has no such quantity.
 std::vector<std::string> refined(const Problem& problem, Refinement refinement, double factor);
 
-/// The size of it in a scene that took steps of `step` [s].
+/// The size of the refined quantity in a scene that took steps of `step` [s].
 double size_of(const Problem& problem, Refinement refinement, double step);
 
 }  // namespace stillpoint

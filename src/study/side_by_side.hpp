@@ -12,8 +12,8 @@
 
 namespace stillpoint {
 
-/// run(k) for k = 0 … n − 1, each alone on one of so many threads: what comes of it does not depend on their number.
-/// Throws what the first of them threw, once all are done.
+/// Calls run(k) for k = 0 … n − 1, each on a single one of the threads, so that results do not depend on their number.
+/// Throws the first exception, in the order of k, once all are done.
 template <class Run>
 void side_by_side(int threads, std::size_t n, const Run& run) {
   std::atomic<std::size_t> next = 0;

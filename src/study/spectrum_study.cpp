@@ -29,7 +29,7 @@ void find_by_mass(const LagrangianPhase& phase, ConstVec u, SpectrumStudy& study
                      {"omega_max", "Gershgorin, guaranteed upper bound", omega_max_bound_by_gershgorin(phase, 0, u)}};
 }
 
-// Of the modes that the loads drive.
+// Finds the frequencies of the modes that the loads excite.
 void find_by_multigrid(const LagrangianPhase& phase, ConstVec u, SpectrumStudy& study) {
   const Stopwatch watch;
   const auto [made, refusal] = make_multigrid_mass(phase, u, false);

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// ‖a − b‖/‖b‖ over the points, or places, with weights V_p, and by the largest components; left out are places that one
-// of both has no value at.
+// ‖a − b‖/‖b‖ over the points, or places, with weights V_p, and the ratio of their largest components; entries that are
+// NaN in a or b are left out.
 struct RelativeDifference {
   double l2 = none, max = none;
 };
@@ -40,7 +40,7 @@ RelativeDifference difference(const std::vector<double>& a, const std::vector<do
   return {std::sqrt(squares / all), most / largest};
 }
 
-// Of two values by their names; NaN where a level has none.
+// The value of this name; NaN if a level has none.
 double value_of(const std::vector<std::pair<std::string, double>>& values, const std::string& name) {
   const auto found = std::ranges::find(values, name, &std::pair<std::string, double>::first);
   return found == values.end() ? none : found->second;
@@ -53,8 +53,8 @@ class Gathering {
     for (const ConvergenceLevel& level : study.levels) sizes_.push_back(level.size);
   }
 
-  // Where space is refined errors are measured against the exact solution; otherwise the finest level has the same
-  // points, and the error of space, which all levels share, does not hide the one that is refined.
+  // If space is refined, errors are measured relative to the exact solution. Otherwise the finest level has the same
+  // points and is the reference, so that the error of space, which all levels share, does not hide the refined one.
   void gather() {
     const auto any = std::ranges::find_if(runs_, &LevelRun::is_there);
     if (any == runs_.end()) return;
@@ -114,7 +114,7 @@ class Gathering {
     };
     StudiedQuantity quantity{.name = name};
     const std::size_t finest = runs_.size() - 1;
-    std::vector<double> steps;  // from a level to the next
+    std::vector<double> steps;  // changes from a level to the next
     for (std::size_t k = 0; k <= finest; ++k) {
       quantity.values.push_back(between(k, finest));
       steps.push_back(between(k, std::min(k + 1, finest)));
@@ -150,20 +150,20 @@ class Gathering {
     study_.quantities.push_back(std::move(probe));
   }
 
-  // What of an error is not that of the level, of a quantity of this size.
+  // The part of a quantity's error that is not due to the level; size: that of the quantity.
   std::vector<double> floors(double size) const {
     std::vector<double> of_levels;
     for (const LevelRun& run : runs_) of_levels.push_back(run.floor * size);
     return of_levels;
   }
-  // Of a change from a level to the next.
+  // The same floors for changes from a level to the next.
   std::vector<double> floors_of_steps(double size) const {
     std::vector<double> of_steps = floors(size);
     for (std::size_t k = 0; k + 1 < of_steps.size(); ++k) of_steps[k] = std::max(of_steps[k], of_steps[k + 1]);
     return of_steps;
   }
 
-  // Of all components of the field there, as one of them may vanish.
+  // The largest magnitude over all components of the probed field, as one of them may vanish.
   double size_of_probe(const std::string& name) const {
     const std::size_t last = name.rfind('.');
     const std::string field = last > name.find('.') ? name.substr(0, last + 1) : name;
@@ -194,7 +194,7 @@ class Gathering {
     return order;
   }
 
-  // For smooth solutions; empty where none is known.
+  // The theoretical order for smooth solutions; empty if none is known.
   std::optional<double> theory(const std::string& of) const {
     const bool of_stress = of.starts_with("stress") || of.starts_with("strain") || of == "u_energy";
     const bool of_u = of == "u_l2" || of == "u_max" || of == "u" || of.starts_with("u.");

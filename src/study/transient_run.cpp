@@ -16,14 +16,14 @@ namespace {
 
 struct Ended {
   Summary summary;
-  ComparedRun set_up;  // its set-up alone
+  ComparedRun set_up;  // only its set-up is filled in
   std::vector<double> displacement;
 };
 
 Ended follow(Problem problem, int threads, SetUpStore& store, const std::function<bool()>& interrupted = {}) {
   problem.output.snapshots.clear();
   problem.output.fields_every = 0;
-  problem.output.every = problem.stop.time;  // a row costs time, and bends the steps
+  problem.output.every = problem.stop.time;  // an output row costs time, and changes the steps
   const Stopwatch watch;
   Simulation simulation(problem, {.threads = threads, .interrupted = interrupted, .store = &store});
   ComparedRun set_up;

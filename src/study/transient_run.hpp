@@ -1,4 +1,4 @@
-// Error in time: the points' displacements at stop.time against those of a motion that was followed far more closely.
+// The error in time: the points' displacements at stop.time relative to those of a much more accurate motion.
 #pragma once
 
 #include <stillpoint/compare.hpp>
@@ -16,17 +16,17 @@ struct TransientReference {
   std::string what;
 };
 
-/// Of the scene's own damping: by an integrator of order 7 at rtol 1e-11 if the motion is smooth, by leapfrog at a
-/// sixteenth of the critical step if laws remember, walls touch or phases follow each other. load: the scene under
-/// more overrides.
+/// The motion with the scene's own damping: by an integrator of order 7 at rtol 1e-11 if it is smooth, by leapfrog at a
+/// sixteenth of the critical step if there are history-dependent laws, contact or several phases. load: gives the scene
+/// with additional overrides.
 TransientReference transient_reference(const Problem& problem,
                                        const std::function<Problem(const std::vector<std::string>&)>& load,
                                        SetUpStore& store);
 
-/// Fills the row: one point of its way, at stop.time. Returns the wall time of the steps [s].
+/// Fills the row, with a single sample at stop.time. Returns the wall time of the steps [s].
 double run_transient(const Problem& problem, const TransientReference& reference, int threads,
                      const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run);
-/// Wall time of the steps of the same run [s].
+/// The wall time of the steps of the same run [s].
 double time_transient(const Problem& problem, int threads, SetUpStore& store);
 
 }  // namespace stillpoint

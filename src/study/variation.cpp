@@ -7,7 +7,7 @@
 namespace stillpoint {
 namespace {
 
-// At the commas that stand in no array, table or string.
+// Splits at the commas that are in no array, table or string.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
   int depth = 0;

@@ -87,7 +87,7 @@ class Combined final : public Damping {
   double alpha_;
 };
 
-// D(v, Q) is what a program gives.
+// A local damping force D(v, Q) that the calling program supplies.
 class Own final : public Damping {
  public:
   Own(OwnDampingForce force, double alpha, double stiffness_factor)
@@ -116,7 +116,7 @@ void require_alpha(std::string_view name, double alpha) {
 }
 void require_c(std::string_view name, double c) { require(c >= 0 && std::isfinite(c), name, "c >= 0", c); }
 
-/// A damping for scenes, and how it is made.
+/// A damping for scenes, and the function that makes it.
 struct Row {
   StrategyInfo about;
   std::function<std::unique_ptr<Damping>(double c, double alpha)> make;
@@ -194,7 +194,7 @@ const std::vector<StrategyInfo>& dampings() { return infos().rows(); }
 
 void put_damping(const StrategyInfo& about, double stiffness_factor, OwnDampingForce force) {
   const auto same = [&](const auto& row) { return name_of(row) == about.name; };
-  infos();  // of the rows before
+  infos();  // has to be made from the rows before the new one
   table().put({about,
                [=, force = std::move(force)](double, double alpha) -> std::unique_ptr<Damping> {
                  return std::make_unique<Own>(force, alpha, stiffness_factor);

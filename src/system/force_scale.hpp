@@ -1,4 +1,4 @@
-// The force beside which an out-of-balance force is small.
+// The scale of forces relative to which an out-of-balance force is small.
 #pragma once
 
 #include <stillpoint/semi_discrete.hpp>
@@ -10,14 +10,14 @@
 
 namespace stillpoint {
 
-/// ‖F‖. If F = 0, or what rounding leaves of a load that comes back to nothing, the largest ‖F‖ or ‖reactions‖ seen so
-/// far: those of the moment fall with the out-of-balance force itself when a body is unloaded. Without any, as in a
-/// free body that vibrates, the largest ‖R‖.
+/// The scale is ‖F‖. If F = 0, or the rounding that remains of a load that returns to zero, it is the largest ‖F‖ or
+/// ‖reactions‖ seen so far: the present reactions fall with the out-of-balance force itself when a body is unloaded. If
+/// there were none, as in a free body that vibrates, it is the largest ‖R‖.
 class ForceScale {
  public:
-  /// Of an evaluation: loads = ‖F‖, R: (n); trial, contact: the reactions that belong to it.
+  /// The scale [N] at an evaluation: loads = ‖F‖, R: (n); trial, contact: the reactions that belong to it.
   double of(double loads, const Vector& R, const TrialState& trial, const Contact* contact) {
-    constexpr double rounding = 1e-12;  // of the largest load
+    constexpr double rounding = 1e-12;  // relative to the largest load
     const bool is_loaded = loads > rounding * force_;
     force_ = std::max(force_, is_loaded ? loads : reactions(trial, contact));
     if (force_ > 0) return is_loaded ? loads : force_;
@@ -40,7 +40,7 @@ class ForceScale {
   double force_ = 0, internal_ = 0;
 };
 
-/// ‖Q‖/scale; 0 in balance, whatever the scale.
+/// ‖Q‖/scale; 0 in balance, even if the scale is 0.
 inline double relative(double unbalanced, double scale) { return unbalanced == 0 ? 0 : unbalanced / scale; }
 
 }  // namespace stillpoint

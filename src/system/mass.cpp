@@ -27,8 +27,8 @@ Eigen::Index index(std::size_t n) { return static_cast<Eigen::Index>(n); }
       n, why));
 }
 
-// The smallest eigenvalue of D⁻¹M, D = diag M, from above and within a few per cent: how near to singular M is,
-// whatever its units. Too few points make an exact zero, which rounding can hide from the factorisation.
+// The smallest eigenvalue of D⁻¹M, D = diag M, from above and within a few per cent: it tells how near to singular M
+// is, whatever its units. Too few points make an exact zero, which rounding can hide from the factorisation.
 double smallest_scaled_eigenvalue(ConstVec diagonal, const SparseCholesky& factor) {
   const auto apply_D = [&](ConstVec x, Vec y) {
     std::transform(x.begin(), x.end(), diagonal.begin(), y.begin(), std::multiplies<>());
@@ -39,10 +39,11 @@ double smallest_scaled_eigenvalue(ConstVec diagonal, const SparseCholesky& facto
 
 }  // namespace
 
-// The coupled part of M. Only the degrees of freedom that take part in it are not solved for by the diagonal.
+// The coupled part of M. Only the degrees of freedom that it couples are solved for by its factor; all others by the
+// diagonal.
 class Mass::Relative {
  public:
-  /// diagonal: of M.
+  /// diagonal: that of M.
   Relative(const std::vector<RelativeInertia>& terms, ConstVec diagonal) : terms_(terms) {
     for (const RelativeInertia& term : terms_) {
       if (term.masters == 0) continue;
@@ -71,7 +72,7 @@ class Mass::Relative {
     }
   }
 
-  /// M_ii += inertia q_i²
+  /// Adds inertia q_i² to each M_ii.
   static void add_to_diagonal(const std::vector<RelativeInertia>& terms, Vec diagonal) {
     for (const RelativeInertia& term : terms) {
       diagonal[static_cast<std::size_t>(term.dof)] += term.inertia;
@@ -79,7 +80,7 @@ class Mass::Relative {
         diagonal[static_cast<std::size_t>(term.master[k])] += term.inertia * term.weight[k] * term.weight[k];
     }
   }
-  /// take(i, j, M_ij) for i ≠ j, both triangles; more than once for a pair that several terms couple.
+  /// Calls take(i, j, M_ij) for i ≠ j, both triangles; more than once for a pair that several terms couple.
   template <class Take>
   void for_each_off_diagonal(const Take& take) const {
     const auto both = [&](int i, int j, double value) {
@@ -94,7 +95,7 @@ class Mass::Relative {
       }
     }
   }
-  /// y += the rest of M x.
+  /// Adds the off-diagonal part of M x to y.
   void add_off_diagonal(ConstVec x, Vec y) const {
     for_each_off_diagonal(
         [&](int i, int j, double value) { y[static_cast<std::size_t>(i)] += value * x[static_cast<std::size_t>(j)]; });
@@ -102,7 +103,7 @@ class Mass::Relative {
   void take(ConstVec b) const {
     for (std::size_t k = 0; k < dofs_.size(); ++k) work_[k] = b[static_cast<std::size_t>(dofs_[k])];
   }
-  /// x = M⁻¹ of what was taken, at these degrees of freedom.
+  /// x = M⁻¹ b at the coupled degrees of freedom, for the b that take() has copied.
   void solve(Vec x) const {
     factor_->solve(work_, work_);
     for (std::size_t k = 0; k < dofs_.size(); ++k) x[static_cast<std::size_t>(dofs_[k])] = work_[k];
@@ -125,7 +126,7 @@ class Mass::Relative {
 
  private:
   std::vector<RelativeInertia> terms_;
-  std::vector<int> dofs_;  // that are coupled, ascending
+  std::vector<int> dofs_;  // coupled degrees of freedom, ascending
   std::optional<SparseCholesky> factor_;
   mutable std::vector<double> work_;
 };
@@ -206,7 +207,7 @@ void Mass::solve(ConstVec b, Vec x) const {
   if (inverse_) {
     inverse_(b, x);
   } else if (is_lumped()) {
-    if (relative_) relative_->take(b);  // before x, which may be b
+    if (relative_) relative_->take(b);  // before x is written, which may be b
     for_each_index(size(), [=, m = diagonal_.data()](std::size_t i) { x[i] = b[i] / m[i]; });
     if (relative_) relative_->solve(x);
   } else {

@@ -1,4 +1,4 @@
-// How a damping of a program's own gets its row.
+// The registration of a damping that the calling program supplies.
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
@@ -6,7 +6,7 @@
 
 namespace stillpoint {
 
-/// A further row of dampings(), or another one in the place of that of the same name.
+/// Adds a row to dampings(), or replaces the row of the same name.
 void put_damping(const StrategyInfo& about, double stiffness_factor, OwnDampingForce force);
 
 }  // namespace stillpoint

@@ -89,10 +89,11 @@ bool RelaxationSystem::damped_out_of_balance(double t, ConstVec u, ConstVec v, V
   return true;
 }
 
-// Whether Q = F − R at each degree of freedom: no contact, and no inertia of supports, which a lumped mass has none of.
+// Whether Q = F − R holds at each degree of freedom by itself: no contact, and a lumped mass, which has no support
+// inertia.
 bool RelaxationSystem::is_sum_of_its_own() const { return system_.mass().is_lumped() && !system_.contact(); }
 
-// F and R
+// Evaluates F and R.
 bool RelaxationSystem::evaluate(double t, ConstVec u) {
   if (!std::exchange(loads_are_known_, loads_are_constant_)) {
     system_.external_force(t, u, F_.span());
@@ -103,7 +104,7 @@ bool RelaxationSystem::evaluate(double t, ConstVec u) {
   return system_.internal_force(t, u, R_.span(), *trial_);
 }
 
-// Q = F − R − M_fs (a_s + c_m v_s) + contact forces
+// Evaluates Q = F − R − M_fs (a_s + c_m v_s) + contact forces.
 bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
   if (!evaluate(t, u)) return false;
   last_out_of_balance(t, Q);
@@ -124,10 +125,10 @@ void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
   if (const Contact* contact = damping_.is_local() ? system_.contact() : nullptr) contact->hold(Q);
 }
 
-// v, Q: of degrees of freedom from `begin` on.
+// v, Q: values at the degrees of freedom from `begin` on.
 void RelaxationSystem::add_local_damping(std::size_t begin, ConstVec v, Vec Q) const {
   if (damping_.uses_last_force()) {
-    // At first nothing is known of dQ/dt.
+    // At the first evaluation dQ/dt is unknown.
     damping_.add_local_since(v, force_remembered_ ? Q_last_->span().subspan(begin, Q.size()) : Q, Q);
   } else if (damping_.is_local()) {
     damping_.add_local(v, Q);
@@ -201,7 +202,7 @@ double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u
 
 double RelaxationSystem::internal_work(const Vector& u) const { return dot(R_, u); }
 
-// Or Q·M⁻¹p and ½ pᵀ M⁻¹ p.
+// Computes Q·v and ½ vᵀ M v, or Q·M⁻¹p and ½ pᵀ M⁻¹ p if the momentum is kept.
 RelaxationSystem::Motion RelaxationSystem::motion(const Vector& v, const Vector& Q, ConstVec velocity) {
   if (!work_) work_ = vectors_.make(size());
   if (keeps_momentum()) {

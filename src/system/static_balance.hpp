@@ -1,4 +1,4 @@
-// The out-of-balance force of a static problem, and how small it is.
+// The out-of-balance force of a static problem, and its size relative to the loads.
 #pragma once
 
 #include <stillpoint/semi_discrete.hpp>
@@ -27,13 +27,13 @@ class StaticBalance {
       throw std::invalid_argument("a static solution with contact is not written: take relaxation, or supports");
   }
 
-  /// R₀ = R(u). False if u is inadmissible.
+  /// Sets R₀ = R(u). False if u is inadmissible.
   bool start(ConstVec u) {
     if (!evaluate(1, u)) return false;
     copy(R_, R0_);
     return true;
   }
-  /// Q and residual() at u. False if u is inadmissible.
+  /// Evaluates Q and residual() at u. False if u is inadmissible.
   bool evaluate(double s, ConstVec u) {
     ++evaluations;
     if (!system_.internal_force(t_, u, R_.span(), *trial_)) return false;
@@ -43,12 +43,12 @@ class StaticBalance {
     scale_ = force_scale_.of(norm(F_), R_, *trial_, nullptr);
     return true;
   }
-  /// ‖Q‖/‖F‖, or whatever else is the scale.
+  /// ‖Q‖/‖F‖, or ‖Q‖ relative to the scale that replaces ‖F‖ (ForceScale).
   double residual() const { return relative(norm(Q), scale_); }
-  /// What points would remember of the last evaluation.
+  /// The history of the points after the last evaluation, not yet committed.
   TrialState& trial() { return *trial_; }
 
-  Vector Q;  // of the last evaluation, (n) [N]
+  Vector Q;  // at the last evaluation, (n) [N]
   long evaluations = 0;
 
  private:

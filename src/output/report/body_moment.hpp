@@ -1,4 +1,4 @@
-// A body at one moment, whose fields can be asked for one after the other: as it is in memory, or as fields.h5 has it.
+// A body at one moment, whose fields are read one after the other: from memory, or from fields.h5.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,15 @@ struct BodyMoment {
   double t = 0;  // [s]
   int dim = 1;
   std::size_t points = 0;                  // P
-  std::vector<std::string> history_names;  // what laws remember beside the stress
-  /// (P × components) of "position", "u", "v", "stress" and history_names.
+  std::vector<std::string> history_names;  // history variables of the laws, besides the stress
+  /// A field, (P × components): "position", "u", "v", "stress" or one of history_names.
   std::function<std::vector<double>(const std::string&)> field;
 };
 
-/// At (t, u, v); to be asked while these and the phase are as they are.
+/// The body at (t, u, v); fields may be read as long as these and the phase are unchanged.
 BodyMoment moment_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVec v);
-/// A frame of fields.h5, by its group. Throws std::filesystem::filesystem_error if it cannot be read, and so does its
-/// field(), for which the file stays open.
+/// A frame of fields.h5, given by its group. It and its field() throw std::filesystem::filesystem_error if the file
+/// cannot be read; the file has to stay open for field().
 BodyMoment moment_of(const Hdf5File& fields, const std::string& frame);
 
 }  // namespace stillpoint

@@ -11,10 +11,10 @@
 namespace stillpoint {
 namespace {
 
-constexpr std::size_t most_values = 1'150'000;  // of two bytes each: a report stays below 3 MB
+constexpr std::size_t most_values = 1'150'000;  // at two bytes each a report stays below 3 MB
 constexpr std::size_t fewest_moments = 6, most_moments = 60;
 
-// The fields of one point at one moment.
+// The number of values of one point at one moment.
 std::size_t width_of(const BodyMoment& body) {
   const std::size_t stress = body.dim == 1 ? 1 : body.dim == 2 ? 4 : 6;
   return static_cast<std::size_t>(body.dim) + 1 + stress + body.history_names.size();
@@ -24,7 +24,7 @@ using CellKey = std::uint64_t;
 constexpr int bits_of_axis = 21;
 constexpr std::uint64_t middle = std::uint64_t{1} << (bits_of_axis - 1);
 
-// The cell of a position, as a number; what is further away than numbers go is in the last one there.
+// The cell of a position, as a number; a position beyond the range of numbers is in the last cell in its direction.
 CellKey cell_of(const double* x, const GridSpec& grid, int dim) {
   CellKey key = 0;
   for (int k = 0; k < dim; ++k) {
@@ -37,7 +37,7 @@ CellKey cell_of(const double* x, const GridSpec& grid, int dim) {
   return key;
 }
 
-// min + (max − min) k/4094
+// Values are coded as min + (max − min) k/4094.
 class Scale {
  public:
   void include(const std::vector<float>& values) {
@@ -105,7 +105,7 @@ BodyPicture::BodyPicture(const GridSpec& grid, const BodyMoment& first, std::siz
   Surface found = surface(grid, at);
   const std::size_t room = most_values / (static_cast<std::size_t>(dim_) + moments * width_of(first));
   for (const std::size_t k : evenly(found.points.size(), room)) points_.push_back(found.points[k]);
-  // Half of the points of a cell at the surface of a body in space lie before the others.
+  // Only about half of the surface points of a body in space are in front of the others.
   const double share = static_cast<double>(found.cells) / static_cast<double>(std::max<std::size_t>(1, points_.size()));
   const double of_cell = dim_ == 1 ? share : std::sqrt(dim_ == 2 ? share : std::min(1.0, 2 * share));
   for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) mark_.push_back(of_cell * grid.cell_length(k));
@@ -121,7 +121,7 @@ BodyPicture::Surface BodyPicture::surface(const GridSpec& grid, const std::vecto
     std::unordered_set<CellKey> occupied;
     for (std::size_t p = 0; p < all_; ++p) {
       keys[p] = cell_of(&position[p * width], grid, dim_);
-      if (p == 0 || keys[p] != keys[p - 1]) occupied.insert(keys[p]);  // a cell's points follow each other
+      if (p == 0 || keys[p] != keys[p - 1]) occupied.insert(keys[p]);  // a cell's points are consecutive
     }
     if (found.cells == 0 && dim_ < 3) found.cells = occupied.size();
     if (dim_ < 3) continue;
@@ -161,7 +161,7 @@ void BodyPicture::add(const BodyMoment& moment) {
   std::size_t number = 0;
   {
     const std::vector<double> u = moment.field("u");
-    for (int k = 0; times_.empty() && k < dim_; ++k) {  // back to the start
+    for (int k = 0; times_.empty() && k < dim_; ++k) {  // initial positions
       const std::vector<float> moved = picked(u, width, k, points_);
       for (std::size_t p = 0; p < moved.size(); ++p) x_[static_cast<std::size_t>(k)][p] -= moved[p];
     }

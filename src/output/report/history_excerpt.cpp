@@ -13,7 +13,7 @@
 namespace stillpoint {
 namespace {
 
-constexpr std::size_t most_cells = 40'000;  // of about eight bytes each
+constexpr std::size_t most_cells = 40'000;  // about eight bytes each
 
 std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words;
@@ -40,7 +40,7 @@ Row row_of(const std::string& line, std::size_t columns) {
   return row;
 }
 
-// The rows that are drawn of some that follow each other.
+// Writes the rows of extreme values among some consecutive rows.
 void write_extremes(const std::vector<Row>& rows, std::string& text) {
   std::set<std::size_t> kept;
   for (std::size_t k = 0; !rows.empty() && k < rows.front().size(); ++k) {

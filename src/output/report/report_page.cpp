@@ -4,7 +4,7 @@
 
 namespace stillpoint {
 
-extern const std::string_view report_page_template;  // src/cmake/report_page.cmake makes it
+extern const std::string_view report_page_template;  // made by src/cmake/report_page.cmake
 
 namespace {
 
@@ -28,7 +28,7 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-// In a script no "<" may stand that begins "</script" or "<!--"; in JSON it stands in texts alone.
+// A script must not contain a "<" that begins "</script" or "<!--"; in JSON a "<" occurs in texts alone.
 std::string text_in_script(const Json& data) {
   const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;

@@ -1,4 +1,4 @@
-// report.html: one file that a browser shows without a network, of a run or of a study.
+// report.html: the report of a run or a study in one file that a browser shows without a network.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace stillpoint {
 
 constexpr const char* report_name = "report.html";
 
-/// Its text: page.html of this room around the data, which page.js and its neighbours show by data.kind: "run",
-/// "compare" or "converge".
+/// The text of report.html: page.html of this folder around the data, which page.js and its neighbours show by
+/// data.kind: "run", "compare" or "converge".
 std::string report_page(const std::string& title, const Json& data);
 
 }  // namespace stillpoint

@@ -36,7 +36,7 @@ bool RunReport::looks_at_body() const {
   return !folder_.empty() && scene_.output.snapshots.empty() && scene_.output.fields_every <= 0;
 }
 
-// A run that has come to its end does not fail for want of a picture.
+// A run that has reached its end must not fail because there is no memory for a picture.
 template <class Draw>
 void RunReport::draw_if_memory_is_left(const Draw& draw) {
   try {

@@ -13,10 +13,10 @@
 
 namespace stillpoint {
 
-/// Draws the stages of fields.h5 where there are some, and otherwise what the run began and ended with.
+/// Draws the frames of fields.h5 if there are any, otherwise the first and the last state of the run.
 class RunReport {
  public:
-  /// folder: where the run writes to; empty: there is no report. The scene outlives this.
+  /// folder: the folder of the run; empty if there is no report. The scene has to outlive this object.
   RunReport(const Scene& scene, std::filesystem::path folder);
 
   /// Whether begin() and end() are to be called.

@@ -1,4 +1,4 @@
-// The only file that calls ARKODE's integrators. What it takes care of, beside the calls (measured on 6.4.1):
+// The only file that calls ARKODE's integrators. It also takes care of the following (measured on 6.4.1):
 //
 //   - a table with c_s = 1 that is not first-same-as-last is integrated wrongly: post_process() below makes it right
 //   - a fixed step has error weights of DBL_MIN, so that norms run on denormals: constant weights of 1
@@ -33,7 +33,7 @@ namespace {
 
 namespace ark = sundials;
 
-// Taken by ARKODE for first-same-as-last though it is not.
+// Whether ARKODE takes the table for first-same-as-last although it is not.
 bool is_mistaken_for_fsal(const ButcherTable& table) {
   return ark::reuses_last_stage_wrongly && std::abs(table.c.back() - 1) < 1e-10 && !first_same_as_last(table);
 }
@@ -89,7 +89,7 @@ class Erk final : public SteppingIntegrator {
       return {.h = reached - t, .t = reached};
     }
     if (adaptive()) check(ark::GetLastStep(arkode_, &h), "GetLastStep");
-    // A good return code alone does not say that the step was taken.
+    // A good return code alone does not mean that the step was taken.
     const double came = reached - arkode_t_;
     if (!(std::abs(came - h) <= 1e-6 * h + rounding_of(t))) {
       refused();
@@ -97,12 +97,12 @@ class Erk final : public SteppingIntegrator {
           .status = StepReport::Status::failed, .h = h, .message = fmt::format("ARKODE stopped at t = {}", reached)};
     }
     arkode_t_ = reached;
-    // ARKODE sums its steps; over very many of them its time drifts from ours and is set anew.
+    // ARKODE sums its steps; over very many of them its time drifts from the integrator's and is set anew.
     if (!adaptive() && std::abs(reached - (t + h)) > 1e-7 * h) refused();
     return {.h = h, .t = reached};
   }
 
-  // ARKODE has moved on, or holds times and states of a trial: it begins anew at the last good state.
+  // ARKODE has moved on, or holds times and states of a rejected trial: it begins anew at the last good state.
   void refused() override { refused_ = true; }
 
   void max_step_changed() override {
@@ -113,7 +113,7 @@ class Erk final : public SteppingIntegrator {
     refused();
     if (adaptive()) check(ark::GetCurrentStep(arkode_, &h), "GetCurrentStep");
     if (inadmissible_) return {.status = StepReport::Status::inadmissible, .h = h};
-    if (code == ARK_TOO_MUCH_ACC && !adaptive()) {  // the norm with weights of 1 times the unit roundoff is above 1
+    if (code == ARK_TOO_MUCH_ACC && !adaptive()) {  // the norm with weights of 1, times the unit roundoff, is above 1
       return {
           .status = StepReport::Status::not_finite, .h = h, .message = "the state has grown past 4e15: it diverges"};
     }
@@ -154,7 +154,7 @@ class Erk final : public SteppingIntegrator {
     count_rejected(failures - std::exchange(error_test_failures_, failures));
   }
 
-  // The one place that looks at SUNDIALS' return codes.
+  // All SUNDIALS return codes are checked here.
   void check(int code, const char* call) const {
     if (code < 0) throw std::runtime_error(fmt::format("ARKODE: {} failed: {}", call, message_of(code)));
   }
@@ -180,7 +180,7 @@ class Erk final : public SteppingIntegrator {
     }
   }
 
-  // dK/dt = v·Q for C: 0 done, 1 cannot be evaluated at this y, −1 an exception was thrown.
+  // The root function dK/dt = v·Q for C: 0 done, 1 cannot be evaluated at this y, −1 an exception was thrown.
   static int power(sunrealtype t, N_Vector y, sunrealtype* value, void* self) noexcept {
     auto& erk = *static_cast<Erk*>(self);
     try {
@@ -196,10 +196,10 @@ class Erk final : public SteppingIntegrator {
     }
   }
 
-  // Does nothing: that it is there makes ARKODE evaluate f(t_n, y_n) afresh.
+  // Does nothing, but while a post-processing function is set ARKODE evaluates f(t_n, y_n) afresh.
   static int post_process(sunrealtype, N_Vector, void*) noexcept { return 0; }
 
-  // ARKODE asks every step; its weight vector keeps what was written once.
+  // ARKODE asks for the weights every step; its weight vector keeps what was written once.
   static int unit_weights(N_Vector, N_Vector weights, void* self) noexcept {
     auto& erk = *static_cast<Erk*>(self);
     if (std::exchange(erk.weights_, weights) != weights) N_VConst(1, weights);
@@ -208,7 +208,7 @@ class Erk final : public SteppingIntegrator {
 
   ButcherTable table_;
   bool kinetic_;
-  Vector Q_, v_;  // of power(), (n); v_ is a view of the second half of the y that is asked for
+  Vector Q_, v_;  // work of power(), (n); v_ is a view of the second half of the y that is asked for
   void* arkode_ = nullptr;
   SUNContext context_ = nullptr;
   N_Vector weights_ = nullptr;  // the vector that unit_weights() filled
@@ -216,7 +216,7 @@ class Erk final : public SteppingIntegrator {
   double arkode_t_ = 0;         // ARKODE's own time [s]
   bool inadmissible_ = false;
   std::exception_ptr exception_;
-  long error_test_failures_ = 0;  // of this ARKODE memory so far
+  long error_test_failures_ = 0;  // failed error tests of this ARKODE memory so far
   std::string last_message_;
 };
 

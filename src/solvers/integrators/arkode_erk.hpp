@@ -8,7 +8,7 @@
 
 namespace stillpoint {
 
-/// erk:<table> for every explicit table of the installed ARKODE, and for three of our own.
+/// One method erk:<table> for every explicit table of the installed ARKODE, and for three tables that are built in.
 std::vector<Method> erk_methods();
 
 /// options.method is one of erk_methods(). Fixed steps without rtol, adaptive with it.

@@ -45,7 +45,7 @@ std::vector<NamedTable> erk_tables() {
   add(classical_rk4(), "Kutta 1901");
   add(sofroniou_spaletta_5_3_4(), "Sofroniou and Spaletta 2004");
   ButcherTable jameson = jameson_5();
-  jameson.name = "jameson-5-2";  // stages-order, as the others
+  jameson.name = "jameson-5-2";  // named stages-order, as the other tables are
   add(std::move(jameson), "Jameson, Schmidt and Turkel 1981");
   return tables;
 }

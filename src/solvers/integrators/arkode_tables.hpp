@@ -1,4 +1,4 @@
-// The explicit tables of the installed ARKODE, and those of ours that it does not have.
+// The explicit Butcher tables of the installed ARKODE, and the built-in ones that it does not have.
 #pragma once
 
 #include <memory>
@@ -18,10 +18,10 @@ std::vector<NamedTable> erk_tables();
 
 using ArkodeTable = std::unique_ptr<ARKodeButcherTableMem, decltype(&ARKodeButcherTable_Free)>;
 
-/// A copy for ARKODE.
+/// A copy of the table in ARKODE's format.
 ArkodeTable to_arkode(ButcherTable table);
 
-/// Of method "erk:<name>". Throws std::invalid_argument if there is none of that name.
+/// The table of the method "erk:<name>". Throws std::invalid_argument if there is no table of that name.
 ButcherTable erk_table(const std::string& method);
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// Explicit Runge–Kutta methods by their Butcher tables, and what the table alone says of a method.
+// Explicit Runge–Kutta methods given by their Butcher tables, and the properties that follow from the table alone.
 //
 //   Y_i = y + h Σ_{j<i} a_ij f(t + c_j h, Y_j),   y⁺ = y + h Σ b_i f(t + c_i h, Y_i)
 #pragma once
@@ -23,13 +23,13 @@ struct ButcherTable {
 
 /// Whether the last stage is f(t + h, y⁺), the next step's first: c_s = 1 and the last row of A is b.
 bool first_same_as_last(const ButcherTable& table);
-/// Right-hand sides a step costs when implemented right: stages, less one if first same as last.
+/// Evaluations of f that a step costs when implemented well: the stages, less one if first same as last.
 int effective_stages(const ButcherTable& table);
 /// max |R(h λ)| over the two roots of λ² + rate λ + omega² = 0, with the stability polynomial
 /// R(z) = 1 + Σ_k z^k bᵀA^{k−1}1. A call allocates nothing.
 AmplificationRadius amplification_of(const ButcherTable& table);
 
-/// A step as the method takes it: its stages see D as their own v and Q have it.
+/// The step of an oscillator as the method takes it: each stage evaluates the local damping D at its own v and Q.
 OscillatorStep oscillator_step_of(const ButcherTable& table);
 
 /// Kutta's classical method of order 4, without embedding.

@@ -10,7 +10,7 @@
 namespace stillpoint {
 namespace {
 
-/// Where between v⁻ (0) and v⁺ (1) C is applied.
+/// The place between v⁻ (0) and v⁺ (1) at which C is applied.
 double implicitness(DampingTreatment treatment) {
   switch (treatment) {
     case DampingTreatment::lagged:
@@ -47,12 +47,12 @@ DampedAcceleration::DampedAcceleration(DampingTreatment treatment, const LinearD
   if (mass_.is_diagonal()) {
     factor_.resize(mass_.size());
   } else {
-    implicitness(treatment_);  // throws if there is none
+    implicitness(treatment_);  // throws if the treatment has none
     if (C_.mass != 0) Mv_.resize(mass_.size());
   }
 }
 
-// What degrees of freedom have to do with one another: afterwards each has its own mass, or its acceleration.
+// The work that couples degrees of freedom: afterwards each has its own mass, or its acceleration.
 void DampedAcceleration::couple(double h, ConstVec v, Vec Q_to_a) {
   if (is_coupled()) {
     solve_coupled(h, v, Q_to_a);
@@ -73,7 +73,7 @@ void DampedAcceleration::make_factors(double h) {
   }
 }
 
-// a = g(h r) (M⁻¹ Q − r v)
+// Computes a = g(h r) (M⁻¹ Q − r v) for a piece of the degrees of freedom.
 void DampedAcceleration::of_piece(double h, std::size_t begin, ConstVec v, Vec a) const {
   if (is_coupled()) return;
   const double* m = mass_.diagonal().data() + begin;
@@ -88,7 +88,7 @@ void DampedAcceleration::of_piece(double h, std::size_t begin, ConstVec v, Vec a
   }
 }
 
-// (M + θ h C) a = Q − C v,  M + θ h C = (1 + θ h c_m) M + θ h c_i I
+// Solves (M + θ h C) a = Q − C v,  M + θ h C = (1 + θ h c_m) M + θ h c_i I.
 void DampedAcceleration::solve_coupled(double h, ConstVec v, Vec a) {
   if (C_.mass != 0) {
     mass_.apply(v, Mv_);

@@ -19,19 +19,19 @@
 
 namespace stillpoint {
 
-/// g(z) above.
+/// The factor g(z) above.
 double damping_factor(DampingTreatment treatment, double z);
 
-/// Amplification of  v⁺ = v⁻ + h a(v⁻, Q_n),  u⁺ = u + h v⁺,  which is both leapfrog and symplectic Euler.
+/// The amplification of  v⁺ = v⁻ + h a(v⁻, Q_n),  u⁺ = u + h v⁺,  which is both leapfrog and symplectic Euler.
 AmplificationRadius kick_drift_amplification(DampingTreatment treatment);
 
 class DampedAcceleration {
  public:
-  /// Throws std::invalid_argument for exact if C and M are not diagonal together. mass is the system's and outlives
-  /// this.
+  /// Throws std::invalid_argument for the exact treatment if C and M are not both diagonal. The mass belongs to the
+  /// system and has to outlive this object.
   DampedAcceleration(DampingTreatment treatment, const LinearDamping& C, const Mass& mass);
 
-  /// a from Q, in its place, a piece of the degrees of freedom at a time, and then use(begin, count) of each piece.
+  /// Replaces Q by a, one piece of the degrees of freedom at a time, and then calls use(begin, count) for each piece.
   /// h [s]; v, Q_to_a: (n). Allocates only if M + θ h C has to be factorised for a new h.
   template <class Use>
   void operator()(double h, ConstVec v, Vec Q_to_a, const Use& use) {
@@ -55,9 +55,9 @@ class DampedAcceleration {
   DampingTreatment treatment_;
   LinearDamping C_;
   const Mass& mass_;
-  double h_ = -1;                         // what the next two were made for
-  std::vector<double> factor_;            // g(h r_i), (n), if c_i ≠ 0 and M is a diagonal
-  std::optional<SparseCholesky> matrix_;  // M + θ h C, if c_i ≠ 0 and M is not
+  double h_ = -1;                         // step for which the next two were made [s]
+  std::vector<double> factor_;            // g(h r_i), (n), if c_i ≠ 0 and M is diagonal
+  std::optional<SparseCholesky> matrix_;  // M + θ h C, if c_i ≠ 0 and M is not diagonal
   std::vector<double> Mv_;
 };
 

@@ -39,7 +39,7 @@ constexpr MethodOf staggered[] = {leapfrog_method, symplectic_euler_method};
 std::vector<Method> only_leapfrog() { return {leapfrog_method(DampingTreatment::automatic)}; }
 std::vector<Method> only_symplectic_euler() { return {symplectic_euler_method(DampingTreatment::automatic)}; }
 
-/// Methods whose names begin alike, and what makes one of them.
+/// Methods whose names begin alike, and the function that makes an integrator of any of them.
 struct Family {
   std::string_view begin;
   std::vector<Method> (*methods)();

@@ -26,7 +26,7 @@ using Driver = std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_fr
 struct StepperInfo {
   const char* name;
   const gsl_odeiv2_step_type* type;
-  int order;  // of the solution that it goes on with
+  int order;  // of the solution with which the stepper continues
   const char* description;
 };
 
@@ -53,9 +53,9 @@ Stepper make_stepper(const gsl_odeiv2_step_type* type, std::size_t size) {
   return {gsl_odeiv2_step_alloc(type, size), gsl_odeiv2_step_free};
 }
 
-// --- what a stepper is like, found by applying it: GSL does not publish its tableaux ---
+// --- properties of a stepper, found by applying it: GSL does not publish its tableaux ---
 
-/// u'' + rate u' + omega² u = D, y = [u; v].
+/// The oscillator u'' + rate u' + omega² u = D, y = [u; v].
 struct Oscillator {
   double omega = 1, rate = 0;
   const Damping* local = nullptr;  // null: D = 0
@@ -71,13 +71,13 @@ struct Oscillator {
   }
 };
 
-// One step of length h from y, in its place, as the fixed-step integrator below takes it.
+// Takes one step of length h from y, in place, as the fixed-step integrator below takes it.
 void apply_once(const gsl_odeiv2_step_type* type, Oscillator& oscillator, double h, std::array<double, 2>& y) {
   const Stepper stepper = make_stepper(type, 2);
   const gsl_odeiv2_system system = {Oscillator::right_hand_side, nullptr, 2, &oscillator};
   std::array<double, 2> error{}, ydot_in{}, ydot_out{};
   Oscillator::right_hand_side(0, y.data(), ydot_in.data(), &oscillator);
-  oscillator.evaluations = 0;  // that one was the step before's
+  oscillator.evaluations = 0;  // the evaluation at the start belongs to the step before
   gsl_odeiv2_step_apply(stepper.get(), 0, h, y.data(), error.data(), ydot_in.data(), ydot_out.data(), &system);
 }
 
@@ -88,8 +88,8 @@ int evaluations_of(const gsl_odeiv2_step_type* type) {
   return oscillator.evaluations;
 }
 
-// The columns of the step's 2 × 2 map are what it makes of [1; 0] and [0; 1]. The oscillator is put in units of its own
-// time, ω h in place of h, so that the two columns have entries of one size.
+// The columns of the step's 2 × 2 map are its images of [1; 0] and [0; 1]. Time is measured in units of the
+// oscillator's own, ω h in place of h, so that the two columns have entries of one size.
 AmplificationRadius amplification_of(const gsl_odeiv2_step_type* type) {
   return [type](double h, double omega, double rate) {
     if (omega == 0) omega = 1, h = 0, rate = 0;
@@ -172,14 +172,14 @@ class Gsl final : public SteppingIntegrator {
 
   void accepted() override { std::swap(ydot_, next_ydot_); }
 
-  // What a multistep method or the step control remembers is of a state that is given up.
+  // The memory of a multistep method or of the step control belongs to a state that is given up.
   void refused() override {
     if (driver_) gsl_odeiv2_driver_reset(driver_.get());
   }
 
   Attempt failure(int code, double h) const {
     if (code == GSL_EBADFUNC) return {.status = StepReport::Status::inadmissible, .h = h};
-    // That of the step control, which GSL calls no more than "failure".
+    // The failure of the step control, which GSL calls no more than "failure".
     const std::string said = code == GSL_FAILURE
                                  ? "the step has shrunk to the rounding of t without meeting integrator.rtol and atol_*"
                                  : gsl_strerror(code);
@@ -204,10 +204,10 @@ class Gsl final : public SteppingIntegrator {
   const gsl_odeiv2_step_type* type_;
   std::size_t size_;  // 2n
   gsl_odeiv2_system equations_;
-  std::vector<double> ydot_, next_ydot_, error_;    // (2n), fixed: f at the state and at the trial
-  Stepper stepper_{nullptr, gsl_odeiv2_step_free};  // fixed
-  Driver driver_{nullptr, gsl_odeiv2_driver_free};  // adaptive; holds stepper, control and evolution together
-  double suggested_h_ = 0;                          // adaptive [s]
+  std::vector<double> ydot_, next_ydot_, error_;    // (2n), fixed steps: f at the state and at the trial
+  Stepper stepper_{nullptr, gsl_odeiv2_step_free};  // fixed steps
+  Driver driver_{nullptr, gsl_odeiv2_driver_free};  // adaptive steps; holds stepper, control and evolution together
+  double suggested_h_ = 0;                          // adaptive steps [s]
   bool admissible_ = true;
   std::exception_ptr exception_;
 };

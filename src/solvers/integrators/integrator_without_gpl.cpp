@@ -1,4 +1,4 @@
-// A build without GSL has none of its steppers.
+// A build without GSL has none of GSL's steppers.
 #include <stdexcept>
 
 #include "solvers/integrators/integrator_by_gsl.hpp"

@@ -2,15 +2,15 @@
 //
 //   M (v⁺ − v⁻)/h + C (v⁻ + v⁺)/2 = Q_n,   u_{n+1} = u_n + h v⁺,   v⁻ at t_n − h/2, v⁺ at t_n + h/2,
 //
-// with C v⁻ in place of the mean if the damping is lagged. Here in its synchronised form, with v_n = (v⁻ + v⁺)/2
-// known at every t_n, so that the step may change between calls:
+// with C v⁻ in place of the mean if the damping is lagged. It is implemented in its synchronised form, with
+// v_n = (v⁻ + v⁺)/2 known at every t_n, so that the step may change between calls:
 //
 //   v⁺ = v_n + h/2 a_n                                kick
 //   u_{n+1} = u_n + h v⁺                              drift
 //   M a_{n+1} = Q_{n+1} + D(v⁺, Q_{n+1}) − C (v⁺ + h/2 a_{n+1})     [lagged: − C v⁺]
 //   v_{n+1} = v⁺ + h/2 a_{n+1}                        kick
 //
-// Local damping D sees the half-step velocity, as in FLAC. One force evaluation a step, and one at the start.
+// Local damping D sees the half-step velocity, as in FLAC. A step costs one force evaluation; the start costs one more.
 
 #include <atomic>
 #include <cmath>
@@ -42,7 +42,7 @@ class Leapfrog final : public SteppingIntegrator {
         a_(system.vectors().make(system.size())),
         next_a_(system.vectors().make(system.size())) {}
 
-  // A step ends with the force at its end, unless it was refused.
+  // A step ends with the force at its end, unless the step was refused.
   bool force_is_current() const override { return force_is_current_; }
 
  private:
@@ -93,7 +93,7 @@ class Leapfrog final : public SteppingIntegrator {
 
   KickDrift kick_drift_;
   DampedAcceleration initial_acceleration_, acceleration_;
-  Vector a_, next_a_;  // (n) at t_n and at the trial's time
+  Vector a_, next_a_;  // at t_n and at the trial's time, (n)
   bool admissible_ = true;
   bool force_is_current_ = false;
 };

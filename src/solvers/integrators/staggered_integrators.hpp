@@ -7,11 +7,12 @@
 
 namespace stillpoint {
 
-/// Throw std::invalid_argument for a treatment that the scheme does not have.
+/// The methods. Both functions throw std::invalid_argument for a damping treatment that the scheme does not have.
 Method leapfrog_method(DampingTreatment treatment);
 Method symplectic_euler_method(DampingTreatment treatment);
 
-/// Throw likewise; also if the treatment does not fit the system's damping and mass.
+/// The integrators. Both functions throw std::invalid_argument for a damping treatment that the scheme does not have,
+/// or that does not fit the system's damping and mass.
 std::unique_ptr<Integrator> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system);
 

@@ -13,16 +13,16 @@ class StepDivision {
  public:
   explicit StepDivision(double max_step) : max_step_(max_step) {}
 
-  /// The step to take from t; needs t < t_stop. The same bits from step to step until t_stop, and on to the next t_stop
-  /// if the intervals differ by no more than the rounding of t: what depends on h alone may be kept.
+  /// The step to take from t; needs t < t_stop. It is the same to the bit until t_stop, and on to the next t_stop if
+  /// the intervals differ by no more than the rounding of t: whatever depends on h alone may be kept.
   double step_from(double t, double t_stop) {
     if (t != t_ || t_stop != t_stop_ || remaining_ < 1) divide(t, t_stop);
     return h_;
   }
 
-  /// Where a step of length h from t has come to: t_stop itself after the last of the equal steps.
+  /// The time reached by a step of length h from t: t_stop itself after the last of the equal steps.
   double arrive(double t, double h) {
-    if (h != h_ || t != t_) {  // a part of a step: what remains is divided anew
+    if (h != h_ || t != t_) {  // a shortened step: the rest of the interval is divided anew
       remaining_ = 0;
       return t + h;
     }
@@ -40,7 +40,7 @@ class StepDivision {
  private:
   void divide(double t, double t_stop) {
     const double way = t_stop - t;
-    // A way longer than m steps by rounding alone is still m steps.
+    // An interval longer than m steps by rounding alone is still divided into m steps.
     remaining_ = std::max(1.0, std::ceil(way / max_step_ - 1e-9));
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), std::abs(t_stop));
     if (std::abs(way - remaining_ * h_) > rounding) h_ = way / remaining_;
@@ -50,7 +50,7 @@ class StepDivision {
 
   double max_step_;
   double h_ = 0, t_ = 0, t_stop_ = 0;
-  double remaining_ = 0;  // a whole number; a double, for as many steps as there may be
+  double remaining_ = 0;  // steps that remain: a whole number, as a double because there may be very many
 };
 
 }  // namespace stillpoint

@@ -89,7 +89,7 @@ std::string SteppingIntegrator::message_of(const Attempt& tried, int halvings) c
   }
 }
 
-// A sum of squares is not finite if any entry is not.
+// A sum of squares is finite only if every entry is.
 bool SteppingIntegrator::is_finite(const Attempt& attempt) const {
   if (attempt.is_finite) return *attempt.is_finite;
   return std::isfinite(attempt.keeps_v ? dot(*trial_u_, *trial_u_) : dot(*trial_, *trial_));

@@ -1,4 +1,5 @@
-// What all integrators do alike around their own step: divide the way to t_stop, try, look at the trial, retry, accept.
+// The base of all integrators around their own step: it divides the interval to t_stop, tries a step, examines the
+// trial, and retries or accepts it.
 #pragma once
 
 #include <stillpoint/integrator.hpp>
@@ -12,9 +13,9 @@ namespace stillpoint {
 
 class SteppingIntegrator : public Integrator {
  public:
-  /// An inadmissible trial is tried again with half its step, at most so many times. The first that is admissible may
-  /// still be as good as turned inside out, under stresses that would tear it apart within that step: the one taken
-  /// goes so much less far.
+  /// An inadmissible trial is tried again with half its step, at most max_halvings times. The first admissible trial
+  /// may still be nearly turned inside out, under stresses that would tear it apart within that step: the step finally
+  /// taken is shorter than that one by the factor `clearance`.
   static constexpr int max_halvings = 10;
   static constexpr double clearance = 4;
 
@@ -30,38 +31,38 @@ class SteppingIntegrator : public Integrator {
  protected:
   struct Attempt {
     StepReport::Status status = StepReport::Status::ok;
-    double h = 0;          // the length taken or, inadmissible, tried [s]; 0: the state at t itself is inadmissible
-    double t = 0;          // adaptive: where the trial is [s]
-    bool keeps_v = false;  // v stays what it is in y; what the trial has there does not matter
-    std::optional<bool> is_finite{};  // if known: whether the trial is
-    std::string message{};  // of what failed; where a state is inadmissible or not finite is found by the caller
+    double h = 0;          // length taken or, if inadmissible, tried [s]; 0: the state at t itself is inadmissible
+    double t = 0;          // adaptive steps: the time of the trial [s]
+    bool keeps_v = false;  // v stays the one in y; the second half of the trial is ignored
+    std::optional<bool> is_finite{};  // whether the trial is finite, if known
+    std::string message{};  // why it failed; the caller finds the place of an inadmissible or non-finite state
   };
 
   SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system);
 
-  /// Begins at (t, y).
+  /// Begins the integration at (t, y).
   virtual void begin(double t, const Vector& y) = 0;
-  /// Begins again at (t, y) if only v has changed; the last force evaluation was there.
+  /// Begins again at (t, y) when only v has changed; the last force evaluation was at this u.
   virtual void restart(double t, const Vector& y) { begin(t, y); }
-  /// The same if u has changed as well, so that there is no force evaluation yet.
+  /// Begins again at (t, y) when u has changed as well, so that there is no force evaluation at it yet.
   virtual void evaluate_anew(double t, const Vector& y) { begin(t, y); }
   /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
   /// read.
   virtual Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) = 0;
-  /// The last trial has become the state.
+  /// Called after the last trial has become the state.
   virtual void accepted() {}
-  /// The last trial, though attempt() thought it good, has not.
+  /// Called after the last trial was rejected although attempt() thought it good.
   virtual void refused() {}
-  /// options().max_step is another one.
+  /// Called after options().max_step has changed.
   virtual void max_step_changed() {}
-  /// What it remembers itself of earlier steps, after a begin() at the same (t, y).
+  /// Archives what the integrator remembers of earlier steps; called after a begin() at the same (t, y).
   virtual void archive_memory(const StateArchive& /*state*/) {}
   void count_rejected(long rejected) { rejected_ += rejected; }
 
   RelaxationSystem& system() { return system_; }
   const IntegratorOptions& options() const { return options_; }
   bool adaptive() const { return options_.rtol.has_value(); }
-  /// y, which an integration has begun on, (2n).
+  /// The y on which the integration has begun, (2n).
   Vector& state() { return *y_; }
 
  private:
@@ -72,9 +73,9 @@ class SteppingIntegrator : public Integrator {
   RelaxationSystem& system_;
   IntegratorOptions options_;
   StepDivision division_;
-  std::optional<Vector> trial_;  // (2n), of y's kind
+  std::optional<Vector> trial_;  // (2n), of the same kind as y
   Vector* y_ = nullptr;
-  std::optional<Vector> trial_u_, u_;  // their first halves, in place
+  std::optional<Vector> trial_u_, u_;  // views of the first halves of the trial and of y
   double t_ = 0;
   long steps_ = 0, rejected_ = 0;
 };

@@ -34,7 +34,7 @@ class SymplecticEuler final : public SteppingIntegrator {
         next_Q_(system.vectors().make(system.size())),
         a_(system.vectors().make(system.size())) {}
 
-  // A step ends with the force at its end, unless it was refused.
+  // A step ends with the force at its end, unless the step was refused.
   bool force_is_current() const override { return force_is_current_; }
 
  private:
@@ -60,7 +60,7 @@ class SymplecticEuler final : public SteppingIntegrator {
     return {.h = h};
   }
 
-  // Q + D(v, Q)
+  // Evaluates Q + D(v, Q) into Q.
   bool evaluate(double t, ConstVec y, Vec Q) {
     return system().damped_out_of_balance(t, first_half(y), second_half(y), Q);
   }
@@ -74,7 +74,7 @@ class SymplecticEuler final : public SteppingIntegrator {
 
   KickDrift kick_drift_;
   DampedAcceleration acceleration_;
-  Vector Q_, next_Q_;  // Q + D, (n), at t_n and at the trial's time
+  Vector Q_, next_Q_;  // Q + D at t_n and at the trial's time, (n)
   Vector a_;           // (n)
   bool admissible_ = true;
   bool force_is_current_ = false;

@@ -3,7 +3,8 @@
 //   M a = Q − c M v,   c = 2 √ω²,   ω² a Rayleigh quotient of the last step (rayleigh_quotient.hpp)
 //
 // High modes die first; what remains is slower and slower, and c falls towards 2 ω₁. Too large a c only holds the slow
-// modes back until they dominate the quotient, which then falls: the estimate corrects itself. c ≤ 2/k, at which β = 0.
+// modes back until they dominate the quotient, which then falls: the estimate corrects itself. c is at most 2/k, at
+// which β = 0.
 
 #include <algorithm>
 #include <cmath>

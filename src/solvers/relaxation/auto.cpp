@@ -1,14 +1,14 @@
-// Relaxation that finds its own way, with no number from the user.
+// Relaxation that chooses its own method and parameters, with no number from the user.
 //
-// Where equilibrium is all that is asked for, of a body that remembers nothing, touches nothing and stays in one phase,
-// steps are those of a conjugate descent, which no motion is as short as (conjugate_descent.hpp): iterates without a
-// velocity. Where that finds no way on, twice within a few steps leads to what cannot be evaluated, or √(QᵀM⁻¹Q) has
-// not halved for long, and everywhere else, it is a damped motion
+// If only equilibrium is asked for, of a body without history, without contact and in a single phase, the steps are
+// those of a conjugate descent (conjugate_descent.hpp), which needs fewer of them than any damped motion: iterates
+// without a velocity. In all other cases, and after the descent has found no way on, has twice within a few steps led
+// to a state that cannot be evaluated, or has not halved √(QᵀM⁻¹Q) for long, it is a damped motion
 //
 //   M a = Q − c M v,   c = 2 √(vᵀΔR/(h vᵀMv)), the global quotient of adaptive damping, one scalar
 //
 // from which the descent is taken up again after 50 steps, 100, 200, ... The step given is a safe share of the critical
-// one. What may go wrong with the motion is watched for:
+// one. Three failures of the motion are watched for:
 //
 //   overshoot    v·Q < 0, the motion as a whole goes uphill:  v = 0
 //   stall        √(QᵀM⁻¹Q) has not halved in three periods of the slowest motion seen:  c = 0 from then on, so that
@@ -16,7 +16,7 @@
 //   instability  h² vᵀΔR/(h vᵀMv) > 4 · 0.925, which no stable motion shows, in a motion that grows:
 //                ω_max was underestimated or has become more;  v = 0 and a shorter step
 //
-// If the loads depend on t the residual need not fall and a halt would be felt: then c alone is adapted.
+// If the loads depend on t the residual need not fall and a halt would disturb the motion: then only c is adapted.
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ class Auto final : public StaggeredIteration {
     const std::optional<double> squared = descends_ ? descent_->lowest() : std::nullopt;
     return squared ? std::optional(std::sqrt(*squared)) : std::nullopt;
   }
-  // Where no support inertia is in Q.
+  // Known only for a lumped mass: with another one Q contains the inertia of moving supports.
   std::optional<double> unbalanced_force() const override {
     if (!descends_ || !force_is_current() || !mass_is_lumped_) return std::nullopt;
     return descent_->unbalanced_force();
@@ -62,8 +62,8 @@ class Auto final : public StaggeredIteration {
 
  private:
   double step_share() const override { return share_; }
-  bool keeps_v() const override { return descends_; }  // at rest
-  // If the forces are finite everywhere, so is what they answer.
+  bool keeps_v() const override { return descends_; }  // the descent stays at rest
+  // Finite forces everywhere give a finite acceleration.
   std::optional<bool> tried(const Vector& Q, const Vector& a) override {
     if (!descends_) return std::nullopt;
     descent_->look_at(Q, a);
@@ -76,7 +76,7 @@ class Auto final : public StaggeredIteration {
     begin_descent();
   }
 
-  // share_ only changes at a halt, so that h⁻ was of the same share.
+  // share_ changes only at a halt, so that h⁻ was scaled by the same share.
   void propose(double step, Vec u_new, Vec v_new) override {
     if (descends_) {
       descend(step, u_new);
@@ -86,7 +86,7 @@ class Auto final : public StaggeredIteration {
     kick_and_drift(leapfrog(std::min(c_, 2 / k), k), k, share_ * step, u_new, v_new);
   }
 
-  // Time is that of the step given, and less of the way where all of it leads to what cannot be evaluated.
+  // Time advances by the step given; the way is shortened if all of it leads to a state that cannot be evaluated.
   void descend(double step, Vec u_new) {
     if (!std::exchange(is_tried_, true)) full_step_ = step;
     const double share = step / full_step_;
@@ -96,7 +96,7 @@ class Auto final : public StaggeredIteration {
     });
   }
 
-  // By 1/ω_max² at first.
+  // The descent begins with the step 1/ω_max².
   void begin_descent() { descent_->begin(Q(), a(), options().max_step * options().max_step / 4); }
 
   void descended(double step) {
@@ -127,7 +127,7 @@ class Auto final : public StaggeredIteration {
     begin_watch(unbalanced());
   }
 
-  // Where the stiffness along the motion is positive.
+  // Takes up the descent if the stiffness along the motion is positive.
   bool takes_up_descent(double quotient) {
     if (!may_descend_ || !(quotient > 0) || steps_ - left_at_ < apart_) return false;
     descends_ = true;
@@ -156,10 +156,11 @@ class Auto final : public StaggeredIteration {
 
   double unbalanced() const { return std::sqrt(std::max(0.0, dot(Q(), a()))); }  // √(QᵀM⁻¹Q)
 
-  // At equilibrium the quotient is rounding and may be anything: an instability also grows. Where a support sets out,
-  // or a load comes, a body at rest shows a far larger one for a step, of a force that its motion has no part in.
+  // At equilibrium the quotient is rounding and may be anything: an instability also grows. When a support begins to
+  // move or a load is applied, a body at rest shows a far larger quotient for one step, from a force that its motion
+  // has no part in.
   bool is_unstable(double quotient, double h, double unbalanced) {
-    constexpr double most = 4 * 0.925, aim = 4 * 0.85, doubtful = 16;  // of h² ω²
+    constexpr double most = 4 * 0.925, aim = 4 * 0.85, doubtful = 16;  // of h² ω²: the limit, the aim, a doubtful value
     constexpr double growth = 10;
     const double reached = h * h * quotient;
     if (reached <= most || unbalanced < growth * least_) {
@@ -194,7 +195,7 @@ class Auto final : public StaggeredIteration {
   void watch(double quotient, double h, double unbalanced) {
     if (!(unbalanced > goal_)) begin_watch(unbalanced);
     if (quotient > 0) slowest_ = std::min(slowest_, quotient);
-    constexpr int settling = 3;  // steps after a halt in which v is of no direction yet
+    constexpr int settling = 3;  // steps after a halt before v has a meaningful direction
     if (steps_ - halted_at_ >= settling && dot(v(), Q()) < 0) halt();
 
     if (!is_stalled(h)) return;
@@ -221,19 +222,19 @@ class Auto final : public StaggeredIteration {
   }
 
   bool may_descend_, descends_, mass_is_lumped_;
-  std::optional<ConjugateDescent> descent_;  // if it may
-  bool is_tried_ = false, is_cut_ = false;   // whether there was a trial of this step; whether the last one was shorter
-  double full_step_ = 0;                     // of the first trial [s]
-  long cut_at_ = 0;                          // the last such step
-  long left_at_ = 0, apart_ = 25;            // when the descent was left, and how long that is for at least [steps]
+  std::optional<ConjugateDescent> descent_;  // if the descent may be used
+  bool is_tried_ = false, is_cut_ = false;   // this step was tried before; its last trial was shortened
+  double full_step_ = 0;                     // length of the step's first trial [s]
+  long cut_at_ = 0;                          // last step that was shortened
+  long left_at_ = 0, apart_ = 25;            // step at which the descent was left, and steps to wait before it resumes
   bool steady_;
   double c_;      // [1/s]
-  double share_;  // of the step given
+  double share_;  // taken share of the step given
   bool kinetic_ = false;
-  double least_ = std::numeric_limits<double>::infinity();  // √(QᵀM⁻¹Q) so far
-  bool is_in_doubt_ = false;                                // whether the last step looked unstable, by far
+  double least_ = std::numeric_limits<double>::infinity();  // least √(QᵀM⁻¹Q) so far
+  bool is_in_doubt_ = false;                                // the last step looked unstable by far
   long steps_ = 0, halted_at_ = 0, watched_from_ = 0;
-  double goal_ = std::numeric_limits<double>::infinity();     // the √(QᵀM⁻¹Q) to come below next
+  double goal_ = std::numeric_limits<double>::infinity();     // √(QᵀM⁻¹Q) to fall below next
   double slowest_ = std::numeric_limits<double>::infinity();  // least quotient since the watch began [1/s²]
 };
 

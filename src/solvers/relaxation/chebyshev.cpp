@@ -1,15 +1,16 @@
-// Chebyshev's semi-iteration: of all iterations that know no more of the spectrum than its ends, the one of least error
-// [Golub and Varga, "Chebyshev semi-iterative methods", Numer. Math. 3 (1961)].
+// Chebyshev's semi-iteration: the iteration of least error among all that know only the two ends of the spectrum [Golub
+// and Varga, "Chebyshev semi-iterative methods", Numer. Math. 3 (1961)].
 //
 // On [a, b] = [ω₁², ω_max²], with d = (a + b)/2 and e = (b − a)/2:
 //
 //   u_{k+1} = u_k + α_k p_k,   p_k = M⁻¹Q_k + b_k p_{k−1},
 //   α_0 = 1/d, b_0 = 0;   b_1 = ½ (e α_0)²,  b_k = (½ e α_{k−1})²,   α_k = 1/(d − b_k/α_{k−1}).
 //
-// With p = h v/α this is the staggered form: β = b_k α_k/α_{k−1}, γ = α_k/h². The coefficients go to those of leapfrog
-// with C = c M, c near 2 ω₁, at a step just below the critical one: what it gains is the first 30 %.
+// With p = h v/α this is the staggered form: β = b_k α_k/α_{k−1}, γ = α_k/h². The coefficients tend to those of
+// leapfrog with C = c M, c near 2 ω₁, at a step just below the critical one: the gain over it lies in the first 30 % of
+// the iterations.
 //
-// h carries ω_max: the step given is the critical one, h = 2/ω_max. Where a law stiffens, h becomes shorter, and the
+// h carries ω_max: the step given is the critical one, h = 2/ω_max. When a law stiffens, h becomes shorter, and the
 // polynomial begins afresh on the new interval.
 
 #include <stdexcept>
@@ -39,7 +40,7 @@ class Chebyshev final : public StaggeredIteration {
     if (k_ > 0) {
       const double b_k = k_ == 1 ? e * alpha_ * (e * alpha_) / 2 : e * alpha_ / 2 * (e * alpha_ / 2);
       next_alpha_ = 1 / (d - b_k / alpha_);
-      beta = b_k * next_alpha_ / alpha_ * (last_step() / h);  // h v is what the recurrence carries on
+      beta = b_k * next_alpha_ / alpha_ * (last_step() / h);  // h v is carried on by the recurrence
     }
     kick_and_drift({beta, next_alpha_ / (h * h)}, h, h, u_new, v_new);
   }

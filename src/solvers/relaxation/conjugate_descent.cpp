@@ -48,9 +48,9 @@ void ConjugateDescent::look_at(const Vector& Q, const Vector& z) {
 }
 
 bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
-  constexpr double sigma = 0.8, rounding = 1e-13;  // of pᵀKp, beside ω_max²
+  constexpr double sigma = 0.8, rounding = 1e-13;  // rounding: of pᵀKp/pᵀMp, relative to ω_max²
   constexpr int most_trials = 8;
-  if (slope_ == 0) {  // it was in balance to the last bit, or thought so
+  if (slope_ == 0) {  // the last state was in balance to the last bit, or seemed so
     begin(Q, z, first_h_);
     return true;
   }
@@ -58,7 +58,8 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
   quotient_ = fall / (h_ * pMp_);
   if (!(quotient_ * first_h_ > rounding)) return false;
   const double theta = slope_ / fall;
-  // How far a secant reaches. Where Q is linear that is a matter of rounding alone, which may be all there is left.
+  // The farthest secant that is followed. If Q is linear, a limit is needed against rounding alone, when nothing else
+  // is left.
   const double reach = memory_ ? 10 : 1e3;
   if (memory_ ? std::abs(slope) <= sigma * slope_ : theta <= reach) {
     if (memory_) {
@@ -78,20 +79,20 @@ bool ConjugateDescent::evaluated(const Vector& Q, const Vector& z) {
   return true;
 }
 
-// Q(x⁺)
+// Q_ becomes Q(x⁺).
 void ConjugateDescent::move_Q(double theta, const Vector& Q) {
   for_each_index(Q_->size(), [=, Q_x = Q_->span().data(), Q_w = Q.span().data()](std::size_t i) {
     Q_x[i] += theta * (Q_w[i] - Q_x[i]);
   });
 }
 
-// Q(x⁺)·p = 0, so that Q(x⁺)·p⁺ = Q(x⁺)·M⁻¹Q(x⁺) and p⁺ᵀMp⁺ = that + β² pᵀMp. As M is symmetric, all is known from
-// products with Q(w):
+// Q(x⁺)·p = 0, so that Q(x⁺)·p⁺ = Q(x⁺)·M⁻¹Q(x⁺) and p⁺ᵀMp⁺ = Q(x⁺)·M⁻¹Q(x⁺) + β² pᵀMp. As M is symmetric, all of them
+// follow from products with Q(w):
 //
 //   Q(x⁺)·M⁻¹Q(x) = (1 − θ) Q(x)·M⁻¹Q(x) + θ Q(w)·M⁻¹Q(x)
 //   Q(x⁺)·M⁻¹Q(x⁺) = (1 − θ)² Q(x)·M⁻¹Q(x) + 2 θ (1 − θ) Q(w)·M⁻¹Q(x) + θ² Q(w)·M⁻¹Q(w)
 //
-// until so many digits of the second are lost that it has to be summed anew.
+// The second is summed anew once too many of its digits are lost.
 void ConjugateDescent::turn_by_beta(double theta, const Vector& Q, const Vector& z) {
   constexpr double most_lost = 1e-12;
   const double rest = 1 - theta;
@@ -127,7 +128,7 @@ void ConjugateDescent::turn_by_beta(double theta, const Vector& Q, const Vector&
   h_ = alpha;
 }
 
-// The same by p⁺ = H Q(x⁺), with the step 1.
+// Turns p by the memory: p⁺ = H Q(x⁺), with the step 1.
 void ConjugateDescent::turn_by_memory(double theta, const Vector& Q) {
   memory_->remember(h_, p_, *Q_, Q);
   for_each_index(p_.size(), [=, Q_x = Q_->span().data(), way = way_.span().data(), Q = Q.span().data()](std::size_t i) {
@@ -139,7 +140,7 @@ void ConjugateDescent::turn_by_memory(double theta, const Vector& Q) {
     mass_.apply(way_.span(), z_.span());
     pMp_ = dot(way_, z_);
   } else {
-    pMp_ = slope_;  // as of M⁻¹Q: what M takes from K is its scale
+    pMp_ = slope_;  // M as if p were M⁻¹Q: M only gives the scale of K
   }
   for_each_index(p_.size(), [back = (theta - 1) * h_, way = way_.span().data(), p = p_.span().data()](std::size_t i) {
     const double p_next = way[i];

@@ -7,7 +7,7 @@
 namespace stillpoint {
 namespace {
 
-// Whether T − x I has a factor L D Lᵀ with D > 0.
+// Whether T − x I has a factor L D Lᵀ with D > 0, that is, no eigenvalue of T is at or below x.
 bool is_above(std::span<const double> diagonal, std::span<const double> off_diagonal_squared, double x) {
   double d = diagonal[0] - x;
   for (std::size_t j = 1; j < diagonal.size(); ++j) {
@@ -17,9 +17,9 @@ bool is_above(std::span<const double> diagonal, std::span<const double> off_diag
   return d > 0;
 }
 
-// By bisection of its exponent, from above, to 0.1 %.
+// The lowest eigenvalue of T from below to 0.1 %, by bisection of its exponent.
 double lowest_eigenvalue(std::span<const double> diagonal, std::span<const double> off_diagonal_squared) {
-  constexpr double accuracy = 1e-3, least = 1e-20;  // below is rounding
+  constexpr double accuracy = 1e-3, least = 1e-20;  // values below `least` are rounding
   double above = std::ranges::min(diagonal), below = above;
   while (below > least * above && !is_above(diagonal, off_diagonal_squared, below)) below /= 16;
   while (above > (1 + accuracy) * below) {
@@ -42,7 +42,7 @@ void DescentSpectrum::begin() {
   carried_ = 0;
 }
 
-// Without its first rows T is that of the same descent, begun later.
+// Without its first rows T is that of the same descent, begun later: when T is full its first half is dropped.
 void DescentSpectrum::add(double alpha, double beta) {
   if (diagonal_.size() == most) {
     const auto half = static_cast<std::ptrdiff_t>(most / 2);

@@ -1,5 +1,5 @@
-// The fast inertial relaxation engine: motion that is turned towards the force, faster and faster while it goes
-// downhill, and stopped when it goes uphill.
+// The fast inertial relaxation engine: the motion is turned towards the force, moves faster and faster while it goes
+// downhill, and is stopped when it goes uphill.
 //
 //   P = v·Q > 0:  after N_min such steps  h ← min(1.1 h, h_max),  ϑ ← 0.99 ϑ
 //   P ≤ 0:        v = 0,  h ← h/2,  ϑ = ϑ_0
@@ -11,9 +11,9 @@
 //         in the first N_min steps
 //         [Guénolé et al., Comput. Mater. Sci. 175, 109584 (2020)]
 //
-// In the M-norm, so that scaled masses precondition it. ϑ ‖v‖/‖M⁻¹Q‖ adds to the time for which the force acts and the
-// critical step does not know of it: h_max is half of the step given, and h begins at a tenth of that. The pseudo-time
-// goes by the step given.
+// Norms are M-norms, so that scaled masses precondition the method. The turn by ϑ ‖v‖/‖M⁻¹Q‖ lengthens the time for
+// which the force acts, which the critical step does not account for: h_max is half of the step given, and h begins at
+// a tenth of that. The pseudo-time advances by the step given.
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Kinetic damping: undamped motion, brought to a halt at every peak of its kinetic energy [Cundall 1976; Barnes,
 // "Form finding and analysis of tension structures by dynamic relaxation", Int. J. Space Structures 14 (1999)].
 //
-//   M a = Q;   where K(t) = ½ vᵀM v falls from one half step to the next:  v = 0, u back at the peak
+//   M a = Q;   if K(t) = ½ vᵀM v falls from one half step to the next:  v = 0, u back at the peak
 //
 // K is known at half steps: K_2 at n + ½ is less than K_1 at n − ½, K_0 at n − 3/2. The peak lies at n − ½ + s, with
 //
@@ -10,7 +10,7 @@
 //
 // and since u goes straight from n − 1 to n:   u* = u_n − (½ − s) h v_{n−½}.
 //
-// The fall shows before the force is evaluated where the step would lead: going back costs one evaluation, as any step.
+// The fall shows before the force is evaluated at the end of the step: going back costs one evaluation, as any step.
 // From rest the next step is half a kick, which is leapfrog's first step.
 
 #include <algorithm>

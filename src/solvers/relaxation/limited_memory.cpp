@@ -27,7 +27,7 @@ void LimitedMemory::remember(double alpha, const Vector& p, const Vector& before
   mass_.solve(y_[k].span(), z_.span());
   const double yMy = dot(y_[k], z_);
   if (!(sy_[k] > 0) || !(yMy > 0)) {
-    kept_ = std::min(kept_, s_.size() - 1);  // its place was that of the oldest
+    kept_ = std::min(kept_, s_.size() - 1);  // its slot was that of the oldest pair
     return;
   }
   scale_ = sy_[k] / yMy;

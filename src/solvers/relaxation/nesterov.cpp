@@ -5,7 +5,7 @@
 //   θ_{k+1} = (1 + √(1 + 4 θ_k²))/2,   u_{k+1} = x_{k+1} + (θ_k − 1)/θ_{k+1} (x_{k+1} − x_k),   θ_0 = 1
 //   if Q(u_k)·(x_{k+1} − x_k) < 0, uphill:  θ_k = 1
 //
-// No spectrum is needed but for its upper end, which h carries. v is (u_{k+1} − u_k)/h.
+// Only the upper end of the spectrum is needed, and h carries it. v is (u_{k+1} − u_k)/h.
 
 #include <cmath>
 #include <utility>

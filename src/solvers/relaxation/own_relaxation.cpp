@@ -1,4 +1,4 @@
-// An iteration whose steps are those of a program's own relaxation.
+// The iteration that takes its steps from a relaxation supplied by the calling program.
 #include <stillpoint/own_relaxation.hpp>
 
 #include <exception>
@@ -28,7 +28,7 @@ class OwnIteration final : public StaggeredIteration {
             .mass = &system().mass()};
   }
 
-  // A phase that begins is never left half made: what goes wrong is thrown by its first step.
+  // A phase never begins by halves: an exception thrown here is kept and thrown again by the first step.
   void on_restart() override {
     try {
       if (!own_) own_ = make_();
@@ -43,7 +43,7 @@ class OwnIteration final : public StaggeredIteration {
     own_->propose(h, now(), u_new, v_new);
   }
 
-  // The step is taken by then, and everything around it has to follow: likewise.
+  // By then the step is taken, and everything around it has to follow: an exception is kept for the next step.
   void moved(double h) override {
     try {
       own_->moved(h, now());

@@ -3,7 +3,7 @@
 //
 //   M a = Q − c M v,   c = 2 ω₁
 //
-// Near equilibrium each mode of u_{n+1} = u_n + β (u_n − u_{n−1}) + γ h² M⁻¹Q goes with a power λⁿ,
+// Near equilibrium each mode of u_{n+1} = u_n + β (u_n − u_{n−1}) + γ h² M⁻¹Q behaves as a power λⁿ,
 //
 //   λ² − (1 + β − γ h² ω²) λ + β = 0,
 //
@@ -29,7 +29,7 @@ class Papadrakakis final : public StaggeredIteration {
   std::optional<double> damping_rate() const override { return rate_; }
 
  private:
-  // Full kicks also from rest, so that β and γ are those of the formula above.
+  // Kicks are full ones also from rest, so that β and γ are those of the formula above.
   void propose(double h, Vec u_new, Vec v_new) override {
     now_ = leapfrog(std::min(rate_.value_or(2 / h), 2 / h), h);
     kick_and_drift(now_, h, h, u_new, v_new);
@@ -65,7 +65,7 @@ class Papadrakakis final : public StaggeredIteration {
 
   Coefficients now_{.beta = 0, .gamma = 0.5};
   std::optional<double> rate_;   // c [1/s]; none: β = 0
-  double size_ = 0, ratio_ = 0;  // of the last step; 0: not known
+  double size_ = 0, ratio_ = 0;  // M-norm of the last Δu, and its ratio to the one before; 0: not known
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ class PeakOfEnergy {
  public:
   explicit PeakOfEnergy(Peak place) : place_(place) {}
 
-  /// Only the energy now is known, that at rest or after a velocity was changed from outside.
+  /// Begins anew with the present energy alone, at rest or after a velocity was changed from outside.
   void restart(double energy) {
     before_ = 0;
     now_ = energy;
@@ -21,9 +21,9 @@ class PeakOfEnergy {
     before_ = now_;
     now_ = energy;
   }
-  /// Whether the next energy shows that the peak lies behind.
+  /// Whether the energy `next`, one step later, shows that the peak has been passed.
   bool passed(double next) const { return next < now_; }
-  /// How many steps lie between the peak and u_n: ½ − s.
+  /// The number of steps from the peak to u_n: ½ − s.
   double steps_back(double next) const {
     if (place_ == Peak::half_step) return 0.5;
     const double curvature = before_ - 2 * now_ + next;  // < 0, as next < now and before ≤ now
@@ -37,7 +37,7 @@ class PeakOfEnergy {
 
  private:
   Peak place_;
-  double before_ = 0, now_ = 0;  // K_0 and K_1, of any common scale
+  double before_ = 0, now_ = 0;  // K_0 and K_1, both scaled by any one factor
 };
 
 }  // namespace stillpoint

@@ -111,7 +111,7 @@ GrowingTable<RelaxationInfo>& infos() {
 const std::vector<RelaxationInfo>& relaxations() { return infos().rows(); }
 
 void put_relaxation(const RelaxationInfo& info, MakeOwnRelaxation make) {
-  infos();  // of the rows before
+  infos();  // has to be made from the rows before the new one
   table().put(
       {info, [make = std::move(make)](const RelaxationOptions& options,
                                       RelaxationSystem& system) { return make_own_relaxation(options, system, make); }},

@@ -1,4 +1,4 @@
-// The relaxations, a file each.
+// The constructors of the relaxations; each relaxation has a file of its own.
 #pragma once
 
 #include <stillpoint/own_relaxation.hpp>
@@ -15,10 +15,10 @@ std::unique_ptr<Integrator> make_fire2(const RelaxationOptions& options, Relaxat
 std::unique_ptr<Integrator> make_chebyshev(const RelaxationOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_nesterov(const RelaxationOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_auto(const RelaxationOptions& options, RelaxationSystem& system);
-/// By what a program has added.
+/// A relaxation that the calling program has added, made by `make`.
 std::unique_ptr<Integrator> make_own_relaxation(const RelaxationOptions& options, RelaxationSystem& system,
                                                 const MakeOwnRelaxation& make);
-/// A further row, or another one in the place of that of the same name.
+/// Adds a row to the table of relaxations, or replaces the row of the same name.
 void put_relaxation(const RelaxationInfo& info, MakeOwnRelaxation make);
 
 }  // namespace stillpoint

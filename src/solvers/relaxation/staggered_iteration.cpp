@@ -76,7 +76,7 @@ void StaggeredIteration::accepted() {
   last_step_ = trial_step_;
   t_ = trial_t_;
   if (!relaxation_.steady) {
-    // What the body's stiffness answers to a step is ΔR = Q_before + ΔF − Q: a load that jumps is none of it.
+    // The stiffness answers a step by ΔR = Q_before + ΔF − Q: a jump of the load F has to be left out of it.
     const ConstVec F = system().last_external_force();
     for_each_index(F.size(), [Q = next_Q_.span().data(), now = F.data(), before = F_.data()](std::size_t i) {
       Q[i] += now[i] - before[i];
@@ -122,17 +122,17 @@ void StaggeredIteration::stop() {
   last_step_ = 0;
 }
 
-// That of a force which the motion has no part in, as where a support sets out, has no bound: no more than 2 ω of the
-// shortest mode.
+// The estimate of c has no bound if the force has nothing to do with the motion, as when a support begins to move: c is
+// at most 2 ω of the highest mode.
 void StaggeredIteration::set_rate(double c, double h) {
   system().set_damping_rate(std::min(c, 4 / h));
-  // What holds a contact, and what a moving support does through a consistent mass, depend on c.
+  // Contact forces, and forces of a moving support through a consistent mass, depend on c.
   if (!system().system().contact() && system().system().mass().is_lumped()) return;
   system().last_out_of_balance(t_, Q_.span());
   system().mass().solve(Q_.span(), a_.span());
 }
 
-// By Mx_, as x may be work_.
+// The product goes to Mx_, as x may be work_.
 double StaggeredIteration::mass_norm_squared(ConstVec x) {
   system().mass().apply(x, Mx_.span());
   std::ranges::copy(x, work_.span().begin());

@@ -1,17 +1,18 @@
-// What the dynamic strategies share: one force a step, in leapfrog's staggered form with coefficients that may vary,
+// The base of the dynamic strategies: one force evaluation a step, in leapfrog's staggered form with variable
+// coefficients,
 //
 //   v⁺ = β v⁻ + γ k M⁻¹Q(u_n),   u_{n+1} = u_n + h v⁺,   v⁻ at t_n − h⁻/2,  v⁺ at t_n + h/2,  k = (h⁻ + h)/2.
 //
-// A start from a velocity that is known at t_n has h⁻ = 0: half a kick, as in leapfrog's first step. With
+// A start from a velocity that is known at t_n has h⁻ = 0, which gives half a kick, as in leapfrog's first step. With
 //
 //   β = (1 − c k/2)/(1 + c k/2),   γ = 1/(1 + c k/2)
 //
 // this is leapfrog with C = c M: the same displacements as its synchronised form. It is also the heavy ball
-// [Polyak 1964]: u_{n+1} = u_n + β (u_n − u_{n−1}) + γ h² M⁻¹Q. The v of y is v⁺, half a step behind u. A step ends
-// with the force at its end.
+// [Polyak 1964]: u_{n+1} = u_n + β (u_n − u_{n−1}) + γ h² M⁻¹Q. The second half of y is v⁺, half a step behind u. A
+// step ends with the force at its end.
 //
-// Where y = [u; p] with the momentum p = M v, of a mass that is known by its inverse, v is kept beside it: both are the
-// same sum, p⁺ = β p⁻ + γ k Q, so that no step takes more than one M⁻¹, and vᵀMv = v·p.
+// If y = [u; p] with the momentum p = M v, of a mass of which only the inverse is known, v is kept beside y: both obey
+// the same recurrence, p⁺ = β p⁻ + γ k Q, so that no step takes more than one product with M⁻¹, and vᵀMv = v·p.
 #pragma once
 
 #include <stillpoint/relaxation.hpp>
@@ -37,37 +38,38 @@ class StaggeredIteration : public SteppingIntegrator {
   struct Coefficients {
     double beta, gamma;
   };
-  /// β and γ of C = c M for the kick k.
+  /// β and γ of leapfrog with C = c M, for the kick k.
   static Coefficients leapfrog(double c, double k) { return {(1 - c * k / 2) / (1 + c * k / 2), 1 / (1 + c * k / 2)}; }
 
-  /// The trial of a step h from the present state: u_new, v_new, (n). Repeatable: a trial that cannot be evaluated is
-  /// made again with a shorter step. With momentum v_new is that of
-  /// kick_and_drift(), or moved() stops.
+  /// Writes the trial of a step h from the present state to u_new and v_new, (n). Has to be repeatable: a trial that
+  /// cannot be evaluated is made again with a shorter step. If the momentum is kept, v_new has to be that of
+  /// kick_and_drift(), unless moved() calls stop().
   virtual void propose(double h, Vec u_new, Vec v_new) = 0;
-  /// Whether v stays what it is, and propose() leaves v_new alone.
+  /// Whether the step leaves v unchanged, so that propose() does not write v_new.
   virtual bool keeps_v() const { return false; }
-  /// The trial could be evaluated; Q, a: there. Says whether it is finite if that costs nothing.
+  /// Called after the trial could be evaluated; Q, a: values there. Says whether the trial is finite if that costs
+  /// nothing.
   virtual std::optional<bool> tried(const Vector& /*Q*/, const Vector& /*a*/) { return std::nullopt; }
-  /// The trial has become the state; the force there is Q(), the one before last_Q().
+  /// Called after the trial has become the state: the force there is Q(), the force before the step last_Q().
   virtual void moved(double h) = 0;
-  /// Begins afresh from the state, or from one of which a contact has changed v.
+  /// Begins afresh from the state, or after a contact has changed its v.
   virtual void on_restart() {}
 
-  /// What the strategy remembers itself.
+  /// Archives what the strategy itself remembers.
   virtual void archive_strategy(const StateArchive& /*state*/) {}
 
-  /// The share of the step given that is taken, if the strategy chooses one; 0: if it does not.
+  /// The share of the step given that the strategy takes, if it chooses one, else 0.
   virtual double step_share() const { return 0; }
 
-  /// v⁺ = β v⁻ + γ k M⁻¹Q,  u⁺ = u + h v⁺
+  /// Writes v⁺ = β v⁻ + γ k M⁻¹Q and u⁺ = u + h v⁺.
   void kick_and_drift(Coefficients coefficients, double k, double h, Vec u_new, Vec v_new);
-  double kick(double h) const { return (last_step_ + h) / 2; }  // k
-  /// vᵀMv of the state, or of a trial that kick_and_drift() has made.
+  double kick(double h) const { return (last_step_ + h) / 2; }  // kick length k [s]
+  /// vᵀMv of the state, and of a trial that kick_and_drift() has made.
   double energy();
   double trial_energy(ConstVec v_new);
-  /// v = 0, and half a kick next.
+  /// Sets v = 0, so that the next step is half a kick.
   void stop();
-  /// c, if one is in force: supports and walls that move take it along.
+  /// Sets the damping rate c [1/s] in force; moving supports and walls use it.
   void set_rate(double c, double h);
 
   // The present state, (n) each; valid from on_restart() on.
@@ -75,11 +77,11 @@ class StaggeredIteration : public SteppingIntegrator {
   Vector& v() { return *v_; }
   const Vector& Q() const { return Q_; }            // out-of-balance force [N]
   const Vector& a() const { return a_; }            // M⁻¹Q [m/s²]
-  const Vector& last_Q() const { return next_Q_; }  // before the step, under the loads of now; in moved() only
+  const Vector& last_Q() const { return next_Q_; }  // force before the step, under the present loads; in moved() only
   double last_step() const { return last_step_; }   // h⁻
-  /// xᵀMx; x: (n). Not with momentum: M is then known by its inverse alone.
+  /// xᵀMx; x: (n). Not available if the momentum is kept: only the inverse of M is known then.
   double mass_norm_squared(ConstVec x);
-  /// (n), for the moment: mass_norm_squared() writes to it as well.
+  /// Temporary work space, (n): mass_norm_squared() writes to it as well.
   Vector& work() { return work_; }
   double t() const { return t_; }
   const RelaxationOptions& relaxation() const { return relaxation_; }
@@ -94,10 +96,10 @@ class StaggeredIteration : public SteppingIntegrator {
   void remember_loads();
 
   RelaxationOptions relaxation_;
-  std::optional<Vector> u_, v_;                // the halves of y, in place; v_ apart from it with momentum
-  std::optional<Vector> p_, next_p_, next_v_;  // with momentum: the second half of y, and of the trial
+  std::optional<Vector> u_, v_;                // the halves of y, in place; with momentum v_ is apart from y
+  std::optional<Vector> p_, next_p_, next_v_;  // with momentum: second halves of y and of the trial; the trial's v
   Vector Q_, a_, next_Q_, next_a_, Mx_, work_;
-  std::vector<double> F_;  // of Q_, if the loads depend on t [N]
+  std::vector<double> F_;  // the loads in Q_, if they depend on t [N]
   double t_ = 0, trial_t_ = 0;
   double last_step_ = 0, trial_step_ = 0;
   bool admissible_ = true, force_is_current_ = false;

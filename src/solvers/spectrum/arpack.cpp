@@ -23,7 +23,7 @@
 namespace stillpoint {
 namespace {
 
-// λ = xᵀKx/xᵀMx if n = 1: Lanczos needs at least two dimensions.
+// The single eigenvalue λ = xᵀKx/xᵀMx of a system with n = 1: Lanczos' method needs at least two dimensions.
 NearestEigenvalue single_eigenvalue(const LinearMap& solve, const Mass& mass, double sigma) {
   const std::array<double, 1> m = {mass.diagonal()[0]};
   std::array<double, 1> theta{};
@@ -41,13 +41,13 @@ NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, d
   const std::lock_guard lock(arpack_state);
   const OneBlasThread same_bits;
 
-  const std::size_t n = mass.size();  // Lanczos vectors: twenty, if the system and max_iterations have room for them
+  const std::size_t n = mass.size();  // unknowns; there are twenty Lanczos vectors if n and max_iterations allow them
   const std::size_t vectors = std::min(n, static_cast<std::size_t>(std::clamp(options.max_iterations, 2, 20)));
   const auto size = static_cast<a_int>(n), ncv = static_cast<a_int>(vectors);
   constexpr a_int nev = 1;
   std::vector<double> residual = start_vector(n), basis(n * vectors), workd(3 * n), workl(vectors * (vectors + 8));
   const auto lworkl = static_cast<a_int>(workl.size());
-  // iparam: exact shifts, at most so many restarts of about ncv applications each, blocks of 1, mode 3.
+  // iparam: exact shifts, at most max_iterations/ncv restarts of about ncv applications each, blocks of 1, mode 3.
   std::array<a_int, 11> iparam = {1, 0, std::max(1, options.max_iterations / ncv), 1, 0, 0, 3, 0, 0, 0, 0}, ipntr{};
   a_int ido = 0, info = 1;  // info = 1: start from residual
   const auto part = [&](std::size_t k) { return Vec(workd).subspan(static_cast<std::size_t>(ipntr[k] - 1), n); };

@@ -13,7 +13,7 @@ namespace stillpoint {
 DrivenMode driven_mode(const SparseMatrix& K, const Mass& mass, ConstVec Q) {
   constexpr double shift = 1e-10;
   constexpr int most_iterations = 30;
-  constexpr double same = 1e-9;  // of x from one iteration to the next
+  constexpr double same = 1e-9;  // change of x from one iteration to the next, relative to x
   const double scale = largest_entry(K, mass), sigma = shift * scale;
   DrivenMode mode;
   if (!(scale >= 0) || !std::isfinite(scale) || Q.empty()) return mode;
@@ -23,7 +23,7 @@ DrivenMode driven_mode(const SparseMatrix& K, const Mass& mass, ConstVec Q) {
   mass.solve(Q, {x.data(), Q.size()});
   const double all = std::sqrt(x.dot(force));  // √(QᵀM⁻¹Q)
   if (!(all > 0) || !std::isfinite(all)) return mode;
-  // Without any stiffness every motion is one.
+  // Without any stiffness every motion has K x = 0.
   if (scale == 0) return {.found = true, .share = 1, .x = {x.data(), x.data() + n}};
   const SparseCholesky factor(SparseMatrix(K + sigma * mass.matrix()));
   if (!factor.positive_definite()) return mode;

@@ -1,4 +1,4 @@
-// A bound of ω_max that no vector can exceed.
+// An upper bound of ω_max by Gershgorin's circles.
 //
 // Lumped M = D: ω_max² is the largest eigenvalue of D^{−½} K D^{−½}, and every eigenvalue lies in one of Gershgorin's
 // circles: |λ| ≤ G = max_i Σ_j |K_ij|/√(M_ii M_jj), a number without regard to the units of the degrees of freedom.
@@ -27,7 +27,7 @@ struct LowerBound {
   int factorisations = 0;
 };
 
-// Σ_j |A_ij|/√(D_i D_j) for every i, (n); A symmetric.
+// The sums Σ_j |A_ij|/√(D_i D_j) for every i, (n); A symmetric.
 std::vector<double> scaled_row_sums(const SparseMatrix& A, ConstVec D) {
   std::vector<double> sums(D.size(), 0.0);
   for (Eigen::Index j = 0; j < A.outerSize(); ++j) {
@@ -39,7 +39,7 @@ std::vector<double> scaled_row_sums(const SparseMatrix& A, ConstVec D) {
   return sums;
 }
 
-// max, or NaN if one is NaN.
+// The largest of the values, or NaN if one of them is NaN.
 double largest(const std::vector<double>& values) {
   double result = 0;
   for (double value : values) result = std::isnan(result) || value <= result ? result : value;
@@ -52,7 +52,8 @@ bool is_below_spectrum(double s, const Mass& mass) {
   return SparseCholesky(shifted).positive_definite();
 }
 
-// 0 < s < λ_min(D⁻¹M), usually 1 to 10 % below it and found by one factorisation.
+// A lower bound s of the scaled mass, 0 < s < λ_min(D⁻¹M), usually 1 to 10 % below λ_min and found by one
+// factorisation.
 LowerBound lower_bound_of_scaled_mass(const Mass& mass) {
   // Gershgorin's lower circles of D^{−½} M D^{−½}: its diagonal is 1, so 1 − (sum − 1).
   const double circles = 2 - largest(scaled_row_sums(mass.matrix(), mass.diagonal()));

@@ -2,9 +2,9 @@
 //
 //   ω_max² ≈ θ + β_m |s_m|
 //
-// is above it, or below by a part of a per cent if the spectrum is crowded at its end [Zhou and Li, "Bounding the
-// spectrum of large Hermitian matrices", Linear Algebra Appl. 435 (2011)]. Twelve applications of K do what power
-// iteration needs hundreds for.
+// exceeds it, or falls below it by a part of a per cent if the spectrum is crowded at its end [Zhou and Li, "Bounding
+// the spectrum of large Hermitian matrices", Linear Algebra Appl. 435 (2011)]. Twelve applications of K give the
+// accuracy for which power iteration needs hundreds.
 #include "linalg/lanczos.hpp"
 
 #include <stillpoint/spectrum.hpp>
@@ -33,7 +33,7 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
   std::ranges::copy(start_vector(system.size()), x.span().begin());
   mass.apply(x.span(), Mx.span());
   Lanczos lanczos(apply_K, solve_M, std::move(Mx));
-  // Of ω² twice the share of ω.
+  // The relative error of ω² is twice that of ω.
   const auto is_found = [&](const Lanczos::Largest& largest) {
     return !tolerance || largest.missing <= 2 * *tolerance * largest.theta;
   };

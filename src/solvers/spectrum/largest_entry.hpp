@@ -1,4 +1,4 @@
-// The size of the eigenvalues of K x = λ M x, without looking for any.
+// An estimate of the size of the eigenvalues of K x = λ M x that computes none of them.
 #pragma once
 
 #include <stillpoint/mass.hpp>
@@ -11,11 +11,11 @@
 
 namespace stillpoint {
 
-/// Of the scale below: what rounding of K's entries makes of a λ.
+/// The effect of rounding in the entries of K on λ, relative to largest_entry().
 constexpr double rounding_of_eigenvalues = 64 * std::numeric_limits<double>::epsilon();
 
-/// max |K_ij|/√(M_ii M_jj), of the size of the largest |λ|; NaN if one is. An indefinite K may have a diagonal of
-/// zeros.
+/// max |K_ij|/√(M_ii M_jj), of the size of the largest |λ|; NaN if an entry is NaN. All entries are searched because an
+/// indefinite K may have a zero diagonal.
 inline double largest_entry(const SparseMatrix& K, const Mass& mass) {
   double largest = 0;
   for (Eigen::Index j = 0; j < K.outerSize(); ++j) {

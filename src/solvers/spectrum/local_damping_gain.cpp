@@ -1,10 +1,10 @@
-// Local damping multiplies the force of each degree of freedom by a d_i between 1 − α and 1 or 1 + α, M a = −d K u. In
-// the energy's norm no such motion is stiffer than
+// Local damping multiplies the force of each degree of freedom by a factor d_i between 1 − α and 1 or 1 + α, so that
+// M a = −d K u. In the energy norm no such motion is stiffer than
 //
 //   ω² = max_x max_d xᵀK M⁻¹ d K x/xᵀKx,   d_i the largest where (Kx)_i (M⁻¹Kx)_i > 0, else the smallest,
 //
 // which for a diagonal M is ω_max² times the largest d. It is found like ω_max, by x ← ½ (M⁻¹ d K x + d M⁻¹ K x), the
-// power iteration of the symmetric part, with d as x has it.
+// power iteration of the symmetric part, with the d that belongs to the present x.
 #include "solvers/spectrum/local_damping_gain.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@
 namespace stillpoint {
 namespace {
 
-// The smallest |Q + D|/|Q|: of a motion along Q, or, where D also goes by dQ/dt, as far below 1 as the largest above.
+// The smallest |Q + D|/|Q|: that of a motion along Q or, if D also depends on dQ/dt, as far below 1 as the largest is
+// above.
 double smallest_factor(const Damping& damping) {
   const double v = 1;
   double Q = 1;
@@ -30,7 +31,7 @@ double local_damping_gain(const SemiDiscrete& system, double t, ConstVec u, cons
   const Mass& mass = system.mass();
   if (!damping.is_local() || mass.is_lumped()) return 1;
   constexpr int most_iterations = 300;
-  constexpr double accuracy = 1e-5;  // change of an iteration
+  constexpr double accuracy = 1e-5;  // change in one iteration
   const double largest = damping.stiffness_factor(), smallest = smallest_factor(damping);
   const std::size_t n = system.size();
   std::vector<double> x = start_vector(n), Kx(n), z(n), dKx(n), next(n);

@@ -11,13 +11,13 @@
 namespace stillpoint {
 namespace {
 
-// x −= Σ_j x_j (x_jᵀ M x), of modes with x_jᵀ M x_j = 1 as M x_j.
+// Removes modes from x: x −= Σ_j x_j (x_jᵀ M x), for modes with x_jᵀ M x_j = 1, given with their products M x_j.
 void leave_out(const std::vector<Eigen::VectorXd>& modes, const std::vector<Eigen::VectorXd>& M_modes, Vec x) {
   Eigen::Map<Eigen::VectorXd> of_x(x.data(), static_cast<Eigen::Index>(x.size()));
   for (std::size_t j = 0; j < modes.size(); ++j) of_x -= M_modes[j].dot(of_x) * modes[j];
 }
 
-// The lowest mode that counts, by a factor of K + σM.
+// Finds the lowest mode that is not left out, by a factor of K + σM.
 void find(const SparseCholesky& factor, const Mass& mass, double sigma,
           const std::function<bool(const std::vector<double>&)>& is_left_out, LowestMode& lowest) {
   constexpr int most = 12;

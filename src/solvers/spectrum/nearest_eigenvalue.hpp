@@ -1,4 +1,4 @@
-// ARPACK on a factor that its user brings.
+// ARPACK's shift-invert method with a factor that the caller supplies.
 #pragma once
 
 #include <stillpoint/mass.hpp>
@@ -19,7 +19,8 @@ struct NearestEigenvalue {
   std::vector<double> mode;  // xᵀMx = 1, (n)
 };
 
-/// The λ of K x = λ M x nearest to σ, with its x; solve: x = (K − σM)⁻¹ b. Throws std::invalid_argument on bad options.
+/// The λ of K x = λ M x nearest to σ, with its x; solve: x = (K − σM)⁻¹ b. Throws std::invalid_argument for bad
+/// options.
 NearestEigenvalue nearest_eigenvalue(const LinearMap& solve, const Mass& mass, double sigma,
                                      const SpectrumOptions& = {});
 

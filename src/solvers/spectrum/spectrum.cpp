@@ -59,14 +59,14 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
 namespace {
 
 struct Lowest {
-  double omega_squared = 0;  // from above
+  double omega_squared = 0;  // ω₁², approached from above [1/s²]
   int applications = 0;      // of K⁻¹M
   bool converged = false;
   std::string status;
   std::vector<double> mode;
 };
 
-// Of K⁻¹M the largest eigenvalue by Lanczos' method, its error within the tolerance twice running.
+// The largest eigenvalue of K⁻¹M by Lanczos' method, with its error within the tolerance twice running.
 Lowest lowest_by_lanczos(const FactorisedStiffness& K, const Mass& mass, double tolerance, int most) {
   const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
   const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
@@ -99,14 +99,14 @@ Lowest lowest_by_lanczos(const FactorisedStiffness& K, const Mass& mass, double 
 
 }  // namespace
 
-// With the same factor by ARPACK, if Lanczos' method does not converge: rounding in solutions with an ill-conditioned K
-// may keep it from that, or a second mode of nearly the same frequency.
+// If Lanczos' method does not converge, ARPACK uses the same factor: rounding in solutions with an ill-conditioned K,
+// or a second mode of nearly the same frequency, may keep the former from converging.
 FrequencyEstimate lowest_frequency(const SparseMatrix& of_body, const Mass& mass, const SpectrumOptions& options) {
   require_valid(options);
   const Stopwatch watch;
   const FactorisedStiffness K(mass, of_body);
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
-  constexpr int most_vectors = 60;  // that are kept
+  constexpr int most_vectors = 60;  // most Lanczos vectors that are kept
   const int most = std::clamp(options.max_iterations / 2, 1, most_vectors);
   Lowest lowest = lowest_by_lanczos(K, mass, options.tolerance, most);
   FrequencyEstimate estimate{0, lowest.applications, 0, lowest.converged, lowest.status, std::move(lowest.mode)};

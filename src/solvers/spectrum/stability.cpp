@@ -13,16 +13,16 @@
 namespace stillpoint {
 namespace {
 
-// Stable means a growth per step of at most this. Where |R(iy)| leaves 1 at once but slowly (orders 5 and 6: like y⁶)
-// the limit is where the growth passes it: 0.02 … 0.04 for Cash–Karp and the like.
+// Stable means a growth per step of at most this. If |R(iy)| leaves 1 at once but slowly (orders 5 and 6: like y⁶), the
+// limit is where the growth passes it: 0.02 … 0.04 for Cash–Karp and similar methods.
 constexpr double growth = 1e-12;
-// The scan in r = h |λ|: where it starts, its relative step, and where it gives up looking for a limit. A method that
-// is unstable at the start has no stable step: Heun–Euler on the imaginary axis. Beside a large damping rate leapfrog's
-// limit is 2/omega still, at a large r: what stands up to the damping is looked at again in r = h omega, with a rate at
-// which growth can still be told from rounding.
+// The scan in r = h |λ|: its first value, its ratio, and the value at which the search for a limit is given up. A
+// method that is unstable at the start has no stable step: Heun–Euler on the imaginary axis. Beside a large damping
+// rate leapfrog's limit is still 2/omega, at a large r: a method without a limit there is scanned again in r = h omega,
+// with a rate at which growth can still be told from rounding.
 constexpr double r_first = 0.01, r_ratio = 1.02, r_last = 1e3, most_rate = 1e6;
 
-// The larger |λ| of λ² + rate λ + omega² = 0.
+// The larger |λ| of the two roots of λ² + rate λ + omega² = 0.
 double spectral_radius(double omega, double rate) {
   const double half = rate / 2;
   return half <= omega ? omega : half * (1 + std::sqrt((1 - omega / half) * (1 + omega / half)));
@@ -52,8 +52,8 @@ double largest_stable_step(const AmplificationRadius& amplification, double omeg
   return scan(amplification, omega, std::min(rate, most_rate * omega), std::max(h, r_first / omega), h_max);
 }
 
-// a = x_0 < … < x_m = b in geometric progression, each x_k/x_{k−1} ≤ ratio and at least `fewest` of them; a ≥ 0, and
-// from b·1e-4 if a = 0 (which is kept). One value if a = b.
+// Values a = x_0 < … < x_m = b in geometric progression, each x_k/x_{k−1} ≤ ratio and at least `fewest` of them; a ≥ 0.
+// If a = 0 it is kept, and the progression starts from b·1e-4. One value if a = b.
 std::vector<double> geometric_grid(double a, double b, double ratio, int fewest) {
   if (!(a < b)) return {b};
   std::vector<double> grid;
@@ -65,8 +65,9 @@ std::vector<double> geometric_grid(double a, double b, double ratio, int fewest)
   return grid;
 }
 
-// Extreme eigenvalues of M [kg]: the diagonal if lumped. If consistent, by power iteration on M from below and on
-// M⁻¹ from above until the estimated error is 0.1 %, and 1 % beyond for what the estimate may miss.
+// The extreme eigenvalues of M [kg]: those of the diagonal if lumped. If consistent, they come from power iteration on
+// M from below and on M⁻¹ from above, until the estimated error is 0.1 %, with 1 % added for what the estimate may
+// miss.
 std::pair<double, double> extreme_masses(const Mass& mass) {
   if (mass.size() == 0) return {1, 1};
   if (mass.is_diagonal()) {
@@ -97,8 +98,8 @@ DampedSpectrum damped_spectrum(double omega_1, double omega_max, const Damping& 
 }
 
 double critical_step(const AmplificationRadius& amplification, const DampedSpectrum& spectrum) {
-  // From the highest omega and rate down, as those limit most: afterwards a scan needs to go no further than the least
-  // so far.
+  // Omega and rate are scanned from the highest down, as those limit the step most: later scans need to go no further
+  // than the least limit so far.
   const double omega_max = spectrum.omega_max * std::sqrt(spectrum.stiffness_factor);
   if (!(omega_max > 0)) return std::numeric_limits<double>::infinity();
   const double omega_min = spectrum.omega_1 > 0 ? spectrum.omega_1 : 1e-4 * spectrum.omega_max;
@@ -109,7 +110,7 @@ double critical_step(const AmplificationRadius& amplification, const DampedSpect
     for (std::size_t j = rates.size(); j-- > 0;) {
       const double h_max = std::min(h, r_last / omegas[i]);
       const double limit = largest_stable_step(amplification, omegas[i], rates[j], h_max);
-      if (limit < h_max) h = limit;  // else stable as far as needed, or no limit was found up to r_last
+      if (limit < h_max) h = limit;  // else it is stable as far as needed, or no limit was found up to r_last
     }
   }
   return h;
@@ -117,8 +118,9 @@ double critical_step(const AmplificationRadius& amplification, const DampedSpect
 
 namespace {
 
-// Whether no motion grows: by the largest ‖y‖ in the first half of many steps and in the second, from phases all around
-// half the circle; the other half is the same with all signs changed, and lengths are no matter: D(v, s Q) = s D(v, Q).
+// Whether no motion grows: compares the largest ‖y‖ in the first and in the second half of many steps, for phases all
+// around half the circle. The other half is the same with all signs changed, and lengths do not matter:
+// D(v, s Q) = s D(v, Q).
 bool every_phase_decays(const OscillatorStep& step, const Damping& local, double h) {
   constexpr int phases = 24, steps = 200;
   constexpr double rounding = 1e-9;
@@ -136,7 +138,7 @@ bool every_phase_decays(const OscillatorStep& step, const Damping& local, double
       most = std::max(most, log_size);
       for (double& value : y) value /= length;
     }
-    if (after > before + rounding) return false;  // there are motions that D never meets
+    if (after > before + rounding) return false;  // D has no effect on some motions
   }
   return true;
 }

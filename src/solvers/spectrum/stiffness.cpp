@@ -32,7 +32,7 @@ std::string FactorisedStiffness::refusal(double omega_squared) const {
   for (Eigen::Index k = 0; k < K_.nonZeros(); ++k) {
     if (!std::isfinite(K_.valuePtr()[k])) return "K is not finite";
   }
-  // A zero that rounding pushed below zero is lifted by a shift of 1e-10 ω_max²; a negative ω² is not.
+  // An eigenvalue 0 that rounding pushed below zero is lifted by a shift of 1e-10 ω_max²; a negative ω² is not.
   const bool semidefinite =
       scale_ == 0 || SparseCholesky(SparseMatrix(K_ + 1e-10 * scale_ * mass_.matrix())).positive_definite();
   return semidefinite ? singular : "K is indefinite: R softens, the state is unstable";

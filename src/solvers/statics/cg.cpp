@@ -34,7 +34,7 @@ class ConjugateGradients final : public StaticIteration {
     spectrum_.begin();
   }
 
-  // The first α: that of the step before, as if it had come down by the same [Nocedal and Wright, eq. 3.60].
+  // The first α is that of the step before, scaled as if Q·p fell by the same amount [Nocedal and Wright, eq. 3.60].
   double direction(Vec p) override {
     const double slope_of_z = dot(Q(), z());
     const double beta = slope_ > 0 ? std::max(0.0, (slope_of_z - Q_dot_last_z_) / last_Q_dot_z_) : 0;
@@ -66,7 +66,7 @@ class ConjugateGradients final : public StaticIteration {
 
   DescentSpectrum spectrum_;
   double alpha_ = 0;
-  double slope_ = 0;  // Q·p of the step before; 0: there was none
+  double slope_ = 0;  // Q·p of the step before; 0: there was no step
   double last_Q_dot_z_ = 0, Q_dot_last_z_ = 0;
 };
 

@@ -29,7 +29,7 @@ StaticReport conjugate_gradients(const SemiDiscrete& system, double t, Vec u, co
   std::vector<double>& residuals = report.load_steps.front().residuals;
   const std::size_t n = system.size();
   const int most = options.max_iterations > 0 ? options.max_iterations : 10 * static_cast<int>(n);
-  constexpr int passes = 4;  // rounding makes the recurrence's residual too small: the true one is tested, and again
+  constexpr int passes = 4;  // rounding makes the recurrence's residual too small: the true one is tested after each
   std::vector<double> du(n);
   const auto end = [&](bool converged, const std::string& reason) {
     report.converged = report.load_steps.front().converged = converged;

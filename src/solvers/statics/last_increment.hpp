@@ -1,7 +1,7 @@
-// How a body that remembers its path went in the last increment of its load: where the next one begins.
+// The displacement over the last load increment of a history-dependent body, from which the next increment starts.
 //
-// Points that yield lie on their yield surface when the load is increased, and resist the first step as elastic ones
-// do: that step leads far from where they would flow to. Going on as they did in the last increment, they flow.
+// Points that yield lie on their yield surface when the load is increased, and resist the first step elastically: that
+// step leads far from where they would flow to. If they continue as in the last increment, they flow.
 #pragma once
 
 #include <stillpoint/types.hpp>
@@ -15,18 +15,18 @@ namespace stillpoint {
 class LastIncrement {
  public:
   bool is_known() const { return !way_.empty(); }
-  /// It led from u_begin to u, with this share of the load.
+  /// Keeps the increment from u_begin to u, which took this share of the load.
   void remember(double share, ConstVec u_begin, ConstVec u) {
     share_ = share;
     way_.resize(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) way_[i] = u[i] - u_begin[i];
   }
-  /// u goes on likewise, by another share of the load.
+  /// Moves u on by the last increment, scaled to another share of the load.
   void extrapolate(double share, Vec u) const {
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += share / share_ * way_[i];
   }
-  /// Whether u_begin to u is no further than a few times as far for its share: what is far away lies beyond a limit
-  /// load.
+  /// Whether the displacement from u_begin to u, relative to its share of the load, is at most a few times the last
+  /// one: a state far away lies beyond a limit load.
   bool is_like(double share, ConstVec u_begin, ConstVec u) const {
     constexpr double most = 4;
     double went = 0, before = 0;

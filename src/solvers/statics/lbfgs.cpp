@@ -18,7 +18,7 @@ class LimitedMemoryBfgs final : public StaticIteration {
 
  private:
   void forget() override { memory_.forget(); }
-  void load_changed() override {}  // H is that of K, whatever the load
+  void load_changed() override {}  // H approximates K⁻¹, whatever the load is
 
   double direction(Vec p) override {
     if (memory_.empty()) {

@@ -1,11 +1,11 @@
-// A step along p for which the out-of-balance force has hardly anything left along p:
+// A step along p at which the component of the out-of-balance force along p has nearly vanished:
 //
 //   |Q(u + α p)·p| ≤ σ Q(u)·p
 //
-// by the secant method on Q·p, inside a bracket once there is one. Q is −gradient of the potential energy if there
-// is one, and this is the curvature condition of Wolfe's; the energy itself is not asked for, as friction and
-// plasticity have none. Where Q is linear the secant is exact: two evaluations. Directions that have to stay conjugate
-// ask for that secant by a σ for the first trial that is next to nothing.
+// by the secant method on Q·p, inside a bracket once there is one. Q is the negative gradient of the potential energy
+// if there is one, and then this is Wolfe's curvature condition; the energy itself is not used, as friction and
+// plasticity have none. If Q is linear the secant is exact: two evaluations. Methods whose directions have to stay
+// conjugate force that secant by a tiny σ for the first trial.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace stillpoint {
 
-/// The α to try next; begins with the slope Q·p > 0 at α = 0.
+/// Gives the next α to try; begins with the slope Q·p > 0 at α = 0.
 class LineSearch {
  public:
   struct Accuracy {
@@ -26,13 +26,13 @@ class LineSearch {
 
   double alpha() const { return alpha_; }
 
-  /// The trial at alpha() could not be evaluated.
+  /// Called if the trial at alpha() could not be evaluated.
   void refused() {
     upper_ = alpha_;
     alpha_ = (lower_ + alpha_) / 2;
   }
 
-  /// Q·p at alpha(). True if the search is over; else alpha() is the next one.
+  /// Takes Q·p at alpha(). True if the search is over; else alpha() is the next trial.
   bool done(double slope) {
     ++trials_;
     if (std::abs(slope) <= (trials_ == 1 ? sigma_.first : sigma_.later) * slope_) return true;
@@ -40,11 +40,11 @@ class LineSearch {
     (slope > 0 ? lower_ : upper_) = alpha_;
     last_ = alpha_;
     last_slope_ = slope;
-    // Secants that creep along one end of the bracket give way to its middle.
+    // If secants creep along one end of the bracket, the search goes on from its middle.
     constexpr double longest = 10;
     const double edge = trials_ < 3 ? 0 : 0.01;
     if (!std::isfinite(upper_)) {
-      // Where the stiffness along p is not positive there is no secant to follow: as far as is allowed.
+      // Without a positive stiffness along p there is no secant to follow: α grows as far as is allowed.
       alpha_ = secant > lower_ ? std::min(secant, longest * lower_) : longest * lower_;
     } else {
       const double width = upper_ - lower_;

@@ -1,5 +1,5 @@
-// How a static solver divides the load: from one load factor s to the next, by half of the way where an increment fails
-// and by twice as much after one that was easy.
+// The division of the load by a static solver: the increment from one load factor s to the next is halved when it fails
+// and doubled after one that was easy.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>
@@ -15,7 +15,7 @@ class LoadIncrements {
   };
   explicit LoadIncrements(const Sizes& sizes) : sizes_(sizes), size_(first()) {}
 
-  double from() const { return from_; }  // in equilibrium
+  double from() const { return from_; }  // load factor of the last equilibrium
   double to() const { return size_ < 0.999 * (1 - from_) ? from_ + size_ : 1; }
   bool at_end() const { return from_ >= 1; }
   double size() const { return size_; }
@@ -25,12 +25,12 @@ class LoadIncrements {
     from_ = to();
     if (easily) size_ = std::min(2 * size_, sizes_.largest);
   }
-  /// False if the half of an increment that failed is smaller than they may be.
+  /// Halves an increment that failed. False if the half is smaller than the smallest increment.
   bool halve() {
     size_ = (to() - from_) / 2;
     return size_ >= sizes_.smallest;
   }
-  /// As long as the first one was.
+  /// Makes the next increment as long as the first one was.
   void begin_anew() { size_ = first(); }
   void start_over() { *this = LoadIncrements(sizes_); }
 

@@ -84,10 +84,10 @@ class Newton {
   }
 
  private:
-  // u: the state at step.from, then the equilibrium at step.to. Where there is none report_.reason says why.
-  // A slender body has a valley of bent states between walls of stretched ones: a search that asks each step for a
-  // smaller ‖Q‖ crawls along it, while full steps cross the walls and come down on the other side. Points that yield
-  // would remember such a detour's end: beyond a limit load there may be one, on no path that the load could take.
+  // u: the state at step.from, then the equilibrium at step.to; if there is none, report_.reason says why. A slender
+  // body has a valley of bent states between walls of stretched ones: a search that asks each step for a smaller ‖Q‖
+  // crawls along it, while full steps cross the walls and come down on the other side. Points that yield would remember
+  // the end of such a detour: beyond a limit load it may be an equilibrium that no path of the load reaches.
   bool load_step(LoadStep& step, Vec u) {
     const std::vector<double> start(u.begin(), u.end());
     full_steps_ = false;
@@ -129,7 +129,7 @@ class Newton {
         break;
       }
       if (!nearer) {
-        // Open or just yielding points may leave K singular; K_e never is in a body that is held.
+        // Opening or just yielding points may leave K singular; K_e never is in a body that is held.
         ++report_.elastic_iterations;
         if (!balance_.evaluate(step.to, u) || !elastic_direction(u) || !descend(step.to, u, residual)) {
           report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller", residual);
@@ -157,13 +157,13 @@ class Newton {
     return true;
   }
 
-  // What keeps u from being in balance.
+  // Describes the obstacle to balance at u: the place that cannot be evaluated, or the largest out-of-balance force.
   std::string worst(double s, ConstVec u) {
     if (!balance_.evaluate(s, u)) return "where " + system_.diagnosis().refusal(balance_.trial());
     return "largest at " + largest_at(system_, std::as_const(balance_.Q).span());
   }
 
-  // u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays if none does.
+  // Takes u += λ du with the first of λ = 1, ½, ¼, … that makes ‖Q‖ small enough; u stays if none does.
   bool descend(double s, Vec u, double before) {
     constexpr int most_halvings = 10;
     constexpr double decrease = 1e-4;
@@ -179,7 +179,7 @@ class Newton {
     return false;
   }
 
-  // K du = Q, Q as last evaluated, at u. False if K cannot be solved with.
+  // Solves K du = Q at u, with Q as last evaluated. False if K du = Q cannot be solved.
   bool consistent_direction(double s, ConstVec u) {
     indefinite_ = false;
     const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
@@ -212,11 +212,11 @@ class Newton {
     return by_cholesky(system_.tangents().matrix(Tangent::elastic, t_, u));
   }
 
-  // False if K is indefinite, or if it is singular and Q drives what it does not resist.
+  // Solves K du = Q. False if K is indefinite, or if it is singular and Q drives a motion that it does not resist.
   bool by_cholesky(const SparseMatrix& K) {
     is_used_again_ = factor_ && same(K, factorised_);
     if (!is_used_again_) {
-      forget_factor();  // first: there may be no room for two
+      forget_factor();  // released first, as there may be no room for two
       factorised_ = K;
       factor_.emplace(factorised_, system_.mass());
       ++report_.cholesky_factorisations;
@@ -255,7 +255,7 @@ class Newton {
     return result.converged;
   }
 
-  // x·K y = y·K x for what is out of balance and a vector that has to do with nothing.
+  // Whether x·K y = y·K x for the out-of-balance force x and an unrelated vector y.
   bool looks_symmetric(const LinearMap& K) {
     const VectorSpace vectors;
     Vector y = vectors.make(du_.size()), Kx = vectors.make(du_.size()), Ky = vectors.make(du_.size());
@@ -282,18 +282,18 @@ class Newton {
   const NewtonOptions& options_;
   StaticBalance balance_;
   std::vector<double> trial_, du_;
-  LastIncrement last_;                        // known where points remember
+  LastIncrement last_;                        // known if the points have a history
   SparseMatrix factorised_;                   // K of the factor
-  std::optional<SemidefiniteFactor> factor_;  // kept where the next K may be the same
-  bool is_used_again_ = false;                // whether K was
+  std::optional<SemidefiniteFactor> factor_;  // kept if the next K may be the same
+  bool is_used_again_ = false;                // the last K was the factorised one
   static constexpr int most_short_steps = 3;
   static constexpr double short_step = 0.3;
-  bool full_steps_ = false;    // whatever ‖Q‖ does
-  int short_steps_ = 0;        // one after the other
-  bool semidefinite_ = false;  // what the last factor was asked for
-  bool indefinite_ = false;    // K of the last iteration, if symmetric
-  bool refused_ = false;       // an equilibrium since the last that was taken
-  bool accepts_ = false;       // what is indefinite
+  bool full_steps_ = false;    // full steps are taken, whatever ‖Q‖ does
+  int short_steps_ = 0;        // short steps in succession
+  bool semidefinite_ = false;  // the last factor's K was semidefinite
+  bool indefinite_ = false;    // K of the last iteration was, if symmetric
+  bool refused_ = false;       // an equilibrium was refused since the last one taken
+  bool accepts_ = false;       // indefinite equilibria are accepted
   StaticReport report_;
 };
 

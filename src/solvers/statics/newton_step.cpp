@@ -23,8 +23,8 @@ class NewtonStep final : public Integrator {
     t_ = t;
     y_ = &y;
   }
-  // At the t of the start: there is no time on the way. A second step is the same once more, from the answer and to a
-  // smaller residual.
+  // Solves at the t of the start, as time does not advance. A second step solves once more, from the last answer and to
+  // a smaller residual.
   StepReport step(double /*t_stop*/) override {
     const StaticReport report = newton(system_.system(), t_, first_half(y_->span()), options_);
     iterations_ += report.iterations;
@@ -73,7 +73,7 @@ std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, Rela
   NewtonOptions of_newton = newton_options(options.name, options.load_steps);
   of_newton.tolerance = options.tolerance;
   if (system.keeps_momentum()) precondition(of_newton, system.mass());
-  // The run tests its end itself, and says what is wrong with it.
+  // The run itself tests the final state for stability, and says what is wrong with it.
   of_newton.accept_unstable = !system.system().history_dependent() && system.size() <= direct_solver_limit;
   return std::make_unique<NewtonStep>(of_newton, system);
 }

@@ -13,7 +13,7 @@
 namespace stillpoint {
 namespace {
 
-constexpr double accuracy = 1e-11;  // of b; what is left of K + σ M's own is far below it
+constexpr double accuracy = 1e-11;  // relative to b; the error from K + σ M's own factor is far below it
 constexpr int most_iterations = 60;
 
 SparseMatrix shifted(const SparseMatrix& K, const Mass& M) {

@@ -59,10 +59,10 @@ SteppingIntegrator::Attempt StaticIteration::attempt(double t, Vector& y, double
   if (!moves_) return {.h = h};  // in balance to the last bit
   if (makes_no_way() && begin_half(t, u_new)) return {.h = h};
   if (search(t, u_new)) return {.h = h};
-  forget();  // what was remembered may have been of no use: straight downhill
+  forget();  // the remembered steps may have been useless: next straight downhill
   if (search(t, u_new)) return {.h = h};
   if (!is_as_good_as_balanced() && begin_half(t, u_new)) return {.h = h};
-  evaluate(t, u, Q_);  // the last evaluation has to be that of the state
+  evaluate(t, u, Q_);  // the last evaluation has to be at the state
   return {.status = StepReport::Status::failed, .h = h, .message = failure()};
 }
 
@@ -79,14 +79,14 @@ void StaticIteration::archive_memory(const StateArchive& state) {
   archive_method(state);
 }
 
-// Q_s at s = load_.to().
+// Evaluates Q_s at s = load_.to().
 bool StaticIteration::evaluate(double t, ConstVec u, Vector& Q) {
   if (!system().out_of_balance(t, u, Q.span())) return false;
   add_to(Q, load_.to() - 1);
   return true;
 }
 
-// Q += share Q(u₀)
+// Adds share Q(u₀) to Q.
 void StaticIteration::add_to(Vector& Q, double share) const {
   if (share == 0) return;
   for_each_index(Q.size(),
@@ -122,7 +122,7 @@ void StaticIteration::accepted() {
   system().mass().solve(Q_.span(), z_.span());
   moved(alpha_);
   ++steps_of_this_;
-  const bool is_last = load_.to() >= 1;  // which the run itself ends
+  const bool is_last = load_.to() >= 1;  // the run itself ends the last increment
   if (!is_last && system().relative_to_loads(norm(Q_)) <= tolerance_) end_increment();
 }
 
@@ -134,7 +134,7 @@ void StaticIteration::end_increment() {
   begin_increment(s, first_half(std::as_const(state()).span()));
 }
 
-// Q_ is Q_s at u, where the last evaluation was.
+// Needs Q_ to be Q_s at u, the place of the last evaluation.
 void StaticIteration::begin_increment(double s, ConstVec u) {
   std::ranges::copy(u, u_begin_.span().begin());
   add_to(Q_, load_.to() - s);
@@ -144,7 +144,7 @@ void StaticIteration::begin_increment(double s, ConstVec u) {
   load_changed();
 }
 
-// In many times the steps that the first increment took.
+// Whether the increment has taken many times the steps of the first one and is still out of balance.
 bool StaticIteration::makes_no_way() const {
   constexpr long patience = 10, few = 50;
   constexpr double hardly = 1e-2;
@@ -152,14 +152,15 @@ bool StaticIteration::makes_no_way() const {
          norm(Q_) > hardly * unbalanced_at_begin_;
 }
 
-// To what rounding may leave.
+// Whether the increment is balanced as far as rounding allows.
 bool StaticIteration::is_as_good_as_balanced() const {
   constexpr double rounding = 1e-6;
   return norm(Q_) <= rounding * unbalanced_at_begin_;
 }
 
-// Back to where the increment began. False if it is as small as may be, or if nothing is remembered: a body that takes
-// no more of the load would go on to where its springs have given way, as small as its forces are beside others.
+// Goes back to the beginning of the increment and halves it. False if it is as small as may be, or if the body has no
+// history: an elastic body that takes no more of the load would continue to where its springs have given way, as small
+// as its forces are beside others.
 bool StaticIteration::begin_half(double t, Vec u_new) {
   if (!system().system().history_dependent() || !load_.halve()) return false;
   forget();

@@ -1,13 +1,15 @@
-// What static iterations share: u ← u + α p for a direction p that goes downhill, Q·p > 0, with α by a line search.
+// The base of the static iterations: u ← u + α p for a direction p that leads downhill, Q·p > 0, with α by a line
+// search.
 //
-// There is no time in R(u) = F: a step is a new iterate, v is 0, and the pseudo-time goes by the step given so that
-// rows and limits work as for the others. The load comes in increments (LoadIncrements): what is out of balance is
+// There is no time in R(u) = F: a step is a new iterate, v is 0, and a pseudo-time advances by the step given so that
+// output rows and limits work as for other integrators. The load comes in increments (LoadIncrements): the
+// out-of-balance force is
 //
 //   Q_s(u) = Q(u) − (1 − s) Q(u₀),   Q = F − R,   s from 0 at u₀, the state at the start, to 1
 //
-// and laws of the material see one increment from where they were last committed to the equilibrium at the next s,
-// which is committed: the implicit increment of a static step. Where points remember, an increment that the line search
-// cannot follow, or that gets nowhere in many times the steps of the first one, is begun again with half of it.
+// and material laws see one increment, from the state last committed to the equilibrium at the next s, which is then
+// committed: the implicit increment of a static step. If the points have a history, an increment that the line search
+// cannot follow, or that makes no progress in many times the steps of the first one, is begun again at half its size.
 #pragma once
 
 #include "solvers/integrators/stepping_integrator.hpp"
@@ -24,26 +26,26 @@ class StaticIteration : public SteppingIntegrator {
   ConstVec acceleration() const final { return admissible_ && load_.to() >= 1 ? z_.span() : ConstVec(); }
 
  protected:
-  /// Throws std::invalid_argument if something touches the body.
+  /// Throws std::invalid_argument if the body has contact.
   StaticIteration(const StaticMethodOptions& options, RelaxationSystem& system, LineSearch::Accuracy sigma);
 
-  /// Forgets earlier steps.
+  /// Forgets the earlier steps of the method.
   virtual void forget() = 0;
-  /// Q() is that of another load, at the same u.
+  /// Called when Q() belongs to another load, at the same u.
   virtual void load_changed() { forget(); }
-  /// p from Q() and M⁻¹Q, (n); returns the α to try first.
+  /// Computes p from Q() and M⁻¹Q, (n); returns the α to try first.
   virtual double direction(Vec p) = 0;
-  /// The step α p was taken: the force is Q(), the one before last_Q().
+  /// Called after the step α p: the force is Q(), the force before it last_Q().
   virtual void moved(double alpha) = 0;
 
-  /// What the method remembers itself.
+  /// Archives what the method itself remembers.
   virtual void archive_method(const StateArchive& state) = 0;
 
   const Vector& Q() const { return Q_; }
   const Vector& z() const { return z_; }            // M⁻¹Q
   const Vector& last_Q() const { return next_Q_; }  // in moved() only
   const Vector& p() const { return p_; }
-  /// What α is safe along M⁻¹Q: 1/ω_max², from the step given.
+  /// An α that is safe along M⁻¹Q, 1/ω_max², from the step given [s²].
   double shortest() const { return options().max_step * options().max_step / 4; }
 
  private:
@@ -66,10 +68,10 @@ class StaticIteration : public SteppingIntegrator {
   double tolerance_;
   LoadIncrements load_;
   Vector Q_, z_, next_Q_, p_;
-  Vector u_begin_, Q_begin_;  // u where the increment began; Q(u₀)
+  Vector u_begin_, Q_begin_;  // u at the beginning of the increment; Q(u₀)
   double alpha_ = 0;
-  double unbalanced_at_begin_ = 0;               // ‖Q_s‖ there [N]
-  long steps_of_first_ = 0, steps_of_this_ = 0;  // increments; the first: 0 before its end
+  double unbalanced_at_begin_ = 0;               // ‖Q_s‖ at the same place [N]
+  long steps_of_first_ = 0, steps_of_this_ = 0;  // steps of the first increment (0 before its end) and of this one
   bool admissible_ = true, moves_ = false;
 };
 

@@ -14,29 +14,29 @@ namespace stillpoint {
 
 struct StaticMethodOptions {
   std::string_view name;  // one of static_methods()
-  double max_step = 0;    // below leapfrog's critical step, for the first try along M⁻¹Q [s]; > 0
-  double tolerance = 0;   // of ‖F − R‖/‖F‖, at which Newton's method and increments of the load end; > 0
-  int load_steps = 1;     // at least
+  double max_step = 0;    // a step below leapfrog's critical one, for the first try along M⁻¹Q [s]; > 0
+  double tolerance = 0;   // ‖F − R‖/‖F‖ at which Newton's method and load increments end; > 0
+  int load_steps = 1;     // increments of the load, at least
 };
 
 /// Every static solver, in the order of `stillpoint list`.
 const std::vector<StaticMethodInfo>& static_methods();
 
-/// How one of Newton's methods solves K du = Q.
+/// The linear solver by which the Newton method of this name solves K du = Q.
 LinearSolver linear_solver_of(std::string_view name);
 
-/// Of that one of Newton's methods, with the load in equal shares.
+/// The options of the Newton method of this name, with the load in equal shares.
 NewtonOptions newton_options(std::string_view name, int load_steps);
 
-/// Newton's method with an inverse mass for its preconditioner; K is assembled, as it has had room before, for that
-/// mass. M outlives the options.
+/// Gives Newton's method an inverse mass as its preconditioner. K is assembled: making that mass already took room for
+/// it. M has to outlive the options.
 void precondition(NewtonOptions& options, const Mass& M);
 
-/// y = [u; 0]. What points remember is committed at the end of each increment of the load but the last.
-/// Throws std::invalid_argument for an unknown name, and if something touches the body.
+/// Makes the static solver for y = [u; 0]. The points' history is committed at the end of each load increment but the
+/// last. Throws std::invalid_argument for an unknown name, and if the body has contact.
 std::unique_ptr<Integrator> make_static_method(const StaticMethodOptions& options, RelaxationSystem& system);
 
-// One file each:
+// Each of these has a file of its own:
 std::unique_ptr<Integrator> make_cg(const StaticMethodOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_lbfgs(const StaticMethodOptions& options, RelaxationSystem& system);
 std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, RelaxationSystem& system);

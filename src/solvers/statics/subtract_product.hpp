@@ -1,4 +1,4 @@
-// What loads that follow the deformation take from a product with the tangent.
+// The share of loads that follow the deformation in a product with the tangent.
 #pragma once
 
 #include <stillpoint/types.hpp>
@@ -7,7 +7,7 @@
 
 namespace stillpoint {
 
-/// y −= s A x
+/// Computes y −= s A x.
 inline void subtract_product(double s, const Eigen::SparseMatrix<double>& A, ConstVec x, Vec y) {
   if (A.nonZeros() == 0) return;
   const auto n = static_cast<Eigen::Index>(x.size());
