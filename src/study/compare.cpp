@@ -41,12 +41,13 @@ Spread spread_of(std::vector<double> values) {
 /// One comparison, from the scene to its rows.
 class Comparing {
  public:
-  Comparing(std::filesystem::path scene, std::vector<std::string> overrides, const CompareOptions& options)
-      : file_(std::move(scene)), overrides_(std::move(overrides)), options_(options), scene_(load({})) {
+  Comparing(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
+            const CompareOptions& options)
+      : options_(options), scene_(load_scene(scene, overrides)) {
     result_.scene = scene_.name;
     result_.title = scene_.title;
     result_.scene_text = scene_.text;
-    result_.overrides = overrides_;
+    result_.overrides = overrides;
     result_.goal = options_.goal;
     result_.threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
     result_.chooses_threads = options_.threads == 0 && result_.threads > 1;
@@ -72,20 +73,6 @@ class Comparing {
   }
 
  private:
-  Scene load(const std::vector<std::string>& more) const {
-    std::vector<std::string> all = overrides_;
-    all.insert(all.end(), more.begin(), more.end());
-    return load_scene(file_, all);
-  }
-  // Settings by the user for strategies that take them are kept from other candidates.
-  Scene load_for(const Candidate& candidate) const {
-    std::vector<std::string> all;
-    for (const std::string& given : overrides_) {
-      if (takes(candidate.run.strategy, given.substr(0, given.find_first_of(" \t=")))) all.push_back(given);
-    }
-    all.insert(all.end(), candidate.overrides.begin(), candidate.overrides.end());
-    return load_scene(file_, all);
-  }
   double end_time() const { return scene_.stop.time; }
 
   // Without a reference nothing is compared: an interrupt here is an interrupt of every candidate.
@@ -94,7 +81,7 @@ class Comparing {
     const ThreadScope threads(threads_of_solvers_);
     try {
       if (result_.transient) return find_transient_reference();
-      find_equilibrium();
+      located(scene_, [&] { find_equilibrium(); });
       measure_spectrum();
       if (options_.overshoot) find_ramp();
     } catch (const Stopped&) {
@@ -145,8 +132,7 @@ class Comparing {
     result_.dofs = phase->size();
     result_.points = phase->points();
     store_.give_back(scene_.mass, std::move(phase));
-    const auto loading = [&](const std::vector<std::string>& more) { return load(more); };
-    transient_ = transient_reference(scene_, loading, store_);
+    transient_ = transient_reference(scene_, store_);
     result_.reference = transient_->what;
   }
 
@@ -171,7 +157,7 @@ class Comparing {
     }
     const StopScope scope(options_.interrupted);
     try {
-      const Scene scene = load_for(candidate);
+      const Scene scene = scene_of(candidate.run, scene_);
       const ThreadScope all(threads > 0 ? threads : result_.threads);  // the run may use fewer
       if (result_.transient)
         return run_transient(scene, *transient_, threads, options_.interrupted, store_, candidate.run);
@@ -263,7 +249,7 @@ class Comparing {
         --total_;
         continue;
       }
-      const Scene scene = load_for(candidate);
+      const Scene scene = scene_of(candidate.run, scene_);
       if (candidate.is_newton) {
         ComparedRun again = candidate.run;
         seconds_[k].push_back(solve(scene, threads_of_solvers_, again));
@@ -286,8 +272,6 @@ class Comparing {
     if (options_.progress) options_.progress({done_, total_, what, wall_.seconds()});
   }
 
-  std::filesystem::path file_;
-  std::vector<std::string> overrides_;
   const CompareOptions& options_;
   Scene scene_;
   Comparison result_;

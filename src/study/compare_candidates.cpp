@@ -77,28 +77,35 @@ void add_multigrid(std::vector<std::string>& strategies) {
   }
 }
 
-Candidate stepping(const Scene& scene, const StrategyInfo& info, const std::string& integrator,
-                   std::optional<double> fraction, std::optional<double> rtol) {
-  const std::string strategy(info.name);
+Candidate stepping(const StrategyInfo& info, const std::string& integrator, std::optional<double> fraction,
+                   std::optional<double> rtol) {
   Candidate candidate;
-  candidate.run.strategy = strategy;
+  candidate.run.strategy = std::string(info.name);
   candidate.run.integrator = method_of(integrator);
   candidate.run.step_fraction = fraction;
   candidate.run.rtol = rtol;
-  candidate.overrides = {"damping.strategy=" + strategy, "integrator.method=" + candidate.run.integrator};
-  // A number in the scene belongs to the scene's own strategy.
-  if (info.uses("c") && strategy != scene.damping.strategy) candidate.overrides.emplace_back("damping.c=critical");
-  if (fraction) candidate.overrides.push_back(fmt::format("integrator.step_fraction={:.17g}", *fraction));
-  if (rtol) candidate.overrides.push_back(fmt::format("integrator.rtol={:.17g}", *rtol));
   return candidate;
+}
+
+void take_strategy(const ComparedRun& run, const StrategyInfo& info, Problem& problem) {
+  IntegratorSpec& integrator = problem.integrator;
+  // A number in the scene belongs to the scene's own strategy.
+  if (info.uses("c") && run.strategy != problem.damping.strategy) problem.damping.c.reset();
+  problem.solve = {};
+  problem.damping.strategy = run.strategy;
+  integrator.method = run.integrator;
+  if (run.step_fraction || info.has_own_step) integrator.step.reset();
+  if (info.has_own_step) integrator.step_fraction = IntegratorSpec().step_fraction;
+  if (run.step_fraction) integrator.step_fraction = *run.step_fraction;
+  if (run.rtol) integrator.rtol = run.rtol;
 }
 
 }  // namespace
 
-std::vector<Candidate> candidates(const CompareOptions& options, const Scene& scene, bool transient) {
+std::vector<Candidate> candidates(const CompareOptions& options, const Problem& problem, bool transient) {
   std::vector<std::string> strategies = options.strategies;
   if (transient && strategies.empty()) {
-    strategies = {scene.damping.strategy};
+    strategies = {problem.damping.strategy};
   } else if (strategies.empty()) {
     for (const StrategyInfo& info : catalogue().strategies) {
       const bool does_something = info.is_relaxation || !info.keys.empty();
@@ -117,7 +124,7 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
   std::vector<Candidate> all;
   const auto add = [&](Candidate candidate, bool multigrid) {
     candidate.is_extra = multigrid && options.strategies.empty();
-    if (multigrid) candidate.run.mass = "multigrid", candidate.overrides.emplace_back("mass.kind=multigrid");
+    if (multigrid) candidate.run.mass = "multigrid";
     all.push_back(std::move(candidate));
   };
   for (const std::string& given : strategies) {
@@ -127,7 +134,6 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
       Candidate candidate;
       candidate.run.strategy = strategy;
       candidate.is_newton = method->is_newton;
-      candidate.overrides = {"solve.method=" + strategy};
       add(std::move(candidate), multigrid);
       continue;
     }
@@ -141,13 +147,13 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
       if (!of_interest) continue;
       if (is_adaptive(integrator)) {
         for (const double rtol : options.tolerances) {
-          add(stepping(scene, info, integrator, std::nullopt, rtol), multigrid);
+          add(stepping(info, integrator, std::nullopt, rtol), multigrid);
         }
       } else if (info.has_own_step) {
-        add(stepping(scene, info, integrator, std::nullopt, std::nullopt), multigrid);
+        add(stepping(info, integrator, std::nullopt, std::nullopt), multigrid);
       } else {
         for (const double fraction : options.step_fractions) {
-          add(stepping(scene, info, integrator, fraction, std::nullopt), multigrid);
+          add(stepping(info, integrator, fraction, std::nullopt), multigrid);
         }
       }
     }
@@ -159,13 +165,16 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Scene& sc
   return all;
 }
 
-bool takes(const std::string& strategy, const std::string& key) {
-  if (key == "solve.load_steps") return catalogue().static_method(strategy) != nullptr;
-  const StrategyInfo* info = catalogue().strategy(strategy);
-  if (!info) return !key.starts_with("damping.") && !key.starts_with("integrator.");  // a static solver
-  if (key == "integrator.step" || key == "integrator.step_fraction") return !info->has_own_step;
-  const std::string table = "damping.";
-  return !key.starts_with(table) || key == "damping.strategy" || info->takes(key.substr(table.size()));
+Scene scene_of(const ComparedRun& run, Scene scene) {
+  Problem& problem = scene;
+  if (!run.mass.empty()) problem.mass.kind = MassKind::multigrid;
+  if (const StrategyInfo* const info = catalogue().strategy(run.strategy)) {
+    take_strategy(run, *info, problem);
+  } else {
+    problem.solve.method = run.strategy;
+  }
+  problem = located(scene, [&] { return resolve(problem); });
+  return scene;
 }
 
 }  // namespace stillpoint

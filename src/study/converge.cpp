@@ -13,6 +13,7 @@
 
 #include "base/stopwatch.hpp"
 #include "scene/longest_cell.hpp"
+#include "scene/throw_scene_error.hpp"
 #include "study/common_places.hpp"
 #include "study/error_sources.hpp"
 #include "study/kept_runs.hpp"
@@ -26,13 +27,14 @@ namespace {
 
 /// One of the independent runs that are done side by side; results do not depend on how many there are.
 struct Job {
-  std::vector<std::string> set;  // overrides in addition to those of the user
-  std::string doing, name;       // progress text; name under which the run is kept
+  Settings set;             // in addition to what the user has set
+  std::string doing, name;  // progress text; name under which the run is kept
   LevelRun run{};
   bool is_done = false;
 };
 
-std::vector<std::string> both(std::vector<std::string> first, const std::vector<std::string>& second) {
+template <class T>
+std::vector<T> both(std::vector<T> first, const std::vector<T>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
@@ -49,12 +51,10 @@ std::string file_name_of(const std::vector<std::string>& varied) {
 /// One series of levels.
 class Converging {
  public:
-  Converging(std::filesystem::path file, const std::vector<std::string>& overrides,
+  Converging(const std::filesystem::path& file, const std::vector<std::string>& overrides,
              const std::vector<std::string>& varied, const ConvergeOptions& options)
-      : file_(std::move(file)),
-        overrides_(both(overrides, varied)),
-        options_(options),
-        scene_(load({})),
+      : options_(options),
+        scene_(load_scene(file, both(overrides, varied))),
         kept_(options_.keep, options_.resumes, scene_) {
     study_.scene = scene_.name;
     study_.title = scene_.title;
@@ -64,9 +64,10 @@ class Converging {
     study_.refined = options_.refine;
     study_.ratio = options_.ratio;
     for (int k = 0; k < options_.levels; ++k) {
-      std::vector<std::string> set;
+      Settings set;
       for (const Refinement refinement : options_.refine)
-        std::ranges::move(refined(scene_, refinement, std::pow(options_.ratio, k)), std::back_inserter(set));
+        std::ranges::move(located(scene_, [&] { return refined(scene_, refinement, std::pow(options_.ratio, k)); }),
+                          std::back_inserter(set));
       levels_.push_back(
           {.set = std::move(set), .doing = fmt::format("level {}", k + 1), .name = fmt::format("level-{}", k + 1)});
     }
@@ -100,14 +101,12 @@ class Converging {
   }
 
  private:
-  Scene load(const std::vector<std::string>& more) const { return load_scene(file_, both(overrides_, more)); }
-
   // Chooses places in the cells of the finest level at which they are not too many to read.
   void choose_places() {
     if (has_same_points(options_.refine) || scene_.exact.known()) return;
     constexpr double most = 2e5;
     for (auto level = levels_.rbegin(); level != levels_.rend() && !places_; ++level)
-      if (const Scene scene = load(level->set); count_of_places(scene) <= most) places_ = common_places(scene);
+      if (const Scene scene = with(scene_, level->set); count_of_places(scene) <= most) places_ = common_places(scene);
     if (!places_) places_ = common_places(scene_);
   }
 
@@ -117,7 +116,7 @@ class Converging {
 
   void find_kept(Job& job) {
     job.name = file_name_of(study_.varied) + job.name;
-    auto kept = kept_.find(job.name, job.set);
+    auto kept = kept_.find(job.name, texts_of(job.set));
     const bool at_other_places =
         kept && places_ && !kept->volume.empty() && kept->volume.size() != places_->size();  // of other levels
     if (!kept || at_other_places) return;
@@ -130,14 +129,14 @@ class Converging {
     side_by_side(options_.threads > 0 ? options_.threads : omp_get_max_threads(), jobs.size(), [&](std::size_t k) {
       Job& job = jobs[jobs.size() - 1 - k];
       if (!job.is_done && !is_interrupted()) {
-        job.run = run_level(load(job.set), places_ ? &*places_ : nullptr, options_.interrupted);
-        job.run.level.set = job.set;
+        job.run = run_level(with(scene_, job.set), places_ ? &*places_ : nullptr, options_.interrupted);
+        job.run.level.set = texts_of(job.set);
         // Errors relative to the exact solution are already computed: these arrays serve nothing else.
         if (!has_same_points(options_.refine) && !places_) job.run.u = job.run.stress = job.run.volume = {};
         kept_.keep(job.name, job.run);
         job.is_done = job.run.is_there;
       }
-      job.run.level.set = job.set;
+      job.run.level.set = texts_of(job.set);
       done(job.doing);
     });
     study_.finished_runs += static_cast<std::size_t>(std::ranges::count_if(jobs, &Job::is_done));
@@ -146,7 +145,7 @@ class Converging {
   void gather_levels() {
     for (Job& job : levels_) {
       ConvergenceLevel& level = job.run.level;
-      const Scene scene = load(job.set);
+      const Scene scene = with(scene_, job.set);
       level.h = longest_cell(scene.grid);
       level.size = size_of(scene, options_.refine.front(), level.step);
       study_.levels.push_back(level);
@@ -164,8 +163,8 @@ class Converging {
   // Adds the runs in which one source of error at a time is refined, at the finest level but one.
   void add_sources() {
     if (!options_.finds_dominant || levels_.size() < 2) return;
-    const std::vector<std::string>& base = levels_[levels_.size() - 2].set;
-    for (const RefinedSource& source : other_sources(load(base), options_.refine)) {
+    const Settings& base = levels_[levels_.size() - 2].set;
+    for (const RefinedSource& source : other_sources(with(scene_, base), options_.refine)) {
       sources_.push_back({.set = both(base, source.set),
                           .doing = source.name,
                           .name = fmt::format("level-{}-source-{}", levels_.size() - 1, sources_.size() + 1)});
@@ -202,8 +201,6 @@ class Converging {
 
   bool is_interrupted() const { return options_.interrupted && options_.interrupted(); }
 
-  std::filesystem::path file_;
-  std::vector<std::string> overrides_;
   const ConvergeOptions& options_;
   Scene scene_;
   KeptRuns kept_;
@@ -218,7 +215,8 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Variation>&
   for (const Variation& variation : varied) {
     std::vector<std::vector<std::string>> longer;
     for (const std::vector<std::string>& set : all)
-      for (const std::string& value : variation.values) longer.push_back(both(set, {variation.key + "=" + value}));
+      for (const std::string& value : variation.values)
+        longer.push_back(both<std::string>(set, {variation.key + "=" + value}));
     all = std::move(longer);
   }
   return all;

@@ -42,7 +42,9 @@ std::vector<RefinedSource> other_sources(const Problem& problem, const std::vect
   if (problem.stop.wants_equilibrium() && problem.stop.residual > 0) {
     constexpr double tighter = 100, tightest = 1e-12;
     const double residual = std::max(tightest, problem.stop.residual / tighter);
-    sources.push_back({"the relaxation's stop", {fmt::format("stop.residual={:.3g}", residual)}});
+    sources.push_back({"the relaxation's stop",
+                       {{fmt::format("stop.residual={:.3g}", residual),
+                         [residual](Problem& finer) { finer.stop.residual = residual; }}}});
   }
   return sources;
 }

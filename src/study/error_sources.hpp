@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "study/setting.hpp"
+
 namespace stillpoint {
 
-/// A source of error, and the settings, "key=value", that reduce it alone.
+/// A source of error, and the settings that reduce it alone.
 struct RefinedSource {
   std::string name;
-  std::vector<std::string> set;
+  Settings set;
 };
 
 /// The sources of a scene's error, except those that are refined from level to level.

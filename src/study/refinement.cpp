@@ -20,22 +20,24 @@ constexpr std::array<std::pair<Refinement, std::string_view>, 5> names = {{{Refi
                                                                            {Refinement::rtol, "rtol"},
                                                                            {Refinement::motion, "motion"}}};
 
-std::string times(const std::vector<int>& counts, double factor) {
-  std::vector<long> finer;
-  for (const int count : counts) finer.push_back(std::lround(count * factor));
-  return fmt::format("[{}]", fmt::join(finer, ", "));
+std::vector<int> times(const std::vector<int>& counts, double factor) {
+  std::vector<int> finer;
+  for (const int count : counts) finer.push_back(static_cast<int>(std::lround(count * factor)));
+  return finer;
 }
 
-std::vector<std::string> more_points(const Problem& problem, double factor) {
-  std::vector<std::string> set;
+Settings more_points(const Problem& problem, double factor) {
+  Settings settings;
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
     const std::string table = problem.bodies.size() > 1 ? fmt::format("body[{}]", k) : "body";
     if (!problem.bodies[k].file.empty())
       throw_scene_error(table + ".file",
                         "points of a file cannot be refined by the study; expected a body that is filled with points");
-    set.push_back(fmt::format("{}.points_per_cell={}", table, times(problem.bodies[k].points_per_cell, factor)));
+    const std::vector<int> points = times(problem.bodies[k].points_per_cell, factor);
+    settings.push_back({fmt::format("{}.points_per_cell=[{}]", table, fmt::join(points, ", ")),
+                        [k, points](Problem& finer) { finer.bodies[k].points_per_cell = points; }});
   }
-  return set;
+  return settings;
 }
 
 }  // namespace
@@ -49,25 +51,36 @@ std::optional<Refinement> refinement_of(std::string_view name) {
   return found == names.end() ? std::nullopt : std::optional(found->first);
 }
 
-std::vector<std::string> refined(const Problem& problem, Refinement refinement, double factor) {
+Settings refined(const Problem& problem, Refinement refinement, double factor) {
+  const auto one = [](const std::string& key, double value, auto&& apply) -> Settings {
+    return {{fmt::format("{}={:.17g}", key, value), [value, apply](Problem& finer) { apply(finer, value); }}};
+  };
   switch (refinement) {
-    case Refinement::h:
-      return {"grid.cells=" + times(problem.grid.cells, factor)};
+    case Refinement::h: {
+      const std::vector<int> cells = times(problem.grid.cells, factor);
+      return {{fmt::format("grid.cells=[{}]", fmt::join(cells, ", ")),
+               [cells](Problem& finer) { finer.grid.cells = cells; }}};
+    }
     case Refinement::points:
       return more_points(problem, factor);
     case Refinement::step:
       if (problem.solve.is_static())
         throw_scene_error("solve.method", "a static solver takes no steps in time; expected \"relaxation\"");
-      if (problem.integrator.step) return {fmt::format("integrator.step={:.17g}", *problem.integrator.step / factor)};
-      return {fmt::format("integrator.step_fraction={:.17g}", problem.integrator.step_fraction / factor)};
+      if (problem.integrator.step)
+        return one("integrator.step", *problem.integrator.step / factor,
+                   [](Problem& finer, double step) { finer.integrator.step = step; });
+      return one("integrator.step_fraction", problem.integrator.step_fraction / factor,
+                 [](Problem& finer, double share) { finer.integrator.step_fraction = share; });
     case Refinement::rtol:
       if (!problem.integrator.rtol)
         throw_scene_error("integrator", "there is no rtol to refine; expected integrator.rtol");
-      return {fmt::format("integrator.rtol={:.17g}", *problem.integrator.rtol / factor)};
+      return one("integrator.rtol", *problem.integrator.rtol / factor,
+                 [](Problem& finer, double rtol) { finer.integrator.rtol = rtol; });
     default:
       if (!problem.phase.ends_by_motion() || problem.phase.max_motion == 0)
         throw_scene_error("phase", "there is no max_motion to refine; expected phase.max_motion above 0");
-      return {fmt::format("phase.max_motion={:.17g}", problem.phase.max_motion / factor)};
+      return one("phase.max_motion", problem.phase.max_motion / factor,
+                 [](Problem& finer, double motion) { finer.phase.max_motion = motion; });
   }
 }
 

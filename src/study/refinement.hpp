@@ -3,14 +3,13 @@
 
 #include <stillpoint/converge.hpp>
 
-#include <string>
-#include <vector>
+#include "study/setting.hpp"
 
 namespace stillpoint {
 
-/// The settings, "key=value", that make the refined quantity `factor` times finer than in the scene. Throws SceneError
+/// The settings that make the refined quantity `factor` times finer than in the scene. Throws SceneError
 /// if the scene has no such quantity.
-std::vector<std::string> refined(const Problem& problem, Refinement refinement, double factor);
+Settings refined(const Problem& problem, Refinement refinement, double factor);
 
 /// The size of the refined quantity in a scene that took steps of `step` [s].
 double size_of(const Problem& problem, Refinement refinement, double step);

@@ -48,18 +48,18 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
 
 }  // namespace
 
-TransientReference transient_reference(const Problem& problem,
-                                       const std::function<Problem(const std::vector<std::string>&)>& load,
-                                       SetUpStore& store) {
+TransientReference transient_reference(const Problem& problem, SetUpStore& store) {
   std::unique_ptr<LagrangianPhase> phase = store.phase(problem).phase;
   const StrategyInfo& strategy = *catalogue().strategy(problem.damping.strategy);
   const bool smooth = !phase->history_dependent() && !phase->contact() && !phase->info().updated_lagrangian &&
                       !strategy.is_local && !strategy.is_relaxation;
   store.give_back(problem.mass, std::move(phase));
-  const std::vector<std::string> overrides =
-      smooth ? std::vector<std::string>{"integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-11"}
-             : std::vector<std::string>{"integrator.method=leapfrog", "integrator.step_fraction=0.0625"};
-  Ended ended = follow(load(overrides), 0, store);
+  Problem accurate = problem;
+  accurate.integrator.step.reset();
+  accurate.integrator.method = smooth ? "erk:fehlberg-13-7-8" : "leapfrog";
+  accurate.integrator.rtol = smooth ? std::optional(1e-11) : std::nullopt;
+  if (!smooth) accurate.integrator.step_fraction = 1.0 / 16;
+  Ended ended = follow(accurate, 0, store);
   if (ended.summary.status != RunStatus::end_time) {
     throw std::runtime_error("the reference of the transient did not reach stop.time: " + ended.summary.reason);
   }

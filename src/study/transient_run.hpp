@@ -17,11 +17,8 @@ struct TransientReference {
 };
 
 /// The motion with the scene's own damping: by an integrator of order 7 at rtol 1e-11 if it is smooth, by leapfrog at a
-/// sixteenth of the critical step if there are history-dependent laws, contact or several phases. load: gives the scene
-/// with additional overrides.
-TransientReference transient_reference(const Problem& problem,
-                                       const std::function<Problem(const std::vector<std::string>&)>& load,
-                                       SetUpStore& store);
+/// sixteenth of the critical step if there are history-dependent laws, contact or several phases.
+TransientReference transient_reference(const Problem& problem, SetUpStore& store);
 
 /// Fills the row, with a single sample at stop.time. Returns the wall time of the steps [s].
 double run_transient(const Problem& problem, const TransientReference& reference, int threads,

@@ -1,0 +1,23 @@
+// A value that a study gives a problem.
+#pragma once
+
+#include <stillpoint/scene.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+struct Setting {
+  std::string text;  // as --set would write it, "grid.cells=[40, 20]": for the record
+  std::function<void(Problem&)> apply;
+};
+using Settings = std::vector<Setting>;
+
+/// The scene with these values, resolved and checked anew; its file is not read again. Throws SceneError.
+Scene with(Scene scene, const Settings& settings);
+
+std::vector<std::string> texts_of(const Settings& settings);
+
+}  // namespace stillpoint
