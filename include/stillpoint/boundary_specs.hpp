@@ -1,4 +1,4 @@
-// What holds or loads a body, as a scene says it.
+// The specifications of supports, walls and loads, as a scene gives them.
 #pragma once
 
 #include <stillpoint/choice.hpp>
@@ -13,47 +13,53 @@
 namespace stillpoint {
 
 struct SupportSpec {                  // [[support]]: u = motion(X, t) at a position, or on a face of the grid
-  std::string name{};                 // for its reaction in history.csv and summary.json; empty: not reported
-  std::vector<double> at{};           // [m]; empty: on the face
-  std::optional<Face> face{};         // of the grid
-  std::vector<double> from{}, to{};   // the part of the face that is held, along its axes [m]; empty: to its ends
-  bool roller = false;                // on a face: only `component` is held, otherwise the others too (at 0)
-  Choice<int> component{};            // that moves; on a face its normal, unless another is asked for, and held alone
-  Expression motion{};                // of the position before the motion and of t [m]; 0: fixed
-  std::optional<double> stiffness{};  // of a spring that holds: at a position [N/m], on a face per area [N/m³]
+  std::string name{};                 // reports the support's reaction in history.csv and summary.json under this name;
+                                      // empty: not reported
+  std::vector<double> at{};           // position of a point support [m]; empty: the support is on `face`
+  std::optional<Face> face{};         // the face of the grid that is held
+  std::vector<double> from{}, to{};   // the ends of the held part of the face, along its axes [m]; empty: to the face's
+                                      // ends
+  bool roller = false;                // on a face: only `component` is held, otherwise the other components too (at 0)
+  Choice<int> component{};            // component that `motion` drives; on a face its normal by default; one asked for
+                                      // there is held alone
+  Expression motion{};                // prescribed displacement, a formula of the undeformed position and t [m]; 0:
+                                      // fixed
+  std::optional<double> stiffness{};  // stiffness of an elastic support: at a position [N/m], on a face per area [N/m³]
 
   bool on_part() const { return !from.empty() || !to.empty(); }
   bool holds_one_component() const { return face && (roller || component.is_asked()); }
 };
 
-struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, that pushes and never pulls
+struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, which pushes and never pulls
   std::string name;
   Face face = Face::right;
-  Expression motion;    // of t [m], along the face's coordinate
+  Expression motion;    // displacement along the face's coordinate, a formula of t [m]
   double friction = 0;  // Coulomb's coefficient: |T| ≤ friction · N; infinite: rough
 };
 
 struct PointForceSpec {           // [[force]]
-  std::vector<double> at;         // [m]
-  std::vector<Expression> value;  // of t [N]
+  std::vector<double> at;         // point of application [m]
+  std::vector<Expression> value;  // components of the force, formulas of t [N]
 };
 
 struct TractionSpec {                          // [[traction]]: a load on the border of a body
-  std::optional<Face> face;                    // of the one body, a box
-  std::vector<double> from = {}, to = {};      // in space the part of the face, along its axes [m]; empty: to its ends
-  std::vector<std::vector<double>> line = {};  // or on a straight side that holds both ends, (2 × 2) [m]
-  std::optional<BodySurface> surface = {};     // or of the one body in space, if that is no box
-  // Of the position before the motion and of t:
-  std::vector<Expression> value;       // per undeformed area [Pa]; it keeps its direction
-  std::optional<Expression> pressure;  // per deformed area [Pa], instead of value: it follows the face's normal
+  std::optional<Face> face;                    // the loaded face of the only body, which is a box
+  std::vector<double> from = {}, to = {};      // in space, the loaded part of the face, along its axes [m]; empty: to
+                                               // its ends
+  std::vector<std::vector<double>> line = {};  // or a straight side given by its two ends, (2 × 2) [m]
+  std::optional<BodySurface> surface = {};     // or a surface of the only body in space, if that is not a box
+  // The load, formulas of the undeformed position and t:
+  std::vector<Expression> value;       // traction per undeformed area [Pa]; it keeps its direction
+  std::optional<Expression> pressure;  // pressure per deformed area [Pa], instead of value: it follows the face's
+                                       // normal
 
   /// The components of value, or the pressure alone.
   std::span<const Expression> formulas() const { return pressure ? std::span(&*pressure, 1) : std::span(value); }
 };
 
-struct LoadSpec {               // [load]: loads in one proportion, driven by a displacement
-  Expression displacement;      // of t: their mean displacement, Σ F·u/Σ |F| [m]
-  std::vector<std::string> of;  // "traction[0]", "force[1]", "body_force"; empty: all
+struct LoadSpec {               // [load]: proportional loads, scaled so as to reach a prescribed displacement
+  Expression displacement;      // mean displacement of the loads, Σ F·u/Σ |F| [m], a formula of t
+  std::vector<std::string> of;  // the loads scaled: "traction[0]", "force[1]", "body_force"; empty: all
 };
 
 struct BoundarySpecs {
@@ -61,13 +67,14 @@ struct BoundarySpecs {
   std::vector<WallSpec> walls;
   std::vector<PointForceSpec> forces;
   std::vector<TractionSpec> tractions;
-  std::vector<Expression> body_force;  // of x, y, z, t; per mass [m/s²]; empty: none
-  std::string own_load;                // the name of a body force that the program adds to it (own_load.hpp); or empty
-  std::optional<LoadSpec> load;        // of these forces, tractions and body forces
+  std::vector<Expression> body_force;  // formulas of x, y, z, t; per mass [m/s²]; empty: none
+  std::string own_load;                // name of a body force that the program adds to body_force (own_load.hpp); or
+                                       // empty
+  std::optional<LoadSpec> load;        // scaling of these forces, tractions and body forces
 
   bool has_body_force() const { return !body_force.empty() || !own_load.empty(); }
 
-  /// visit(key, formula) for each formula of these.
+  /// Calls visit(key, formula) for each formula of the specifications.
   template <class Visit>
   void for_each_formula(const Visit& visit) const {
     const auto key = [](const char* table, std::size_t k, const char* name) {

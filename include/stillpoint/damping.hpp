@@ -26,33 +26,33 @@ struct LinearDamping {
 class Damping {
  public:
   virtual ~Damping() = default;
-  /// C, so that integrators can treat it implicitly.
+  /// The linear part C, so that integrators can treat it implicitly.
   virtual LinearDamping linear() const { return {}; }
-  /// Whether add_local() does anything; then the right-hand side is discontinuous in v.
+  /// Whether add_local() has an effect; the right-hand side is then discontinuous in v.
   virtual bool is_local() const { return false; }
-  /// Whether add_local() may be given a part of the degrees of freedom at a time, from several threads at once.
+  /// Whether add_local() may be given some of the degrees of freedom at a time, from several threads at once.
   virtual bool goes_by_pieces() const { return true; }
-  /// Q += D(v, Q), degree of freedom by degree of freedom; v, Q: (n).
+  /// Adds the local damping force, Q += D(v, Q), for each degree of freedom by itself; v, Q: (n).
   virtual void add_local(ConstVec /*v*/, Vec /*Q*/) const {}
-  /// Whether D also needs Q of the last accepted step, as for the sign of dQ/dt; then add_local_since() is called in
-  /// place of add_local(). Of the integrators only those with one force evaluation a step can give it.
+  /// Whether D also needs Q of the last accepted step, as for the sign of dQ/dt; add_local_since() is then called in
+  /// place of add_local(). Only integrators with one force evaluation a step can provide it.
   virtual bool uses_last_force() const { return false; }
-  /// Q += D(v, Q − Q_last, Q); v, Q_last, Q: (n).
+  /// Adds the local damping force that needs the last force, Q += D(v, Q − Q_last, Q); v, Q_last, Q: (n).
   virtual void add_local_since(ConstVec /*v*/, ConstVec /*Q_last*/, Vec /*Q*/) const {}
-  /// The largest |Q + D|/|Q|: by this the critical step sees the stiffness grow (1 + α for Cundall's).
+  /// The largest |Q + D|/|Q|, the factor by which the critical step takes the stiffness to grow (1 + α for Cundall's).
   virtual double stiffness_factor() const { return 1; }
 };
 
-/// Every damping, in the order of `stillpoint list dampings`.
+/// All dampings, in the order of `stillpoint list dampings`.
 const std::vector<StrategyInfo>& dampings();
 
-/// Whether damping.strategy leaves the motion alone.
+/// Whether this strategy leaves the motion undamped.
 bool is_undamped(std::string_view strategy);
 
 /// Makes a damping by its name; c for viscous and identity, alpha for one-sided, cundall and combined.
 /// Throws std::invalid_argument on an unknown name or a parameter out of range (c < 0, α outside [0, 1)).
 std::unique_ptr<Damping> make_damping(std::string_view name, double c, double alpha);
-/// No damping force, as under a relaxation, which finds its own way to rest.
+/// Makes an absent damping force, as under a relaxation, which finds its own way to rest.
 std::unique_ptr<Damping> no_damping();
 
 }  // namespace stillpoint

@@ -34,11 +34,11 @@ struct DruckerPragerParameters {
 
   double E, nu = 0;                                          // [Pa], [1]
   double phi = 0, psi = 0, c = 0;                            // friction and dilatancy [degrees], cohesion [Pa]
-  Cone cone = Cone::plane_strain;                            // how it is matched to Mohr–Coulomb's φ, ψ and c
+  Cone cone = Cone::plane_strain;                            // how the cone is matched to Mohr–Coulomb's φ, ψ and c
   double fluidity = 0;                                       // β [1/(Pa s)]; 0: rate-independent
   double tension = std::numeric_limits<double>::infinity();  // p_cut [Pa]; above the apex: the apex
   double phi_residual = as_peak, c_residual = as_peak;       // [degrees], [Pa]
-  double softening_strain = 0;                               // γᵖ at which they are reached; 0: never
+  double softening_strain = 0;                               // γᵖ at which the residual values are reached; 0: never
 
   static DruckerPragerParameters from(const MaterialSpec& material) {
     const auto value = [&](const char* key) { return material.parameters.at(key); };
@@ -73,7 +73,7 @@ class DruckerPrager {
   }();
 
   template <class Number>
-  using Components = std::array<Number, gradient_components(S)>;  // of H and P
+  using Components = std::array<Number, gradient_components(S)>;  // components of H and P
 
   explicit DruckerPrager(const DruckerPragerParameters& m)
       : K_(m.E / (3 * (1 - 2 * m.nu))), G_(m.E / (2 * (1 + m.nu))), fluidity_(m.fluidity), tension_(m.tension) {
@@ -89,7 +89,8 @@ class DruckerPrager {
     softening_rate_ = m.softening_strain > 0 ? 1 / m.softening_strain : 0;
   }
 
-  /// Number: double, or a Dual, which carries derivatives through the return. History is of values alone.
+  /// P at the end of the increment. Number: double, or a Dual, which carries derivatives through the return; the
+  /// history holds plain values.
   template <class Number>
   Components<Number> first_piola(const Components<Number>& H, const Components<Number>& dH, double dt,
                                  History& next) const {
@@ -100,10 +101,11 @@ class DruckerPrager {
     }
   }
 
-  /// The strength of a step is that at its start, which softening takes from the stress at its end.
+  /// Whether a zero increment returns the committed stress: not under softening, as a step takes the strength at its
+  /// start, and that at its end is lower.
   bool stress_stays() const { return softening_rate_ == 0; }
   bool is_viscous() const { return fluidity_ > 0; }
-  /// Of the cone; the cut-off is never overstepped.
+  /// The yield state on the cone; the cut-off is never exceeded.
   YieldState yield_state(const History& now) const {
     const double p = (now[0] + now[1] + now[2]) / 3, x = now[0] - p, y = now[1] - p, z = now[2] - p;
     double J2 = (x * x + y * y + z * z) / 2;
@@ -123,9 +125,9 @@ class DruckerPrager {
     return first;
   }
 
-  /// Consistent with the return mapping [Simo and Taylor 1985]: the derivative of first_piola() to rounding, H and dH
-  /// changing alike. Symmetric only without stress and plastic flow: flow that is not associated is not, and the
-  /// elastic rate is one of σ and not of τ, which leaves σ/K.
+  /// The consistent tangent of the return mapping [Simo and Taylor 1985]: the derivative of first_piola() to rounding,
+  /// H and dH changing alike. It is symmetric only without stress and plastic flow: a flow that is not associated makes
+  /// it unsymmetric, and the elastic rate is one of σ and not of τ, which leaves a term of the size of σ/K.
   Moduli<S> moduli(const Gradient<S>& H, const Gradient<S>& dH, double dt, History now) const {
     constexpr std::size_t n = gradient_components(S);
     const auto P = first_piola(variables(H), variables(dH), dt, now);
@@ -136,9 +138,9 @@ class DruckerPrager {
     return A;
   }
 
-  // Elastic, with the committed stress: δσ = C : d + w σ − σ w. The trial's derivative has σ tr d besides. It is left
-  // out, as if Jaumann's rate of τ were the elastic one: ∂P/∂H is symmetric, frequencies are real, and σ/K of it is
-  // missing.
+  // The elastic rate from the committed stress: δσ = C : d + w σ − σ w. The derivative of the trial also has the term σ
+  // tr d, which is left out as if Jaumann's rate of τ were the elastic one: ∂P/∂H is then symmetric and frequencies are
+  // real, at an error of σ/K.
   Gradient<S> elastic_rate(const Gradient<S>& H, const Gradient<S>& dH, const History& now) const {
     const ElasticTrial at(H, now);
     return stress_rate<S>(inverse(at.f), at.tau, rate_at(at), dH);
@@ -237,19 +239,19 @@ class DruckerPrager {
   struct ConeAt {
     double eta, k;  // [1], [Pa]
   };
-  // The strength after γᵖ.
+  // The yield coefficients after softening to γᵖ.
   ConeAt cone_at(double plastic_strain) const {
     const double lost = plastic_strain * softening_rate_, share = lost < 1 ? lost : 1;
     return {eta_ + share * eta_change_, k_ + share * k_change_};
   }
 
-  /// Where the return ends: σ = p I + scale s_trial, and what is remembered beside it.
+  /// The result of the return mapping: σ = p I + scale s_trial, and the updated gap and γᵖ.
   template <class Number>
   struct Returned {
     Number p, scale;
     double gap, plastic_strain;
   };
-  // From the trial p_n + K (tr d + gap), √J₂.
+  // Returns the trial state p_n + K (tr d + gap), √J₂ to the cone or the cut-off.
   template <class Number>
   Returned<Number> returned(double p_n, const Number& tr_d, const Number& root_J2, double gap, double plastic_strain,
                             double dt) const {
@@ -285,7 +287,7 @@ class DruckerPrager {
       return at.J * (((K_ - 2 * G_ / 3) * trace(d)) * identity<Tensor> + 2 * G_ * d + w * at.sigma - at.sigma * w);
     };
   }
-  // Keeps 0/0 out of √J₂ = 0 and of φ = 0, whose apex is out of reach.
+  // Avoids 0/0 at √J₂ = 0 and at φ = 0, where the apex is infinitely far.
   static constexpr double tiny = 1e-300;
 
   template <class Number>
@@ -293,7 +295,7 @@ class DruckerPrager {
     return x > 0 ? x : Number(0);
   }
 
-  // d_θθ of the increment
+  // The hoop increment d_θθ.
   template <class Number>
   static Number hoop_increment(const Components<Number>& H, const Components<Number>& dH) {
     if constexpr (S == StressState::axisymmetric) {
@@ -303,7 +305,7 @@ class DruckerPrager {
     }
   }
 
-  // P = det(f) σ f⁻ᵀ = σ cof f;  NaN, through σ_xy, if f or g is turned inside out.
+  // P = det(f) σ f⁻ᵀ = σ cof f; NaN, through σ_xy, if f or g is turned inside out.
   template <class Number>
   static Components<Number> nominal_stress(const Components<Number>& H, const Number& det_g, const Number& xx,
                                            const Number& yy, const Number& zz, const Number& xy) {
@@ -321,7 +323,7 @@ class DruckerPrager {
 
   double K_, G_;                                   // [Pa]
   double eta_, k_, eta_bar_;                       // k = ξ c [Pa], at the peak
-  double eta_change_, k_change_, softening_rate_;  // to the residual, per γᵖ
+  double eta_change_, k_change_, softening_rate_;  // changes from peak to residual values, and their rate per γᵖ
   double fluidity_, tension_;
 };
 

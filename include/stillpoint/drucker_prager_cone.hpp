@@ -24,7 +24,7 @@ namespace stillpoint {
 
 enum class Cone { plane_strain, mean, compression, extension };
 
-/// The words for the cones in a scene.
+/// The names of the cones in a scene.
 inline constexpr std::array<std::pair<std::string_view, Cone>, 4> cone_words = {{{"plane-strain", Cone::plane_strain},
                                                                                  {"mean", Cone::mean},
                                                                                  {"compression", Cone::compression},
@@ -39,7 +39,7 @@ inline Cone cone_of(std::string_view word) {
 struct ConeCoefficients {
   double eta, xi, eta_bar;
 
-  // φ and ψ in degrees
+  // Coefficients of a cone for φ and ψ in degrees.
   static ConeCoefficients from(Cone cone, double phi, double psi) {
     constexpr double degree = std::numbers::pi / 180;
     const double sin_phi = std::sin(phi * degree), sin_psi = std::sin(psi * degree);

@@ -1,7 +1,7 @@
-// Forward-mode automatic differentiation: a number with its derivatives by N variables, carried along exactly,
+// Forward-mode automatic differentiation: a number with its derivatives by N variables, propagated exactly,
 //   (a + Σ a_k ε_k) (b + Σ b_k ε_k) = a b + Σ (a_k b + a b_k) ε_k,   ε_j ε_k = 0     [Griewank and Walther 2008, §3.1].
-// A formula written for any type of number gives its derivative when it is given these. A comparison compares values,
-// so that at a kink the derivative is that of the branch taken.
+// A formula written for any number type gives its derivative when it is evaluated with Duals. A comparison compares
+// values, so that at a kink the derivative is that of the branch taken.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct Dual {
   friend constexpr bool operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
 
  private:
-  // df = f_a da, and f_a da + f_b db
+  // The chain rule for a function of one argument, df = f_a da, or of two, df = f_a da + f_b db.
   constexpr Dual chain(double f, double f_a) const {
     Dual result(f);
     for (std::size_t k = 0; k < N; ++k) result.derivative[k] = f_a * derivative[k];
@@ -56,7 +56,7 @@ constexpr double value_of(const Dual<N>& x) {
   return x.value;
 }
 
-/// x as the variables themselves, ∂x_a/∂x_b = δ_ab.
+/// Independent variables with the values x: ∂x_a/∂x_b = δ_ab.
 template <std::size_t N>
 constexpr std::array<Dual<N>, N> variables(const std::array<double, N>& x) {
   std::array<Dual<N>, N> all;

@@ -11,7 +11,7 @@ namespace stillpoint {
 
 using Constants = std::map<std::string, double>;
 
-/// What is wrong with a formula, and where in it (0-based character; -1 where unknown).
+/// A fault in a formula and its position (0-based character; -1 if unknown).
 class ExpressionError : public std::runtime_error {
  public:
   ExpressionError(const std::string& what, int position) : std::runtime_error(what), position_(position) {}
@@ -21,13 +21,13 @@ class ExpressionError : public std::runtime_error {
   int position_;
 };
 
-/// Value semantics; evaluating is not for several threads at once on the same object.
+/// A formula with value semantics; one object must not be evaluated by several threads at once.
 class Expression {
  public:
   /// The constant 0.
   Expression();
   explicit Expression(double value);
-  /// variables: the names the formula may use, of "x", "y", "z", "t". Throws ExpressionError; also if the formula
+  /// variables: the names that the formula may use, of "x", "y", "z", "t". Throws ExpressionError, also if a formula
   /// without variables is not a finite number.
   Expression(const std::string& text, const Constants& constants, const std::string& variables = "xyzt");
   Expression(const Expression&);
@@ -42,7 +42,7 @@ class Expression {
   bool uses_position() const { return uses('x') || uses('y') || uses('z'); }
   bool constant() const { return !uses_position() && !uses('t'); }
   const std::string& text() const;
-  /// A formula of the same variables, and of the constants that this one names. Throws ExpressionError.
+  /// A formula in the same variables and the constants that this one may use. Throws ExpressionError.
   Expression with_text(const std::string& text) const;
 
  private:

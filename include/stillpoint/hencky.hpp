@@ -74,9 +74,9 @@ class Hencky {
   }
   Tensor kirchhoff(const LogStrain& ln) const { return stress(ln.strain(), ln.J); }
 
-  double uniaxial_;     // of one dimension [Pa]
-  double lambda_, mu_;  // of two and three [Pa]
-  double contraction_;  // −e of the free side (both of a bar's) per tr(e) of the others
+  double uniaxial_;     // τ/e in one dimension: E, or λ + 2μ [Pa]
+  double lambda_, mu_;  // in two and three dimensions [Pa]
+  double contraction_;  // −e of the free side (both sides of a bar) per tr(e) of the others
 };
 
 }  // namespace stillpoint

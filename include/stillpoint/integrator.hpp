@@ -33,14 +33,14 @@ struct IntegratorOptions {
   bool halts_at_energy_peaks = false;
 };
 
-/// What an iteration carries over from one phase to the next, whose unknowns are others.
+/// The state that an iteration carries over from one phase to the next, whose unknowns are different.
 struct CarriedOver {
-  double last_step = 0;        // v was known half of this ago [s]
-  std::optional<double> rate;  // the c found so far [1/s]
-  double step_share = 0;       // of the step given, that the relaxation came to; 0: its own first one
+  double last_step = 0;        // length of the last step; v belongs to half of it ago [s]
+  std::optional<double> rate;  // damping c found so far [1/s]
+  double step_share = 0;       // share of the given step that the relaxation has reached; 0: it takes its own first one
 };
 
-/// What one call of step() did.
+/// The outcome of one call of step().
 struct StepReport {
   enum class Status {
     ok,            // an accepted step
@@ -58,67 +58,71 @@ struct StepReport {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// Begins at (t, y), y: (2n), which stays the caller's and must outlive the integration.
+  /// Begins at (t, y), y: (2n), which belongs to the caller and must outlive the integration.
   virtual void start(double t, Vector& y) = 0;
   /// One accepted step, never past t_stop. A fixed step is the largest not above max_step of which a whole number
   /// reaches t_stop, so that equal steps land on every output time. After a failure y holds the last good state.
   virtual StepReport step(double t_stop) = 0;
-  /// Lowers or raises max_step from the next step on, if the critical step changes with the state. h > 0 [s].
+  /// Changes max_step from the next step on, if the critical step changes with the state. h > 0 [s].
   virtual void set_max_step(double h) = 0;
-  /// v in y was changed at the present t, as by a contact that closed; u was not.
+  /// Tells the integrator that v in y was changed at the present t, as by a contact that closed; u was not.
   virtual void velocity_changed() = 0;
-  /// u in y was changed as well, as by a contact that put back what had gone too far: the force is evaluated anew.
+  /// Tells the integrator that u in y was changed as well, as by a contact that corrected a penetration: the force is
+  /// evaluated anew.
   virtual void displacement_changed() = 0;
   /// Whether the system's last force evaluation was at the present (t, y), so that its residual costs nothing.
   virtual bool force_is_current() const { return false; }
-  /// ‖F − R‖ at the present (t, y) [N], if it was found on the way.
+  /// ‖F − R‖ at the present (t, y) [N]; empty unless the step computed it.
   virtual std::optional<double> unbalanced_force() const { return std::nullopt; }
-  /// M⁻¹p at the present y = [u; p], of a mass that is known by its inverse, if it was found on the way: (n) [m/s],
-  /// until the next step; else empty.
+  /// M⁻¹p at the present y = [u; p], for a mass known by its inverse: (n) [m/s], valid until the next step; empty
+  /// unless the step computed it.
   virtual ConstVec velocity() const { return {}; }
-  /// M⁻¹(F − R) at the present (t, y) [m/s²], likewise.
+  /// M⁻¹(F − R) at the present (t, y): (n) [m/s²], under the same conditions as velocity().
   virtual ConstVec acceleration() const { return {}; }
-  /// ω₁ [rad/s] of the motions that the loads drive, if its steps have come to tell; it may cost some of them.
+  /// Estimate of the lowest frequency ω₁ [rad/s] among the motions that the loads drive, if the steps so far allow one;
+  /// it may take further steps.
   virtual std::optional<double> lowest_frequency() const { return std::nullopt; }
-  /// The damping c at present [1/s], if a relaxation finds it on the way.
+  /// The present damping c [1/s], if the relaxation determines it as it goes.
   virtual std::optional<double> damping_rate() const { return std::nullopt; }
-  /// What an integrator of the same kind has to be given to carry on in the next phase.
+  /// The state that an integrator of the same kind needs to carry on in the next phase.
   virtual CarriedOver carried_over() const { return {}; }
-  /// Whether steps are iterates of a static solver: laws of the material remember the last one only.
+  /// Whether steps are iterates of a static solver, so that material laws remember only the last one.
   virtual bool static_iteration() const { return false; }
-  /// Saves what the next steps depend on beside (t, y) and the system, or restores it after a start() at the (t, y) of
-  /// then: unless Method::begins_anew, the same steps follow.
+  /// Saves what the next steps depend on beside (t, y) and the system, or restores it after a start() at the saved (t,
+  /// y): unless Method::begins_anew, the same steps follow.
   virtual void archive(const StateArchive& state) = 0;
   virtual long steps() const = 0;           // accepted
   virtual long rejected_steps() const = 0;  // tried and refused by the error control or as inadmissible
 };
 
-/// What is known of a method before it runs.
+/// The properties of a method that are known before it runs.
 struct Method : MethodInfo {
-  int order = 0;                      // of the fixed-step solution
-  int evaluations_per_step = 0;       // right-hand sides a fixed step costs when implemented right; 0: not fixed
-  bool remembers_force = false;       // knows Q of the last accepted step, as Damping::uses_last_force() needs
-  bool hosts_relaxations = false;     // relaxations are iterations in the place of its step
-  bool begins_anew = false;           // when restored: its library keeps what it remembers of steps to itself
+  int order = 0;                      // order of the fixed-step solution
+  int evaluations_per_step = 0;       // right-hand sides that a fixed step costs when implemented right; 0: not fixed
+  bool remembers_force = false;       // keeps Q of the last accepted step, as Damping::uses_last_force() needs
+  bool hosts_relaxations = false;     // relaxations may take the place of its step
+  bool begins_anew = false;           // on restoring it starts afresh: its library does not expose the steps that it
+                                      // remembers
   AmplificationRadius amplification;  // empty if it has none (multistep)
   OscillatorStep oscillator_step;     // empty if local damping limits its step by the stiffness factor alone
 };
 
-/// The largest h that is stable for every mode and damping [s]. With local damping and several stages a model of the
-/// body, on the safe side of what is seen: no more than without damping, as at some degrees of freedom it hardly ever
-/// acts, nor than for a single oscillator with omega_max, whose switches may keep time with the step. In a body they
-/// hardly do so everywhere at once: motions begin to grow there at up to twice as long a step.
+/// The largest h that is stable for every mode and damping [s]. With local damping and several stages it comes from a
+/// model of the body that is on the safe side of what is observed: no more than without damping, since at some degrees
+/// of freedom the damping hardly ever acts, nor than for a single oscillator with omega_max, whose sign changes may
+/// keep time with the step. In a body they hardly do so everywhere at once: motions begin to grow there at up to twice
+/// as long a step.
 double critical_step(const Method& method, const Damping& damping, const DampedSpectrum& spectrum);
 
-/// Every method on offer, in the order of `stillpoint list integrators`.
+/// All available methods, in the order of `stillpoint list integrators`.
 std::vector<Method> methods();
 /// One method by name; for leapfrog and symplectic-euler the treatment decides stability.
 /// Throws std::invalid_argument naming the nearest method if there is none of that name.
 Method find_method(std::string_view name, DampingTreatment treatment = DampingTreatment::automatic);
 
-/// Throws std::invalid_argument if options and method do not fit (a damping that does not go with it, rtol for a method
-/// without error estimate, a treatment that the method or the damping does not allow, max_step ≤ 0). The system
-/// outlives the integrator.
+/// Throws std::invalid_argument if options and method do not fit (a damping that does not go with the method, rtol for
+/// a method without error estimate, a treatment that the method or the damping does not allow, max_step ≤ 0). The
+/// system must outlive the integrator.
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system);
 
 }  // namespace stillpoint

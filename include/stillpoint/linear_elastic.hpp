@@ -57,8 +57,8 @@ class LinearElastic {
   }
 
  private:
-  double uniaxial_;     // of one dimension [Pa]
-  double lambda_, mu_;  // of two and three [Pa]
+  double uniaxial_;     // σ/ε in one dimension: E, or λ + 2μ [Pa]
+  double lambda_, mu_;  // in two and three dimensions [Pa]
 };
 
 }  // namespace stillpoint

@@ -1,5 +1,5 @@
-// The logarithmic strain e = ½ ln b, b = F Fᵀ, with its rate and the change of volume. All of it is taken from
-// H = F − I and B = b − I = H + Hᵀ + H Hᵀ, so that a strain far below the rounding of 1 keeps its digits.
+// The logarithmic strain e = ½ ln b, b = F Fᵀ, with its rate and the change of volume. All of it is computed from H = F
+// − I and B = b − I = H + Hᵀ + H Hᵀ, so that a strain far below the rounding of 1 keeps its digits.
 #pragma once
 
 #include <stillpoint/dual.hpp>
@@ -13,7 +13,8 @@
 
 namespace stillpoint {
 
-// In the plane, with the mean m = tr₂ b/2 of b's eigenvalues b₁, b₂ = m ± r, r = ‖dev₂ b‖/√2 and x = r/m,
+// The strain in the plane, with the mean m = tr₂ b/2 of the eigenvalues b₁, b₂ = m ± r of b, r = ‖dev₂ b‖/√2 and x =
+// r/m,
 //   ln b = ½ ln(b₁ b₂) I + a/m dev₂ b,   a = artanh(x)/x = 1 + x²/3 + x⁴/5 + …,
 // a smooth function of y = x², so that equal eigenvalues are no exception.
 template <StressState S>
@@ -47,17 +48,17 @@ struct PlaneLogStrain {
   auto rate() const {
     return [this](const PlaneTensor& l) { return rate(l); };
   }
-  // δe for δb = l b + b lᵀ
+  // The strain rate δe for δb = l b + b lᵀ.
   PlaneTensor rate(const PlaneTensor& l) const {
     const PlaneTensor db = l * b + b * transpose(l);
     const double dm = (db.xx + db.yy) / 2, dhalf = (db.xx - db.yy) / 2, dln = (l.xx + l.yy) / 2;
     const double dy = 2 * (dev.xx * dhalf + dev.xy * db.xy) / (m * m) - 2 * y * dm / m;
-    const double change = slope * dy / m - a * dm / (m * m);  // of a/m
+    const double change = slope * dy / m - a * dm / (m * m);  // change of a/m
     return PlaneTensor{dln, 0, 0, dln, l.zz} + change / 2 * dev +
            a / (2 * m) * PlaneTensor{dhalf, db.xy, db.xy, -dhalf, 0};
   }
 
-  // Below y = 0.01 the sums up to y⁸ are exact to rounding; above it the differences lose at most two digits.
+  // Below y = 0.01 the sums up to y⁸ are exact to rounding; above it the closed forms lose at most two digits.
   static constexpr double close_eigenvalues = 0.01;
   static double series(double y) {
     double sum = 1.0 / 17;
@@ -71,17 +72,18 @@ struct PlaneLogStrain {
   }
 };
 
-/// (I + B)^½ − I = B (I + Y)⁻¹, Y = (I + B)^½, of a B that is symmetric, with I + B positive definite; numbers or
+/// The matrix (I + B)^½ − I = B (I + Y)⁻¹, Y = (I + B)^½, for a symmetric B with I + B positive definite, of numbers or
 /// Duals.
 ///
 /// Y = (i₁ i₂ − i₃)⁻¹ (i₁ i₃ I + (i₁² − i₂) C − C²) with C = I + B, from the invariants of Y [Hoger and Carlson 1984]:
 ///
 ///   i₃ = √I₃,   i₁² = I₁ + 2 i₂,   i₂² = I₂ + 2 i₃ i₁,
 ///
-/// where i₁ is the largest root of f(i₁) = (i₁² − I₁)²/4 − I₂ − 2 i₃ i₁, f' = 2 (i₁ i₂ − i₃) = 2 Π (y_a + y_b) > 0. Put
-/// into one another, the two equations leave at most i₃/(i₁ i₂) ≤ 1/9 of an error, Newton's method ends it, both from
-/// above, i₁² ≤ 3 I₁. No step asks whether eigenvalues are equal. The product with B keeps the digits of a small one,
-/// which Y loses. Without a loop, and inlined whatever its size, so that one over points is vectorised.
+/// where i₁ is the largest root of f(i₁) = (i₁² − I₁)²/4 − I₂ − 2 i₃ i₁, f' = 2 (i₁ i₂ − i₃) = 2 Π (y_a + y_b) > 0.
+/// Substituted into one another, the two equations leave an error of at most i₃/(i₁ i₂) ≤ 1/9, which Newton's method
+/// removes; both converge from above, starting at i₁² ≤ 3 I₁. No step asks whether eigenvalues are equal. The product
+/// with B keeps the digits of a small B, which Y loses. There is no loop, and the function is always inlined, so that a
+/// loop over points is vectorised.
 template <class Number>
 [[gnu::always_inline]] inline SpaceTensorOf<Number> root_of_unit_plus(const SpaceTensorOf<Number>& B) {
   using std::sqrt;
@@ -98,7 +100,7 @@ template <class Number>
   return B * inverse(unit + Y);
 }
 
-/// I/(2n + 1) + Z²/(2n + 3) + …, up to the power 16 of Z if n = 0
+/// The series I/(2n + 1) + Z²/(2n + 3) + …, up to the power 16 of Z if n = 0.
 template <int n, class Tensor>
 [[gnu::always_inline]] inline Tensor artanh_series(const Tensor& unit, const Tensor& Z2) {
   if constexpr (n == 8) {
@@ -108,8 +110,8 @@ template <int n, class Tensor>
   }
 }
 
-/// ln(I + B), B as above. Four square roots take stretches of 0.1 to 10 to within a seventh of 1, where the logarithm's
-/// series is short:
+/// The logarithm ln(I + B), with B as above. Four square roots bring stretches between 0.1 and 10 to within a seventh
+/// of 1, where the logarithm's series is short:
 ///
 ///   ln(I + B) = 2⁴ · 2 artanh Z,   Z = X (2 I + X)⁻¹,   X = (I + B)^(1/16) − I,   artanh Z = Z + Z³/3 + Z⁵/5 + …
 template <class Number>
@@ -130,8 +132,8 @@ struct SpaceLogStrain {
 
   SpaceTensor strain() const { return 0.5 * log_of_unit_plus(B); }
 
-  /// δe for δb = l b + b lᵀ, of as many l as are asked for: Σ_k ∂e/∂b_k δb_k, b_k = b_xx, b_yy, b_zz, b_xy, b_yz, b_zx,
-  /// by one pass of Duals for all of them.
+  /// The strain rates δe for δb = l b + b lᵀ, for any number of l: Σ_k ∂e/∂b_k δb_k, b_k = b_xx, b_yy, b_zz, b_xy,
+  /// b_yz, b_zx, where one evaluation with Duals gives all ∂e/∂b_k.
   class Rate {
    public:
     explicit Rate(const SpaceTensor& B) : b_(unit_plus(B)) {
@@ -163,7 +165,7 @@ struct SpaceLogStrain {
   Rate rate() const { return Rate(B); }
 };
 
-/// Made of H = F − I; strain(), rate()(l) for δF = l F, and J = ln det F.
+/// The logarithmic strain of H = F − I: strain(), rate()(l) for δF = l F, and J = ln det F.
 template <StressState S>
 using LogStrainOf = std::conditional_t<S == StressState::space, SpaceLogStrain, PlaneLogStrain<S>>;
 

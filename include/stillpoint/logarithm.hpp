@@ -1,4 +1,4 @@
-// The natural logarithm without a call, so that a loop over material points with a logarithm in it is vectorised.
+// The natural logarithm without a function call, so that a loop over material points that takes one is vectorised.
 // Method and constants: fdlibm's e_log.c [Sun Microsystems 1993], error below 1 ulp.
 #pragma once
 
@@ -8,14 +8,14 @@
 
 namespace stillpoint {
 
-/// ln x of an x = 1 + x_minus_1 whose distance from 1 is known to more digits than x keeps of it: ln(1 + 1e-20) =
-/// 1e-20. NaN if x is not positive and finite, or below the smallest normal number.
+/// ln x for x = 1 + x_minus_1, where x_minus_1 has more digits than x keeps of it: ln(1 + 1e-20) = 1e-20. NaN if x is
+/// not positive and finite, or below the smallest normal number.
 inline double logarithm(double x, double x_minus_1) {
-  // x = 2ᵏ m, √½ ≤ m < √2: with the bits of √½ as its zero, the exponent field counts k + 1023
+  // x = 2ᵏ m, √½ ≤ m < √2: subtracting the bits of √½ leaves k + 1023 in the exponent field
   constexpr std::uint64_t sqrt_half = 0x3FE6A09E667F3BCD, one = 0x3FF0000000000000, mantissa = 0x000FFFFFFFFFFFFF;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) + (one - sqrt_half);
   const double m = std::bit_cast<double>((bits & mantissa) + sqrt_half);
-  // an integer below 2⁵² put into the mantissa of 2⁵² is 2⁵² + that integer
+  // converts the integer n < 2⁵²: the mantissa bits of 2⁵² set to n represent 2⁵² + n
   const double k = std::bit_cast<double>((bits >> 52) | 0x4330000000000000) - (4503599627370496.0 + 1023);
 
   // ln m = ln(1 + f) = f − f²/2 + s (f²/2 + R(s²)),  s = f/(2 + f)

@@ -1,5 +1,5 @@
-// The mass matrix M of a Lagrangian phase: a diagonal, with inertia against relative motion if nodes are light, or a
-// sparse matrix with its factor. On the way to rest inertia is fictitious, and M may be one that only M⁻¹ is known of.
+// The mass matrix M of a Lagrangian phase: a diagonal, with inertia against relative motion where nodes are light, or a
+// sparse matrix with its factor. On the way to rest inertia is fictitious, so M may also be known by its inverse alone.
 #pragma once
 
 #include <stillpoint/sparse_matrix.hpp>
@@ -13,12 +13,13 @@
 
 namespace stillpoint {
 
-/// Inertia against relative motion alone: the kinetic energy ½ inertia (v_dof − Σ_k weight_k v_master_k)². It leaves
-/// alone what the weights extrapolate exactly, a rigid motion, say [selective mass scaling, Olovsson et al. 2005].
+/// Inertia against relative motion alone: the kinetic energy ½ inertia (v_dof − Σ_k weight_k v_master_k)². Motions that
+/// the weights extrapolate exactly, such as a rigid motion, are unaffected [selective mass scaling, Olovsson et al.
+/// 2005].
 struct RelativeInertia {
   int dof = 0;
   double inertia = 0;  // [kg]
-  int masters = 0;     // 0: against any motion
+  int masters = 0;     // number of masters; 0: inertia against any motion
   std::array<int, 8> master{};
   std::array<double, 8> weight{};
 };
@@ -32,13 +33,13 @@ class Mass {
   /// M_ij = Σ_p m_p N_ip N_jp, factorised once. Throws std::invalid_argument if M is not positive definite.
   static Mass consistent(const SparseMatrix& matrix);
 
-  /// M by what M⁻¹ does: solve(b, x), x = M⁻¹ b, symmetric and positive definite; b, x: (n), may be the same array.
+  /// M given by its inverse: solve(b, x), x = M⁻¹ b, symmetric and positive definite; b, x: (n), may be the same array.
   static Mass by_inverse(std::size_t n, std::function<void(ConstVec b, Vec x)> solve);
 
   std::size_t size() const { return size_; }
   bool is_lumped() const { return !consistent_ && !inverse_; }
-  /// Whether there is an M to multiply by, so that v is as good an unknown as the momentum p = M v; then everything
-  /// below can be asked for, else solve() alone.
+  /// Whether M can be multiplied by, so that v is as good an unknown as the momentum p = M v; if not, solve() is the
+  /// only one of the functions below that may be called.
   bool has_product() const { return !inverse_; }
   bool is_diagonal() const { return is_lumped() && !relative_; }
   /// The diagonal of M, (n); empty if M is known by its inverse.
@@ -49,10 +50,10 @@ class Mass {
   void apply(ConstVec x, Vec y) const;
   /// x = M⁻¹ b; b, x: (n), may be the same array. Allocates nothing.
   void solve(ConstVec b, Vec x) const;
-  /// b = D M⁻¹ b, D = diag M, of a lumped mass: from then on M⁻¹b is b_i/D_ii at every degree of freedom; b: (n).
+  /// b = D M⁻¹ b, D = diag M, for a lumped mass: afterwards M⁻¹b is b_i/D_ii at every degree of freedom; b: (n).
   /// Allocates nothing.
   void decouple(Vec b) const;
-  /// What of ½ vᵀMv is of the relative inertia, [J]; v: (n).
+  /// The share of ½ vᵀMv that is due to the relative inertia, [J]; v: (n).
   double relative_energy(ConstVec v) const;
 
  private:
@@ -63,7 +64,7 @@ class Mass {
 
   std::size_t size_ = 0;
   std::vector<double> diagonal_;
-  std::function<void(ConstVec, Vec)> inverse_;    // empty if M is known
+  std::function<void(ConstVec, Vec)> inverse_;    // empty unless M is known by its inverse
   std::shared_ptr<const Relative> relative_;      // null if there is none
   std::shared_ptr<const Consistent> consistent_;  // the matrix and its factor; null if lumped
 };

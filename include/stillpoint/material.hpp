@@ -1,8 +1,8 @@
-// What the loops over material points need of a material law.
+// The interface between material laws and the loops over material points.
 //
-// A law is a value type in a header of its own, inlined into a loop over points that the compiler vectorises: no branch
-// that differs from point to point (write a select, "a ? x : y" of computed values), no call that is not inlined, no
-// allocation. A trial that cannot be evaluated (det f ≤ 0) gives NaN.
+// A law is a value type in a header of its own, inlined into a loop over points that the compiler vectorises: it has no
+// branch that differs from point to point (write a select, "a ? x : y" of computed values), no call that is not
+// inlined, no allocation. A trial that cannot be evaluated (det f ≤ 0) gives NaN.
 #pragma once
 
 #include <stillpoint/scene_options.hpp>
@@ -13,7 +13,7 @@
 
 namespace stillpoint {
 
-/// Which components a displacement gradient has; what happens across them is the law's affair.
+/// The components of a displacement gradient; the conditions across them are left to the law.
 enum class Kinematics { line, plane, axisymmetric, space };
 
 constexpr Kinematics kinematics(StressState state) {
@@ -31,15 +31,15 @@ constexpr Kinematics kinematics(StressState state) {
 }
 constexpr int dimensions(Kinematics k) { return k == Kinematics::line ? 1 : k == Kinematics::space ? 3 : 2; }
 constexpr int dimensions(StressState state) { return dimensions(kinematics(state)); }
-/// Of a displacement gradient H: in one dimension (xx); in the plane (xx, xy, yx, yy), H_ij = ∂u_i/∂x_j; axisymmetric
-/// (rr, rz, zr, zz, θθ) with H_θθ = u_r/r; in space (xx, xy, xz, yx, …, zz). Of the first Piola–Kirchhoff stress
-/// likewise.
+/// Number of components of a displacement gradient H, and of the first Piola–Kirchhoff stress: in one dimension (xx);
+/// in the plane (xx, xy, yx, yy), H_ij = ∂u_i/∂x_j; axisymmetric (rr, rz, zr, zz, θθ) with H_θθ = u_r/r; in space (xx,
+/// xy, xz, yx, …, zz).
 constexpr int gradient_components(Kinematics k) {
   return dimensions(k) * dimensions(k) + (k == Kinematics::axisymmetric ? 1 : 0);
 }
 constexpr int gradient_components(StressState state) { return gradient_components(kinematics(state)); }
-/// Of a Cauchy stress: in one dimension (xx); in two (xx, yy, zz, xy), for r, z, θ (rr, zz, θθ, rz); in space (xx, yy,
-/// zz, xy, yz, zx).
+/// Number of components of a Cauchy stress: in one dimension (xx); in two (xx, yy, zz, xy), axisymmetric (rr, zz, θθ,
+/// rz); in space (xx, yy, zz, xy, yz, zx).
 constexpr int stress_components(Kinematics k) { return k == Kinematics::line ? 1 : k == Kinematics::space ? 6 : 4; }
 constexpr int stress_components(StressState state) { return stress_components(kinematics(state)); }
 
@@ -47,7 +47,7 @@ template <StressState S>
 using Gradient = std::array<double, gradient_components(S)>;
 template <StressState S>
 using Stress = std::array<double, stress_components(S)>;
-/// ∂P_a/∂H_b at [components · a + b].
+/// Tangent moduli, ∂P_a/∂H_b at [components · a + b].
 template <StressState S>
 using Moduli = std::array<double, gradient_components(S) * gradient_components(S)>;
 
@@ -68,15 +68,15 @@ concept ElasticLaw = requires(const L law, const Gradient<L::state>& H) {
   { law.moduli(H) } -> std::same_as<Moduli<L::state>>;         // ∂P/∂H [Pa]
 };
 
-/// How a committed stress stands to what the material bears in the long run.
+/// The relation of a committed stress to the material's long-term strength.
 struct YieldState {
-  double f = 0;         // the yield function [Pa]; far above 0 of a viscous law alone
-  double strength = 0;  // √J₂ at which f = 0 under this mean stress [Pa]
+  double f = 0;         // the yield function [Pa]; far above 0 for a viscous law alone
+  double strength = 0;  // the √J₂ at which f = 0 under this mean stress [Pa]
   double root_J2 = 0;   // [Pa]
 };
 
-/// A law that remembers: `history` numbers a point, among them its stress. H = ∂u/∂x since the phase began (f = I + H),
-/// dH the part of it since history was committed, dt the time since then [s], ≥ 0.
+/// A law with a history of `history` numbers a point, among them its stress. H = ∂u/∂x since the phase began (f = I +
+/// H), dH the part of it since the history was committed, dt the time since then [s], ≥ 0.
 template <class L>
 concept HistoryLaw = requires(const L law, const Gradient<L::state>& H, double dt, typename L::History& next) {
   { L::state } -> std::convertible_to<StressState>;
@@ -85,17 +85,17 @@ concept HistoryLaw = requires(const L law, const Gradient<L::state>& H, double d
   // P = det(f) σ f⁻ᵀ after the increment; next: the committed history, which is advanced
   { law.first_piola(H, H, dt, next) } -> std::same_as<Gradient<L::state>>;
   { law.cauchy(next) } -> std::same_as<Stress<L::state>>;
-  // Whether the committed stress is what an increment of nothing answers, to rounding
+  // Whether a zero increment returns the committed stress, to rounding
   { law.stress_stays() } -> std::same_as<bool>;
-  // Whether the stress may be beyond the strength for a while, as long as the material flows; and how far it is
+  // Whether the stress may exceed the strength for a while, as long as the material flows; and by how much it does
   { law.is_viscous() } -> std::same_as<bool>;
   { law.yield_state(next) } -> std::same_as<YieldState>;
-  // ∂P/∂H of first_piola() if H and dH change alike, and of an elastic trial: symmetric, and no trial is stiffer; of
-  // the latter δP for one δH too
+  // ∂P/∂H of first_piola() if H and dH change alike; then that of an elastic trial, which is symmetric and at least as
+  // stiff, and its product with one δH
   { law.moduli(H, H, dt, next) } -> std::same_as<Moduli<L::state>>;
   { law.elastic_moduli(H, next) } -> std::same_as<Moduli<L::state>>;
   { law.elastic_rate(H, H, next) } -> std::same_as<Gradient<L::state>>;
-  { law.initial_history(law.cauchy(next)) } -> std::same_as<typename L::History>;  // of a point under this stress
+  { law.initial_history(law.cauchy(next)) } -> std::same_as<typename L::History>;  // for a point under this stress
 };
 
 template <class L>

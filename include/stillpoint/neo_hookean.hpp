@@ -78,7 +78,7 @@ class NeoHookean {
   using Tensor = TensorFor<S>;
   static constexpr Tensor unit = identity<Tensor>;
 
-  // ln J = ln det₂F + ln F_zz of F = I + G, NaN if either is turned inside out
+  // ln J = ln det₂F + ln F_zz for F = I + G; NaN if either is turned inside out
   static double log_volume_ratio(const Tensor& G) {
     if constexpr (S == StressState::space) {
       const double j = change_of_volume(G, cofactor(G));
@@ -93,8 +93,8 @@ class NeoHookean {
   }
   Tensor kirchhoff(const Tensor& G) const { return mu_ * left_strain(G) + lambda_ * log_volume_ratio(G) * unit; }
 
-  // H as a tensor, in plane stress with the thickness that leaves the faces free, τ_zz = μ (F_zz² − 1) + λ ln(det₂F
-  // F_zz) = 0.
+  // H as a tensor; in plane stress with the thickness that leaves the faces stress-free, τ_zz = μ (F_zz² − 1) + λ
+  // ln(det₂F F_zz) = 0.
   Tensor stretched(const Gradient<S>& H) const {
     Tensor G = displacement_gradient<S>(H);
     if constexpr (S == StressState::plane_stress) {
@@ -103,7 +103,7 @@ class NeoHookean {
     return G;
   }
 
-  // s = ln w from the free side, μ (w − 1) + λ ln(F w) = 0.
+  // s = ln w for a stress-free side, from μ (w − 1) + λ ln(F w) = 0.
   double log_area_ratio(double log_F) const {
     if constexpr (S == StressState::uniaxial_strain) return 0;
     return free_log(lambda_, log_F);

@@ -1,4 +1,4 @@
-// An elastic law of a program's own, which scenes then name like any other.
+// User-defined elastic laws, which scenes name like the built-in ones.
 //
 //   template <stillpoint::StressState S>
 //   struct Yeoh {  // an ElasticLaw
@@ -30,31 +30,32 @@ namespace stillpoint {
 struct OwnParameter {
   std::string name, unit = "1", meaning{};
   double lower = 0, upper = std::numeric_limits<double>::infinity();
-  std::optional<double> fallback{};  // empty: it has to be given
+  std::optional<double> fallback{};  // empty: the scene has to give a value
 };
 
 struct OwnLaw {
-  std::string name;  // of material.<name>.law: lower-case letters, digits and hyphens
+  std::string name;  // value of material.<name>.law: lower-case letters, digits and hyphens
   std::string equation{}, source{};
   std::vector<OwnParameter> parameters{};  // beside the density rho, which every law has
 };
 
-/// Their values by name, all of them.
+/// The values of all parameters of a law, by name.
 using LawParameters = std::map<std::string, double>;
 
-/// What a law answers to deformations, in plain arrays: of one stress state and one set of parameters. Several threads
-/// ask at once, and nothing may be thrown: a trial that cannot be evaluated gets NaN.
+/// The stresses and moduli of a law in plain arrays, for one stress state and one set of parameters. Several threads
+/// call it at once, and nothing may be thrown: a trial that cannot be evaluated gives NaN.
 class LawAnswers {
  public:
   virtual ~LawAnswers() = default;
-  /// P [Pa] of some points at once; component c of point q at [stride c + q] of H and P, which do not overlap.
+  /// P [Pa] of several points; component c of point q is at [stride c + q] of H and P, which do not overlap.
   virtual void first_piola(std::size_t points, std::size_t stride, const double* H, double* P) const noexcept = 0;
   /// σ [Pa], (stress components), and ∂P/∂H [Pa], row by row, of one point.
   virtual void cauchy(const double* H, double* sigma) const noexcept = 0;
   virtual void moduli(const double* H, double* A) const noexcept = 0;
 };
 
-/// Those of a value type: its loop over the points is compiled where this is named, with that program's flags.
+/// The answers of a law that is a value type: its loop over the points is compiled in the program that names this
+/// class, with that program's flags.
 template <ElasticLaw Law>
 class AnswersOf final : public LawAnswers {
   static constexpr std::size_t components = gradient_components(Law::state);
@@ -66,12 +67,12 @@ class AnswersOf final : public LawAnswers {
   [[gnu::flatten]] void first_piola(std::size_t points, std::size_t stride, const double* __restrict H,
                                     double* __restrict P) const noexcept override {
     const Law law = law_;
-    // Whole groups fill the processor's registers. What is left is one that begins early enough: a point that it meets
-    // again answers the same again, which costs less than a rest of single points.
+    // Whole groups fill the processor's registers. The remainder is a whole group too, which begins early enough to end
+    // at the last point: a point evaluated twice gives the same answer, which costs less than single points.
     constexpr std::size_t group = 8;
     std::size_t begin = 0, end = points < group ? points : points / group * group;
     for (;; begin = points - group, end = points) {
-// That rows of P do not overlap either, a compiler cannot see.
+// A compiler cannot see that the rows of P do not overlap either.
 #if defined(__clang__)
 #pragma clang loop vectorize(assume_safety)
 #elif defined(__GNUC__)
@@ -90,7 +91,7 @@ class AnswersOf final : public LawAnswers {
   void moduli(const double* H, double* A) const noexcept override { std::ranges::copy(law_.moduli(at(H)), A); }
 
  private:
-  // body(0), …, written out before the compiler looks for vectors
+  // Calls body(0), body(1), …, unrolled before the vectoriser runs
   template <class Body>
   [[gnu::always_inline]] static void for_components(const Body& body) {
     [&]<std::size_t... c>(std::index_sequence<c...>) __attribute__((always_inline)) {
@@ -106,15 +107,16 @@ class AnswersOf final : public LawAnswers {
   Law law_;
 };
 
-/// Makes the answers of a law with these parameters. Throws std::invalid_argument for those that do not go together.
+/// Makes a law from its parameters. Throws std::invalid_argument if they are incompatible.
 using MakeLaw = std::function<std::unique_ptr<LawAnswers>(const LawParameters&)>;
 
-/// From now on a material may have law = name, in these stress states: of large strain, without a history. In the place
-/// of one of that name that was added before; simulations that were set up keep theirs. Throws std::invalid_argument if
-/// a name is no word, or one of this library's, or a parameter is called rho or law or by a name twice.
+/// Registers a law: a material may have law = name, in these stress states, from now on; it is one of large strain,
+/// without a history. It replaces a law of that name added before; simulations set up earlier keep theirs. Throws
+/// std::invalid_argument if a name is malformed, or one of this library's, or if a parameter is called rho or law, or
+/// two have one name.
 void add_law(const OwnLaw& about, const std::map<StressState, MakeLaw>& of_states);
 
-/// The same of a template of laws, for each of these states, each made of LawParameters.
+/// Registers a template of laws for each of these states, each constructed from LawParameters.
 template <template <StressState> class Law, StressState... states>
 void add_law(const OwnLaw& about) {
   static_assert((std::is_constructible_v<Law<states>, const LawParameters&> && ...));

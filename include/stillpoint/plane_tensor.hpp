@@ -24,10 +24,10 @@ constexpr PlaneTensor operator*(const PlaneTensor& A, const PlaneTensor& B) {
 constexpr PlaneTensor unit_plus(const PlaneTensor& A) { return {1 + A.xx, A.xy, A.yx, 1 + A.yy, 1 + A.zz}; }
 constexpr PlaneTensor transpose(const PlaneTensor& A) { return {A.xx, A.yx, A.xy, A.yy, A.zz}; }
 constexpr double trace(const PlaneTensor& A) { return A.xx + A.yy + A.zz; }
-/// Of the part in the plane, det₂ A.
+/// The determinant of the in-plane part, det₂ A.
 constexpr double plane_determinant(const PlaneTensor& A) { return A.xx * A.yy - A.xy * A.yx; }
 constexpr double determinant(const PlaneTensor& A) { return plane_determinant(A) * A.zz; }
-/// det₂(I + H) − 1, with the digits of a small H.
+/// The relative change of area det₂(I + H) − 1, with the digits of a small H.
 constexpr double change_of_area(const PlaneTensor& H) { return H.xx + H.yy + plane_determinant(H); }
 constexpr PlaneTensor inverse(const PlaneTensor& A) {
   const double r = 1 / plane_determinant(A);

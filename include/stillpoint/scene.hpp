@@ -20,21 +20,21 @@ struct VariantSpec {  // [[variant]]: the same scene with other values, drawn be
 
 struct Scene : Problem {
   std::filesystem::path file;
-  std::string text;                    // of the file
-  std::vector<std::string> overrides;  // laid over it
+  std::string text;                    // contents of the file
+  std::vector<std::string> overrides;  // laid over the file's contents
   std::vector<VariantSpec> variants;
-  std::map<std::string, Location> where;  // of each key written ("support[0].at"), for what is found wrong later
+  std::map<std::string, Location> where;  // location of each key written ("support[0].at"), for faults found later
 
   /// Location of a key, or of the nearest table around it that was written.
   Location location(const std::string& key) const;
-  /// The error with the places in the file of those keys that it names without one.
+  /// The error, with the locations in the file added for those keys that it names without one.
   SceneError located(const SceneError& error) const;
 };
 
 /// Reads, checks and completes a scene; overrides are "dotted.key=value" with a TOML value (a bare word is a string).
 /// Throws SceneError with every problem.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
-/// The same of a text that was read from the file before.
+/// Loads a scene from a text that was read from the file before.
 Scene load_scene(const std::filesystem::path& file, const std::string& text, const std::vector<std::string>& overrides);
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// What is wrong with a scene, and at which line and column.
+// The faults of a scene, each with its line and column.
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 namespace stillpoint {
 
-/// Where something stands: a file with line and column (1-based), or an override, "--set key=value", with line 0.
+/// A location: a file with line and column (1-based), or an override, "--set key=value", with line 0.
 struct Location {
   std::string file;
   int line = 0, column = 0;
@@ -15,14 +15,14 @@ struct Location {
 /// "file:line:column", or the file alone if there is no line.
 std::string to_string(const Location& where);
 
-/// One thing that is wrong with a scene.
+/// One fault of a scene.
 struct Mistake {
   Location where;
-  std::string message;  // what, and what was expected
-  std::string key{};    // that it is said of, if nobody knows yet where that stands; the message is without it
+  std::string message;  // the fault, and what was expected
+  std::string key{};    // the faulty key, if its location is not known yet; the message does not contain it
 };
 
-/// All that is wrong with a scene, found at once. what() has a line for each problem.
+/// All faults of a scene, found at once. what() has a line for each.
 class SceneError : public std::runtime_error {
  public:
   explicit SceneError(std::vector<Mistake> problems);

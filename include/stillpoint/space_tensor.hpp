@@ -1,4 +1,4 @@
-// Tensors of three dimensions, of numbers or of Duals.
+// Tensors in three dimensions, of numbers or of Duals.
 #pragma once
 
 namespace stillpoint {
@@ -44,7 +44,7 @@ template <class N>
 constexpr N trace(const SpaceTensorOf<N>& A) {
   return A.xx + A.yy + A.zz;
 }
-/// A S Aᵀ of a symmetric S, itself symmetric
+/// The product A S Aᵀ for a symmetric S, which is symmetric too.
 template <class N>
 constexpr SpaceTensorOf<N> turned(const SpaceTensorOf<N>& A, const SpaceTensorOf<N>& S) {
   const SpaceTensorOf<N> B = A * S;
@@ -65,7 +65,7 @@ constexpr N determinant(const SpaceTensorOf<N>& A) {
   const SpaceTensorOf<N> c = cofactor(A);
   return A.xx * c.xx + A.xy * c.xy + A.xz * c.xz;
 }
-/// det(I + H) − 1 = tr H + tr cof H + det H, with the digits of a small H.
+/// The relative change of volume det(I + H) − 1 = tr H + tr cof H + det H, with the digits of a small H.
 template <class N>
 constexpr N change_of_volume(const SpaceTensorOf<N>& H, const SpaceTensorOf<N>& cof_H) {
   return trace(H) + (trace(cof_H) + (H.xx * cof_H.xx + H.xy * cof_H.xy + H.xz * cof_H.xz));

@@ -1,4 +1,4 @@
-// Sparse matrices by name alone: who looks into one includes <Eigen/SparseCore>.
+// Forward declaration of sparse matrices: code that uses one includes <Eigen/SparseCore>.
 #pragma once
 
 namespace Eigen {
@@ -8,7 +8,8 @@ class SparseMatrix;
 
 namespace stillpoint {
 
-/// Compressed by columns. Symmetric ones are stored whole, both triangles, so that a product needs no special case.
+/// A matrix compressed by columns. A symmetric one is stored whole, both triangles, so that a product needs no special
+/// case.
 using SparseMatrix = Eigen::SparseMatrix<double, 0, int>;
 
 }  // namespace stillpoint

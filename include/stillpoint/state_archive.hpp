@@ -1,4 +1,4 @@
-// What an object was when it was saved, by name: one function, archive(), saves and restores.
+// Saved states of objects, by name: one function, archive(), saves and restores.
 //
 //   void archive(const StateArchive& state) {
 //     state("t", t_);
@@ -22,30 +22,30 @@
 
 namespace stillpoint {
 
-/// A state that cannot be restored, and why.
+/// Thrown if a state cannot be restored; what() says why.
 class StateError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What was saved, by its path "part/name".
+/// A saved value, and all saved values by their paths "part/name".
 using SavedValue = std::variant<std::vector<double>, std::vector<std::int64_t>, std::string>;
 using SavedState = std::map<std::string, SavedValue, std::less<>>;
 
 /// Saves into a SavedState or restores from it. Every double comes back with the same bits.
 class StateArchive {
  public:
-  /// Saves into `to`, which outlives this.
+  /// Saves into `to`, which must outlive this object.
   static StateArchive saving(SavedState& to) { return {&to, nullptr}; }
-  /// Restores from `from`, which outlives this.
+  /// Restores from `from`, which must outlive this object.
   static StateArchive restoring(const SavedState& from) { return {nullptr, &from}; }
   bool restores() const { return from_ != nullptr; }
 
-  /// For the state of a part: its names are its own.
+  /// The archive of a part, whose names cannot clash with those of others.
   StateArchive part(std::string_view name) const { return {to_, from_, path(name) + "/"}; }
 
-  /// Saves or restores a value. Restoring throws StateError if there is none of that name and kind, or of another size
-  /// than what it goes into.
+  /// Saves or restores a value. Restoring throws StateError if there is no value of that name and kind, or if it is of
+  /// another size than its destination.
   template <class T>
   void operator()(std::string_view name, T& value) const {
     if constexpr (std::floating_point<T>) {
@@ -56,15 +56,15 @@ class StateArchive {
       all(name, value);
     }
   }
-  /// Of a fixed size.
+  /// Saves or restores an array of fixed size.
   void operator()(std::string_view name, Vec values) const;
-  /// Of n values, or of none.
+  /// Saves or restores a vector of n values, or an empty one.
   template <class T>
   void none_or(std::size_t n, std::string_view name, std::vector<T>& values) const {
     all(name, values);
     if (!values.empty()) expect_size(name, values.size(), n);
   }
-  /// What array_of(item), a std::array of numbers, is for each item, as one value.
+  /// Saves or restores array_of(item), a std::array of numbers, of all items as one value.
   template <class Items, class ArrayOf>
   void each(std::string_view name, Items& items, const ArrayOf& array_of) const {
     std::vector<double> all;

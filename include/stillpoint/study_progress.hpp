@@ -1,4 +1,4 @@
-// What a study of many runs tells while it works.
+// The progress of a study of many runs.
 #pragma once
 
 #include <string>

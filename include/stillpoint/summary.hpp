@@ -1,4 +1,4 @@
-// What a run came to: summary.json, as data.
+// The result of a run: summary.json, as data.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ namespace stillpoint {
 enum class RunStatus {
   running,
   equilibrium,  // residual and distance ≤ their limits and kinetic energy ≤ its share of the peak, for the dwell
-  unstable_equilibrium,  // the same, but K(u) has a negative eigenvalue: the least disturbance ends it
-  limit_load,            // the factor of driven loads does not grow any more, by stop.load_growth
-  stop_test,             // SimulationOptions::stop_test
+  unstable_equilibrium,  // in equilibrium, but K(u) has a negative eigenvalue: the least disturbance ends it
+  limit_load,            // the factor of driven loads no longer grows, by stop.load_growth
+  stop_test,             // ended by SimulationOptions::stop_test
   end_time,              // t = stop.time
   step_limit,            // stop.steps taken
   time_limit,            // stop.wall_time spent
@@ -30,15 +30,15 @@ std::string to_string(RunStatus status);
 /// A moment at which all fields were written.
 struct Snapshot {
   double t = 0;            // [s]
-  double slope_angle = 0;  // of the free surface [degrees]; NaN if there is no slope
+  double slope_angle = 0;  // angle of the free surface [degrees]; NaN if there is no slope
 };
 
-/// How far a support that holds by springs gives way: its reaction over its stiffness.
+/// The displacement of an elastic support, its reaction over its stiffness.
 struct SupportGap {
   std::string support;   // "support[1]"
   double stiffness = 0;  // at a position [N/m], on a face per area [N/m³]
-  double gap = 0;        // the largest [m]
-  double share = 0;      // of the largest displacement of a material point
+  double gap = 0;        // the largest displacement of the support [m]
+  double share = 0;      // gap over the largest displacement of a material point
 };
 
 /// Error against the scene's exact solution, over the material points with weights V_p.
@@ -47,13 +47,13 @@ struct ExactError {
   std::optional<double> stress_rel_l2;
 };
 
-struct LoadFigures {                      // of loads that a displacement drives
+struct LoadFigures {                      // figures of loads that a displacement drives
   double factor = 0, largest_factor = 0;  // λ at the end, and the largest so far
   double displacement = 0;                // their mean displacement [m]
   std::optional<double> growth = {};      // (q − q₀)/(λ − λ₀) dλ/dq over the last fifth of q
 };
 
-/// Empty: not computed.
+/// The figures of a run; an empty one was not computed.
 struct Summary {
   std::string scene, title;
   RunStatus status = RunStatus::running;
@@ -67,49 +67,50 @@ struct Summary {
   double wall_s = 0, ns_per_point_step = 0;
   double bytes_per_point = 0;
   double residual = 0, kinetic_energy = 0;
-  std::optional<double> distance;  // from equilibrium, the error bound, relative; of one phase with a known omega_1
-  std::string distance_kind;       // "bound", of a linear body without contact, or "estimate"; empty: no distance
-  /// Of a body that yields or slides: the way that its motion would still go as it dies out, relative to the largest
-  /// displacement, an estimate. Infinite, null in JSON: it does not die out.
+  std::optional<double> distance;  // bound on the relative distance from equilibrium; for one phase with a known
+                                   // omega_1
+  std::string distance_kind;       // "bound", for a linear body without contact, or "estimate"; empty: no distance
+  /// For a body that yields or slides: an estimate of the displacement still to come as its motion dies out, relative
+  /// to the largest displacement. Infinite, null in JSON: the motion does not die out.
   std::optional<double> way_left;
-  /// Of an equilibrium whose K(u) was tested: "stable", "neutral" or "unstable"; otherwise empty.
+  /// The stability of an equilibrium whose K(u) was tested: "stable", "neutral" or "unstable"; otherwise empty.
   std::string stability;
-  std::optional<double> unstable_omega_squared;  // K(u)'s lowest eigenvalue, < 0 [1/s²]
+  std::optional<double> unstable_omega_squared;  // lowest eigenvalue of K(u), < 0 [1/s²]
   std::optional<double> omega_1;
   double omega_max = 0;
   std::optional<double> c;
-  double dt = 0;  // the last step [s]
+  double dt = 0;  // length of the last step [s]
   std::optional<double> critical_step;
   std::string method;               // solve.method
   std::string integrator, damping;  // damping: the strategy, a damping or a relaxation
-  std::vector<std::string> notes;   // what a user should know of this scene's accuracy, a sentence each
-  // Of an updated Lagrangian body, the worst so far: |Σ_i m_i − Σ_p m_p|/Σ_p m_p; the points' momentum beside the
-  // impulse of the forces, and if nothing acts on the body, momentum and angular momentum beside those of the start;
-  // and the inertia that light nodes were given so that none shortens the step, as a share of Σ_p m_p.
+  std::vector<std::string> notes;   // remarks on the accuracy that a user should know, a sentence each
+  // For an updated Lagrangian body, the worst values so far: |Σ_i m_i − Σ_p m_p|/Σ_p m_p; the change of the points'
+  // momentum against the impulse of the forces and, if nothing acts on the body, momentum and angular momentum against
+  // those of the start; and the inertia added to light nodes so that none shortens the step, as a share of Σ_p m_p.
   std::optional<double> mass_error, momentum_error, angular_momentum_error, added_mass;
-  // Of the points' stresses when it ends: the share that no function of its grid feels.
+  // The share of the points' final stresses that no function of the grid feels (null-space stress).
   std::optional<double> null_space_stress;
   std::optional<double> external_work;  // [J]
-  /// Share of the plastic strain that came about while the out-of-balance force was against the motion, where
-  /// equilibrium is asked for.
+  /// Share of the plastic strain that arose while the out-of-balance force opposed the motion, where equilibrium is
+  /// asked for.
   std::optional<double> plastic_overshoot;
   /// ∫ r dκ / ∫ dκ · W_p/W, r the part of ‖F − R‖/‖F‖ across the loads F, κ the plastic strain, W_p its work: the share
-  /// of the loads' work W that went into plastic flow out of balance, where equilibrium is asked for. About how far
-  /// from a slow path the displacement may be.
+  /// of the loads' work W that was dissipated in plastic flow out of balance, where equilibrium is asked for. It
+  /// estimates how far the displacement may be from that of a slow path.
   std::optional<double> unbalanced_plastic_work;
-  /// Mean share of damping and inertia in what moving supports, walls and driven loads feel, |∫ Q·v dt| beside their
+  /// Mean share of damping and inertia in the forces on moving supports, walls and driven loads, |∫ Q·v dt| over their
   /// work, where something drives the body and no equilibrium is asked for.
   std::optional<double> rate_share;
   std::optional<double> single_phase_strain;  // largest component of ∂u/∂x, if a body that yields has one phase
   std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;
-  std::map<std::string, std::vector<double>>
-      reactions;  // of named supports, the force that each exerts on the body [N]
-  std::map<std::string, std::vector<double>> reaction_moments;  // in space, of these about the origin [N m]
+  std::map<std::string, std::vector<double>> reactions;         // forces that named supports exert on the body [N]
+  std::map<std::string, std::vector<double>> reaction_moments;  // moments of the reactions about the origin, in space
+                                                                // [N m]
   std::vector<SupportGap> weak_supports;
   std::optional<LoadFigures> load;
   std::optional<ExactError> error;
-  std::map<std::string, std::vector<double>> probe_positions;  // of each probe of a point, at the start [m]
+  std::map<std::string, std::vector<double>> probe_positions;  // position at the start of each probe of a point [m]
   std::map<std::string, std::vector<std::pair<std::string, double>>> probes;  // name → (field, last value)
 };
 

@@ -1,4 +1,4 @@
-// The tensors that laws of two and three dimensions are written in, and the parts of them that a stress state knows.
+// The tensors that laws of two and three dimensions use, and the components of them that a stress state stores.
 #pragma once
 
 #include <stillpoint/material.hpp>
@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-/// What H, P and σ of a state are parts of; of two dimensions or three.
+/// The tensor type of a state's H, P and σ, in two dimensions or three.
 template <StressState S>
 using TensorFor = std::conditional_t<S == StressState::space, SpaceTensor, PlaneTensor>;
 
@@ -20,7 +20,7 @@ inline constexpr PlaneTensor identity<PlaneTensor>{1, 0, 0, 1, 1};
 template <>
 inline constexpr SpaceTensor identity<SpaceTensor>{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/// H as a tensor; H_zz = 0 if H does not know it.
+/// H as a tensor; H_zz = 0 if H has no such component.
 template <StressState S>
 constexpr TensorFor<S> displacement_gradient(const Gradient<S>& H) {
   if constexpr (S == StressState::space) {
@@ -77,7 +77,7 @@ constexpr Gradient<S> stress_rate(const TensorFor<S>& F_inverse, const TensorFor
   return gradient_part<S>((rate(l) - tau * transpose(l)) * transpose(F_inverse));
 }
 
-/// ∂P/∂H, column by column.
+/// The moduli ∂P/∂H from that rate, column by column.
 template <StressState S, class Rate>
 constexpr Moduli<S> moduli_of_rate(const TensorFor<S>& F, const TensorFor<S>& tau, const Rate& rate) {
   constexpr int components = gradient_components(S);

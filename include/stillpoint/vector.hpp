@@ -40,7 +40,8 @@ class Vector {
   std::shared_ptr<Context> context_;  // the SUNContext outlives every vector made with it
 };
 
-/// Makes vectors. Which kind (serial memory with our own threaded operations today) is chosen here and nowhere else.
+/// Makes vectors. The kind of vector (at present serial memory with this library's threaded operations) is chosen here
+/// and nowhere else.
 class VectorSpace {
  public:
   VectorSpace();
@@ -62,7 +63,7 @@ class VectorSpace {
 
 /// Σ x_i y_i through the N_Vector, the same bits for any number of threads.
 double dot(const Vector& x, const Vector& y);
-/// x·y of every y, each with the bits of dot(), in one pass over memory. products: as many as y.
+/// The products x·y of all y, each with the bits of dot(), in one pass over memory. products: as many as y.
 void dot_each(const Vector& x, std::span<NVectorHandle> y, std::span<double> products);
 template <class... Vectors>
 std::array<double, sizeof...(Vectors)> dots(const Vector& x, const Vectors&... y) {
@@ -71,7 +72,7 @@ std::array<double, sizeof...(Vectors)> dots(const Vector& x, const Vectors&... y
   dot_each(x, handles, products);
   return products;
 }
-/// √(Σ x_i²), likewise.
+/// √(Σ x_i²), the same bits for any number of threads.
 double norm(const Vector& x);
 /// max |x_i|, NaN if any x_i is NaN.
 double max_norm(const Vector& x);

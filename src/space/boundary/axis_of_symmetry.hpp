@@ -1,6 +1,6 @@
-// The axis of an axisymmetric scene: material at r = 0 stays there, u_r(0) = 0, whatever supports the scene has. No
-// energy says so, as a displacement u_r(0) ≠ 0 strains points near the axis by u_r/r, but none at r = 0. A body with a
-// hole, however narrow, has no material there and is free.
+// The axis of an axisymmetric scene: material at r = 0 stays there, u_r(0) = 0, whatever supports the scene has. The
+// strain energy does not enforce this, as a displacement u_r(0) ≠ 0 strains points near the axis by u_r/r, but no point
+// lies at r = 0. A body with a hole, however narrow, has no material there and is free.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -17,13 +17,13 @@
 
 namespace stillpoint {
 
-/// It is no support: nobody's reaction counts what it bears.
+/// The condition u_r = 0 on the axis. It is not a support: no reaction includes its force.
 template <Kinematics K>
 class AxisOfSymmetry {
   static constexpr int dim = dimensions(K);
 
  public:
-  /// Of the body as it was placed.
+  /// Finds the points that touch the axis in the initial body.
   AxisOfSymmetry(const Problem& problem, const Grid<dim>& grid, const Body<K>& body, double time_scale)
       : rest_(Expression(0.0), time_scale) {
     if constexpr (K == Kinematics::axisymmetric) {
@@ -36,8 +36,8 @@ class AxisOfSymmetry {
   /// Whether a body reaches the axis.
   bool acts() const { return !touches_.empty(); }
 
-  /// Takes hold of u_r of the functions that are not 0 on the axis beside material that touched it at first: it still
-  /// does, as nothing comes between. reached: as of BoundaryCondition::hold().
+  /// Prescribes u_r of the functions that do not vanish on the axis, near material that touched it at first, which
+  /// still does, as nothing comes between. reached: as in BoundaryCondition::hold().
   void hold(const GridFunctions<dim>& functions, const MaterialPoints<dim>& points, const PointFunctions<dim>& weights,
             const std::vector<char>& reached, HeldUnknowns& held) const {
     if (!acts()) return;
@@ -55,7 +55,7 @@ class AxisOfSymmetry {
   }
 
  private:
-  static constexpr double rounding = 1e-9;  // of a cell
+  static constexpr double rounding = 1e-9;  // share of a cell
 
   void find_touching(const BodySpec& spec, std::size_t b, const Body<K>& body) {
     const std::vector<std::pair<double, double>> along = parts_at_axis(spec);
@@ -73,7 +73,7 @@ class AxisOfSymmetry {
     }
   }
 
-  // From where to where along the axis the body's outline runs on it [m].
+  // The intervals of the axis that the body's outline covers [m].
   std::vector<std::pair<double, double>> parts_at_axis(const BodySpec& spec) const {
     std::vector<std::pair<double, double>> parts;
     if (spec.shape() == BodyShape::points) return parts;
@@ -85,10 +85,10 @@ class AxisOfSymmetry {
     return parts;
   }
 
-  // Whether a point of a file, in whose volume it is a ring of a square section, leaves no room for another on the side
-  // of the axis, nor for a hole that could be told from what uneven points leave.
+  // Whether a point of a file, taken as a ring of square section and of the point's volume, leaves no room for another
+  // point between itself and the axis, nor for a hole that could be told from the gaps of unevenly spaced points.
   static bool fills_way_to_axis(const MaterialPoints<dim>& points, std::size_t p) {
-    constexpr double unevenness = 0.25;  // of its side
+    constexpr double unevenness = 0.25;  // share of the section's side
     const double r = points.x[0][p], side = std::sqrt(points.volume[p] / (2 * std::numbers::pi * r));
     return r <= (0.5 + unevenness) * side;
   }
@@ -102,7 +102,7 @@ class AxisOfSymmetry {
 
   PrescribedMotion rest_;
   double slack_ = 0;           // [m]
-  std::vector<char> touches_;  // whether there is nothing between a point and the axis, by its number; empty: of none
+  std::vector<char> touches_;  // whether a point touches the axis, by its number; empty: none does
 };
 
 }  // namespace stillpoint

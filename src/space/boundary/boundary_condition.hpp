@@ -1,4 +1,4 @@
-// What holds or loads a body: the one interface of supports, walls, tractions, point forces and body forces.
+// The one interface of supports, walls, tractions, point forces and body forces.
 #pragma once
 
 #include <stillpoint/semi_discrete.hpp>
@@ -16,18 +16,18 @@
 
 namespace stillpoint {
 
-/// The unknowns of a grid (Dim function + component) that boundary conditions take hold of when a phase begins.
+/// The unknowns of a grid (Dim function + component) that boundary conditions prescribe or guide when a phase begins.
 class HeldUnknowns {
  public:
-  /// Owner of what no support of the scene holds.
+  /// The owner of unknowns that no support of the scene holds.
   static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
 
   HeldUnknowns() = default;
   /// t: when the phase begins [s].
   HeldUnknowns(std::size_t unknowns, double t) : start_(t), by_(unknowns, nothing) {}
 
-  /// It follows the motion, which outlives this object, from another place than the grid's if that is `from` [m];
-  /// owner: the number of the support in its scene, or nobody.
+  /// Prescribes an unknown. It follows the motion, which must outlive this object, starting from the displacement
+  /// `from` [m] relative to the grid; owner: the number of the support in its scene, or nobody.
   void prescribe(int unknown, const PrescribedMotion& motion, std::size_t owner, double from = 0) {
     by_[static_cast<std::size_t>(unknown)] = support;
     prescribed_.push_back(unknown);
@@ -35,19 +35,19 @@ class HeldUnknowns {
     owners_.push_back(owner);
     from_.push_back(from);
   }
-  /// It stays free, and a wall acts along it.
+  /// Marks an unknown along which a wall acts; it stays free.
   void guide(int unknown) {
     if (!is_prescribed(unknown)) by_[static_cast<std::size_t>(unknown)] = wall;
   }
   bool is_prescribed(int unknown) const { return by_[static_cast<std::size_t>(unknown)] == support; }
   bool is_guided(int unknown) const { return by_[static_cast<std::size_t>(unknown)] == wall; }
 
-  /// In the order in which they were prescribed, and how each moves.
+  /// The prescribed unknowns in the order in which they were prescribed, and the motion and owner of each.
   const std::vector<int>& prescribed() const { return prescribed_; }
   const PrescribedMotion& motion(std::size_t s) const { return *motions_[s]; }
   std::size_t owner(std::size_t s) const { return owners_[s]; }
   double start() const { return start_; }  // when the phase begins [s]
-  /// Since the phase began; in the first one, from the undeformed body.
+  /// Displacement of prescribed unknown s since the phase began; in the first phase, from the undeformed body.
   double displacement(std::size_t s, double t) const {
     return motion(s).displacement(t) - (start_ > 0 ? motion(s).displacement(start_) : 0) + from_[s];
   }
@@ -56,14 +56,14 @@ class HeldUnknowns {
   enum By : char { nothing, support, wall };
 
   double start_ = 0;
-  std::vector<By> by_;  // of each unknown
+  std::vector<By> by_;  // the condition on each unknown
   std::vector<int> prescribed_;
   std::vector<const PrescribedMotion*> motions_;
   std::vector<std::size_t> owners_;
   std::vector<double> from_;
 };
 
-/// What a phase consists of, for its boundary conditions.
+/// The parts of a phase that its boundary conditions use.
 template <int Dim>
 struct PhaseParts {
   const Grid<Dim>& grid;
@@ -74,11 +74,11 @@ struct PhaseParts {
   const DegreesOfFreedom& dofs;
   const std::vector<double>& node_mass;  // m_i, (functions) [kg]
   const Mass& mass;
-  bool remembers;  // whether some of its points have a history
+  bool remembers;  // whether some of the points have a history
 };
 
-/// All boundary conditions of one kind that a scene has. F: (n) [N]; u: over the grid's functions, component i at
-/// [Dim function + i] [m].
+/// All boundary conditions of one kind in a scene. F: (n) [N]; u: over the grid's functions, component i at [Dim
+/// function + i] [m].
 template <int Dim>
 class BoundaryCondition {
  public:
@@ -87,42 +87,43 @@ class BoundaryCondition {
 
   virtual ~BoundaryCondition() = default;
 
-  // A phase begins, in this order:
-  /// Takes hold of unknowns. reached: whether material reaches a function, (functions); gaps: how far it is from a face
-  /// of the grid. Before the first phase it may be asked twice.
+  // Called when a phase begins, in this order:
+  /// Marks the unknowns that are held. reached: whether material reaches a function, (functions); gaps: the distance of
+  /// the material from the faces of the grid. May be called twice before the first phase.
   virtual void hold(const Functions&, const std::vector<char>& /*reached*/, const FaceGaps<Dim>& /*gaps*/,
                     HeldUnknowns&) {}
   /// F += the forces that depend on neither t nor u.
   virtual void begin_phase(const Parts&, Vec /*F*/) {}
-  /// v: the velocities with which it begins, changed if they would go through a wall; (n).
+  /// Changes initial velocities of the phase that would go through a wall; v: (n).
   virtual void begin_motion(const Parts&, double /*t*/, Vec /*v*/) {}
 
-  /// Whether add_load() adds what is another force at another t.
+  /// Whether the force that add_load() adds depends on t.
   virtual bool varies() const = 0;
   /// F += the forces that depend on t, not on u.
   virtual void add_load(const Parts&, double /*t*/, Vec /*F*/) const {}
-  /// Whether some depend on u.
+  /// Whether some forces depend on u.
   virtual bool follows() const { return false; }
-  /// F += these.
+  /// F += the forces that depend on u.
   virtual void add_following_force(const Parts&, double /*t*/, const double* /*u*/, Vec /*F*/) const {}
-  /// ∂F/∂u of these.
+  /// Adds ∂F/∂u of the forces that depend on u.
   virtual void add_following_tangent(const Parts&, double /*t*/, const double* /*u*/, MatrixEntries&) const {}
-  /// F_s += all forces at the prescribed degrees of freedom, (prescribed): what supports bear at once. Only where
-  /// reactions are looked at.
+  /// F_s += all forces at the prescribed degrees of freedom, (prescribed), which supports bear directly. Needed only
+  /// where reactions are reported.
   virtual void add_load_on_supports(const Parts&, double /*t*/, const double* /*u*/, Vec /*F_s*/) const {}
 
-  /// Whether the phase should end with u, (n), as what it touches lies elsewhere than its weights say.
+  /// Whether the phase should end with u, (n), as the material that the condition acts on is no longer where its
+  /// weights say.
   virtual bool asks_for_next_phase(ConstVec /*u*/) const { return false; }
-  /// The phase ends with u.
+  /// Called when the phase ends with u.
   virtual void end_phase(const double* /*u*/) {}
 
-  /// Saves what it remembers of earlier phases and steps, or restores it: once before the phase of then begins anew,
-  /// and once more after.
+  /// Saves or restores what the condition remembers of earlier phases and steps; a restoration calls it twice, before
+  /// and after the saved phase begins anew.
   virtual void archive(const StateArchive& /*state*/) {}
 
-  /// Null if nothing opens and closes; one kind alone may have one.
+  /// The contact of this kind; null if nothing opens and closes. At most one kind may have one.
   virtual Contact* contact() { return nullptr; }
-  /// Appends what its walls feel, of the last evaluation.
+  /// Appends the forces on the walls, from the last evaluation.
   virtual void report(double /*t*/, std::vector<WallReaction>& /*to*/) const {}
 };
 

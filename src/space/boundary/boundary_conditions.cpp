@@ -1,4 +1,4 @@
-// The kinds of boundary conditions, a row each.
+// The kinds of boundary conditions, one on each line.
 #include "space/boundary/boundary_conditions.hpp"
 
 #include "space/boundary/body_force.hpp"

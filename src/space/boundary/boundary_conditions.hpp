@@ -14,8 +14,8 @@ namespace stillpoint {
 template <int Dim>
 using BoundaryConditions = std::vector<std::unique_ptr<BoundaryCondition<Dim>>>;
 
-/// Those that the scene has, in the order in which their forces are summed. The problem outlives them; grid: the first
-/// one; time_scale: of PrescribedMotion.
+/// Makes the boundary conditions that the scene has, in the order in which their forces are summed. The problem must
+/// outlive them; grid: that of the first phase; time_scale: see PrescribedMotion.
 template <Kinematics K>
 BoundaryConditions<dimensions(K)> make_boundary_conditions(const Problem& problem, const Grid<dimensions(K)>& grid,
                                                            double time_scale);

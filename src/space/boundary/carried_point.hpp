@@ -1,4 +1,4 @@
-// A position of a body that a load acts at: it moves with the body from phase to phase.
+// A loaded position of a body, which moves with the body from phase to phase.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -16,36 +16,36 @@
 
 namespace stillpoint {
 
-/// A force f there loads functions by w_a f, and the position follows x += Σ_a w_a u_a: by the same weights, so that
-/// the force does the work of its own displacement.
+/// A position that carries a load: a force f at it loads functions by w_a f, and it follows x += Σ_a w_a u_a with the
+/// same weights, so that the force does the work of its own displacement.
 ///
-/// - In a body of a single phase they are w_a = N_a(x).
-/// - In one that moves on, surface and points part company in the cells that the body's edge cuts: there N_a(x) loads
-///   functions that no point resists as it should, or the cell of x holds no point at all. So the material point
-///   nearest to x carries it. Its volume reaches from x, at x_p + d, to the mirror image x_p − d, and over that, by the
-///   midpoint rule by which it has its part of the internal force,
+/// - In a body of a single phase w_a = N_a(x).
+/// - In a body that moves on, surface and points separate in the cells that the body's edge cuts: there N_a(x) loads
+/// functions that points hardly resist, or the cell of x holds no point at all. Hence the material point nearest to x
+/// carries the position. Its volume is taken to reach from x = x_p + d to the mirror image x_p − d, and the midpoint
+/// rule, by which the point has its share of the internal force, gives over that volume
 ///
 ///     w_a = N_a(x_p − d) + 2 d·∇N_ap = N_a(x) + O(d³),
 ///
-///   a force inside the body and a dipole that the point's stress resists. Since Σ N_a = 1 and Σ N_a ξ_a = x (ξ_a the
-///   Greville abscissae), Σ w_a f = f and Σ w_a ξ_a × f = x × f: neither the force nor its moment depends on which
-///   point that is.
-/// - Where points stand for domains, the position is Σ_c ω_c x_c of the corners of one of them for good, and
-///   w_a = Σ_c ω_c N_a(x_c): a load on a face of domains is in equilibrium with a stress in them.
+/// a force inside the body and a dipole that the point's stress resists. Since Σ N_a = 1 and Σ N_a ξ_a = x (ξ_a the
+/// Greville abscissae), Σ w_a f = f and Σ w_a ξ_a × f = x × f: neither the force nor its moment depends on which point
+/// carries it.
+/// - Where points represent domains, the position stays in the domain of one point, at Σ_c ω_c x_c of its corners, and
+/// w_a = Σ_c ω_c N_a(x_c): a load on a face of domains is in equilibrium with a stress in them.
 template <int Dim>
 struct CarriedPoint {
   struct Entry {
-    int function = -1;  // of the grid; −1: none that material reaches
+    int function = -1;  // function of the grid; −1: one that no material reaches
     double w = 0;       // weight
-    Point<Dim> dN{};    // of the displacement's gradient there [1/m]
+    Point<Dim> dN{};    // factor in the displacement gradient at the position [1/m]
   };
 
-  Point<Dim> x;                // when the phase begins [m]
-  Point<Dim> X;                // undeformed, of one that belongs to a domain [m]
-  std::size_t carrier;         // number of the point whose domain that is
-  std::vector<Entry> entries;  // of a cell's functions, or of those of two cells, which may be the same one
+  Point<Dim> x;                // position when the phase begins [m]
+  Point<Dim> X;                // undeformed position, if the position belongs to a domain [m]
+  std::size_t carrier;         // number of the point whose domain it belongs to
+  std::vector<Entry> entries;  // the functions of a cell, or of two cells, which may be the same one
 
-  /// By the functions of a cell. Σ_a w_a of those that material reaches.
+  /// Sets the weights by the functions of a cell. Returns Σ_a w_a over the functions that material reaches.
   double freeze(const std::array<int, Dim>& cell, const PhaseParts<Dim>& phase) {
     const int per_cell = phase.functions.per_cell();
     entries.assign(static_cast<std::size_t>(per_cell), {});
@@ -56,8 +56,8 @@ struct CarriedPoint {
     }
     return reached;
   }
-  /// By a material point. A position further than a cell's width away has lost its surface, and is brought back to
-  /// there.
+  /// Sets the weights by a material point. A position further than a cell's width from the point has lost its surface,
+  /// and is moved back to that distance.
   void freeze(const PointInCell& nearest, const PhaseParts<Dim>& phase) {
     const int per_cell = phase.functions.per_cell();
     entries.assign(static_cast<std::size_t>(2 * per_cell), {});
@@ -85,7 +85,7 @@ struct CarriedPoint {
     const auto at_mirror = phase.functions.evaluate(phase.grid.cell_of(mirror), mirror);
     const double reached = take_functions(per_cell, at_mirror, phase);
     if (reached > 1 - 1e-13) return;
-    // There is no material at the mirror image: to first order.
+    // There is no material at the mirror image: the weights are of first order.
     typename PointFunctions<Dim>::Numbers N;
     phase.weights.values(k, p, N);
     for (int a = 0; a < per_cell; ++a) {
@@ -94,18 +94,18 @@ struct CarriedPoint {
     }
   }
 
-  /// Belongs to the domain of a point from now on, which is still undeformed.
+  /// Attaches the position to the domain of a point, which is still undeformed.
   void attach(const PointInCell& nearest, const MaterialPoints<Dim>& points) {
     carrier = static_cast<std::size_t>(points.number[nearest.p]);
     X = x;
   }
-  /// In the domain of point p, −1 to 1.
+  /// The position in the domain of point p, each coordinate from −1 to 1.
   Point<Dim> position_in(std::size_t p, const MaterialPoints<Dim>& points) const {
     Point<Dim> xi;
     for (int j = 0; j < Dim; ++j) xi[j] = (X[j] - points.rest[j][p]) / points.half[j][p];
     return xi;
   }
-  /// By the corners of that domain.
+  /// Sets the weights by the corners of the domain that the position belongs to.
   void freeze_in_domain(const PointInCell& of, const PhaseParts<Dim>& phase) {
     const int per_cell = phase.functions.per_cell();
     entries.assign(static_cast<std::size_t>(per_cell), {});
@@ -125,7 +125,7 @@ struct CarriedPoint {
       Entry& of_domain = entry(a);
       for (int j = 0; j < Dim; ++j) {
         of_domain.dN[j] = gradients[per_cell * j + a];
-        // Where the domain was shrunk: the moment is still that of x.
+        // Keeps the moment that of x, where the domain in the grid was shrunk.
         for (int c = 0; c < domain.corners; ++c)
           of_domain.w += share[c] * (domain.x[c][j] - in_grid.x[c][j]) * of_domain.dN[j];
       }
@@ -134,7 +134,7 @@ struct CarriedPoint {
     }
   }
 
-  /// The phase ends with u.
+  /// Moves the position by the displacement u at the end of a phase.
   void move(const double* u) {
     for (int i = 0; i < Dim; ++i) {
       for (const Entry& a : entries) {
@@ -143,7 +143,7 @@ struct CarriedPoint {
     }
   }
 
-  /// visit(entry, component, free degree of freedom, its share of the entry's function)
+  /// Calls visit(entry, component, free degree of freedom, its share of the entry's function).
   template <class Visit>
   void for_free(const DegreesOfFreedom& dofs, const Visit& visit) const {
     for_sources(dofs, [&](const Entry& a, int i, int dof, double share) {
@@ -151,7 +151,7 @@ struct CarriedPoint {
     });
   }
 
-  /// visit(entry, component, number of the prescribed unknown, its share)
+  /// Calls visit(entry, component, number of the prescribed unknown, its share).
   template <class Visit>
   void for_prescribed(const DegreesOfFreedom& dofs, const Visit& visit) const {
     for_sources(dofs, [&](const Entry& a, int i, int dof, double share) {
@@ -170,7 +170,8 @@ struct CarriedPoint {
     }
   }
   Entry& entry(int a) { return entries[static_cast<std::size_t>(a)]; }
-  // The functions of a cell that material reaches, with weights N, from an entry on. Σ N of these.
+  // Takes those functions of a cell that material reaches, with weights N, into the entries from `first` on. Returns
+  // the sum of their N.
   double take_functions(int first, const typename GridFunctions<Dim>::Values& values, const PhaseParts<Dim>& phase) {
     double reached = 0;
     for (int a = 0; a < phase.functions.per_cell(); ++a) {
@@ -183,7 +184,7 @@ struct CarriedPoint {
   }
 };
 
-/// The cell whose functions are taken at a position of the grid.
+/// The cell whose functions represent a position of the grid.
 template <int Dim>
 std::array<int, Dim> cell_with_functions_at(const GridFunctions<Dim>& functions, const Point<Dim>& x) {
   const Grid<Dim>& grid = functions.grid();
@@ -193,11 +194,13 @@ std::array<int, Dim> cell_with_functions_at(const GridFunctions<Dim>& functions,
   return cell;
 }
 
-/// The points whose domains hold the loads: of one in parts the part in which it is, or which is nearest.
+/// The points whose domains carry the loads: of a domain split into parts, the part that contains the load or is
+/// nearest.
 template <int Dim, class Loads, class PositionOf>
 std::vector<PointInCell> carriers_of(Loads& loads, const PositionOf& at_of, const MaterialPoints<Dim>& points) {
   constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> first(points.size(), none), next(loads.size());  // lists of the loads of each number
+  std::vector<std::size_t> first(points.size(), none), next(loads.size());  // linked lists of the loads of each point
+                                                                            // number
   for (std::size_t l = loads.size(); l-- > 0;) next[l] = std::exchange(first[at_of(loads[l]).carrier], l);
   std::vector<PointInCell> carriers(loads.size());
   std::vector<double> nearest(loads.size(), std::numeric_limits<double>::infinity());
@@ -216,7 +219,7 @@ std::vector<PointInCell> carriers_of(Loads& loads, const PositionOf& at_of, cons
   return carriers;
 }
 
-/// Lets material points carry the positions at_of(load) in the phase that begins.
+/// Sets the weights of the positions at_of(load) for the phase that begins, by the material points that carry them.
 template <int Dim, class Loads, class PositionOf>
 void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const PhaseParts<Dim>& phase) {
   if (phase.functions.window() == 1) {

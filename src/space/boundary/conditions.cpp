@@ -22,7 +22,7 @@ Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Gr
   }
 }
 
-// Supports first: what they bear on the axis is theirs.
+// Supports come first, so that reactions on the axis which they take count as theirs.
 template <Kinematics K>
 HeldUnknowns Conditions<K>::hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
                                  const PointFunctions<dim>& weights, const std::vector<char>& reached,
@@ -134,7 +134,8 @@ std::vector<double> Conditions<K>::support_displacements(const HeldUnknowns& hel
   return moved;
 }
 
-// R_s − F_s at the prescribed values, −k g of springs. A slope has a moment, which is no force.
+// The reactions R_s − F_s at the prescribed values and −k g of springs. The reaction of a prescribed slope is a moment
+// and no force, and is left out.
 template <Kinematics K>
 std::vector<SupportReaction> Conditions<K>::support_reactions(const Parts& phase, double t, const double* u,
                                                               ConstVec reactions) const {
@@ -152,7 +153,7 @@ std::vector<SupportReaction> Conditions<K>::support_reactions(const Parts& phase
   std::vector<double> F_s(prescribed, 0);
   for (const auto& condition : all_) condition->add_load_on_supports(phase, t, u, F_s);
   load_control_.add_load_on_supports(phase, t, u, F_s);
-  // f along axis i at x, with its moment x × f e_i.
+  // Adds the force f along axis i at x, and its moment x × f e_i.
   const auto bear = [&](SupportReaction& support, int i, double f, [[maybe_unused]] const auto& place_of) {
     support.force[static_cast<std::size_t>(i)] += f;
     if constexpr (dim == 3) {

@@ -1,5 +1,5 @@
-// All that holds and loads a body, for the phase that it acts in: supports, walls and loads (boundary_condition.hpp),
-// the springs of supports and of driven loads, and the axis of symmetry.
+// All conditions on a body in the present phase: supports, walls and loads (boundary_condition.hpp), the springs of
+// supports and of driven loads, and the axis of symmetry.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -24,8 +24,8 @@ class Conditions {
  public:
   using Parts = PhaseParts<dim>;
 
-  /// scene: without the loads that a displacement drives, those of `whole`; it outlives this. grid, body: as placed;
-  /// time_scale: of PrescribedMotion.
+  /// problem: the scene without the loads that a displacement drives, which are in `whole`; must outlive this object.
+  /// grid, body: as placed; time_scale: see PrescribedMotion.
   Conditions(const Problem& problem, const Problem& whole, const Grid<dim>& grid, const Body<K>& body,
              double time_scale);
 
@@ -34,7 +34,7 @@ class Conditions {
                     const PointFunctions<dim>& weights, const std::vector<char>& reached, const FaceGaps<dim>& gaps);
   /// F += the forces that depend on neither t nor u, (n). Throws SceneError, see WeakSupports and LoadControl.
   void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound, Vec F);
-  /// v: the velocities with which it begins, changed if they would go through a wall, (n).
+  /// Changes initial velocities of the phase that would go through a wall; v: (n).
   void begin_motion(const Parts& phase, double t, Vec v);
   /// Whether material reaches the axis of symmetry, which then holds it.
   bool act_on_axis() const { return axis_.acts(); }
@@ -42,33 +42,36 @@ class Conditions {
   // --- forces at (t, u), u over the grid's functions -----------------------------------------------
   bool loads_are_constant() const;
   bool loads_follow() const;
-  /// F += those that depend on t alone.
+  /// F += the forces that depend on t alone.
   void add_loads(const Parts& phase, double t, Vec F) const;
-  /// F += those that depend on u.
+  /// F += the forces that depend on u.
   void add_following_loads(const Parts& phase, double t, const double* u, Vec F) const;
-  /// ∂F/∂u of these, (n × n).
+  /// ∂F/∂u of the forces that depend on u, (n × n).
   SparseMatrix tangent_of_loads(const Parts& phase, double t, const double* u) const;
 
   std::size_t springs() const { return weak_supports_.springs().size() + load_control_.springs().size(); }
-  /// R += the springs' forces, (n); reactions: of the supports that prescribe unknowns, and behind these of springs.
+  /// R += the springs' forces, (n); reactions: of the supports that prescribe unknowns, followed by those of the
+  /// springs.
   void add_springs(double t, const double* u, Vec R, Vec reactions) const;
-  /// dR += their derivative along du.
+  /// dR += the derivative of the springs' forces along du.
   void add_springs_product(const double* du, Vec dR) const;
-  /// matrix += that of supports; of driven loads it would be full, and static solvers have none.
+  /// matrix += the derivative of the supports' springs; that of driven loads would be a full matrix, and static solvers
+  /// have no driven loads.
   void add_springs_matrix(SparseMatrix& matrix) const { weak_supports_.springs().add_matrix(matrix); }
-  /// Whether a support holds by springs, and by how much omega_max² may have grown through them since the first phase.
+  /// Whether a support holds by springs, and the factor by which omega_max² may have grown through them since the first
+  /// phase.
   bool hold_by_springs() const { return !weak_supports_.empty(); }
   double growth_of_springs() const { return weak_supports_.growth(); }
   /// Whether a spring of a support acts on an unknown of the grid, (unknowns).
   std::vector<char> are_sprung(std::size_t unknowns) const;
 
-  // --- as a phase goes on, and ends ----------------------------------------------------------------
+  // --- during a phase, and at its end ---------------------------------------------------------------
   Contact* contact() const { return contact_; }
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(const double* u);
   void archive(const StateArchive& state);
 
-  // --- what they feel; reactions as of add_springs() -----------------------------------------------
+  // --- reactions and displacements; the argument `reactions` as in add_springs() --------------------
   std::vector<WallReaction> wall_reactions(double t) const;
   std::vector<double> support_displacements(const HeldUnknowns& held, double t) const;
   std::vector<SupportReaction> support_reactions(const Parts& phase, double t, const double* u,
@@ -83,7 +86,7 @@ class Conditions {
   AxisOfSymmetry<K> axis_;
   WeakSupports<K> weak_supports_;
   LoadControl<K> load_control_;
-  Contact* contact_ = nullptr;  // of one of them
+  Contact* contact_ = nullptr;  // contact of one of the conditions; null if there is none
 };
 
 extern template class Conditions<Kinematics::line>;

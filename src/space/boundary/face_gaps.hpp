@@ -1,12 +1,13 @@
-// How far material is from a face of the grid, function by function.
+// Gaps between the material and a face of the grid, function by function.
 //
-// A function that is not zero on a face reaches a cell into the grid, so that it may move material that the face does
-// not touch. Its gap is that of the material which is nearest to the face,
+// A function that does not vanish on a face reaches a cell into the grid, so that it may move material that does not
+// touch the face. Its gap is that of its material nearest to the face,
 //
 //   g_a = min_p s (x_face − x_p) − d_p,   over the points with N_ap > 0,
 //
-// s = ±1 outwards, d_p how far p lies below its body's surface: of a domain by its corners as they are, else as the
-// body was filled. So u_a ≤ g_a at all functions of a face lets no material pass it: Σ_a N_a u_a ≤ g of each position.
+// s = ±1 outwards, d_p the depth of p below its body's surface: that of a domain by its present corners, otherwise that
+// of the initial body. Hence u_a ≤ g_a at all functions of a face lets no material pass it: Σ_a N_a u_a ≤ g at each
+// position.
 #pragma once
 
 #include <stillpoint/scene_options.hpp>
@@ -23,7 +24,7 @@
 
 namespace stillpoint {
 
-/// Of the cells at a face of a grid, along its normal [m].
+/// The width of the cells at a face of a grid, along its normal [m].
 template <int Dim>
 double cell_width(const Grid<Dim>& grid, Face face) {
   const auto& nodes = grid.axes[axis_of(face)].nodes;
@@ -35,12 +36,13 @@ class FaceGaps {
  public:
   static constexpr double nothing = std::numeric_limits<double>::infinity();
 
-  /// All outlive it, and are of the phase that begins.
+  /// All arguments belong to the phase that begins, and must outlive this object.
   FaceGaps(const GridFunctions<Dim>& functions, const MaterialPoints<Dim>& points, const PointFunctions<Dim>& weights,
            SurfaceDepths<Dim>& depths)
       : window_(functions.window()), grid_(functions.grid()), points_(points), weights_(weights), depths_(depths) {}
 
-  /// Of each of these functions of a face, ascending [m]; `nothing` if no material reaches it, 0 where it is not known.
+  /// The gap of each of these functions of a face, in ascending order [m]; `nothing` if no material reaches the
+  /// function, 0 where the gap is not known.
   std::vector<double> of(Face face, const std::vector<int>& functions) const {
     const bool upper = is_upper(face);
     const int axis = axis_of(face);
@@ -52,8 +54,8 @@ class FaceGaps {
       if (from_face >= window_) continue;
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
         double gap = nothing;
-        // Those of its cell that are zero at a point are so on a grid line alone; a domain need not reach into the next
-        // cell.
+        // A function of the point's cell vanishes at a point only if that lies on a grid line; a domain need not reach
+        // into the next cell.
         typename PointFunctions<Dim>::Numbers N;
         if (window_ > 1) weights_.values(k, p, N);
         for (int a = 0; a < weights_.functions_of_cell(); ++a) {
@@ -68,7 +70,7 @@ class FaceGaps {
     }
     return gaps;
   }
-  /// The least gap of a body as it was described, [m]: also where it touches a face between two points.
+  /// The least gap of the initial bodies [m], which also counts contact with a face between two points.
   double least_of_bodies(Face face) const {
     double least = nothing;
     for (std::size_t body = 0; body < depths_.bodies(); ++body) least = std::min(least, of_body(body, face));

@@ -1,4 +1,4 @@
-// A part of a face of a box, cut into pieces, some to a cell.
+// Cuts a part of a face of a box into pieces, several in each cell.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 
 namespace stillpoint {
 
-/// visit(x, size, share) for each piece: at x, as long as it is in the plane or as large in space [m or m²], and so
-/// much of its cell's face. The face lies across axis `normal` at `at`; the rule is that of the body along each of its
-/// axes.
+/// Calls visit(x, size, share) for each piece: its position, its length in the plane or area in space [m or m²], and
+/// its share of the cell's face. The face lies across axis `normal` at `at`; rule_along gives the quadrature rule of
+/// the body along each of the face's axes.
 template <int Dim, class RuleAlong, class Visit>
 void for_face_pieces(const Grid<Dim>& grid, std::size_t normal, double at, const std::vector<FaceInterval>& part,
                      const RuleAlong& rule_along, const Visit& visit) {

@@ -1,4 +1,4 @@
-// Where the pieces of a face lie in each cell's part of it.
+// Quadrature rules for the pieces of a face in each cell.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -13,13 +13,13 @@
 
 namespace stillpoint {
 
-/// ξ in [−1, 1] and its weight; the weights' sum is 2.
+/// A point ξ in [−1, 1] and its weight; the weights of a rule have the sum 2.
 struct FacePoint {
   double xi, weight;
 };
 
-/// Three Gauss points, exact to degree 5. If material points are to carry them, one to each of the points that lie
-/// along the face, as wide as it is.
+/// Three Gauss points, exact to degree 5. If material points carry the pieces, one piece for each point along the face,
+/// of the point's width.
 inline std::vector<FacePoint> face_rule(const BodySpec& body, std::size_t along, bool carried, bool domains) {
   if (!carried) return {{-std::sqrt(0.6), 5.0 / 9}, {0.0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}};
   const Placement placement = body.placement == Placement::gauss ? Placement::gauss : Placement::uniform;
@@ -32,9 +32,9 @@ inline std::vector<FacePoint> face_rule(const BodySpec& body, std::size_t along,
   return rule;
 }
 
-/// For what varies along the face: of cubics the products with the functions are exact. Five Gauss points, to degree 9,
-/// as cubic functions have 6 along an oblique line; three in each of the n equal parts of it that material points
-/// carry.
+/// The rule for a load that varies along the face, so that the products of cubic loads with the functions are exact.
+/// Five Gauss points, exact to degree 9, as cubic functions have degree 6 along an oblique line; or three in each of
+/// the n equal parts that material points carry.
 inline std::vector<FacePoint> varying_face_rule(const BodySpec& body, std::size_t along, bool carried) {
   const int parts = carried ? body.points_per_cell[along] : 1;
   const std::vector<double> xi = line_positions(Placement::gauss, carried ? 3 : 5);

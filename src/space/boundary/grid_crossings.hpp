@@ -1,4 +1,4 @@
-// A straight part of a border, cell by cell.
+// Intersections of a straight part of a border with the grid.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace stillpoint {
 
-/// The ends of a line, and where it crosses grid lines between them, in order.
+/// The ends of a line and its crossings with grid lines between them, in order.
 inline std::vector<Point<2>> grid_crossings(const BorderLine& line, const Grid<2>& grid) {
-  constexpr double rounding = 1e-12;  // of the line's length: no piece is shorter
+  constexpr double rounding = 1e-12;  // share of the line's length: no piece is shorter
   std::vector<std::pair<double, Point<2>>> found = {{0, line.from}, {1, line.to}};
   for (std::size_t d = 0; d < 2; ++d) {
     const double length = line.to[d] - line.from[d];

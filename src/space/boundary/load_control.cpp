@@ -10,10 +10,11 @@
 namespace stillpoint {
 namespace {
 
-// Of the stiffest spring that leaves the critical step alone where the loads act at a single function.
+// Share of the stiffness of the stiffest spring that leaves the critical step unchanged where the loads act at a single
+// function.
 constexpr double beta = 0.25;
 
-// Σ_a |F_a|
+// The total load Σ_a |F_a|.
 double magnitude(int dim, const std::vector<double>& F, const DegreesOfFreedom& dofs) {
   std::vector<double> square(dofs.number.size() / static_cast<std::size_t>(dim), 0.0);
   for (std::size_t k = 0; k < F.size(); ++k) square[static_cast<std::size_t>(dofs.free[k] / dim)] += F[k] * F[k];
@@ -47,7 +48,7 @@ void LoadControl<K>::begin_phase(const Parts& phase, const StiffnessBound& stiff
   for (std::size_t k = 0; k < F.size(); ++k) {
     if (F[k] != 0) weights.push_back({phase.dofs.free[k], static_cast<int>(k), F[k] / total_});
   }
-  if (!(stiffness_ > 0)) {  // of all phases that of the first
+  if (!(stiffness_ > 0)) {  // set in the first phase for all phases
     const std::vector<double> G = stiffness_bound();
     double compliance = 0;
     for (const auto& [unknown, dof, w] : weights) compliance += w * w / G[static_cast<std::size_t>(unknown / dim)];

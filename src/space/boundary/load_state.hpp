@@ -1,4 +1,4 @@
-// What a load control (load_control.hpp) has come to.
+// The state of a load control (load_control.hpp).
 #pragma once
 
 namespace stillpoint {
@@ -6,7 +6,7 @@ namespace stillpoint {
 struct LoadState {
   double factor = 0;        // λ of the reference loads
   double displacement = 0;  // q, their mean displacement [m]
-  double prescribed = 0;    // what it is driven to, q(t) [m]
+  double prescribed = 0;    // the prescribed q(t) [m]
 };
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// A body force of the program's own, b(x, t) of all points at once.
+// A user-defined body force, b(x, t) for all points at once.
 #pragma once
 
 #include <memory>
@@ -51,8 +51,8 @@ class OwnBodyForceCondition final : public BoundaryCondition<Dim> {
   }
 
   std::shared_ptr<const OwnLoadRow> own_;
-  std::vector<double> x_;          // (points × dim) as the phase began [m]
-  mutable std::vector<double> b_;  // as it was asked last [m/s²]
+  std::vector<double> x_;          // positions when the phase began, (points × dim) [m]
+  mutable std::vector<double> b_;  // value of the last evaluation, (points × dim) [m/s²]
 };
 
 }  // namespace stillpoint

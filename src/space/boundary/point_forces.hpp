@@ -1,4 +1,4 @@
-// Forces at points of the body, with which they move: F_i = w_i P(t), see carried_point.hpp.
+// Forces at points of the body, which move with it: F_i = w_i P(t), see carried_point.hpp.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -96,9 +96,9 @@ class PointForces final : public BoundaryCondition<Dim> {
   }
 
   const Problem& problem_;
-  std::vector<CarriedPoint<Dim>> at_;  // of each force
-  bool has_begun_ = false;             // the first phase
-  std::vector<Varying> varying_;       // of the present phase
+  std::vector<CarriedPoint<Dim>> at_;  // position of each force
+  bool has_begun_ = false;             // whether the first phase has begun
+  std::vector<Varying> varying_;       // the forces that depend on t, in the present phase
 };
 
 }  // namespace stillpoint

@@ -1,11 +1,11 @@
-// A force per mass at the material points: F_i = Σ_p N_ip m_p b_p.
+// Loads by a force per mass at the material points: F_i = Σ_p N_ip m_p b_p.
 #pragma once
 
 #include "space/boundary/boundary_condition.hpp"
 
 namespace stillpoint {
 
-/// F += at the free degrees of freedom, (n); b(p, i): component i at point p [m/s²].
+/// F += the load on the free degrees of freedom, (n); b(p, i): component i at point p [m/s²].
 template <int Dim, class Force>
 void add_point_loads(const PhaseParts<Dim>& phase, const Force& b, Vec F) {
   const auto& points = phase.points;
@@ -17,7 +17,7 @@ void add_point_loads(const PhaseParts<Dim>& phase, const Force& b, Vec F) {
   }
 }
 
-/// F_s += at the prescribed ones.
+/// F_s += the load on the prescribed degrees of freedom, (prescribed).
 template <int Dim, class Force>
 void add_point_loads_on_supports(const PhaseParts<Dim>& phase, const Force& b, Vec F_s) {
   const auto& points = phase.points;

@@ -9,7 +9,7 @@
 namespace stillpoint {
 namespace {
 
-// difference(t), or at t + 2h where it reaches to where the formula has no value.
+// The value difference(t), or that at t + 2h if the stencil reaches times at which the formula has no value.
 template <class Difference>
 double where_defined(const Difference& difference, double t, double h) {
   const double value = difference(t);

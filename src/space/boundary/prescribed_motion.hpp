@@ -1,4 +1,4 @@
-// A displacement prescribed as a formula in t, and in the position, with its velocity and acceleration.
+// A displacement prescribed as a formula in t and position, with its velocity and acceleration.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -13,15 +13,15 @@ namespace stillpoint {
 class PrescribedMotion {
  public:
   /// time_scale [s]: about 1/omega_max of the body. A motion that the grid resolves varies over much longer times, and
-  /// a kink is spread over about a critical step, so that its impulse is right.
-  /// A formula of the position as well is that at X [m].
+  /// a kink is spread over about a critical step, so that its impulse is right. X [m]: the position at which the
+  /// formula is evaluated, if it depends on position.
   PrescribedMotion(Expression motion, double time_scale, std::vector<double> X = {})
       : motion_(std::make_shared<const Expression>(std::move(motion))),
         X_(std::move(X)),
         moves_(motion_->uses('t')),
         fixed_(moves_ ? 0 : (*motion_)(X_, 0)),
         h_(time_scale / 4) {}
-  /// The same formula at another position; both share what it was compiled to.
+  /// The same formula at another position; both share its compiled form.
   PrescribedMotion at(std::vector<double> X) const {
     PrescribedMotion moved = *this;
     moved.X_ = std::move(X);
@@ -33,13 +33,13 @@ class PrescribedMotion {
   bool varies_in_space() const { return motion_->uses_position(); }
   bool moves() const { return moves_; }
   double displacement(double t) const { return moves_ ? (*motion_)(X_, t) : fixed_; }
-  /// By central differences of fourth order, off by (h ω)⁴/30 for a motion of frequency ω. If the formula has no
-  /// value before t (a root, say), they are taken a little later.
+  /// The velocity by central differences of fourth order, with the relative error (h ω)⁴/30 for a motion of frequency
+  /// ω. If the formula has no value before t (a root, say), they are taken a little later.
   double velocity(double t) const;
-  /// Likewise, off by (h ω)⁴/90.
+  /// The acceleration likewise, with the relative error (h ω)⁴/90.
   double acceleration(double t) const;
-  /// The same as a step of central differences of length h sees them, so that it follows the motion exactly and no kink
-  /// falls between two steps: (u(t + h) − u(t − h))/(2 h) and (u(t − h) − 2 u(t) + u(t + h))/h².
+  /// Velocity and acceleration by the central differences of a step of length h, so that the step follows the motion
+  /// exactly and no kink falls between two steps: (u(t + h) − u(t − h))/(2 h) and (u(t − h) − 2 u(t) + u(t + h))/h².
   double velocity_over(double t, double h) const;
   double acceleration_over(double t, double h) const;
 
@@ -47,11 +47,11 @@ class PrescribedMotion {
   std::shared_ptr<const Expression> motion_;
   std::vector<double> X_;  // [m]
   bool moves_;
-  double fixed_;  // the displacement if it does not move [m]
+  double fixed_;  // the displacement, if it is constant [m]
   double h_;      // [s]
 };
 
-/// Throws SceneError if the motion of a support has no value where it is, whatever the time.
+/// Throws SceneError if the motion of a support has no value at the support's position at any time.
 void check_motion(std::size_t support, const PrescribedMotion& motion);
 
 }  // namespace stillpoint

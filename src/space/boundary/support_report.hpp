@@ -1,4 +1,4 @@
-// What supports report.
+// Reports of supports.
 #pragma once
 
 #include <array>
@@ -7,16 +7,17 @@
 
 namespace stillpoint {
 
-/// The force that a named support exerts on the body [N]. Of an axisymmetric body its first component is what acts
-/// along the radius, summed around the axis. What mass moves with prescribed unknowns is not in it: with that, and in
-/// motion, the support bears M a more.
+/// The force that a named support exerts on the body [N]. In an axisymmetric body the first component is the radial
+/// force, summed around the axis. The inertia of the mass that moves with prescribed unknowns is not included: while
+/// that moves, the support bears M a more.
 struct SupportReaction {
   std::string name;
-  std::array<double, 3> force{};   // its first components are those of the scene [N]
-  std::array<double, 3> moment{};  // in space, about the origin, where the supported material is now [N m]
+  std::array<double, 3> force{};   // components along the scene's axes [N]
+  std::array<double, 3> moment{};  // in space, about the origin, at the present position of the supported material [N
+                                   // m]
 };
 
-/// How far a support that holds by springs gives way.
+/// The displacement of an elastic support.
 struct WeakSupport {
   std::size_t support = 0;  // its number in the scene
   std::size_t springs = 0;

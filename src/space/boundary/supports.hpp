@@ -1,5 +1,5 @@
-// Supports where the basis has values of its own: unknowns prescribed at a node, along a face of the grid or a part of
-// it, u_s = u_s(t). The others hold by springs, see weak_supports.hpp.
+// Supports at which the basis interpolates: unknowns prescribed at a node, or along a face of the grid or a part of it,
+// u_s = u_s(t). The other supports hold by springs, see weak_supports.hpp.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -53,7 +53,7 @@ class Supports final : public BoundaryCondition<Dim> {
     }
   }
   bool varies() const override { return false; }
-  // What comes to a face lies on it from then on.
+  // Material that reaches the face is held from then on, which needs a new phase.
   bool asks_for_next_phase(ConstVec u) const override {
     return std::ranges::any_of(waiting_, [u](const Waiting& one) { return one.outward * u[one.dof] >= one.gap; });
   }
@@ -85,8 +85,8 @@ class Supports final : public BoundaryCondition<Dim> {
     held.prescribe(unknown, motions_[s], s);
   }
 
-  // Every function that is not zero on the face and whose material lies on it, of a part those of its nodes: values
-  // move with the support, slopes along it stay.
+  // Holds every function that does not vanish on the face and whose material lies on it, and for a part of a face those
+  // whose nodes are in the part: values move with the support, slopes along it stay.
   void hold_face(std::size_t s, const Functions& functions, const std::vector<char>& reached, const FaceGaps<Dim>& gaps,
                  HeldUnknowns& held) {
     const SupportSpec& support = problem_.supports[s];
@@ -118,7 +118,8 @@ class Supports final : public BoundaryCondition<Dim> {
     }
   }
 
-  // Of a formula of the position that at the function's node, where the value is its own (support_kind.hpp).
+  // The motion of a function: a formula in the position is evaluated at the function's node, where the basis
+  // interpolates (support_kind.hpp).
   const PrescribedMotion& motion_at(std::size_t s, const Functions& functions, int function) {
     if (!motions_[s].varies_in_space()) return motions_[s];
     std::vector<double> X(Dim);
@@ -131,7 +132,7 @@ class Supports final : public BoundaryCondition<Dim> {
 
   bool is_in_part(const SupportSpec& support, const Functions& functions, int function) const {
     if (Dim == 1 || !support.on_part()) return true;
-    constexpr double rounding = 1e-9;  // of a cell
+    constexpr double rounding = 1e-9;  // share of a cell
     return std::ranges::all_of(held_part(problem_.grid, support), [&](const FaceInterval& part) {
       const auto along = part.along;
       const double x = functions.centre(function, static_cast<int>(along));
@@ -142,10 +143,11 @@ class Supports final : public BoundaryCondition<Dim> {
 
   const Problem& problem_;
   PrescribedMotion rest_;
-  std::vector<PrescribedMotion> motions_;  // of each support
-  std::vector<TouchedFunctions> touched_;  // of each, on its face
-  std::vector<Waiting> waiting_;           // normals of functions whose material has not come to a face yet
-  std::map<std::pair<std::size_t, int>, PrescribedMotion> at_nodes_;  // of those that vary, and each of their functions
+  std::vector<PrescribedMotion> motions_;  // motion of each support
+  std::vector<TouchedFunctions> touched_;  // the held functions of each support on a face
+  std::vector<Waiting> waiting_;           // normal unknowns whose material has not reached the face yet
+  std::map<std::pair<std::size_t, int>, PrescribedMotion> at_nodes_;  // motions that vary in space, by support and
+                                                                      // function
 };
 
 }  // namespace stillpoint

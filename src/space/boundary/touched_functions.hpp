@@ -1,6 +1,6 @@
-// Which functions of a face of the grid a support there holds: those that move material which lies on the face. A
-// function reaches a cell into the grid, and what it holds a cell away would hang there. In phases others wait until
-// their material has come to the face.
+// The functions of a face of the grid that a support there holds: those that move material lying on the face. A
+// function reaches a cell into the grid, and material a cell away would hang from a function held there. Over the
+// phases, other functions wait until their material has reached the face.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>
@@ -18,22 +18,22 @@
 
 namespace stillpoint {
 
-/// "the nearest body is 0.4 m (0.8 of a cell) away from it"
+/// Such as "the nearest body is 0.4 m (0.8 of a cell) away from it".
 inline std::string gap_message(const std::string& what, double gap, double cell) {
   return fmt::format("{} is {:.4g} m ({:.3g} of a cell) away from it", what, gap, gap / cell);
 }
 
 class TouchedFunctions {
  public:
-  /// One whose material is a gap away from the face [m]; below 0: past it.
+  /// A function whose material is a gap away from the face [m]; below 0: past it.
   struct Apart {
     int function;
     double gap;
   };
 
-  /// Of these functions of a face, ascending, which material reaches, those that are touched, as the first phase
-  /// begins: nothing is held across a gap. Of a body that touches the face in a position between its points, those
-  /// nearest to it.
+  /// The touched functions when the first phase begins, from the functions of a face that material reaches, in
+  /// ascending order: nothing is held across a gap. If a body touches the face between its points, the functions of the
+  /// points nearest to it.
   template <int Dim>
   std::vector<int> first(Face face, const std::vector<int>& reached, const FaceGaps<Dim>& gaps, int functions) {
     functions_ = functions;
@@ -52,8 +52,8 @@ class TouchedFunctions {
     }
     return held_;
   }
-  /// The same as a later phase begins. What was held stays so; what has come to the face is held from now on. Where the
-  /// number of functions is another one, the grid's lines have moved.
+  /// The touched functions when a later phase begins. Held functions stay held, and those whose material has reached
+  /// the face are added. A different number of functions means that the grid lines have moved.
   template <int Dim>
   std::vector<int> next(Face face, const std::vector<int>& reached, const FaceGaps<Dim>& gaps, int functions) {
     constexpr double near = 0.01;  // of a cell
@@ -77,9 +77,10 @@ class TouchedFunctions {
     std::ranges::merge(held, stays, std::back_inserter(held_));
     return held_;
   }
-  /// Of those that next() left, ascending: how far their material has to go.
+  /// The functions that next() left free, in ascending order, with the gaps of their material.
   const std::vector<Apart>& waiting() const { return waiting_; }
-  /// How far past the face, or before it, the material lies that has come since the last phase began; 0: it has not.
+  /// The gap of material that has reached the face since the last phase began, below 0: past it; 0 if the function has
+  /// none.
   double gap_of_come(int function) const {
     const auto found = std::ranges::lower_bound(come_, function, {}, &Apart::function);
     return found != come_.end() && found->function == function ? found->gap : 0;
@@ -91,7 +92,7 @@ class TouchedFunctions {
     archive(state, "come", come_);
     is_restored_ = state.restores();
   }
-  /// How far the material was away that first() looked at [m].
+  /// The least gap that first() found [m].
   double least() const { return least_; }
 
  private:
@@ -105,9 +106,9 @@ class TouchedFunctions {
     for (std::size_t k = 0; k < functions.size(); ++k) apart.push_back({functions[k], gaps.at(k)});
   }
 
-  std::vector<int> held_;              // at the last call
-  std::vector<Apart> waiting_, come_;  // likewise
-  bool is_restored_ = false;           // before the phase of then begins anew
+  std::vector<int> held_;              // at the last call of first() or next()
+  std::vector<Apart> waiting_, come_;  // left free by it, and newly come to the face
+  bool is_restored_ = false;           // whether archive() restored the state and the phase has not begun anew
   int functions_ = 0;
   double least_ = 0;
 };

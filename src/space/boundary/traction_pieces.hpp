@@ -1,4 +1,4 @@
-// The part of a body's border that a traction acts on, cut into pieces, some to a cell.
+// Cuts the part of a body's border that a traction acts on into pieces, several in each cell.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -18,8 +18,8 @@
 
 namespace stillpoint {
 
-/// Of a body's end, of a straight part of its border, in space of a part of a face or of a curved surface. The area is
-/// undeformed, 2 π r ds if axisymmetric [m²].
+/// Pieces of a body's end, of a straight part of its border or, in space, of a part of a face or a curved surface. The
+/// area is undeformed, 2 π r ds if axisymmetric [m²].
 template <Kinematics K>
 class TractionCutter {
   static constexpr int dim = dimensions(K);
@@ -28,7 +28,7 @@ class TractionCutter {
   TractionCutter(const Problem& problem, const TractionSpec& traction, const Grid<dim>& grid)
       : problem_(problem), traction_(traction), grid_(grid) {}
 
-  /// visit(x, area, normal outwards)
+  /// Calls visit(x, area, outward normal) for each piece.
   template <class Visit>
   void cut(const Visit& visit) const {
     if constexpr (dim == 1) {
@@ -64,8 +64,8 @@ class TractionCutter {
         [&](std::size_t along) { return rule_along(body, along); },
         [&](const Point<dim>& x, double area, double) { visit(x, area, outwards); });
   }
-  // Into pieces of half a cell, which are not cut at its border: a function that has a kink there is integrated to
-  // second order.
+  // Cuts a surface into pieces of half a cell, not at the borders of cells: a function with a kink there is integrated
+  // to second order.
   template <class Visit>
   void cut_surface(const Visit& visit) const {
     double length = std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ class TractionCutter {
       visit(piece.x, area, Point<dim>{x / area, y / area, z / area});
     }
   }
-  // Into pieces of each cell's part.
+  // Cuts a line into the parts in each cell, and these into pieces.
   template <class Visit>
   void cut_line(const BorderLine& line, const Visit& visit) const {
     const BodySpec& body = problem_.bodies[line.body];

@@ -1,4 +1,4 @@
-// Tractions on the borders of bodies, as pieces of their surface that move with them.
+// Tractions on the borders of bodies, as pieces of their surface that move with the bodies.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -19,9 +19,8 @@
 
 namespace stillpoint {
 
-/// Dead ones, t(X, t) dA per undeformed area, and pressures that follow the deformed surface, −p(X, t) n da =
-/// −p cof(f) N dA. X: the undeformed position.
-/// They act on pieces of the border, which carry the undeformed area.
+/// Dead loads, t(X, t) dA per undeformed area, and pressures that follow the deformed surface, −p(X, t) n da = −p
+/// cof(f) N dA. X: the undeformed position. They act on pieces of the border, which store the undeformed area.
 template <Kinematics K>
 class Tractions final : public BoundaryCondition<dimensions(K)> {
   static constexpr int dim = dimensions(K);
@@ -49,7 +48,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     for (Piece& piece : pieces_) {
       const double reached = piece.at.freeze(cell_inside(piece, phase.grid), phase);
       if (!(reached > 1e-12)) throw_scene_error("traction", "there is no material at this face");
-      // Detached from some of the cell's nodes, it loads the others with all of its force.
+      // If some of the cell's functions have no material, the others take the whole force.
       if (phase.functions.partition_of_unity()) {
         for (Entry& entry : piece.at.entries) entry.w /= reached;
       }
@@ -81,7 +80,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
           phase.dofs, [&](const Entry& a, int i, std::size_t s, double share) { F_s[s] += force[i] * a.w * share; });
     }
   }
-  // Unsymmetric.
+  // The tangent is unsymmetric.
   void add_following_tangent(const Parts& phase, double t, const double* u, MatrixEntries& K_F) const override {
     evaluate(t);
     for (const Piece& piece : pieces_) {
@@ -101,7 +100,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     state.each(
         "traction_areas", pieces_, [](Piece & piece) -> auto& { return piece.vector; });
   }
-  // The pieces go with the body.
+  // The pieces move with the body.
   void end_phase(const double* u) override {
     for (Piece& piece : pieces_) {
       piece.vector = deformed_area(piece, u);
@@ -112,10 +111,10 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
  private:
   struct Piece {
     const TractionSpec* traction;
-    Point<dim> X;                           // undeformed [m]
-    mutable std::array<double, dim> value;  // at the time of the last evaluation: the traction, or the pressure [Pa]
+    Point<dim> X;                           // undeformed position [m]
+    mutable std::array<double, dim> value;  // value at the last evaluation: the traction, or the pressure [Pa]
     CarriedPoint<dim> at;
-    double area;                     // undeformed [m²]
+    double area;                     // undeformed area [m²]
     std::array<double, dim> vector;  // n da when the phase begins [m²]
   };
 
@@ -127,7 +126,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     for (std::size_t d = 0; d < dim; ++d) piece.vector[d] = normal[d] * area;
   }
 
-  // A face on a grid line belongs to the cell that the body is in.
+  // The cell on the body's side of the piece, which matters for a face on a grid line.
   static std::array<int, dim> cell_inside(const Piece& piece, const GridOf& grid) {
     constexpr double inwards = 1e-9;
     Point<dim> inside = piece.at.x;
@@ -140,7 +139,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     return grid.cell_of(inside);
   }
 
-  // cof(f) n da; cof(f) = [f_yy, −f_yx; −f_xy, f_xx] in the plane, times f_θθ if axisymmetric
+  // The deformed area vector cof(f) n da; cof(f) = [f_yy, −f_yx; −f_xy, f_xx] in the plane, times f_θθ if axisymmetric.
   std::array<double, dim> deformed_area(const Piece& piece, const double* u) const {
     if constexpr (dim == 1) {
       return piece.vector;
@@ -148,7 +147,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
       return times_normal(ChangeOfVolume<K>::cofactor(deformation(piece, u)), piece);
     }
   }
-  // Of that by component j of a function.
+  // The derivative of the deformed area by component j of a function.
   std::array<double, dim> area_derivative(const Piece& piece, const double* u, const Entry& b, int j) const {
     if constexpr (dim == 1) {
       return {};
@@ -160,7 +159,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     }
   }
 
-  static constexpr std::size_t hoop = gradient_components(K) - 1;  // if axisymmetric
+  static constexpr std::size_t hoop = gradient_components(K) - 1;  // index of θθ, if axisymmetric
   static bool has_hoop(const Piece& piece) { return K == Kinematics::axisymmetric && piece.at.x[0] > 0; }
   static std::array<double, dim> times_normal(const TensorOf<K>& cofactor, const Piece& piece) {
     std::array<double, dim> area{};
@@ -169,7 +168,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     }
     return area;
   }
-  // f, with f_θθ = 1 on the axis
+  // The deformation gradient f at a piece, with f_θθ = 1 on the axis.
   static TensorOf<K> deformation(const Piece& piece, const double* u) {
     TensorOf<K> f = plus_identity<K>({});
     double u_r = 0;
@@ -185,8 +184,8 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     return f;
   }
 
-  // The values of all pieces at t: of formulas of t alone once for all pieces of a traction, of formulas of the
-  // position again if t has changed and they depend on it.
+  // Evaluates the values of all pieces at t: a formula of t alone once for all pieces of a traction, and a formula of
+  // the position again only if t has changed and it depends on t.
   void evaluate(double t) const {
     if (t == evaluated_at_) return;
     const bool first = std::isnan(evaluated_at_);
@@ -202,7 +201,8 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     }
     evaluated_at_ = t;
   }
-  // Those of t are looked at in all moments of a run, at some positions; the others once, at all of them.
+  // Checks the formulas of position alone at all pieces; those of t are checked elsewhere, for all times of a run at
+  // some positions.
   void check_values() const {
     evaluate(0);
     for (const Piece& piece : pieces_) {
@@ -218,7 +218,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     }
   }
 
-  // t A; or −p n da, for which u is needed [N]. evaluate() comes before.
+  // The force t A, or −p n da, for which u is needed [N]. evaluate() has to come before.
   std::array<double, dim> force_of(const Piece& piece, const double* u) const {
     std::array<double, dim> force;
     if (piece.traction->pressure) {
@@ -237,8 +237,8 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
 
   const Problem& problem_;
   std::vector<Piece> pieces_;
-  mutable double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();  // the t of their values [s]
-  bool has_begun_ = false;                                                  // the first phase
+  mutable double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();  // the time of the pieces' values [s]
+  bool has_begun_ = false;                                                  // whether the first phase has begun
 };
 
 }  // namespace stillpoint

@@ -30,8 +30,8 @@ WallContact::WallContact(std::string name, bool upper, double friction, WallMoti
 
 void WallContact::begin_phase(const Phase& phase, ConstVec mass, std::vector<Node> nodes, Vec v) {
   const auto known = [this](std::size_t k) { return stays(k); };
-  // Ground flows: where it has come to a wall already, its points' first depths do not tell what touches beside that,
-  // nor anything so small as what one has been pressed into the wall.
+  // A body with history flows: once it has touched a wall, the initial depths of its points no longer tell which
+  // material touches the wall, nor anything as small as the depth by which a point is pressed into the wall.
   bool flows = false;
   for (std::size_t k = 0; k < closed_.size(); ++k) flows = flows || (phase.remembers && known(k));
   const double near = (flows ? 0.5 : touching) * phase.cell;
@@ -76,7 +76,7 @@ WallContact::Along WallContact::along(std::size_t k, ConstVec values) const {
   return out;
 }
 
-// v_t = 0. True if it was not.
+// Sets v_t = 0 at a node. Returns whether it was different.
 bool WallContact::stop_along(std::size_t k, Vec v) {
   const bool moved = along(k, v) != Along{};
   for (const int dof : nodes_[k].along) {
@@ -86,8 +86,8 @@ bool WallContact::stop_along(std::size_t k, Vec v) {
   return moved;
 }
 
-// Of a node after a step. One that friction brings to rest is at rest, unless the step was shorter than the one before
-// it. True if v was changed.
+// Slides a node after a step. A node that friction brings to rest stays at rest, unless the step was shorter than the
+// one before. Returns whether v was changed.
 bool WallContact::slide(std::size_t k, Vec v) {
   constexpr double hardly = 1e-6;
   const Along v_t = along(k, v), before = sliding_[k];
@@ -162,7 +162,7 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
     const double past = outward_ * (u[n] - touches_at(k, wall));
     const bool pulls = outward_ * normal_force_[k] > 0;
     const auto put_back = [&] {
-      // What a step goes past the wall usually is so little that the force of the next one is soon enough.
+      // A step usually overshoots the wall by so little that the force may wait until the next step.
       const bool far = std::abs(past) > 1e-2 * cell_;
       changes(u[n] != touches_at(k, wall), far ? ContactChange::displacement : ContactChange::velocity);
       put_back_ = std::max(put_back_, std::abs(past));
@@ -179,8 +179,8 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
       continue;
     }
     if (begins) changes(close(k, velocity, v), ContactChange::velocity);
-    // What is pressed against it stays where a step ends a little beside the wall: let go, it would fly off and come
-    // back.
+    // A node that is pressed against the wall stays closed if a step ends slightly off it: released, it would fly off
+    // and come back.
     const bool is_left = past < -(pulls ? near : 10 * near);
     if (is_left || (pulls && past <= rounding)) {
       closed_[k] = 0;
@@ -203,8 +203,8 @@ bool WallContact::asks_for_next_phase() const {
          std::ranges::none_of(closed_, [](int closed) { return closed != 0; });
 }
 
-// On the wall: minus the forces on the body, without nodes that are about to open, which it would have to pull. Power
-// on the body: Σ F_n w.
+// The force on the wall: minus the forces on the body, without nodes that are about to open, which the wall would have
+// to pull. The power is that on the body, Σ F_n w.
 WallReaction WallContact::reaction(double t) const {
   WallReaction sum{.name = name_,
                    .displacement = motion_.displacement(),
@@ -240,7 +240,7 @@ void WallContact::archive(const StateArchive& state) {
   const std::size_t saved = closed_.size();
   for (const std::size_t size : {sliding_.size(), gap_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
     if (size != saved) throw StateError(fmt::format("of the wall '{}' the numbers of nodes differ", name_));
-  // The nodes are those of the phase that is restored, or before it begins some others.
+  // The nodes are those of the restored phase or, before that begins, others.
   closed_.resize(nodes_.size(), 0);
   for (auto* const components : {&sliding_, &shear_force_}) components->resize(nodes_.size(), Along{});
   for (auto* const values : {&gap_, &held_, &normal_force_}) values->resize(nodes_.size(), 0);

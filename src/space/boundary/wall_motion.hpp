@@ -1,8 +1,8 @@
-// How a wall moves: as it is prescribed, or not so fast.
+// The motion of a wall: the prescribed one, or a slower one.
 //
-// While weights follow the body from phase to phase, a wall that jumps by a part of a cell leaves in the points next to
-// it what no function of the grid feels, and no later motion takes away. So where it would go further than `most`
-// within a step it goes on slowly, and comes to where it should be within many steps:
+// While weights follow the body from phase to phase, a wall that jumps by a part of a cell leaves stresses in the
+// points next to it that no function of the grid feels, and that no later motion removes. Hence a wall that would move
+// by more than `most` within a step moves on slowly, and reaches its prescribed position within many steps:
 //
 //   d_{k+1} = d_k + clamp(d(t_k + h) − d_k, ±(Δ + most/4)),   Δ = |d(t_k + h) − d(t_k)|, 0 for a jump
 //   w = (d_{k+1} − d_{k−1})/(2 h),   w' = (d_{k−1} − 2 d_k + d_{k+1})/h²
@@ -26,12 +26,12 @@ class WallMotion {
 
   explicit WallMotion(PrescribedMotion prescribed) : prescribed_(std::move(prescribed)) {}
 
-  /// A phase begins at t; most: how far it may go within a step [m].
+  /// Begins a phase at t; most: largest displacement within a step [m].
   void begin_phase(double t, double most) {
     accepted_t_ = t;
     most_ = most;
   }
-  /// A step to t is accepted.
+  /// Accepts a step to t.
   void step_to(double t) {
     const At next = after(now_, t);
     step_ = t - accepted_t_;
@@ -41,16 +41,16 @@ class WallMotion {
     furthest_behind_ = std::max(furthest_behind_, now_.is_late ? std::abs(now_.asked - before_.place) : 0.0);
   }
 
-  /// How long the last step was; 0: there was none [s].
+  /// Length of the last step; 0: there was none [s].
   double step() const { return step_; }
-  /// Where it is after the last step [m].
+  /// Displacement after the last step [m].
   double displacement() const { return now_.place; }
-  /// At t, the end of that step or of the one that follows it [m/s, m/s²].
+  /// Velocity at t, the end of the last step or of the next one [m/s].
   double velocity(double t) const {
     const std::optional<Three> own = own_way(t);
     return own ? (own->next - own->before) / (2 * step_) : prescribed_.velocity(t);
   }
-  /// The same as a step of that length sees them.
+  /// Velocity [m/s] and acceleration [m/s²] at t by the differences of a step of the last step's length.
   double velocity_over_step(double t) const {
     if (const std::optional<Three> own = own_way(t)) return (own->next - own->before) / (2 * step_);
     return step_ > 0 ? prescribed_.velocity_over(t, step_) : prescribed_.velocity(t);
@@ -61,7 +61,7 @@ class WallMotion {
   }
 
   bool is_late() const { return now_.is_late; }
-  /// The furthest that it has been behind what is prescribed; 0 if it always was there [m].
+  /// The largest distance so far behind the prescribed motion; 0 if the wall always followed it [m].
   double furthest_behind() const { return furthest_behind_; }
 
   void archive(const StateArchive& state) {
@@ -73,7 +73,7 @@ class WallMotion {
   }
 
  private:
-  // After a step: where it should be and where it is [m].
+  // After a step: the prescribed displacement and the actual one [m].
   struct At {
     double asked = 0, place = 0;
     bool is_late = false;
@@ -84,12 +84,12 @@ class WallMotion {
       state("is_late", is_late);
     }
   };
-  // Its places a step before t, at t and a step after it.
+  // The displacements a step before t, at t and a step after t [m].
   struct Three {
     double before, at, next;
   };
 
-  // Where a step that ends at t takes it.
+  // The state after a step that ends at t.
   At after(const At& from, double t) const {
     const double asked = prescribed_.displacement(t), behind = asked - from.place;
     if (!from.is_late && std::abs(behind) <= most_) return {asked, asked, false};
@@ -97,7 +97,7 @@ class WallMotion {
     if (std::abs(behind) <= limit) return {asked, asked, false};
     return {asked, from.place + std::copysign(limit, behind), true};
   }
-  // Empty where the formula says it all.
+  // The slower motion at t; empty if the wall follows the formula.
   std::optional<Three> own_way(double t) const {
     if (most_ == unlimited || !(step_ > 0)) return std::nullopt;
     const bool is_next = t > accepted_t_ + step_ / 2;
@@ -109,7 +109,7 @@ class WallMotion {
   PrescribedMotion prescribed_;
   double most_ = unlimited;           // [m]
   double accepted_t_ = 0, step_ = 0;  // end and length of the last step; 0: none yet [s]
-  At now_, before_;                   // after the last step, and the one before it
+  At now_, before_;                   // states after the last step, and after the one before it
   double furthest_behind_ = 0;
 };
 

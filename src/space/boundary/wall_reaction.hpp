@@ -1,4 +1,4 @@
-// What walls report.
+// Reports of walls.
 #pragma once
 
 #include <array>
@@ -6,17 +6,17 @@
 
 namespace stillpoint {
 
-/// What a rigid wall feels from the body: along its outward normal, and along the other axes in their order, of which
-/// there is one in the plane and there are two in space [N].
+/// The force of the body on a rigid wall [N]: along the wall's outward normal, and along the other axes in order, one
+/// in the plane and two in space.
 struct WallReaction {
   std::string name;
-  int axis = 0;  // of the normal
+  int axis = 0;  // axis of the normal
   double normal = 0;
   std::array<double, 2> shear{};
-  double power = 0;            // of the wall on the body [W]
-  double displacement = 0;     // of the wall [m]
-  double furthest_behind = 0;  // the furthest so far that it has been behind its prescribed motion [m]
-  double put_back = 0;         // the furthest so far that a node has been put back onto it [m]
+  double power = 0;            // power of the wall on the body [W]
+  double displacement = 0;     // displacement of the wall [m]
+  double furthest_behind = 0;  // largest distance so far behind the prescribed motion [m]
+  double put_back = 0;         // largest distance so far by which a node has been put back onto the wall [m]
 };
 
 }  // namespace stillpoint

@@ -24,7 +24,7 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
   using typename BoundaryCondition<Dim>::Parts;
 
  public:
-  /// The problem outlives it.
+  /// The problem must outlive this object.
   Walls(const Problem& problem, double time_scale) : problem_(problem) {
     for (const WallSpec& wall : problem.walls) {
       walls_.push_back(
@@ -42,7 +42,7 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
       take_gaps(wall, reached, gaps);
     }
   }
-  // Where another wall crosses, that one alone acts along it.
+  // Where another wall crosses, only that wall acts along its normal.
   void begin_motion(const Parts& phase, double t, Vec v) override {
     const auto free_dof = [&](int unknown) {
       const int dof = phase.dofs.number[static_cast<std::size_t>(unknown)];
@@ -110,12 +110,12 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
   struct Wall {
     Face face;
     std::vector<int> functions;  // value functions on the face of the present grid
-    std::vector<double> gaps;    // of each, as the phase begins [m]
+    std::vector<double> gaps;    // gap of each function when the phase begins [m]
     WallContact contact;
   };
 
-  // In a single phase functions stay what they are: what does not lie on a wall when the run begins touches it through
-  // a layer without material, or not at all.
+  // In a single phase functions keep their gaps: material that does not lie on a wall when the run begins would touch
+  // it through a layer without material, or not at all.
   void check_gaps(std::size_t w, const FaceGaps<Dim>& gaps) const {
     const Face face = walls_[w].face;
     const double cell = gaps.cell_at(face), nearest = gaps.least_of_bodies(face);
@@ -131,7 +131,7 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
       if (gap > touching * cell && gap < (1 - touching) * cell) refuse(fmt::format("body[{}]", body), gap);
     }
   }
-  // Of the functions that are not closed where their material touches.
+  // Finds the gaps of the functions, but for those that are closed in contact with their material.
   static void take_gaps(Wall& wall, const std::vector<char>& reached, const FaceGaps<Dim>& gaps) {
     wall.gaps.assign(wall.functions.size(), 0);
     std::vector<int> asked;
@@ -145,12 +145,13 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
     const std::vector<double> found = gaps.of(wall.face, asked);
     for (std::size_t k = 0; k < place.size(); ++k) wall.gaps[place[k]] = found[k];
   }
-  // Of the way to an equilibrium alone; elsewhere the motion is what is asked for.
+  // The largest displacement of a wall within a step [m]: limited only on the way to an equilibrium; otherwise the
+  // motion itself is asked for.
   double furthest_in_step(double cell) const {
     constexpr double share = 0.02;
     return problem_.phase.ends() && problem_.stop.wants_equilibrium() ? share * cell : WallMotion::unlimited;
   }
-  // How far the grid's face has moved since the start [m].
+  // Displacement of the grid's face since the start [m].
   double moved(Face face, const Grid<Dim>& grid) const {
     const auto axis = static_cast<std::size_t>(axis_of(face));
     return is_upper(face) ? grid.axes[axis].max() - problem_.grid.max[axis]

@@ -102,7 +102,7 @@ void WeakSupports<K>::add(std::size_t support, int component, const Point<dim>& 
   check_motion(support, *held.motion);
 }
 
-// Where bodies lie on it, some pieces to a cell.
+// Cuts the part of the face on which bodies lie into pieces, several in each cell.
 template <Kinematics K>
 void WeakSupports<K>::cut_face([[maybe_unused]] std::size_t s, [[maybe_unused]] const GridOf& grid) {
   if constexpr (dim > 1) {
@@ -141,8 +141,8 @@ const PrescribedMotion& WeakSupports<K>::motion_of(const Held& held) const {
   return motions_[moves ? held.support + 1 : 0];
 }
 
-// Pieces of a face that the material does not reach, or whose functions other supports hold; a position that has
-// neither is an error.
+// Drops pieces of a face that the material does not reach, or whose functions are held by other supports; for a
+// position either is an error.
 template <Kinematics K>
 void WeakSupports<K>::drop_what_lies_outside(const Parts& phase) {
   constexpr double rounding = 1e-12;

@@ -25,13 +25,13 @@ concept AxisBasis = requires(const Axis& axis, int cell, double x, double* N) {
   { B::per_cell } -> std::convertible_to<int>;
   // Whether Σ_i N_i = 1, so that row sums lump the mass.
   { B::partition_of_unity } -> std::convertible_to<bool>;
-  // How many cells in a row the local functions are those of.
+  // The number of neighbouring cells to which the local functions belong.
   { B::window } -> std::convertible_to<int>;
   // Whether local function a is a value (and not a slope).
   { B::is_value(cell) } -> std::convertible_to<bool>;
   { B::count(axis) } -> std::convertible_to<int>;
   { B::first(cell) } -> std::convertible_to<int>;
-  // N[a], dN[a] = dN_a/dx of the cell's functions at x; N, dN: (per_cell).
+  // Sets N[a], dN[a] = dN_a/dx of the cell's functions at x; N, dN: (per_cell).
   {B::evaluate(axis, cell, x, N, N)};
 };
 
@@ -44,7 +44,7 @@ struct BSpline {
   static constexpr bool is_value(int) { return true; }
   static int count(const Axis& axis) { return axis.cells() + Degree; }
   static int first(int cell) { return cell; }
-  /// Where a function has its centre, Greville's abscissa: Σ_i N_i(x) x_i = x.
+  /// The centre of a function, Greville's abscissa x_i: Σ_i N_i(x) x_i = x.
   static double centre(const Axis& axis, int function) {
     double sum = 0;
     for (int q = function - Degree + 1; q <= function; ++q)
@@ -52,7 +52,7 @@ struct BSpline {
     return sum / Degree;
   }
 
-  /// The functions of one cell, for many positions in it.
+  /// Evaluates the functions of one cell at many positions in it.
   class OnCell {
    public:
     OnCell(const Axis& axis, int cell) {
@@ -63,7 +63,7 @@ struct BSpline {
       }
     }
 
-    // N_i,q = (x − t_i)/(t_i+q − t_i) N_i,q−1 + (t_i+q+1 − x)/(t_i+q+1 − t_i+1) N_i+1,q−1
+    // Cox–de Boor recursion, N_i,q = (x − t_i)/(t_i+q − t_i) N_i,q−1 + (t_i+q+1 − x)/(t_i+q+1 − t_i+1) N_i+1,q−1
     void evaluate(double x, double* N, double* dN) const {
       std::array<double, per_cell> lower{};  // the functions of degree p − 1
       N[0] = 1;
@@ -88,7 +88,7 @@ struct BSpline {
     double right(int r) const { return knot_[Degree + r]; }
     double left(int q, int r) const { return knot_[Degree + r - q]; }
 
-    std::array<double, static_cast<std::size_t>(2 * Degree)> knot_;  // t from cell + 1 − p on [m]
+    std::array<double, static_cast<std::size_t>(2 * Degree)> knot_;  // knots t from number cell + 1 − p on [m]
     std::array<std::array<double, static_cast<std::size_t>(Degree)>, static_cast<std::size_t>(Degree)>
         per_length_;  // 1/(t_i+q − t_i) at [q − 1] [1/m]
   };
@@ -114,7 +114,7 @@ struct CubicHermite {
         : left_(axis.nodes[static_cast<std::size_t>(cell)]),
           h_(axis.nodes[static_cast<std::size_t>(cell) + 1] - left_) {}
 
-    // With s = (x − x_c)/h:  1 − 3s² + 2s³,  h s(1 − s)²,  3s² − 2s³,  −h s²(1 − s)
+    // Hermite polynomials with s = (x − x_c)/h: 1 − 3s² + 2s³, h s(1 − s)², 3s² − 2s³, −h s²(1 − s)
     void evaluate(double x, double* N, double* dN) const {
       const double s = (x - left_) / h_;
       N[0] = 1 + s * s * (2 * s - 3);
@@ -168,7 +168,8 @@ struct TensorBasis {
     for (int d = Dim - 1; d >= 0; --d) number = number * B::count(grid.axes[d]) + B::first(cell[d]);
     return number;
   }
-  /// What to add to first() for local function a. Functions of a second cell that an axis does not have are 0.
+  /// The offsets of local functions a from first(). Where an axis has no second cell, functions of that cell vanish and
+  /// get an offset within the grid.
   static std::array<int, per_cell> offsets(const Grid<Dim>& grid) {
     std::array<int, per_cell> offset{};
     for (int a = 0; a < per_cell; ++a) {
@@ -186,7 +187,7 @@ struct TensorBasis {
     multiply(N, dN, values.N.data(), values.dN[0].data());
     return values;
   }
-  /// The functions of all cells, for many positions; of a basis whose functions of a cell are those of it alone.
+  /// Evaluates the functions of all cells at many positions, for a basis whose local functions belong to a single cell.
   class OnCells {
    public:
     explicit OnCells(const Grid<Dim>& grid) {
@@ -200,7 +201,7 @@ struct TensorBasis {
       evaluate_factors(cell, x, of_axis, slope);
       multiply(of_axis, slope, N, dN);
     }
-    /// The functions along each axis, and their derivatives.
+    /// Sets the functions along each axis, and their derivatives.
     void evaluate_factors(const std::array<int, Dim>& cell, const Point<Dim>& x, OfAxes& N, OfAxes& dN) const {
       for (int d = 0; d < Dim; ++d)
         axes_[d][static_cast<std::size_t>(cell[d])].evaluate(x[d], N[d].data(), dN[d].data());
@@ -209,9 +210,10 @@ struct TensorBasis {
    private:
     std::array<std::vector<typename B::OnCell>, Dim> axes_;
   };
-  /// The functions that are not zero on a face of the grid, ascending; face_values() leaves out slopes along the face.
+  /// The functions that do not vanish on a face of the grid, in ascending order; face_values() leaves out slopes along
+  /// the face.
   static std::vector<int> face_functions(const Grid<Dim>& grid, int axis, bool upper) {
-    // Across the face the one value there is: the last function, or the last but one if a slope follows it.
+    // One function across the face has a value there: the last, or the last but one if a slope follows it.
     const int count = B::count(grid.axes[static_cast<std::size_t>(axis)]);
     const int across = !upper ? 0 : B::is_value(B::per_cell - 1) ? count - 1 : count - 2;
     int stride = 1;
@@ -234,13 +236,13 @@ struct TensorBasis {
     }
     return true;
   }
-  /// Index along an axis of a function by its global number.
+  /// The index along an axis of a function given by its global number.
   static int index_along(const Grid<Dim>& grid, int number, int axis) {
     for (int d = 0; d < axis; ++d) number /= B::count(grid.axes[static_cast<std::size_t>(d)]);
     return number % B::count(grid.axes[static_cast<std::size_t>(axis)]);
   }
-  /// The function that alone carries the value at x (1 there, all others 0), by its global number; none inside a
-  /// spline.
+  /// The global number of the function that alone carries the value at x (1 there, all others 0); empty if there is
+  /// none, as inside a spline.
   static std::optional<int> interpolating_function(const Grid<Dim>& grid, const Point<Dim>& x) {
     constexpr double rounding = 1e-12;
     const auto cell = grid.cell_of(x);
@@ -264,7 +266,7 @@ struct TensorBasis {
       std::copy(dN[0].begin(), dN[0].end(), gradients);
     } else if constexpr (Dim == 2 && B::per_cell <= 4) {
       constexpr int n = B::per_cell;
-      // Rows of functions along x at once; what one writes past its end the next one writes again.
+      // Stores whole rows of functions along x; the next row overwrites what exceeds a row's end.
       const auto padded = [](const auto& of_axis) {
         return Lanes<4>{{of_axis[0], of_axis[n > 1 ? 1 : 0], of_axis[n > 2 ? 2 : 0], of_axis[n > 3 ? 3 : 0]}};
       };

@@ -1,13 +1,13 @@
-// Cells that a body hardly reaches, and the cells further inside that can speak for them.
+// Sliver cells, which a body hardly reaches, and their hosts: cells further inside, whose functions determine theirs.
 //
-// Of the functions that lie in a sliver of width ε h alone, that of degree p is (x/h)^p, so that
+// A function of degree p whose support meets the body only in a sliver of width ε h is (x/h)^p there, so that
 //
 //   K_i ∝ ε^(2p−1),   M_i ∝ ε^(p+1) lumped, ε^(2p+1) consistent,   ω_i² = K_i/M_i ∝ ε^(p−2) or ε^−2:
 //
-// with a lumped mass a cubic function becomes as slow as you like, in a corner of the plane a quadratic one too, and
-// the body's ω₁ is theirs; linear functions, and all with a consistent mass, become as fast. Either way the functions
-// add nothing to the answer. So their coefficients follow from those of a cell nearby that the body fills better, the
-// host of the sliver, see sliver_extension.hpp.
+// with a lumped mass a cubic function becomes arbitrarily slow, in a corner of the plane a quadratic one too, and
+// dominates the body's ω₁; linear functions, and all functions with a consistent mass, become arbitrarily fast. Either
+// way the functions add nothing to the answer. Hence their coefficients follow from those of a nearby cell that the
+// body fills better, the host of the sliver, see sliver_extension.hpp.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +20,13 @@
 
 namespace stillpoint {
 
-/// How much of a cell something takes, by the cell's number, ascending; cells that are not listed are empty.
+/// The covered share of each cell, by the cell's number, in ascending order; cells that are not listed are empty.
 using CellShares = std::vector<std::pair<int, double>>;
 
 template <int Dim>
 class CutCells {
  public:
-  /// covered: by each part of the body. degree: of the basis.
+  /// covered: the shares covered by each part of the body. degree: of the basis.
   CutCells(const Grid<Dim>& grid, const std::vector<CellShares>& covered, int degree)
       : grid_(grid), covered_(covered), enough_(degree < 3 ? 0.25 : 0.5) {
     together_.assign(static_cast<std::size_t>(grid.cells()), 0);
@@ -40,12 +40,12 @@ class CutCells {
 
   /// Whether the body covers enough of a cell for its functions to be unknowns.
   bool has_enough(int cell) const { return share(cell) >= enough_; }
-  /// In ascending order.
+  /// The slivers in ascending order.
   const std::vector<int>& slivers() const { return slivers_; }
 
-  /// The host of a sliver: the nearest of the cells next to it, or next but one, that is no sliver and may be one, and
-  /// of equally near ones that with most of the same parts. The sliver itself if there is none.
-  /// may_host(sliver, cell)
+  /// The host of a sliver: the nearest of the cells one or two away that is no sliver and for which may_host(sliver,
+  /// cell) holds; among equally near ones the cell that has most in common with the sliver's parts of the body. The
+  /// sliver itself if there is none.
   template <class MayHost>
   int host_of(int sliver, const MayHost& may_host) const {
     int host = sliver, nearest = std::numeric_limits<int>::max();
@@ -102,7 +102,8 @@ class CutCells {
     return sum;
   }
 
-  // Whether the body ends in the sliver or in slivers behind it, seen from the host: a thin bridge stays one.
+  // Whether the body ends in the sliver or in slivers behind it, seen from the host; otherwise the sliver is a thin
+  // bridge, which has to remain one.
   bool ends_here(const std::array<int, Dim>& sliver, const std::array<int, Dim>& to_host) const {
     for (int d = 0; d < Dim; ++d) {
       if (to_host[d] == 0) continue;

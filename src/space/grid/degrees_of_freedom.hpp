@@ -1,5 +1,5 @@
-// Which unknowns of the grid are free, which are prescribed by supports, which follow others, and which no material
-// reaches.
+// The unknowns of the grid: free ones, those prescribed by supports, those that follow others, and those that no
+// material reaches.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace stillpoint {
 
-/// Unknowns of the grid are numbered Dim function + component. Free ones become 0 … n − 1, prescribed ones n … n + s −
-/// 1, and those of extended functions that no support prescribes n + s, n + s + 1, …
+/// The degrees of freedom of a grid, whose unknowns are Dim function + component. Free ones have the numbers 0 … n − 1,
+/// prescribed ones n … n + s − 1, and those of extended functions that no support prescribes n + s, n + s + 1, …
 class DegreesOfFreedom {
  public:
   std::vector<int> free;        // grid number of free unknown k, (n)
-  std::vector<int> prescribed;  // of prescribed unknown s
-  std::vector<int> extended;    // of extended unknown e
-  std::vector<int> number;      // of each grid unknown, −1 without material
+  std::vector<int> prescribed;  // grid number of prescribed unknown s
+  std::vector<int> extended;    // grid number of extended unknown e
+  std::vector<int> number;      // number of each grid unknown, −1 without material
 
   /// reached: whether any material point gives the function mass, (functions).
   DegreesOfFreedom(const std::vector<char>& reached, int dim, std::vector<int> prescribed_unknowns,
@@ -47,13 +47,13 @@ class DegreesOfFreedom {
     }
   }
   std::size_t size() const { return free.size(); }
-  /// With those that are prescribed or follow others.
+  /// The number of all unknowns, including prescribed and extended ones.
   std::size_t with_all_others() const { return free.size() + prescribed.size() + extended.size(); }
   bool is_free(int dof) const { return dof >= 0 && dof < static_cast<int>(free.size()); }
   bool is_extended(int dof) const { return dof >= static_cast<int>(free.size() + prescribed.size()); }
 
-  /// visit(unknown of the grid, its number, weight) of the free or prescribed unknowns that one of the grid is made of:
-  /// of itself, with weight 1, or of those that it follows.
+  /// Calls visit(unknown of the grid, its number, weight) for the free or prescribed unknowns that determine an unknown
+  /// of the grid: itself, with weight 1, or those that it follows.
   template <class Visit>
   void for_sources(int unknown, const Visit& visit) const {
     const int dof = number[static_cast<std::size_t>(unknown)];
@@ -64,7 +64,7 @@ class DegreesOfFreedom {
       visit(sources_[k].unknown, sources_[k].dof, sources_[k].weight);
   }
 
-  /// u_e = Σ_k w_ek u_k over the grid's unknowns, of those that are free and prescribed.
+  /// Sets the extended unknowns u_e = Σ_k w_ek u_k of u, over the grid's unknowns, from the free and prescribed ones.
   void extend(double* u) const {
     for (std::size_t e = 0; e < extended.size(); ++e) {
       double sum = 0;
@@ -72,7 +72,8 @@ class DegreesOfFreedom {
       u[extended[e]] = sum;
     }
   }
-  /// Its transpose: give(number, w_ek F_e) of every source, F: forces at the extended unknowns, (extended).
+  /// The transpose of extend(): calls give(number, w_ek F_e) for every source; F: forces at the extended unknowns,
+  /// (extended).
   template <class Give>
   void give_to_sources(const std::vector<double>& F, const Give& give) const {
     for (std::size_t e = 0; e < extended.size(); ++e) {
@@ -87,7 +88,7 @@ class DegreesOfFreedom {
     double weight;
   };
 
-  std::vector<std::size_t> begin_{0};  // of the sources of each extended unknown
+  std::vector<std::size_t> begin_{0};  // first source of each extended unknown
   std::vector<Source> sources_;
 };
 

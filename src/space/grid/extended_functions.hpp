@@ -1,4 +1,4 @@
-// Functions that are no unknowns of their own: their coefficients follow from those of others.
+// Extended functions: functions whose coefficients are no unknowns but follow from those of others.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace stillpoint {
 
-/// u_e = Σ_k w_ek u_k, in all components alike, so that what is found is a combination of the functions
-/// N_k + Σ_e w_ek N_e. None of those that are followed follows another one.
+/// The relations u_e = Σ_k w_ek u_k, in all components alike, so that the solution is a combination of the functions
+/// N_k + Σ_e w_ek N_e. No source of an extended function is extended itself.
 class ExtendedFunctions {
  public:
   struct Source {
@@ -16,7 +16,7 @@ class ExtendedFunctions {
     double weight;
   };
 
-  /// functions: of the grid.
+  /// functions: their number in the grid.
   explicit ExtendedFunctions(std::size_t functions = 0) : number_(functions, none) {}
 
   void add(int function, const std::vector<Source>& sources) {
@@ -27,14 +27,14 @@ class ExtendedFunctions {
   }
 
   bool empty() const { return functions_.empty(); }
-  /// In the order in which they were added.
+  /// The extended functions in the order in which they were added.
   const std::vector<int>& functions() const { return functions_; }
   bool contains(int function) const { return !empty() && number_[static_cast<std::size_t>(function)] != none; }
-  /// What the e-th of functions() follows.
+  /// The sources of the e-th of functions().
   std::span<const Source> sources(std::size_t e) const {
     return std::span(sources_).subspan(begin_[e], begin_[e + 1] - begin_[e]);
   }
-  /// Of a function that is one of them.
+  /// The sources of an extended function, by its number in the grid.
   std::span<const Source> sources_of(int function) const {
     return sources(static_cast<std::size_t>(number_[static_cast<std::size_t>(function)]));
   }
@@ -45,7 +45,7 @@ class ExtendedFunctions {
   std::vector<int> functions_;
   std::vector<std::size_t> begin_{0};
   std::vector<Source> sources_;
-  std::vector<int> number_;  // of each function of the grid, or none
+  std::vector<int> number_;  // index in functions_ of each function of the grid, or none
 };
 
 }  // namespace stillpoint

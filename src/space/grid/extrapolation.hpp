@@ -1,4 +1,4 @@
-// A function's coefficient from those of functions further inside the body, exact for linear fields.
+// Extrapolation of a function's coefficient from those of functions further inside the body, exact for linear fields.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace stillpoint {
 
-/// u_i = Σ_k weight_k u_k with Σ weight_k = 1, so that a translation goes through unchanged, and if there are several
-/// Σ weight_k x_k = x_i, x the centres of the functions: so does a rotation.
+/// The extrapolation u_i = Σ_k weight_k u_k with Σ weight_k = 1, so that a translation is reproduced, and with several
+/// sources Σ weight_k x_k = x_i, x the centres of the functions, so that a rotation is too.
 struct Extrapolation {
   int functions = 0;
   std::array<int, 8> function{};
@@ -24,8 +24,8 @@ requires(B::partition_of_unity) class Extrapolator {
   using Basis = TensorBasis<B, Dim>;
 
  public:
-  /// share: how much of what it should have a function has, (functions): those with 1 and more may be taken, with 0
-  /// none. Both outlive this.
+  /// share: how complete each function is, as a share of its full value, (functions): those with 1 and more may be
+  /// sources, those with 0 may not. Both arguments must outlive this object.
   Extrapolator(const Grid<Dim>& grid, const std::vector<double>& share) : grid_(grid), share_(share) {
     int stride = 1;
     for (int d = 0; d < Dim; ++d) {
@@ -35,10 +35,10 @@ requires(B::partition_of_unity) class Extrapolator {
     }
   }
 
-  /// From the nearest pair along an axis; at a corner of the body, in space at an edge, from the nearest four that make
-  /// a rectangle; at a corner in space from the nearest eight; where the body is too thin for these from the nearest
-  /// one that shares a cell, or if none has its share from the one that has most of it. None if that is the function
-  /// itself.
+  /// Extrapolates from the nearest pair along an axis; at a corner of the body, in space at an edge, from the nearest
+  /// four that form a rectangle; at a corner in space from the nearest eight; where the body is too thin for these from
+  /// the nearest complete function that shares a cell, or if none is complete from the one with the largest share.
+  /// Empty if that is the function itself.
   std::optional<Extrapolation> operator()(int function) const {
     std::optional<Extrapolation> nearest;
     int distance = 2 * reach + 1;
@@ -59,15 +59,15 @@ requires(B::partition_of_unity) class Extrapolator {
     return nearest ? nearest : from_neighbour(function, share_[static_cast<std::size_t>(function)]);
   }
 
-  /// Of a function that has more of its share than all that share a cell with it: the one next to it in that. None if
-  /// it is alone.
+  /// For a function with a larger share than all that share a cell with it: takes the one with the next largest share.
+  /// Empty if there is no other function.
   std::optional<Extrapolation> from_next_best(int function) const { return from_neighbour(function, 0); }
 
  private:
   static constexpr int reach = B::degree + 1;
   using Offset = std::array<int, Dim>;  // in functions along each axis
 
-  // Along so many axes.
+  // Extrapolates from the nearest box that extends along this number of axes.
   std::optional<Extrapolation> from_nearest_box(int function, int axes) const {
     std::optional<Extrapolation> nearest;
     int distance = Dim * reach;
@@ -75,7 +75,7 @@ requires(B::partition_of_unity) class Extrapolator {
       for (int k = 0; k < power(reach, Dim); ++k) {
         Offset near{};
         int along = 0, away = 0;
-        bool twice = false;  // of an offset of 0 either sign
+        bool twice = false;  // an offset of 0 occurs with either sign
         for (int d = 0; d < Dim; ++d) {
           const int steps = k / power(reach, Dim - 1 - d) % reach;
           const bool upwards = (signs >> (Dim - 1 - d) & 1) != 0;
@@ -94,7 +94,7 @@ requires(B::partition_of_unity) class Extrapolator {
     return nearest;
   }
 
-  // With more than this share.
+  // Extrapolates from the nearest function with a share above `best`.
   std::optional<Extrapolation> from_neighbour(int function, double best) const {
     constexpr int span = 2 * B::degree + 1;
     std::optional<Extrapolation> nearest;
@@ -118,7 +118,7 @@ requires(B::partition_of_unity) class Extrapolator {
     return nearest;
   }
 
-  // Of the functions so far away and one more along each axis where that is not 0.
+  // Extrapolates from the box of the functions at this offset and the next ones along each axis whose offset is not 0.
   std::optional<Extrapolation> from_box(int function, const Offset& near) const {
     Extrapolation box{.functions = 1, .function = {function}, .weight = {1}};
     for (int d = 0; d < Dim; ++d) {
@@ -130,7 +130,7 @@ requires(B::partition_of_unity) class Extrapolator {
     }
     return box;
   }
-  // w_1 = (x − x_2)/(x_1 − x_2), w_2 = 1 − w_1
+  // Linear extrapolation along axis d: w_1 = (x − x_2)/(x_1 − x_2), w_2 = 1 − w_1
   bool extend(Extrapolation& box, int function, int d, int near) const {
     const int here = Basis::index_along(grid_, function, d), first = here + near, second = first + (near > 0 ? 1 : -1);
     if (std::min(first, second) < 0 || std::max(first, second) >= count_[d]) return false;

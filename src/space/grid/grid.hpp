@@ -19,9 +19,9 @@ struct Axis {
   int cells() const { return static_cast<int>(nodes.size()) - 1; }
   double min() const { return nodes.front(); }
   double max() const { return nodes.back(); }
-  /// The cell that holds x: at a node the one above it, at the ends (and past them) the end cell.
+  /// The cell that contains x: at a node the one above it, at the ends (and past them) the end cell.
   int cell_of(double x) const { return cell_of(x, cells() / (max() - min())); }
-  /// The same, sooner if the lines are evenly spaced, or nearly so: cells_per_length is a mean [1/m].
+  /// As above, and faster if the lines are evenly spaced, or nearly so: cells_per_length is a mean [1/m].
   int cell_of(double x, double cells_per_length) const {
     const double guess = (x - nodes.front()) * cells_per_length;
     if (guess >= 0 && guess < static_cast<double>(nodes.size() - 1)) {
@@ -36,7 +36,7 @@ struct Axis {
 template <int Dim>
 using Point = std::array<double, Dim>;
 
-/// Cells are numbered with the first coordinate running fastest.
+/// A grid whose cells are numbered with the first coordinate running fastest.
 template <int Dim>
 struct Grid {
   std::array<Axis, Dim> axes;

@@ -1,5 +1,5 @@
-// The functions of a grid, whatever their basis: for what is done once a phase, or at few positions, and need not be
-// compiled for each basis. Kernels have the basis as a template parameter instead, see basis.hpp.
+// The functions of a grid behind an interface without the basis as a template parameter: for work done once a phase, or
+// at few positions. Kernels have the basis as a template parameter instead, see basis.hpp.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace stillpoint {
 
-/// Of a cell at most: as many as cubic splines have there, of the plane those that a domain reaches.
+/// The largest number of functions of a cell: that of cubic splines, in up to two dimensions those that a domain
+/// reaches.
 constexpr int most_functions_of_cell(int dim) { return dim == 3 ? power(4, dim) : power(5, dim); }
 
 template <int Dim>
@@ -30,21 +31,21 @@ class GridFunctions {
 
   const Grid<Dim>& grid() const { return grid_; }
   int per_cell() const { return per_cell_; }
-  /// Of a cell along one axis.
+  /// The number of functions of a cell along one axis.
   int per_axis() const { return per_axis_; }
-  /// As of AxisBasis.
+  /// The window of the basis, see AxisBasis.
   int window() const { return window_; }
   bool partition_of_unity() const { return partition_of_unity_; }
 
   virtual int count() const = 0;
   virtual Values evaluate(const Cell& cell, const Point<Dim>& x) const = 0;
-  /// Where a function has its centre along an axis [m].
+  /// The centre of a function along an axis [m].
   virtual double centre(int function, int axis) const = 0;
-  /// Whether it is a value along each axis, and not a slope.
+  /// Whether the function is a value along each axis, and not a slope.
   virtual bool is_value(int function) const = 0;
-  /// Those that are not zero on a face of the grid, ascending.
+  /// The functions that do not vanish on a face of the grid, in ascending order.
   virtual std::vector<int> on_face(int axis, bool upper) const = 0;
-  /// The one that alone carries the value at x; none inside a spline.
+  /// The function that alone carries the value at x; empty if there is none, as inside a spline.
   virtual std::optional<int> interpolating(const Point<Dim>& x) const = 0;
 
   std::vector<int> values_on_face(int axis, bool upper) const {
@@ -54,7 +55,7 @@ class GridFunctions {
   }
 
  protected:
-  /// The grid outlives this.
+  /// The grid must outlive this object.
   GridFunctions(const Grid<Dim>& grid, int per_axis, int window, bool partition_of_unity)
       : grid_(grid),
         per_axis_(per_axis),

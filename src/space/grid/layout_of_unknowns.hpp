@@ -1,4 +1,4 @@
-// Where the free unknowns of a grid stand.
+// The positions of the free unknowns of a grid.
 #pragma once
 
 #include <utility>
@@ -9,7 +9,8 @@
 
 namespace stillpoint {
 
-/// At the coefficients by which the basis gives a linear motion; empty for a basis of slopes.
+/// The positions are those at which the coefficients of a linear motion equal the motion; empty for a basis with
+/// slopes.
 template <int Dim>
 NodalLayout layout_of(const GridFunctions<Dim>& functions, const DegreesOfFreedom& dofs) {
   if (!functions.partition_of_unity()) return {};

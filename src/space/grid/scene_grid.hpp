@@ -1,4 +1,4 @@
-// The grid of a scene, and how it follows a wall.
+// The grid of a scene, which may follow a wall.
 #pragma once
 
 #include <stillpoint/problem.hpp>

@@ -1,13 +1,13 @@
-// The functions that reach the body in slivers alone follow those of a cell further inside.
+// The extension of functions whose support meets the body in slivers alone, from a cell further inside.
 //
-// The polynomial that the functions N_k of the host cell c make, Σ_k u_k N_k|_c, is in every other cell a combination
-// of the functions there, Σ_e u_e N_e. So with
+// In every other cell, the polynomial Σ_k u_k N_k|_c of the functions N_k of the host cell c is a combination Σ_e u_e
+// N_e of the functions there. Hence with
 //
 //   u_e = Σ_k W_ek u_k,   Σ_e W_ek N_e = N_k|_c continued,
 //
-// the functions N_k + Σ_e W_ek N_e keep every polynomial that the basis has, are as smooth as it is, and each of them
-// has its share of a cell that the body fills [Höllig, Reif and Wipper 2001, weighted extended B-splines]. W is the
-// product of one such matrix along each axis.
+// the functions N_k + Σ_e W_ek N_e reproduce every polynomial that the basis does, are as smooth as it is, and each of
+// them has its share of a cell that the body fills [Höllig, Reif and Wipper 2001, weighted extended B-splines]. W is
+// the product of one such matrix along each axis.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@
 
 namespace stillpoint {
 
-/// The basis whose functions are those of a single cell.
+/// The basis whose local functions belong to a single cell.
 template <AxisBasis B>
 struct BasisOfOneCell {
   using type = B;
@@ -37,7 +37,7 @@ struct BasisOfOneCell<DomainBSpline<Degree>> {
 
 template <int n>
 using SmallMatrix = Eigen::Matrix<double, n, n>;
-/// A⁻¹ B
+/// The product A⁻¹ B.
 template <int n>
 SmallMatrix<n> solved(const SmallMatrix<n>& A, const SmallMatrix<n>& B);
 
@@ -49,12 +49,12 @@ class SliverExtension {
   using Sources = std::vector<ExtendedFunctions::Source>;
 
  public:
-  /// may_follow(function, sources), sources those that it would follow.
+  /// may_follow(function, sources): whether the function may follow these sources.
   template <class MayFollow>
   SliverExtension(const Grid<Dim>& grid, const CutCells<Dim>& cut, const MayFollow& may_follow)
       : grid_(grid), offset_(Basis::offsets(grid)), functions_(static_cast<std::size_t>(Basis::count(grid))) {
     const auto cells_of = cells_of_outer_functions(cut);
-    std::map<int, bool> joined;  // of each sliver, whether all of its outer functions follow others
+    std::map<int, bool> joined;  // whether all outer functions of each sliver follow others
     for (const auto& [function, cells] : cells_of) {
       const Sources sources = sources_from_nearest_host(function, cells, cut, may_follow);
       if (!sources.empty()) functions_.add(function, sources);
@@ -65,7 +65,8 @@ class SliverExtension {
   }
 
   const ExtendedFunctions& functions() const { return functions_; }
-  /// Cells with functions that reach the body in slivers alone, and those of them in which all of these follow others.
+  /// The number of cells with outer functions, which meet the body in slivers alone, and of those in which all of these
+  /// follow others.
   int slivers() const { return slivers_; }
   int joined() const { return joined_; }
 
@@ -91,7 +92,7 @@ class SliverExtension {
     return cells_of;
   }
 
-  // None if one of the slivers has no host: it may be a bridge that strains by itself.
+  // The sources of a function; none if one of its slivers has no host, as it may be a bridge that strains by itself.
   template <class MayFollow>
   Sources sources_from_nearest_host(int function, const std::vector<int>& cells, const CutCells<Dim>& cut,
                                     const MayFollow& may_follow) const {
@@ -112,7 +113,7 @@ class SliverExtension {
     return best;
   }
 
-  // Of the squares of cells from a function's centre to that of a cell.
+  // The squared distance from a function's centre to that of a cell, in cells.
   double distance_of(int function, int cell) const {
     const auto at = grid_.cell_at(cell);
     double sum = 0;
@@ -126,7 +127,7 @@ class SliverExtension {
     return sum;
   }
 
-  // W_ek of a function e of a cell from all functions k of the host.
+  // The weights W_ek of function e of a cell, from all functions k of the host.
   Sources sources_from(int function, int cell, int host) const {
     constexpr double rounding = 1e-10;
     const auto at = grid_.cell_at(cell), from = grid_.cell_at(host);
@@ -145,8 +146,8 @@ class SliverExtension {
     return sources;
   }
 
-  // Row `local` of W along an axis: Σ_e W_ek N_e(x_l) = N_k|_host(x_l) at as many positions x_l of the cell as it has
-  // functions.
+  // Row `local` of W along an axis, from Σ_e W_ek N_e(x_l) = N_k|_host(x_l) at as many positions x_l of the cell as it
+  // has functions.
   static std::array<double, Spline::per_cell> row_of(const Axis& axis, int cell, int host, int local) {
     constexpr int n = Spline::per_cell;
     std::array<double, n> row{};

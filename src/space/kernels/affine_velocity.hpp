@@ -1,11 +1,11 @@
-// The motion about a material point that APIC carries beside its velocity, B_p = Σ_i N_ip v_i ⊗ (x_i − x_p) [Jiang et
-// al. 2015].
+// The affine velocity field about a material point that APIC stores beside its velocity, B_p = Σ_i N_ip v_i ⊗ (x_i −
+// x_p) [Jiang et al. 2015].
 //
-// It goes back to the grid by weights w_ip with Σ_i w_ip = 0 and Σ_i x_i ⊗ w_ip = I, so that momentum and angular
-// momentum Σ_p m_p x_p × v_p + m_p (B_p,yx − B_p,xy) are kept:
-// w_ip = N_ip (x_i − x_p)/D_p, D_p = Σ_i N_ip (x_i − x_p)², which is ∇N_ip for a linear basis. There D_p vanishes at a
-// grid line, and a B_p that came near one would grow by the ratio of the two D_p without end: points of a linear basis
-// carry the velocity gradient B_p/D_p from phase to phase in its place, and angular momentum is kept nearly.
+// It is transferred to the grid by weights w_ip with Σ_i w_ip = 0 and Σ_i x_i ⊗ w_ip = I, so that momentum and angular
+// momentum Σ_p m_p x_p × v_p + m_p (B_p,yx − B_p,xy) are conserved: w_ip = N_ip (x_i − x_p)/D_p, D_p = Σ_i N_ip (x_i −
+// x_p)², which is ∇N_ip for a linear basis. There D_p vanishes at a grid line, and the B_p of a point that came near
+// one would grow by the ratio of the two D_p without bound: points of a linear basis store the velocity gradient
+// B_p/D_p in its place, and angular momentum is conserved approximately.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct AffineVelocity {
   using WeightsOfPoint = std::array<std::array<double, per_cell>, dim>;  // w_a
   using Gradient = std::array<double, dim * dim>;                        // ∂v_i/∂x_j at [dim i + j]
 
-  /// What a point brings to function a beside N_a v_p: Σ_j A_ij w_ja.
+  /// The contribution of a point to function a beside N_a v_p: Σ_j A_ij w_ja.
   struct MotionAbout {
     Gradient A;
     WeightsOfPoint w;
@@ -57,7 +57,8 @@ struct AffineVelocity {
 
   static WeightsOfPoint weights_of_B(const Weights& weights, const Centres& centre, const Point<dim>& x, std::size_t k,
                                      std::size_t p) {
-    constexpr double singular = 1e-6;  // D if only one function acts, at a boundary; of the distances' squares
+    constexpr double singular = 1e-6;  // share of the squared distances; D is 0 if only one function acts, at a
+                                       // boundary
     const auto N = weights.N(k, p);
     const auto dN = weights.dN(k, p);
     const Point<dim> D = second_moments(N, centre, x);
@@ -73,7 +74,7 @@ struct AffineVelocity {
     if constexpr (B::window > 1 && dim == 2) set_by_full_moments(N, centre, x, w);
     return w;
   }
-  // The mean of N over a domain is no product of functions of x and y: w = D⁻¹ N (x_a − x_p), D_ij with mixed terms.
+  // The mean of N over a domain is no product of functions of x and y, so D_ij has mixed terms: w = D⁻¹ N (x_a − x_p).
   static void set_by_full_moments(const double* N, const Centres& centre, const Point<dim>& x, WeightsOfPoint& w) {
     double D_xx = 0, D_xy = 0, D_yy = 0;
     for (int a = 0; a < per_cell; ++a) {

@@ -15,7 +15,7 @@
 
 namespace stillpoint {
 
-/// Row and column [Dim a + i]: local function a, component i.
+/// The matrix of a cell, with local function a, component i in row and column [Dim a + i].
 template <int Dim, int PerCell>
 using CellMatrix =
     std::array<std::array<double, static_cast<std::size_t>(Dim* PerCell)>, static_cast<std::size_t>(Dim* PerCell)>;
@@ -38,7 +38,7 @@ class NeighbourMatrix {
     entry_.assign(static_cast<std::size_t>(stride) * neighbours * Dim * Dim, untouched);
   }
 
-  /// function(a): global number of the cell's local function a. Entries of 0 leave no trace.
+  /// Adds a cell's matrix. function(a): global number of the cell's local function a. Entries of 0 leave no trace.
   template <class Function>
   void add(const CellMatrix<Dim, per_cell>& matrix, const Function& function) {
     for (int b = 0; b < per_cell; ++b) {
@@ -56,7 +56,7 @@ class NeighbourMatrix {
     }
   }
 
-  /// Over the free unknowns, of which those of extended functions are made.
+  /// The matrix over the free unknowns, with extended functions expressed by their sources.
   SplitMatrix extended(const DegreesOfFreedom& dofs) const {
     MatrixEntries of_all;
     for (std::size_t unknown = 0; unknown < dofs.number.size(); ++unknown) {
@@ -97,13 +97,13 @@ class NeighbourMatrix {
   }
 
  private:
-  // −0 + x = x for every x, and no sum of entries other than 0 is −0.
+  // Marks an entry that nothing was added to: −0 + x = x for every x, and no sum of non-zero entries is −0.
   static constexpr double untouched = -0.0;
 
   static constexpr int along(int a, int d) { return a / power(B::per_cell, d) % B::per_cell; }
   static std::size_t blocks_of(int function) { return static_cast<std::size_t>(function) * neighbours * Dim * Dim; }
 
-  /// take(free row, value) of a column's entries, rows ascending.
+  /// Calls take(free row, value) for a column's entries, rows ascending.
   template <class Take>
   void visit(int unknown, const DegreesOfFreedom& dofs, const Take& take) const {
     visit_all(unknown, [&](int row_unknown, double value) {
@@ -111,7 +111,7 @@ class NeighbourMatrix {
       if (dofs.is_free(row)) take(row, value);
     });
   }
-  /// take(unknown of the row, value) of a column's entries, in ascending order.
+  /// Calls take(unknown of the row, value) for a column's entries, in ascending order.
   template <class Take>
   void visit_all(int unknown, const Take& take) const {
     const int function = unknown / Dim;
@@ -125,14 +125,14 @@ class NeighbourMatrix {
     }
   }
 
-  std::array<int, neighbours> offset_{};  // of a row function from the column's
+  std::array<int, neighbours> offset_{};  // row function minus column function
   std::vector<double> entry_;             // (functions × Dim × neighbours × Dim): column, component, row, component
 };
 
 template <AxisBasis B, Kinematics K>
 using AddCell = std::function<void(std::size_t k, CellMatrix<dimensions(K), PointWeights<B, K>::per_cell>& matrix)>;
 
-/// Σ_cells of add_cell(cell k, cell matrix).
+/// The sum over the cells of the matrices that add_cell(cell k, cell matrix) makes.
 template <AxisBasis B, Kinematics K>
 SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
                                  const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs,
@@ -149,7 +149,7 @@ SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const Material
   return {sum.columns(dofs.free, dofs), sum.columns(dofs.prescribed, dofs)};
 }
 
-/// Σ_cells of add_point(cell k, point p, cell matrix) over the cell's points.
+/// The sum over the cells of the matrices that add_point(cell k, point p, cell matrix) makes for the cell's points.
 template <AxisBasis B, Kinematics K, class AddPoint>
 SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
                            const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs, const AddPoint& add_point) {
@@ -159,7 +159,7 @@ SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints
       });
 }
 
-/// M_ij = Σ_p m_p N_ip N_jp for each component.
+/// The consistent mass M_ij = Σ_p m_p N_ip N_jp for each component.
 template <AxisBasis B, Kinematics K>
 SplitMatrix consistent_mass(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
                             const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs) {

@@ -1,4 +1,4 @@
-// Means over the points of each cell, T_pq = V_q/W: what MeanDilatation asks of a block of whole cells.
+// Means over the points of each cell, T_pq = V_q/W: the Means of MeanDilatation for a block of whole cells.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace stillpoint {
 
-/// A cell with more points than a block holds is summed in parts: it is alone in its block.
+/// The sums over cells. A cell with more points than a block holds is summed in parts: it is alone in its block.
 template <Kinematics K>
 class CellSums {
   using Block = PointBlock<K>;
@@ -21,16 +21,17 @@ class CellSums {
 
  public:
   using Row = typename Block::Row;
-  static constexpr std::size_t slack = 3;  // entries after the last share, for who reads four at a time
+  static constexpr std::size_t slack = 3;  // entries after the last share, for loops that read four at a time
 
-  /// V_p/W of points from … to − 1, W the sum of theirs.
+  /// Sets the shares V_p/W of points from … to − 1, W the sum of their volumes.
   static void take_shares(const MaterialPoints<dimensions(K)>& points, std::size_t from, std::size_t to,
                           double* shares) {
     double volume = 0;
     for (std::size_t p = from; p < to; ++p) volume += points.volume[p];
     for (std::size_t p = from; p < to; ++p) shares[p - from] = points.volume[p] / volume;
   }
-  /// Of all points in their cells, (P + slack), for a phase; of a cell in parts of each by itself.
+  /// The shares of all points in their cells, (P + slack), for a phase; a cell in parts has shares in each part by
+  /// itself.
   static std::vector<double> volume_shares(const MaterialPoints<dimensions(K)>& points) {
     std::vector<double> shares(points.size() + slack, 0.0);
     for (std::size_t k = 0; k < points.cells(); ++k) {
@@ -40,13 +41,13 @@ class CellSums {
     return shares;
   }
 
-  /// volume_share: of the block's points, with slack. Both outlive this.
+  /// volume_share: of the block's points, with slack. Both arguments must outlive this object.
   CellSums(const MaterialPoints<dimensions(K)>& points, const double* volume_share)
       : points_(points), volume_share_(volume_share) {}
 
-  // Four at a time: what is written past a cell's end the next one writes again.
+  // Four points are taken at a time: the next cell overwrites entries written past a cell's end.
 
-  /// Σ V x/W over each cell, at its points.
+  /// The mean Σ V x/W over each cell, at its points.
   [[gnu::always_inline]] void means(const Block& block, const Row& x, Row& mean) const {
     for_cells(
         block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
@@ -57,7 +58,7 @@ class CellSums {
           for (std::size_t q = from; q < to; q += 4) of_cell.store(&mean[q]);
         });
   }
-  /// V/W Σ x over each cell.
+  /// The shares V/W Σ x of the sum over each cell.
   [[gnu::always_inline]] void shares(const Block& block, const Row& x, Row& share) const {
     for_cells(
         block, [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
@@ -70,7 +71,7 @@ class CellSums {
   void rates_of_shares(const Block& block, const Row& y, Row& share) const { shares(block, y, share); }
 
  private:
-  /// visit(first, last) of each cell's points in the block, by their rows in it.
+  /// Calls visit(first, last) for each cell's points in the block, by their rows in it.
   template <class Visit>
   [[gnu::always_inline]] void for_cells(const Block& block, const Visit& visit) const {
     std::size_t from = 0;

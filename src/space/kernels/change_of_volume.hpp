@@ -1,5 +1,5 @@
 // The change of volume of a block's points: j = J − 1, J = det(I + H), and ∂j/∂H = cof(I + H), or to first order tr H
-// and I. j is summed from H itself, so that a small one has the digits that J loses beside 1.
+// and I. j is summed from H itself, so that a small one keeps the digits that J loses beside 1.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace stillpoint {
 
-/// In plane strain, axisymmetric with components rr, rz, zr, zz, θθ, or in space.
+/// The change of volume in plane strain, axisymmetric with components rr, rz, zr, zz, θθ, or in space.
 template <Kinematics K>
 requires(dimensions(K) > 1) struct ChangeOfVolume {
   static constexpr int components = gradient_components(K);
   static constexpr bool has_hoop = K == Kinematics::axisymmetric, in_space = K == Kinematics::space;
-  static constexpr int second = in_space ? 4 : 3;  // of the diagonal's components, after 0 and before the last
+  static constexpr int second = in_space ? 4 : 3;  // index of the second component on the diagonal
   static constexpr std::array<bool, components> on_diagonal = [] {
     std::array<bool, components> diagonal{};
     diagonal[0] = diagonal[second] = diagonal[components - 1] = true;
@@ -25,7 +25,7 @@ requires(dimensions(K) > 1) struct ChangeOfVolume {
   using Row = typename Block::Row;
   using Tensor = TensorOf<K>;
 
-  /// J − 1, or at small strain tr H, of the block's points.
+  /// Sets j to J − 1, or at small strain to tr H, for the block's points.
   static void of_block(const Block& block, bool finite_strain, Row& j) {
     finite_strain ? of_block_as<true>(block, j) : of_block_as<false>(block, j);
   }
@@ -45,11 +45,11 @@ requires(dimensions(K) > 1) struct ChangeOfVolume {
       }
     }
   }
-  /// Its derivative along block.direction.
+  /// Sets dJ to the derivative of j along block.direction.
   static void rate(const Block& block, bool finite_strain, Row& dJ) {
     for (std::size_t q = 0; q < block.count; ++q) dJ[q] = rate_at(block, deformation(block, finite_strain, q), q);
   }
-  /// δJ = cof f : δH
+  /// The derivative δJ = cof f : δH at point q.
   static double rate_at(const Block& block, const Tensor& f, std::size_t q) {
     const Tensor cof = cofactor(f);
     double rate = 0;
@@ -57,11 +57,11 @@ requires(dimensions(K) > 1) struct ChangeOfVolume {
     return rate;
   }
 
-  /// f = I + H, of small strain I
+  /// The deformation gradient f = I + H, at small strain I.
   static Tensor deformation(const Block& block, bool finite_strain, std::size_t q) {
     return plus_identity<K>(finite_strain ? block.H_at(q) : Tensor{});
   }
-  /// ∂J/∂f = J f⁻ᵀ
+  /// The cofactor ∂J/∂f = J f⁻ᵀ.
   [[gnu::always_inline]] static Tensor cofactor(const Tensor& f) {
     if constexpr (in_space) {
       return cofactor_of(f, f, 0.5);
@@ -82,7 +82,7 @@ requires(dimensions(K) > 1) struct ChangeOfVolume {
     }
     return rate;
   }
-  /// block.VP = push cof f. Returns 0, or NaN if some push is not finite.
+  /// Sets block.VP = push cof f. Returns 0, or NaN if some push is not finite.
   static double write_push(Block& block, bool finite_strain, const Row& push) {
     double bad = 0;
     for (std::size_t q = 0; q < block.count; ++q) {
@@ -92,14 +92,14 @@ requires(dimensions(K) > 1) struct ChangeOfVolume {
     }
     return bad;
   }
-  /// V P = scale V P + push cof f
+  /// V P = scale V P + push cof f at point q.
   [[gnu::always_inline]] static void add_cofactor(Block& block, const Tensor& f, std::size_t q, double scale,
                                                   double push) {
     const Tensor cof = cofactor(f);
     unroll<components>([&](auto c)
                            __attribute__((always_inline)) { block.VP[c][q] = scale * block.VP[c][q] + push * cof[c]; });
   }
-  /// V P = V P + push I
+  /// V P = V P + push I at point q.
   [[gnu::always_inline]] static void add_identity(Block& block, std::size_t q, double push) {
     unroll<components>([&](auto c) __attribute__((always_inline)) {
       if constexpr (on_diagonal[c]) block.VP[c][q] += push;
@@ -107,8 +107,8 @@ requires(dimensions(K) > 1) struct ChangeOfVolume {
   }
 
  private:
-  // share (a_jk b_lm + b_jk a_lm − a_jm b_lk − b_jm a_lk) with i, j, l and n, k, m in cyclic order, at [3 i + n]: half
-  // of it is cof f of a = b = f.
+  // share (a_jk b_lm + b_jk a_lm − a_jm b_lk − b_jm a_lk) with i, j, l and n, k, m in cyclic order, at [3 i + n]: for a
+  // = b = f and share = ½ it is cof f.
   [[gnu::always_inline]] static Tensor cofactor_of(const Tensor& a, const Tensor& b, double share) {
     Tensor cof;
     unroll<components>([&](auto in) __attribute__((always_inline)) {

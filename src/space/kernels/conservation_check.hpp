@@ -1,5 +1,5 @@
-// Keeps account of mass and momentum: on their way between material points and grid, and of a body that nothing acts on
-// since the run began.
+// Checks the conservation of mass and momentum: in the transfer between material points and grid, and since the run
+// began in a body that nothing acts on.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>
@@ -34,12 +34,12 @@ class ConservationCheck {
     return momentum;
   }
 
-  /// The nodes' masses, (functions), beside the body's when the run began.
+  /// Compares the nodes' masses, (functions), with the body's mass when the run began.
   void compare_mass(double body, const std::vector<double>& at_nodes) {
     const double sum = sum_over(at_nodes.size(), [&](std::size_t f) { return at_nodes[f]; });
     mass_ = std::max(mass_, std::abs(sum - body) / body);
   }
-  /// Momenta of `functions` nodes, at(Dim function + component), beside those of the points.
+  /// Compares the momenta of `functions` nodes, at(Dim function + component), with those of the points.
   template <class At>
   void compare_momentum(const Momentum& of_points, std::size_t functions, const At& at) {
     if (!(of_points.scale > 0)) return;
@@ -48,7 +48,7 @@ class ConservationCheck {
       momentum_ = std::max(momentum_, std::abs(sum - of_points.sum[i]) / of_points.scale);
     }
   }
-  /// The points' momenta beside those of the first call: of a free body they stay.
+  /// Compares the points' momenta with those of the first call: in a free body they are conserved.
   void compare_with_start(const MaterialPoints<Dim>& points) {
     const Momentum now = of_points(points);
     const auto [turn, turn_scale] = angular_momentum(points);
@@ -80,17 +80,18 @@ class ConservationCheck {
   }
   double mass() const { return mass_; }
   double momentum() const { return momentum_; }
-  /// Empty if it was not compared.
+  /// The error of angular momentum; empty if it was not compared.
   std::optional<double> angular_momentum() const { return angular_momentum_; }
 
  private:
-  using Turn = std::array<double, Dim == 3 ? 3 : 1>;  // about x, y, z, or z alone [kg m²/s]
+  using Turn = std::array<double, Dim == 3 ? 3 : 1>;  // angular momentum about x, y, z, or z alone [kg m²/s]
   struct Start {
     Momentum momentum;
     Turn turn{};
     double turn_scale = 0;
   };
-  // Σ_p m_p (x_p × v_p + B_p,yx − B_p,xy) about z, and Σ_p m_p |x_p − x_c| |v_p| about the centre x_c of the masses.
+  // The angular momentum Σ_p m_p (x_p × v_p + B_p,yx − B_p,xy) (about z), and its scale Σ_p m_p |x_p − x_c| |v_p| about
+  // the centre of mass x_c.
   static std::pair<Turn, double> angular_momentum(const MaterialPoints<Dim>& points) {
     if constexpr (Dim == 1) {
       return {{0}, 0};
@@ -125,7 +126,7 @@ class ConservationCheck {
 
   std::optional<Start> start_;
   std::optional<double> angular_momentum_;
-  double mass_ = 0, momentum_ = 0;  // the worst so far, relative
+  double mass_ = 0, momentum_ = 0;  // the largest relative errors so far
 };
 
 }  // namespace stillpoint

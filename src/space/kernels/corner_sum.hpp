@@ -13,7 +13,7 @@ namespace stillpoint {
 
 class CornerSum {
  public:
-  /// function_of_corner: the grid function of each corner, (cells × per_cell); functions: how many the grid has.
+  /// function_of_corner: the grid function of each corner, (cells × per_cell); functions: their number in the grid.
   void rebuild(const std::vector<int>& function_of_corner, std::size_t functions) {
     begin_.assign(functions + 1, 0);
     for (const int function : function_of_corner) ++begin_[static_cast<std::size_t>(function) + 1];
@@ -27,13 +27,13 @@ class CornerSum {
   std::size_t functions() const { return begin_.size() - 1; }  // 0 before the first rebuild
   bool reaches(std::size_t function) const { return begin_[function] < begin_[function + 1]; }
 
-  /// visit(corner) of a function's corners, in the order of cells.
+  /// Calls visit(corner) for a function's corners, in the order of cells.
   template <class Visit>
   void for_corners(std::size_t function, const Visit& visit) const {
     for (int c = begin_[function]; c < begin_[function + 1]; ++c) visit(corner_[static_cast<std::size_t>(c)]);
   }
 
-  /// Σ over the corners of a function of values, (corners × Components); [i] is component i.
+  /// The sum of values, (corners × Components), over the corners of a function; [i] is component i.
   template <int Components>
   auto sum(std::size_t function, const double* values) const {
     const auto values_of = [&](int c) {
@@ -54,8 +54,8 @@ class CornerSum {
 
  private:
   std::vector<int> begin_{0};  // (functions + 1)
-  std::vector<int> corner_;    // of function f at [begin_[f], begin_[f + 1])
-  std::vector<int> next_;      // work
+  std::vector<int> corner_;    // corners of function f at [begin_[f], begin_[f + 1])
+  std::vector<int> next_;      // work array
 };
 
 }  // namespace stillpoint

@@ -1,22 +1,20 @@
 // Internal forces of linear elastic material in bilinear and trilinear cells, from moments of their points.
 //
 // With positions ξ from 0 to 1 in a cell whose sides are 1/q_j, and products of different coordinates x_m = Π_{d ∈ m}
-// ξ_d, m a set of axes, the displacement of a cell, of which corner a is at 1 along the axes in a, is
+// ξ_d, m a set of axes, the displacement in a cell, whose corner a is at 1 along the axes in a, is
 //
-//   u = Σ_m c_m x_m,   c_m = Σ_{a ⊆ m} (−1)^{|m| − |a|} u_a,      H_ij = q_j Σ_{n ∌ j} c_{n ∪ j, i} x_n
-//
-// so that with constant moduli A and small strain the sums that the corners' forces are made of,
+// so that with constant moduli A and small strain the sums that give the forces at the corners,
 //
 //   T_ij[m] = Σ_p V_p P_ij x_m = A : Σ_p V_p H x_m,
 //   G_ij[m] = Σ_p V_p H_ij x_m = Σ_n q_j c_{n ∪ j, i} Σ_p V_p x_n x_m,
 //
-// take of the points no more than the moments Σ_p V_p x_n x_m: 6 numbers in the plane, 23 in space. A cell costs the
-// same however many points it has. The force that belongs to c_m, f_m = Σ_{j ∈ m} q_j T_ij[m \ j], goes to the corners
-// by the transposed of the sum that makes c_m of them.
+// depend on the points only through the moments Σ_p V_p x_n x_m: 6 numbers in the plane, 23 in space. The cost of a
+// cell does not depend on its number of points. The force conjugate to c_m, f_m = Σ_{j ∈ m} q_j T_ij[m \ j], goes to
+// the corners by the transpose of the sum that gives c_m.
 //
 // An isotropic law has P_ii = (A_n − A_c) H_ii + A_c tr H and P_ij = A_s (H_ij + H_ji). If the points of a cell share
-// their change of volume, see MeanDilatation, t̄ = Σ V_p tr H_p/Σ V_p stands for tr H, and that is all: a_p = κ V_p t̄,
-// so that the law's V P̄ is V P.
+// their change of volume, see MeanDilatation, t̄ = Σ V_p tr H_p/Σ V_p takes the place of tr H, without further terms:
+// a_p = κ V_p t̄, so that the law's V P̄ is V P.
 #pragma once
 
 #include <array>
@@ -36,13 +34,13 @@ class ElasticCells {
 
  public:
   using Weights = PointWeights<BSpline<1>, K>;
-  /// Of an isotropic law: P_xx = normal H_xx + cross (H_yy + …), P_xy = P_yx = shear (H_xy + H_yx) [Pa].
+  /// The moduli of an isotropic law: P_xx = normal H_xx + cross (H_yy + …), P_xy = P_yx = shear (H_xy + H_yx) [Pa].
   struct Moduli {
     double normal, cross, shear;
   };
 
-  /// For a phase of these points and weights, which outlive it. moduli: of each material. shares_dilatation: whether
-  /// the points of a cell share their change of volume.
+  /// Computes the moments for a phase of these points and weights, which must outlive it. moduli: of each material.
+  /// shares_dilatation: whether the points of a cell share their change of volume.
   void rebuild(const MaterialPoints<Dim>& points, const Weights& weights, std::vector<Moduli> moduli,
                bool shares_dilatation) {
     points_ = &points;
@@ -73,24 +71,24 @@ class ElasticCells {
   bool empty() const { return moduli_.empty(); }
   double bytes() const { return bytes_per_cell * static_cast<double>(points_->cells()); }
 
-  /// corner[kCorners Dim k + Dim a + i]: the force of cell k at its corner a, for the cells begin … end − 1. u: over
-  /// the grid's functions. Returns 0, or NaN if a force is not finite.
+  /// Sets corner[kCorners Dim k + Dim a + i], the force of cell k at its corner a, for the cells begin … end − 1. u:
+  /// over the grid's functions. Returns 0, or NaN if a force is not finite.
   double forces(const double* u, std::size_t begin, std::size_t end, double* corner) const {
     return shares_dilatation_ ? forces_of_cells<true>(u, begin, end, corner)
                               : forces_of_cells<false>(u, begin, end, corner);
   }
 
  private:
-  static constexpr int kCorners = 1 << Dim;             // and sets of axes, as bits
-  static constexpr int kExponents = Dim == 2 ? 9 : 27;  // of ξ_d, 0 to 2 each, as digits to the base of 3
+  static constexpr int kCorners = 1 << Dim;             // number of corners, and of sets of axes, as bits
+  static constexpr int kExponents = Dim == 2 ? 9 : 27;  // exponents 0 to 2 of each ξ_d, as digits to the base of 3
   static constexpr int exponent(int e, int d) { return e / power(3, d) % 3; }
   static constexpr bool has(int set, int axis) { return (set >> axis & 1) != 0; }
-  static constexpr int exponents_of(int m, int n) {  // of x_m x_n
+  static constexpr int exponents_of(int m, int n) {  // exponents of x_m x_n
     int e = 0;
     for (int d = Dim - 1; d >= 0; --d) e = 3 * e + has(m, d) + has(n, d);
     return e;
   }
-  // Which moments there are: of x_n x_m where n lacks an axis, and m does. −1: not needed.
+  // The index of each moment, of x_n x_m where n lacks an axis, and m does; −1: not needed.
   static constexpr auto kMomentOf = [] {
     std::array<int, kExponents> number{};
     for (int& of : number) of = -1;
@@ -113,7 +111,7 @@ class ElasticCells {
   static constexpr double bytes_per_cell = (kMoments + Dim) * sizeof(double);
 
  private:
-  static constexpr int lanes = Dim == 2 ? 4 : 8;  // cells at a time
+  static constexpr int lanes = Dim == 2 ? 4 : 8;  // number of cells at a time
   static constexpr std::size_t slack = lanes - 1;
   using Lane = Lanes<lanes>;
   using PerCorner = std::array<std::array<Lane, Dim>, kCorners>;
@@ -134,7 +132,7 @@ class ElasticCells {
     return bad;
   }
 
-  /// c: the displacements of the corners of cells from the first on; on return their forces.
+  /// c: the displacements of the corners of cells from the first on; on return the forces on them.
   template <bool Shared>
   [[gnu::always_inline]] void forces_of(const Moduli& A, std::size_t first, PerCorner& c) const {
     std::array<Lane, Dim> q;
@@ -142,13 +140,13 @@ class ElasticCells {
     const auto moment = [&](auto m, auto n) __attribute__((always_inline)) {
       return Lane::load(&moments_[kMomentOf[exponents_of(m, n)]][first]);
     };
-    // c_m of the corners
+    // The coefficients c_m from the corners.
     unroll<Dim>([&](auto d) __attribute__((always_inline)) {
       unroll<kCorners>([&](auto m) __attribute__((always_inline)) {
         if constexpr (has(m, d)) subtract(c[m ^ (1 << d)], c[m]);
       });
     });
-    std::array<std::array<std::array<Lane, kCorners>, Dim>, Dim> H;  // of x_n at [i][j][n], without j
+    std::array<std::array<std::array<Lane, kCorners>, Dim>, Dim> H;  // coefficient of x_n at [i][j][n], n without j
     unroll<Dim * Dim>([&](auto ij) __attribute__((always_inline)) {
       constexpr int i = ij / Dim, j = ij % Dim;
       unroll<kCorners>([&](auto n) __attribute__((always_inline)) {
@@ -195,7 +193,7 @@ class ElasticCells {
         });
       }
     });
-    // To the corners.
+    // The forces f_m to the corners.
     unroll<Dim>([&](auto d) __attribute__((always_inline)) {
       unroll<kCorners>([&](auto m) __attribute__((always_inline)) {
         if constexpr (has(m, d)) subtract(f[m], f[m ^ (1 << d)]);
@@ -207,11 +205,11 @@ class ElasticCells {
     unroll<Dim>([&](auto i) __attribute__((always_inline)) { from[i] = from[i].minus(what[i]); });
   }
 
-  // The components of two corners that are neighbours along x lie side by side: four numbers in the plane, and in space
-  // six, of which two are taken twice.
+  // The components of two corners that are neighbours along x are contiguous: four numbers in the plane, and in space
+  // six, of which two are loaded twice.
   static constexpr int kFours = Dim - 1, kStep = 2;
 
-  // Lanes past the last cell have those of the first.
+  // The displacements of the corners of `count` cells; lanes past the last cell repeat those of the first.
   [[gnu::always_inline]] PerCorner displacements(const double* u, std::size_t first, std::size_t count) const {
     PerCorner at;
     unroll<kCorners / 2>([&](auto pair) __attribute__((always_inline)) {
@@ -249,7 +247,7 @@ class ElasticCells {
               joined(lower[3], upper[3])};
     }
   }
-  // Returns 0, or NaN if a force is not finite.
+  // Stores the forces. Returns 0, or NaN if a force is not finite.
   [[gnu::always_inline]] static double store(const PerCorner& force, std::size_t count, double* corner) {
     Lanes<4> bad{};
     unroll<kCorners * Dim / 4>([&](auto four) __attribute__((always_inline)) {
@@ -287,7 +285,7 @@ class ElasticCells {
   const Weights* weights_ = nullptr;
   std::vector<Moduli> moduli_;
   bool shares_dilatation_ = false;
-  std::array<std::vector<double>, kMoments> moments_;  // of each cell, with slack [m³]
+  std::array<std::vector<double>, kMoments> moments_;  // moments of each cell, with slack [m³]
   std::array<std::vector<double>, Dim> inverse_side_;  // [1/m]
 };
 

@@ -1,4 +1,4 @@
-// Mass and stiffness bound of the functions that extended ones follow, N_k + Σ_e W_ek N_e, see ExtendedFunctions.
+// Mass and stiffness bound of the functions N_k + Σ_e W_ek N_e that extended functions follow, see ExtendedFunctions.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace stillpoint {
 
-/// Mass of these, NodalTotals' m_k + Σ_e W_ek m_e, and 0 for the extended ones. Where the basis is no partition of
-/// unity m_e is shared by W_ek² so that values keep it.
+/// Sets the mass of these functions, m_k + Σ_e W_ek m_e with m of NodalTotals, and 0 for the extended ones. Where the
+/// basis is no partition of unity m_e is shared in proportion to W_ek², so that value functions keep it.
 template <AxisBasis B, int Dim>
 void give_mass_to_sources(const Grid<Dim>& grid, const ExtendedFunctions& extension, std::vector<double>& mass) {
   const auto is_value = [&](int function) { return TensorBasis<B, Dim>::is_value(grid, function); };
@@ -25,14 +25,14 @@ void give_mass_to_sources(const Grid<Dim>& grid, const ExtendedFunctions& extens
     for (const auto& [source, weight] : sources) of_values += is_value(source) ? weight * weight : 0;
     for (const auto& [source, weight] : sources) {
       double share = weight;
-      // A slope's mass is none of the body's.
+      // A slope's mass does not count towards the body's mass.
       if constexpr (!B::partition_of_unity) share = is_value(function) ? weight * weight / of_values : 0;
       mass[static_cast<std::size_t>(source)] += given * share;
     }
   }
 }
 
-/// stiffness_bound() with these functions; 0 for the extended ones.
+/// The stiffness_bound() of these functions; 0 for the extended ones.
 template <AxisBasis B, Kinematics K>
 std::vector<double> stiffness_bound(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
                                     const CornerSum& corner_sum, const std::vector<double>& wave_modulus,
@@ -49,7 +49,7 @@ std::vector<double> stiffness_bound(const MaterialPoints<dimensions(K)>& points,
     const double A = wave_modulus[static_cast<std::size_t>(points.material_of_cell(k))];
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
       const auto dN = weights.dN(k, p);
-      std::map<int, std::array<double, rows>> gradients;  // of each function that counts
+      std::map<int, std::array<double, rows>> gradients;  // gradients of the functions that are not extended
       const auto add = [&](int function, double weight, int a) {
         auto& gradient = gradients.try_emplace(function).first->second;
         for (int j = 0; j < rows; ++j) gradient[static_cast<std::size_t>(j)] += weight * dN[per_cell * j + a];

@@ -1,5 +1,6 @@
-// Between a cell's corners and its points: ∂u/∂x at the points from the displacements of the corners, and forces at the
-// corners from the stresses of the points. By the weights as they are stored; bilinear cells have their own way.
+// The transfer between a cell's corners and its points: ∂u/∂x at the points from the displacements of the corners, and
+// forces at the corners from the stresses of the points. The general version uses the stored weights; bilinear cells
+// and all functions in space have specialisations.
 #pragma once
 
 #include <array>
@@ -21,12 +22,12 @@ struct GatherScatter {
   static constexpr int per_cell = Weights::per_cell;
   static constexpr int rows = Weights::rows;
 
-  /// H_p = Σ_a u_a ⊗ ∇N_ap, and if Increments dH of u − u_before, for the points begin … end − 1 of occupied cell k;
+  /// H_p = Σ_a u_a ⊗ ∇N_ap, and if Increments dH for u − u_before, for the points begin … end − 1 of occupied cell k;
   /// rows begin with point number `first`. u, u_before: over the grid's functions, component i at [dim function + i].
   template <bool Increments>
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,
                      const double* u_before, std::size_t first, Rows& H, Rows& dH) {
-    constexpr int width = Increments ? 2 * dim : dim;  // lanes: u, and u − u_before behind it
+    constexpr int width = Increments ? 2 * dim : dim;  // number of lanes: u, followed by u − u_before
     std::array<Lanes<width>, per_cell> of_corner;
     unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
       const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
@@ -56,8 +57,8 @@ struct GatherScatter {
     }
   }
 
-  /// corner[dim a + i] = Σ_p V_p P_ij ∂N_ap/∂x_j over those points, (dim × per_cell) [N]. Local functions are taken a
-  /// few at a time; lanes past the last of them read on into what follows, and are dropped.
+  /// Sets corner[dim a + i] = Σ_p V_p P_ij ∂N_ap/∂x_j over those points, (dim × per_cell) [N]. Local functions are
+  /// taken a few at a time; lanes past the last of them read on into the following memory, and are dropped.
   static void scatter(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const Block& block,
                       double* corner) {
     constexpr int lanes = per_cell < 4 ? 2 : 4, chunks = (per_cell + lanes - 1) / lanes;

@@ -3,12 +3,12 @@
 //
 //   ∂u/∂x = [(u_10 − u_00) + η (u_11 − u_01 − u_10 + u_00)]/h_x = a + b η,    ∂u/∂y = c + d ξ   likewise,
 //
-// so that what depends on the corners is found once a cell, and points are taken a few at a time. The way back needs of
-// the points only the sums S = Σ V P and T = Σ V P η (or ξ):
+// so that the combinations of the corners are computed once a cell, and points are taken a few at a time. The scatter
+// needs only the sums S = Σ V P and T = Σ V P η (or ξ) over the points:
 //
 //   Σ_p V_p P_ix ∂N_00/∂x = −(S_ix − T_ix)/h_x,   ∂N_10: (S_ix − T_ix)/h_x,   ∂N_01: −T_ix/h_x,   ∂N_11: T_ix/h_x.
 //
-// Where axisymmetric also  u_r/r = (e + f ξ + g η + m ξη)/r  and the sums of V P_θθ/r with 1, ξ, η, ξη.
+// Axisymmetric cells also have u_r/r = (e + f ξ + g η + m ξη)/r and the sums of V P_θθ/r with 1, ξ, η, ξη.
 #pragma once
 
 #include "space/kernels/gather_scatter.hpp"
@@ -29,7 +29,7 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
   template <bool Increments>
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,
                      const double* u_before, std::size_t first, Rows& H, Rows& dH) {
-    constexpr int width = Increments ? 2 * dim : dim;  // u, and u − u_before behind it
+    constexpr int width = Increments ? 2 * dim : dim;  // number of lanes: u, followed by u − u_before
     const auto corner = [&](int a) __attribute__((always_inline)) {
       const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
       const auto now = Lanes<dim>::load(u + at);
@@ -45,7 +45,7 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
     const auto a = lower.times(cell.inverse_side[0]), b = twist.times(cell.inverse_side[0]);
     const auto c = left.times(cell.inverse_side[1]), d = twist.times(cell.inverse_side[1]);
 
-    // What lies past the end belongs to the next cell, which writes it again, or to nobody.
+    // Entries past the end belong to the next cell, which overwrites them, or are unused.
     for (std::size_t p = begin; p < end; p += lanes) {
       const std::size_t q = p - first;
       const auto xi = Points::load(weights.position_in_cell(0) + p),
@@ -72,8 +72,8 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
 
   static void scatter(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const Block& block,
                       double* corner) {
-    std::array<Points, dim * dim> S{}, T{};  // of V P_ij
-    std::array<Points, 4> of_hoop{};         // of V P_θθ/r with 1, ξ, η, ξη
+    std::array<Points, dim * dim> S{}, T{};  // sums of V P_ij
+    std::array<Points, 4> of_hoop{};         // sums of V P_θθ/r with 1, ξ, η, ξη
     const auto& cell = weights.cell(k);
     for (std::size_t p = begin; p < end; p += lanes) {
       const std::size_t q = p - block.first;
@@ -95,7 +95,7 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
         of_hoop[3] = of_hoop[3].plus_product(VP_eta, xi);
       }
     }
-    // Lanes: (xx, yx), (xy, yy), a pair for either derivative; the far side takes T, the near side what is left of S.
+    // Lanes: (xx, yx), (xy, yy), a pair for either derivative; the far side takes T, the near side the rest of S.
     const auto [per_x, per_y] = cell.inverse_side;
     const Lanes<4> scale{{per_x, per_x, per_y, per_y}};
     const Lanes<4> far = sums(T[0], T[2], T[1], T[3]).times(scale);
@@ -113,7 +113,7 @@ requires(dimensions(K) == 2) struct GatherScatter<BSpline<1>, K> {
   }
 
  private:
-  /// start + slope · x
+  /// The linear function start + slope · x.
   [[gnu::always_inline]] static Points line(double start, double slope, const Points& x) {
     return {start + slope * x.lanes};
   }

@@ -1,10 +1,11 @@
-// Gather and scatter in space, of functions that are products of one along each axis, from the factors of a point:
+// Gather and scatter in space, for functions that are products of one function along each axis, from the factors of a
+// point:
 //
 //   H_ij = Σ_c Σ_b Σ_a u_abc,i X_a Y_b Z_c   with the slope in place of the factor along j,
 //
-// one axis after the other, so that what is common to sums is found once: 270 products a point for 27 functions, and
-// 18 numbers to read for 81. Eight points are taken at a time; on the way back each corner's force is summed over
-// them at the end of the cell.
+// one axis after the other, so that common parts of sums are computed once: 270 products a point for 27 functions, and
+// 18 numbers to read instead of 81. Eight points are taken at a time; in the scatter each corner's force is summed over
+// the eight lanes at the end of the cell.
 #pragma once
 
 #include "space/kernels/gather_scatter.hpp"
@@ -26,7 +27,7 @@ struct GatherScatter<B, Kinematics::space> {
                      const double* u_before, std::size_t first, Rows& H, Rows& dH) {
     Corners corners;
     const auto for_corners = [&](const auto& visit)
-        __attribute__((always_inline)) {  // visit(number of a component, it)
+        __attribute__((always_inline)) {  // calls visit(index of a component, its entry)
       for (int a = 0; a < per_cell; ++a) {
         const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
         for (int i = 0; i < dim; ++i) visit(at + i, corners[i][a]);
@@ -75,7 +76,7 @@ struct GatherScatter<B, Kinematics::space> {
  private:
   using Corners = std::array<std::array<double, per_cell>, dim>;
 
-  // Of eight points from p on.
+  // The factors of eight points from p on.
   struct Factors {
     std::array<std::array<Eight, along_axis>, dim> N, slope;
 
@@ -89,7 +90,7 @@ struct GatherScatter<B, Kinematics::space> {
     }
   };
 
-  // What lies past the end belongs to the next cell, which writes it again, or to nobody.
+  // Entries past the end belong to the next cell, which overwrites them, or are unused.
   static void gather_one(const Weights& weights, std::size_t begin, std::size_t end, std::size_t first,
                          const Corners& corners, Rows& H) {
     for (std::size_t p = begin; p < end; p += lanes) {

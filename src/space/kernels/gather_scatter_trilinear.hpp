@@ -4,8 +4,8 @@
 //   u = c + c_x ξ + c_y η + c_z ζ + c_xy ξη + c_yz ηζ + c_zx ζξ + c_xyz ξηζ,
 //   ∂u/∂x = (c_x + c_xy η + c_zx ζ + c_xyz ηζ)/h_x,   …
 //
-// so that what depends on the corners is found once a cell, and points are taken eight at a time. On the way back eight
-// corners are: a point adds Σ_j V P_ij ∂N/∂x_j to all of them, made of its factors ξ or 1 − ξ and so on.
+// so that the combinations of the corners are computed once a cell, and points are taken eight at a time. The scatter
+// takes eight corners at a time: a point adds Σ_j V P_ij ∂N/∂x_j to all of them, from its factors ξ or 1 − ξ and so on.
 #pragma once
 
 #include "space/kernels/gather_scatter.hpp"
@@ -39,7 +39,7 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
 
   static void scatter(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const Block& block,
                       double* corner) {
-    // Of corner a along axis d: factor near + towards · position, and its slope towards/h.
+    // Corner a has along axis d the factor near + towards · position, with the slope towards/h.
     constexpr Eight::Register near_x{1, 0, 1, 0, 1, 0, 1, 0}, near_y{1, 1, 0, 0, 1, 1, 0, 0},
         near_z{1, 1, 1, 1, 0, 0, 0, 0};
     const Eight::Register to_x = 1 - 2 * near_x, to_y = 1 - 2 * near_y, to_z = 1 - 2 * near_z;
@@ -62,7 +62,7 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
   }
 
  private:
-  // displacement(at): of a corner, whose first component is at `at` of the grid's.
+  // displacement(at): that of a corner whose first component is at `at` of the grid's displacements.
   template <class Displacement>
   [[gnu::always_inline]] static void gather_one(const Weights& weights, std::size_t k, std::size_t begin,
                                                 std::size_t end, std::size_t first, Rows& H,
@@ -77,11 +77,12 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
     const auto c_zx = u_101.minus(u_001).minus(c_x);
     const auto c_xyz = u_111.minus(u_011).minus(u_101.minus(u_001)).minus(c_xy);
     const auto [per_x, per_y, per_z] = weights.cell(k).inverse_side;
-    using Coefficients = std::array<Lanes<4>, 4>;  // of 1, the two positions along the other axes, and their product
+    using Coefficients = std::array<Lanes<4>, 4>;  // of 1, of the positions along the other two axes, and of their
+                                                   // product
     const Coefficients of_x{c_x.times(per_x), c_xy.times(per_x), c_zx.times(per_x), c_xyz.times(per_x)};
     const Coefficients of_y{c_y.times(per_y), c_xy.times(per_y), c_yz.times(per_y), c_xyz.times(per_y)};
     const Coefficients of_z{c_z.times(per_z), c_zx.times(per_z), c_yz.times(per_z), c_xyz.times(per_z)};
-    // What lies past the end belongs to the next cell, which writes it again, or to nobody.
+    // Entries past the end belong to the next cell, which overwrites them, or are unused.
     for (std::size_t p = begin; p < end; p += lanes) {
       const std::size_t q = p - first;
       const auto xi = weights.eight_in_cell(0, k, p), eta = weights.eight_in_cell(1, k, p),

@@ -1,20 +1,20 @@
-// Mean dilatation, F-bar and B-bar: the points of a cell share its change of volume. Material that is nearly
+// Mean dilatation, F-bar and B-bar: the points of a cell share their change of volume. Material that is nearly
 // incompressible, or yields at constant volume, then does not lock: n points of a cell that each keep their volume are
-// n constraints on its few nodes, their mean is one. One it is for smooth functions of higher degree too, which have
-// two unknowns a cell in the plane, whatever their degree: a mean that is linear in each cell would be three
-// constraints.
+// n constraints on its few nodes, their mean is one. A single mean per cell also suits smooth functions of higher
+// degree, which have two unknowns a cell in the plane, whatever their degree: a mean that is linear in each cell would
+// be three constraints.
 //
 // At finite strain, with f = I + H since the phase began, J = det f, and d = 2 in plane strain, 3 if axisymmetric or in
 // space,
 //
 //   f̄_p = s_p f_p,   s_p = (J̄/J_p)^(1/d),   J̄ = Σ V_p J_p/W,   W = Σ V_p over the cell
 //                                         [de Souza Neto, Perić, Dutko and Owen 1996; in MPM Coombs et al. 2018].
-// The law answers P̄ to f̄. Forces are those of the virtual work Σ V_p P̄_p : δf̄_p, so that a law with a potential keeps
-// one and K is as symmetric as the law's moduli [Moran, Ortiz and Shih 1990]:
+// The law gives P̄ for f̄. Forces are those of the virtual work Σ V_p P̄_p : δf̄_p, so that a law with a potential
+// keeps one and K is as symmetric as the law's moduli [Moran, Ortiz and Shih 1990]:
 //
 //   V P = s V P̄ + (A V/(W J̄) − a/J) cof f,   a_p = V_p P̄_p : f̄_p/d,   A = Σ a_p.
 //
-// At small strain [Hughes 1980] the same with J = 1 + tr H to first order:
+// At small strain [Hughes 1980] this becomes, with J = 1 + tr H to first order:
 //
 //   H̄ = H + (t̄ − tr H)/d I,   t̄ = Σ V_p tr H_p/W,      V P = V P̄ + (A V/W − a) I,   a_p = V_p tr P̄_p/d.
 #pragma once
@@ -29,13 +29,13 @@
 
 namespace stillpoint {
 
-/// Of one block of points: average(), then the law's stress(), then transform_stress(). For a derivative these three,
-/// and after them average_direction(), the law's tangent(), transform_tangent().
+/// The mean dilatation of one block of points: average(), then the law's stress(), then transform_stress(). A
+/// derivative takes these three, followed by average_direction(), the law's tangent(), transform_tangent().
 ///
-/// Means gives what comes from other points, in rows of the block's:
+/// Means provides the sums over other points, in rows of the block:
 ///   means(block, x, mean)              x̄ of the state's J − 1 or tr H
-///   shares(block, y, share)            Σ_q T_qp y_q of its a/J̄
-///   rates_of_means(block, x, mean),    the same of their derivatives.
+///   shares(block, y, share)            Σ_q T_qp y_q of the state's a/J̄
+///   rates_of_means(block, x, mean),    the same for their derivatives
 ///   rates_of_shares(block, y, share)
 template <Kinematics K, class Means>
 requires(dimensions(K) > 1) class MeanDilatation {
@@ -49,34 +49,34 @@ requires(dimensions(K) > 1) class MeanDilatation {
   using Tensor = TensorOf<K>;
 
  public:
-  /// finite_strain: of the law.
+  /// finite_strain: whether the law is one of finite strain.
   MeanDilatation(const Means& means, bool finite_strain) : means_(means), finite_(finite_strain) {}
 
-  // A call a block costs nothing; inlined into all that asks, these took an eighth of a phase's code.
+  // A call a block costs nothing; inlined into all callers, these functions took an eighth of a phase's code.
 
-  /// block.H becomes H̄.
+  /// Replaces block.H by H̄.
   [[gnu::noinline]] void average(Block& block) { average_as<false>(block, nullptr, nullptr); }
-  /// And block.dH the part of H̄ that came since commit. before, after: what averaging does to a point, s_p − 1 or at
-  /// small strain (t̄ − tr H_p)/d, of the committed state and of this one, of the block's points; nobody asks for after
-  /// if it is null.
+  /// Replaces block.H by H̄ and block.dH by the part of H̄ since the last commit. before, after: the effect of
+  /// averaging on each of the block's points, s_p − 1 or at small strain (t̄ − tr H_p)/d, in the committed state and in
+  /// this one; after may be null.
   [[gnu::noinline]] void average(Block& block, const double* before, double* after) {
     average_as<true>(block, before, after);
   }
-  /// What averaging did to the block's points.
+  /// Writes the effect of averaging on the block's points.
   void write_effect(const Block& block, double* effect) const { std::copy_n(added_.begin(), block.count, effect); }
 
-  /// block.VP, the law's V P̄, becomes V P.
+  /// Transforms block.VP from the law's V P̄ to V P.
   [[gnu::noinline]] void transform_stress(Block& block) {
     pressures(block);
     finite_ ? push_as<true>(block) : push_as<false>(block);
   }
 
-  /// The same, keeping what a derivative needs of V P̄; block.VP is left as it is.
+  /// Keeps the parts of V P̄ that a derivative needs; block.VP is unchanged.
   [[gnu::noinline]] void keep_stress(Block& block) {
     pressures(block);
     for_rows(block, [&](int c, std::size_t q) { kept_[c][q] = block.VP[c][q]; });
   }
-  /// block.direction, δH, becomes δH̄.
+  /// Transforms block.direction from δH to δH̄.
   [[gnu::noinline]] void average_direction(Block& block) {
     for (std::size_t q = 0; q < block.count; ++q) dJ_[q] = Volume::rate_at(block, deformation(block, q), q);
     means_.rates_of_means(block, dJ_, dmean_);
@@ -90,7 +90,7 @@ requires(dimensions(K) > 1) class MeanDilatation {
       });
     }
   }
-  /// block.VP, the law's V δP̄, becomes V δP; after keep_stress() and average_direction().
+  /// Transforms block.VP from the law's V δP̄ to V δP; after keep_stress() and average_direction().
   [[gnu::noinline]] void transform_tangent(Block& block) {
     Row da, given, dshare;
     for (std::size_t q = 0; q < block.count; ++q) {
@@ -172,7 +172,7 @@ requires(dimensions(K) > 1) class MeanDilatation {
     }
   }
 
-  // a, and what pushes along cof f, from the law's V P̄.
+  // Sets a, and the factor of cof f, from the law's V P̄.
   void pressures(const Block& block) { finite_ ? pressures_as<true>(block) : pressures_as<false>(block); }
   template <bool Finite>
   void pressures_as(const Block& block) {
@@ -204,18 +204,19 @@ requires(dimensions(K) > 1) class MeanDilatation {
     }
   }
 
-  // Along cof f = s^(1−d) cof f̄. Apart from the loop: all locals are the function's own, or GCC gives up.
+  // Adds the term along cof f = s^(1−d) cof f̄. Separate from the loop: all locals are the function's own, or GCC does
+  // not vectorise it.
   [[gnu::always_inline]] void push_finite(Block& block, std::size_t q) const {
     const double push = push_[q] * inverse_s_[q] * (d == 3 ? inverse_s_[q] : 1);
     Volume::add_cofactor(block, plus_identity<K>(block.H_at(q)), q, s_[q], push);
   }
 
-  // δ(a/J)
+  // The derivative δ(a/J).
   static double rate_of_ratio(double da, double a, double dJ, double inverse_J) {
     return (da - a * dJ * inverse_J) * inverse_J;
   }
 
-  // f of the averaged block, of small strain I
+  // The f of the averaged block, at small strain I.
   [[gnu::always_inline]] Tensor deformation(const Block& block, std::size_t q) const {
     Tensor f;
     unroll<components>([&](auto c) __attribute__((always_inline)) {
@@ -237,8 +238,8 @@ requires(dimensions(K) > 1) class MeanDilatation {
   alignas(64) Row change_, mean_;  // J − 1 and J̄ − 1 of u, at small strain tr H and t̄
   alignas(64) Row s_, inverse_J_, inverse_mean_, inverse_s_;  // at small strain J = J̄ = s = 1
   alignas(64) Row added_;                                     // s − 1, at small strain (t̄ − tr H)/d
-  alignas(64) Row a_, push_;                                  // of V P̄
-  alignas(64) Row dJ_, dmean_, ds_;                           // of δu
+  alignas(64) Row a_, push_;                                  // from V P̄
+  alignas(64) Row dJ_, dmean_, ds_;                           // derivatives along δu
   alignas(64) Rows kept_, direction_;                         // V P̄, δH
 };
 

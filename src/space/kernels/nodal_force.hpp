@@ -2,7 +2,7 @@
 //
 //   H_p = Σ_i u_i ⊗ ∇N_ip  →  P_p, by the law of the point  →  R_i = Σ_p V_p P_p ∇N_ip
 //
-// block by block of points, so that what is between the arrows stays in the first-level cache: cell by cell the nodes'
+// block by block of points, so that the intermediate values stay in the first-level cache: cell by cell the nodes'
 // displacements are gathered and, after the law, the forces summed into the cell's corners; then corners are summed
 // into nodes, each in a fixed order.
 #pragma once
@@ -32,10 +32,10 @@ class NodalForce {
   static constexpr int dim = Weights::dim;
   static constexpr int per_cell = Weights::per_cell;
   using Cells = GatherScatter<B, K>;
-  static constexpr std::size_t points_for_threads = 8192;  // below, waking threads costs more than it saves
+  static constexpr std::size_t points_for_threads = 8192;  // with fewer points, waking threads costs more than it saves
 
  public:
-  /// For the phase of these points and weights, which outlive it or the next rebuild().
+  /// Prepares for the phase of these points and weights, which must outlive it or the next rebuild().
   void rebuild(const MaterialPoints<dim>& points, const Weights& weights, std::size_t functions) {
     points_ = &points;
     weights_ = &weights;
@@ -54,17 +54,16 @@ class NodalForce {
 
   const CornerSum& corner_sum() const { return corner_sum_; }
 
-  // Called once a block of up to 128 points, so that the call costs nothing, and the loops around it are compiled once.
-  // What captures more than two words is handed over by std::ref(), or it would be copied to the heap.
+  // Called once a block of up to 128 points, so that the cost of the call is negligible, and the loops around it are
+  // compiled once. A lambda that captures more than two words is passed by std::ref(), as it would be copied to the
+  // heap otherwise.
   using Answer = std::function<double(std::size_t material, Block& block)>;
   using Visit = std::function<void(std::size_t material, Block& block)>;
 
-  /// answer(material number, block) turns block.H (and dH, of u − u_before, if Increments) into block.VP and returns
-  /// 0, or NaN if it cannot. u, u_before and, if Directed, the direction that goes to block.direction: over the
-  /// grid's functions, component i at [dim function + i].
-  /// R: forces at the free degrees of freedom, (n); reactions: at the prescribed ones, unless
-  /// Directed.
-  /// False if an answer was NaN.
+  /// Computes forces. answer(material number, block) turns block.H (and dH, for u − u_before, if Increments) into
+  /// block.VP and returns 0, or NaN if it cannot. u, u_before and, if Directed, the direction that goes to
+  /// block.direction: over the grid's functions, component i at [dim function + i]. R: forces at the free degrees of
+  /// freedom, (n); reactions: at the prescribed ones, unless Directed. Returns false if an answer was NaN.
   template <bool Increments, bool Directed = false>
   bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
                 Vec reactions, const double* direction = nullptr) {
@@ -90,7 +89,7 @@ class NodalForce {
     return bad == 0;
   }
 
-  /// The same where the forces of cells are known without a law: of_cells(begin, end, corner) writes those of the
+  /// As evaluate(), for forces of cells that are known without a law: of_cells(begin, end, corner) writes those of the
   /// occupied cells begin … end − 1, [dim × per_cell] each, and returns 0, or NaN if it cannot.
   template <bool Directed, class OfCells>
   bool evaluate_cells(const OfCells& of_cells, const DegreesOfFreedom& dofs, Vec R, Vec reactions) {
@@ -109,8 +108,8 @@ class NodalForce {
     return bad == 0;
   }
 
-  /// visit(material number, block) with block.H filled (and dH, and direction, as in evaluate()), which it may change,
-  /// in parallel.
+  /// Calls visit(material number, block) with block.H filled (and dH, and direction, as in evaluate()), which it may
+  /// change, in parallel.
   template <bool Increments = false, bool Directed = false>
   void visit(const double* u, const Visit& visit, const double* u_before = nullptr,
              const double* direction = nullptr) const {
@@ -130,7 +129,7 @@ class NodalForce {
   }
 
  private:
-  // The corners' forces into R and reactions, by all threads of the team that calls it.
+  // Sums the corners' forces into R and reactions, by all threads of the calling team.
   template <bool Directed>
   void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions) {
     const double* corners = corner_.data();
@@ -170,7 +169,7 @@ class NodalForce {
     std::size_t material;
   };
 
-  // As many whole cells of one material as fit, or one cell that does not.
+  // Makes blocks of as many whole cells of one material as fit, or of one cell that does not fit.
   void divide_into_blocks() {
     blocks_.clear();
     std::size_t begin = 0;
@@ -185,7 +184,7 @@ class NodalForce {
       blocks_.back().last_cell = k + 1;
     }
   }
-  // work() with as many points in the block as it holds: once, but for a cell that has more.
+  // Calls work() with as many points in the block as it holds: once, except for a cell that has more.
   template <class Work>
   void for_each_part(const BlockOfCells& cells, Block& block, const Work& work) const {
     const std::size_t end = points_->begin(cells.last_cell);
@@ -196,13 +195,13 @@ class NodalForce {
       work();
     }
   }
-  // The points of cell k that are in the block.
+  // The points of cell k that are in the block, begin to end − 1.
   std::size_t begin(std::size_t k, const Block& block) const { return std::max(points_->begin(k), block.first); }
   std::size_t end(std::size_t k, const Block& block) const {
     return std::min(points_->end(k), block.first + block.count);
   }
 
-  // H, and dH if Increments, of the points in the block.
+  // Computes H, and dH if Increments, for the points in the block.
   template <bool Increments>
   void gather(const BlockOfCells& cells, const double* u, const double* u_before, const Block& block,
               typename Block::Rows& H, typename Block::Rows& dH) const {

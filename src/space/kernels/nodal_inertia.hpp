@@ -1,18 +1,18 @@
-// The inertia of the grid's functions: their mass, scaled if the scene says so.
+// The inertia of the grid's functions: their mass, scaled if the scene asks for it.
 //
 // In a body that moves on, points come to lie next to a cell's edge and give nodes across it stiffness but hardly any
-// mass: their frequencies would shorten the step without end, or blow the run up. Such a node gets inertia beyond its
-// mass m_i until its stiffness bound G_i is no more than `most` times as high as in the body as a whole when the run
-// began,
+// mass: their frequencies would shorten the step without bound, or make the run diverge. Such a node gets inertia
+// beyond its mass m_i until its stiffness bound G_i is no more than `most` times as high as in the body as a whole when
+// the run began,
 //
 //   M_i = m_i + δ_i,   δ_i = max(0, G_i/(most Ω²) − m_i),   Ω² = Σ G_i/Σ m_i,
 //
-// and δ_i acts against motion relative to what nodes further inside extrapolate, ½ δ_i (v_i − Σ_k w_k v_k)²: rigid
-// motions do not feel it, and linear and angular momentum are those of the masses m_i [selective mass scaling,
-// Olovsson, Simonsson and Unosson 2005]. Where nothing can be extrapolated from, next to supports and walls say, it
-// acts against all motion.
+// where δ_i acts against motion relative to the extrapolation from nodes further inside, ½ δ_i (v_i − Σ_k w_k v_k)²:
+// rigid motions are not affected, and linear and angular momentum are those of the masses m_i [selective mass scaling,
+// Olovsson, Simonsson and Unosson 2005]. Where there is nothing to extrapolate from, such as next to supports and
+// walls, it acts against all motion.
 //
-// Scaled by Gershgorin, every node has the same bound instead: M_i = G_i/Ω², whose sum is the body's mass.
+// With scaling by Gershgorin, every node has the same bound instead: M_i = G_i/Ω², whose sum is the body's mass.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>
@@ -31,10 +31,10 @@ namespace stillpoint {
 struct AddedInertia {
   int function = 0;
   double inertia = 0;           // δ_i [kg]
-  Extrapolation relative_to{};  // of no functions: against all motion
+  Extrapolation relative_to{};  // no functions: against all motion
 };
 
-/// x_i − Σ_k w_k x_k of values over the grid's functions, (functions × 2).
+/// The deviation x_i − Σ_k w_k x_k of values x over the grid's functions, (functions × Dim).
 template <int Dim>
 Point<Dim> deviation(const std::vector<double>& x, const AddedInertia& added) {
   const auto at = [&](int function, std::size_t i) { return x[Dim * static_cast<std::size_t>(function) + i]; };
@@ -53,8 +53,8 @@ class NodalInertia {
  public:
   NodalInertia(const MassSpec& spec, bool updated_lagrangian) : spec_(spec), updated_lagrangian_(updated_lagrangian) {}
 
-  /// mass, G: m_i [kg] and the stiffness bound [N/m], (functions). is_free: whether neither support nor wall takes hold
-  /// of a function, (functions).
+  /// Sets the inertia of a phase. mass, G: m_i [kg] and the stiffness bound [N/m], (functions). is_free: whether
+  /// neither support nor wall holds a function, (functions).
   void begin_phase(const Grid<dim>& grid, std::vector<double> mass, const std::vector<double>& G,
                    const std::vector<char>& is_free) {
     mass_ = std::move(mass);
@@ -79,18 +79,19 @@ class NodalInertia {
   }
 
   const std::vector<double>& mass() const { return mass_; }        // m_i, (functions) [kg]
-  const std::vector<double>& inertia() const { return inertia_; }  // of all motion, (functions) [kg]
+  const std::vector<double>& inertia() const { return inertia_; }  // inertia against all motion, (functions) [kg]
   const std::vector<AddedInertia>& added() const { return added_; }
-  /// What nodes were given beyond their mass, uniform scaling apart, as a share of the body's mass; the most so far.
+  /// The largest sum so far of the inertia that nodes were given beyond their mass, uniform scaling apart, as a share
+  /// of the body's mass.
   double largest_added_mass() const { return largest_added_share_; }
   void archive(const StateArchive& state) { state("added_mass", largest_added_share_); }
 
  private:
-  // In a single phase only what has next to no mass: points on a grid line reach the nodes across a cell by their
-  // gradients alone.
+  // Finds light nodes; in a single phase only those with next to no mass: points on a grid line reach the nodes across
+  // a cell by their gradients alone.
   void find_light(const Grid<dim>& grid, const std::vector<double>& G, const std::vector<char>& is_free) {
     constexpr double most = 1.2;       // a tenth above the highest frequency: within the margin of the step
-    constexpr double massless = 1e-9;  // of G/Ω²
+    constexpr double massless = 1e-9;  // share of G/Ω²
     std::vector<double> share(mass_.size());
     for (std::size_t f = 0; f < mass_.size(); ++f) {
       const double needed = G[f] / (most * omega_squared_);
@@ -104,12 +105,13 @@ class NodalInertia {
         if (!is_free[static_cast<std::size_t>(one.function)]) continue;
         one.relative_to = extrapolate(one.function).value_or(Extrapolation{});
       }
-      // A point on its own: the function that it is nearest to moves as it does.
+      // Without neighbours, as at a single point, the function nearest to the point moves with it.
       constexpr double most_of_it = 0.5;
       std::erase_if(added_, [&](const AddedInertia& one) {
         return one.relative_to.functions == 0 && share[static_cast<std::size_t>(one.function)] > most_of_it;
       });
-      // If that has too little it goes by another one of the point's, which goes by it: the point still falls freely.
+      // A function with less is extrapolated from the point's next best function, and that from it: the point still
+      // falls freely.
       for (AddedInertia& one : added_) {
         if (one.relative_to.functions > 0 || !is_free[static_cast<std::size_t>(one.function)]) continue;
         one.relative_to = extrapolate.from_next_best(one.function).value_or(Extrapolation{});
