@@ -30,8 +30,11 @@ inline stillpoint::Scene slab(stillpoint::Scene plane, int points_across = 1) {
   scene.grid.cells.push_back(1);
   for (BodySpec& body : scene.bodies) {
     body.state = StressState::space;
-    body.min.push_back(0);
-    body.max.push_back(1);
+    std::vector<double> low = body.min, high = body.max;
+    low.push_back(0);
+    high.push_back(1);
+    body.min = low;
+    body.max = high;
     body.points_per_cell.push_back(points_across);
   }
   for (TractionSpec& traction : scene.tractions) {

@@ -13,6 +13,7 @@
 #include "base/memory_room.hpp"
 #include "base/text.hpp"
 #include "command/commands.hpp"
+#include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/memory_need.hpp"
 #include "simulation/model.hpp"
@@ -43,12 +44,31 @@ void print_memory(const MemoryNeed& need) {
   fmt::print("      by {}\n", room.set_by);
 }
 
+// What the scene leaves open and a rule decides.
+void print_choices(const Scene& scene) {
+  const auto tell = [](const char* key, const std::string& value, const auto& choice) {
+    if (!choice.is_asked() && choice.why() != "by default")
+      fmt::print("  chosen           {} = {}: {}\n", key, value, choice.why());
+  };
+  const PhaseSpec& phase = scene.phase;
+  if (phase.ends()) {
+    tell("phase.max_motion", fmt::format("{:g}", phase.max_motion.value()), phase.max_motion);
+    tell("phase.quadrature", phase.quadrature == Quadrature::domains ? "domains" : "points", phase.quadrature);
+    tell("phase.transfer", phase.transfer == Transfer::apic ? "apic" : "flip", phase.transfer);
+    tell("phase.deformation", phase.deformation == DeformationRule::accumulated ? "accumulated" : "positions",
+         phase.deformation);
+  }
+  const StrategyInfo* const strategy = catalogue().strategy(scene.damping.strategy);
+  if (strategy && strategy->uses("alpha"))
+    tell("damping.alpha", fmt::format("{:g}", scene.damping.alpha.value()), scene.damping.alpha);
+}
+
 }  // namespace
 
 int check(const SceneArguments& arguments) {
   const Scene scene = load_scene(arguments.file, arguments.overrides);
-  const MemoryNeed memory = require_memory(scene);
-  const Model model = make_model(scene);
+  const MemoryNeed memory = located(scene, [&] { return require_memory(scene); });
+  const Model model = located(scene, [&] { return make_model(scene); });
   const LagrangianPhase& phase = *model.phase;
 
   fmt::print("{}\n", scene.title.empty() ? scene.name : scene.title);
@@ -66,6 +86,7 @@ int check(const SceneArguments& arguments) {
   print_cut_cells(phase.discretisation().quadrature);
   fmt::print("  phases           {}\n",
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
+  print_choices(scene);
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
              phase.discretisation().supported_degrees_of_freedom,
              model.multigrid            ? "multigrid"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "command/commands.hpp"
+#include "scene/throw_scene_error.hpp"
 #include "study/spectrum_study.hpp"
 
 namespace stillpoint::command {
@@ -21,7 +22,7 @@ void print_estimate(const SpectrumStudy::Estimate& estimate) {
 
 int spectrum(const SceneArguments& arguments) {
   const Scene scene = load_scene(arguments.file, arguments.overrides);
-  const SpectrumStudy study = spectrum_of(scene);
+  const SpectrumStudy study = located(scene, [&] { return spectrum_of(scene); });
 
   fmt::print("{}\n  {:<10}{:<36}{:>14}{:>12}{:>12}\n", scene.title.empty() ? scene.name : scene.title, "", "method",
              "rad/s", "iterations", "ms");

@@ -16,6 +16,7 @@
 
 #include "python/bindings.hpp"
 #include "python/progress.hpp"
+#include "scene/throw_scene_error.hpp"
 #include "study/spectrum_study.hpp"
 
 namespace stillpoint::python {
@@ -87,7 +88,8 @@ void converge_into(const std::string& folder, const std::string& scene, const st
 
 py::dict spectrum_as_dict(const Scene& scene) {
   using namespace py::literals;
-  const SpectrumStudy study = interruptible([&](const auto&) { return spectrum_of(scene); });
+  const SpectrumStudy study =
+      interruptible([&](const auto&) { return located(scene, [&] { return spectrum_of(scene); }); });
   py::list estimates, steps;
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [what, how, found] : study.estimates)

@@ -171,7 +171,8 @@ void Simulation::Impl::next_phase() {
     if (const std::string slides = creep_.description(t_, motion_->u()); !slides.empty()) reason_ += "; " + slides;
   } catch (const SceneError& error) {  // no bad input: that was looked at before the run
     status_ = RunStatus::failed;
-    reason_ = failure(now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, error.what()));
+    reason_ = failure(
+        now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, scene_.located(error).what()));
     is_readable_ = false;
   }
 }

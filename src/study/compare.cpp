@@ -60,7 +60,7 @@ class Comparing {
     const ThreadScope threads(result_.threads);
     total_ = static_cast<int>(candidates_.size());
     seconds_.resize(candidates_.size());
-    find_reference();
+    located(scene_, [&] { find_reference(); });
     count();
     time();
     for (Candidate& candidate : candidates_) {
@@ -81,7 +81,7 @@ class Comparing {
     const ThreadScope threads(threads_of_solvers_);
     try {
       if (result_.transient) return find_transient_reference();
-      located(scene_, [&] { find_equilibrium(); });
+      find_equilibrium();
       measure_spectrum();
       if (options_.overshoot) find_ramp();
     } catch (const Stopped&) {

@@ -25,13 +25,16 @@ Scene turned(Scene scene) {
   turn(scene.grid.max);
   turn(scene.grid.cells);
   for (BodySpec& body : scene.bodies) {
-    turn(body.min);
-    turn(body.max);
+    std::vector<double> low = body.min, high = body.max;
+    turn(low);
+    turn(high);
+    body.min = low;
+    body.max = high;
     turn(body.points_per_cell);
   }
   for (SupportSpec& support : scene.supports) {
     if (support.face) support.face = next_face(*support.face);
-    support.component = next_axis(support.component);
+    support.component.become(next_axis(support.component));
   }
   for (TractionSpec& traction : scene.tractions) {
     traction.face = next_face(traction.face.value());

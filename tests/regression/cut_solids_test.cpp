@@ -1,4 +1,5 @@
 // Spheres and cylinders that cut the cells of a grid in space: the highest frequencies beside those of whole cells.
+#include <stillpoint/scene.hpp>
 #include <stillpoint/spectrum.hpp>
 
 #include <string>

@@ -158,7 +158,7 @@ std::string mutation(const std::string& text, std::size_t kind, Random& random) 
 /// One line of printable characters that says at which line and column of which file what is wrong.
 bool is_clear(const Mistake& problem) {
   const auto printable = [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f; };
-  const auto& [where, message] = problem;
+  const auto& [where, message, key] = problem;
   const bool overridden = where.file.starts_with("--set ");
   return !message.empty() && std::ranges::all_of(message, printable) && !where.file.empty() &&
          (overridden || (where.line > 0 && where.column > 0));
