@@ -18,7 +18,7 @@ struct NewtonOptions {
   double tolerance = 1e-10;  // limit of ‖F − R‖/‖F‖
   double near_enough = 0;  // a larger limit of ‖F − R‖/‖F‖, which is enough once an iteration reduces it by less
                            // than a tenth
-  int max_iterations = 25;      // in a load step
+  int max_iterations = 25;      // Newton iterations in a load step
   int load_steps = 1;           // initial number: a step is halved if it fails, doubled if it is easy
   double max_load_step = 1;     // largest share of the load in a step, so that a path is followed closely
   double min_load_step = 1e-3;  // smallest share of the load in a step: a shorter step that fails is the end

@@ -56,7 +56,7 @@ class TouchedFunctions {
   /// the face are added. A different number of functions means that the grid lines have moved.
   template <int Dim>
   std::vector<int> next(Face face, const std::vector<int>& reached, const FaceGaps<Dim>& gaps, int functions) {
-    constexpr double near = 0.01;  // of a cell
+    constexpr double near = 0.01;  // share of a cell
     if (!std::exchange(is_restored_, false)) come_.clear();
     const std::vector<Apart> waited = std::exchange(waiting_, {});
     if (std::exchange(functions_, functions) != functions || held_ == reached) return held_ = reached;

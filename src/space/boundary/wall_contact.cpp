@@ -197,7 +197,7 @@ ContactChange WallContact::update(double t, Vec u, Vec v) {
 }
 
 bool WallContact::asks_for_next_phase() const {
-  constexpr double far = 0.5;  // of a cell, within which functions of the face reach material
+  constexpr double far = 0.5;  // share of a cell, within which functions of the face reach material
   if (closed_across_gap_) return true;
   return std::abs(motion_.displacement() - start_) > far * cell_ &&
          std::ranges::none_of(closed_, [](int closed) { return closed != 0; });

@@ -5,8 +5,8 @@
 // follow from the set. With the out-of-balance force Q, the wall's displacement u_w and velocity w, s = ±1 outwards,
 // and the gap g between the node's material and the wall when the phase began (FaceGaps):
 //
-// open     F = 0                             closes when its material touches, s (u_n − u_w) ≥ g: then u_n = u_w + s g
-// closed   a_n = w',                         opens if s F_n > 0, tension
+//   open     F = 0                             closes when its material touches, s (u_n − u_w) ≥ g: u_n = u_w + s g
+//   closed   a_n = w',                         opens if s F_n > 0, tension
 //            F_n = m (w' + c w) − Q_n,
 //            F_t = −S min(1, μ |F_n|/|S|),     S = Q_t + (m/h − c m/2) v_t would come to rest within the step h
 //

@@ -15,7 +15,8 @@ namespace stillpoint {
 template <int Components, int PerCell>
 using Corners = std::array<double, static_cast<std::size_t>(Components* PerCell)>;
 
-/// out: (functions × Components). add_cell(k, corners) adds what the points of cell k give.
+/// The sums at the functions, (functions × Components). add_cell(k, corners) adds the contributions of the points of
+/// cell k.
 template <int Components, AxisBasis B, Kinematics K, class AddCell>
 std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>&,
                               const CornerSum& corner_sum, const AddCell& add_cell) {
@@ -36,7 +37,7 @@ std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const
 
 /// G_i = Σ_p V_p A_p |∇N_ip| Σ_j |∇N_jp| with the wave modulus A_p = λ + 2μ, (functions) [N/m]: a bound of Σ_j |K_ij|
 /// in the norm of 2 × 2 blocks, since |B_iᵀ C B_j| ≤ (λ + 2μ) |∇N_i| |∇N_j|. By Gershgorin no frequency of a lumped M
-/// exceeds max √(G_i/M_i). Over the occupied cells k for which counts(k).
+/// exceeds max √(G_i/M_i). The sum is over the occupied cells k for which counts(k) holds.
 template <AxisBasis B, Kinematics K, class Counts>
 requires(std::predicate<Counts, std::size_t>) std::vector<double> stiffness_bound(
     const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights, const CornerSum& corner_sum,

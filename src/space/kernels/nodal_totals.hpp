@@ -1,5 +1,5 @@
-// What the grid's functions get from the material points when a phase begins, in the pass over the cells that makes the
-// weights, while these are in the first-level cache:
+// The sums over material points at the grid's functions when a phase begins, formed in the pass over the cells that
+// makes the weights, while these are in the first-level cache:
 //
 //   mass              m_i = Σ_p m_p N_ip; if the basis is no partition of unity, cell by cell the diagonal of the
 //                     consistent mass, Σ_p m_p N_ip², scaled so that its values (not its slopes) sum to the cell's mass
@@ -7,7 +7,7 @@
 //   stiffness bound   G_i = Σ_p V_p A_p |∇N_ip| Σ_j |∇N_jp|, see stiffness_bound()
 //   momentum          Σ_p m_p N_ip v_p, of a body that moves on from phase to phase
 //
-// Either mass keeps that of each cell.
+// Either mass conserves the mass of each cell.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ class NodalTotals {
   using Points = MaterialPoints<dim>;
 
  public:
-  /// Makes the weights, and what each cell's points give to its corners. wave_modulus: λ + 2μ of each material [Pa].
+  /// Makes the weights, and the sums of each cell's points at its corners. wave_modulus: λ + 2μ of each material [Pa].
   void begin(const Grid<dim>& grid, const Points& points, Weights& weights, const std::vector<double>& wave_modulus) {
     of_corners_.resize(terms * per_cell * points.cells());
     moves_ = !points.v[0].empty();
@@ -59,7 +59,8 @@ class NodalTotals {
   const std::vector<double>& mass() const { return mass_; }          // (functions) [kg]
   const std::vector<double>& bound() const { return bound_; }        // (functions) [N/m]
   const std::vector<double>& momentum() const { return momentum_; }  // (functions × dim) [kg m/s]; 0 if at rest
-  /// Whether a point gives a function mass or stiffness: on a grid line the gradients of those across the next cell.
+  /// Whether a point gives a function mass or stiffness: at a grid line the functions across the next cell have
+  /// gradients.
   bool reaches(std::size_t function) const { return mass_[function] != 0 || bound_[function] != 0; }
 
  private:
@@ -69,14 +70,14 @@ class NodalTotals {
   using OfFunctions = std::array<Some, static_cast<std::size_t>(chunks)>;  // zeros past the last function
   static constexpr std::size_t in_last = per_cell - lanes * (chunks - 1);
 
-  // N_a and |∇N_a|² at a point.
+  // The values N_a and |∇N_a|² at a point.
   struct Functions {
     OfFunctions N, square;
   };
   [[gnu::always_inline]] static Functions functions(const Weights& weights, std::size_t k, std::size_t p) {
     Functions at;
     if constexpr (Weights::from_positions && dim == 2) {
-      // N = (1 − ξ, ξ, 1 − ξ, ξ) (1 − η, 1 − η, η, η), and the gradients have one factor less
+      // N = (1 − ξ, ξ, 1 − ξ, ξ) (1 − η, 1 − η, η, η), and gradients lack the factor along their axis
       const auto& cell = weights.cell(k);
       const double xi = weights.position_in_cell(0)[p], eta = weights.position_in_cell(1)[p];
       const Some along_x = Some{{1, 0, 1, 0}}.plus_product(Some{{-1, 1, -1, 1}}, Some{{xi, xi, xi, xi}});
@@ -107,7 +108,7 @@ class NodalTotals {
     return Some::load_first(of_functions + lanes * Chunk, Chunk + 1 < chunks ? lanes : in_last);
   }
 
-  // corners: (per_cell × terms) of the cell.
+  // Sums over the cell's points at its corners, (per_cell × terms).
   void add_points(const Points& points, const Weights& weights, std::size_t k, double A, double* corners) const {
     std::array<OfFunctions, terms> sum{};
     [[maybe_unused]] double cell_mass = 0;

@@ -1,11 +1,11 @@
-// The grid's functions fitted to values at material points, with what is known of their gradients:
+// A least-squares fit of the grid's functions to values at material points, and to their gradients where known:
 //
 //   min_z  Σ_p m_p (|Σ_a N_ap z_a − w_p|² + β Σ_j h_j² |Σ_a z_a ∂N_ap/∂x_j − g_pj|²),   h_j the cell's sides
 //
-// by conjugate gradients on the normal equations, scaled by their diagonal. The gradients settle what the values leave
-// open: a function that the body hardly reaches has N next to nothing at its points, but ∇N much larger. The start is
-// Σ_p m_p N_ip (w_p + g_p (x_i − x_p))/m_i with the functions' centres x_i, exact where w is linear in x, so that few
-// iterations are left. The same bits for any number of threads.
+// by conjugate gradients on the normal equations, scaled by their diagonal. The gradients determine what the values
+// leave open: a function that the body hardly reaches has N next to nothing at its points, but ∇N much larger. The
+// start is Σ_p m_p N_ip (w_p + g_p (x_i − x_p))/m_i with the functions' centres x_i, exact where w is linear in x, so
+// that few iterations are needed. The result has the same bits for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +16,18 @@
 
 namespace stillpoint {
 
-/// At P points, in their present order.
+/// The values to fit at P points, in their present order.
 template <int Components, int Dim>
 struct PointValues {
   std::vector<std::array<double, Components>> value;  // w_p
-  // g_p, ∂w_i/∂x_j at [Dim i + j] [1/m]; none: not known, as 0.
+  // g_p, ∂w_i/∂x_j at [Dim i + j] [1/m]; empty: not known, taken as 0.
   std::vector<std::array<double, Components * Dim>> gradient;
-  std::vector<double> mass;  // m_p, 0 at points that have no part
+  std::vector<double> mass;  // m_p, 0 at points that are left out
 };
 
 struct PointFitOptions {
   double gradient_share = 0.1;  // β
-  double tolerance = 0;         // the fit is off by at most about this, in the unit of the values
+  double tolerance = 0;         // error of the fit, at most about this, in the unit of the values
   int iterations = 10;          // at most
 };
 
@@ -50,7 +50,8 @@ class PointFit {
     }
   }
 
-  /// z, component i at [Components function + i]. Where held, (functions × Components) or empty, is not 0, z is 0.
+  /// The coefficients z, component i at [Components function + i]. Where held, (functions × Components) or empty, is
+  /// not 0, z is 0.
   std::vector<double> solve(const std::vector<char>& held) const {
     std::vector<double> z = start();
     std::vector<double> inverse = inverse_diagonal();
@@ -79,7 +80,7 @@ class PointFit {
     return z;
   }
 
-  /// Σ_a N_ap z_a
+  /// The fitted value Σ_a N_ap z_a at point p of occupied cell k.
   std::array<double, Components> value(const std::vector<double>& z, std::size_t k, std::size_t p) const {
     const auto N = weights_.N(k, p);
     std::array<double, Components> sum{};
@@ -94,7 +95,7 @@ class PointFit {
   std::array<double, Components * dim> known_gradient(std::size_t p) const {
     return values_.gradient.empty() ? std::array<double, Components * dim>{} : values_.gradient[p];
   }
-  // Σ_a z_a ∂N_ap/∂x_j, component i at [dim i + j]
+  // The fitted gradient Σ_a z_a ∂N_ap/∂x_j, component i at [dim i + j].
   std::array<double, Components * dim> gradient(const std::vector<double>& z, std::size_t k, std::size_t p) const {
     const auto dN = weights_.dN(k, p);
     std::array<double, Components * dim> sum{};
@@ -107,7 +108,7 @@ class PointFit {
     return sum;
   }
 
-  // Σ_p m_p (N_ap value + β Σ_j h_j² ∂N_ap/∂x_j gradient_j), of value_at(k, p) and gradient_at(k, p)
+  // The moments Σ_p m_p (N_ap value + β Σ_j h_j² ∂N_ap/∂x_j gradient_j) of value_at(k, p) and gradient_at(k, p).
   template <class ValueAt, class GradientAt>
   std::vector<double> moments(const ValueAt& value_at, const GradientAt& gradient_at) const {
     return nodal_sum<Components>(points_, weights_, corner_sum_, [&](std::size_t k, Corner& corner) {
@@ -141,7 +142,7 @@ class PointFit {
                    [&](std::size_t k, std::size_t p) { return minus(known_gradient(p), gradient(z, k, p)); });
   }
 
-  // Σ_p m_p term(N_ip, β Σ_j h_j² (∂N_ip/∂x_j)²), (functions)
+  // The sums Σ_p m_p term(N_ip, β Σ_j h_j² (∂N_ip/∂x_j)²), (functions).
   template <class Term>
   std::vector<double> sums(const Term& term) const {
     return nodal_sum<1>(points_, weights_, corner_sum_, [&](std::size_t k, Corners<1, per_cell>& corner) {
@@ -156,7 +157,7 @@ class PointFit {
       }
     });
   }
-  // One over Σ_p m_p (N_ip² + β Σ_j h_j² (∂N_ip/∂x_j)²); 0 where that is 0.
+  // The inverse of the diagonal Σ_p m_p (N_ip² + β Σ_j h_j² (∂N_ip/∂x_j)²); 0 where that is 0.
   std::vector<double> inverse_diagonal() const {
     const std::vector<double> diagonal = sums([](double N, double slope) { return N * N + slope; });
     std::vector<double> inverse(Components * diagonal.size());
@@ -167,7 +168,7 @@ class PointFit {
     return inverse;
   }
 
-  // Σ_p m_p N_ip (w_p + g_p (x_i − x_p))/m_i
+  // The start Σ_p m_p N_ip (w_p + g_p (x_i − x_p))/m_i.
   std::vector<double> start() const {
     std::vector<double> z = nodal_sum<Components>(points_, weights_, corner_sum_, [&](std::size_t k, Corner& corner) {
       const auto centre = centres(points_.cell[k]);
@@ -190,7 +191,7 @@ class PointFit {
     return z;
   }
 
-  // x_i with Σ_i N_i(x) x_i = x: the mean of a function's inner knots.
+  // The centres x_i with Σ_i N_i(x) x_i = x: the mean of a function's inner knots.
   std::array<std::array<double, per_cell>, dim> centres(int cell_number) const {
     std::array<std::array<double, per_cell>, dim> of_cell{};
     if constexpr (B::partition_of_unity) {

@@ -1,5 +1,5 @@
-// The frozen weights of a phase, whatever their basis: for what is done once a phase, or at few points, and need not be
-// compiled for each basis. Kernels take them from PointWeights, which they know whole.
+// The frozen weights of a phase behind an interface without the basis as a template parameter: for work done once a
+// phase, or at few points. Kernels take the weights from PointWeights.
 #pragma once
 
 #include <stillpoint/types.hpp>
@@ -22,18 +22,18 @@ class PointFunctions {
   using Numbers = std::array<double, most_per_cell>;
   using Slopes = std::array<double, Dim * most_per_cell>;
 
-  /// Where occupied cell k is in the grid.
+  /// The position of occupied cell k in the grid.
   const std::array<int, Dim>& cell_at(std::size_t k) const { return at_[k]; }
   /// Grid number of local function a in occupied cell k.
   int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
   int functions_of_cell() const { return functions_of_cell_; }
 
-  /// N_a at [a] of point p in occupied cell k; entries from functions_of_cell() on are left as they are.
+  /// Sets the values N_a of point p in occupied cell k; entries from functions_of_cell() on are left as they are.
   virtual void values(std::size_t k, std::size_t p, Numbers& N) const = 0;
-  /// Its gradients, ∂N_a/∂x_j at [functions_of_cell() j + a] [1/m].
+  /// Sets the gradients of the functions at point p, ∂N_a/∂x_j at [functions_of_cell() j + a] [1/m].
   virtual void slopes(std::size_t k, std::size_t p, Slopes& dN) const = 0;
 
-  /// F_i += N_ap value(i), at the free degrees of freedom, component after component; F: (n).
+  /// Adds a quantity of a point to its functions: F_i += N_ap value(i), at the free degrees of freedom; F: (n).
   template <class Value>
   void add_at_functions(std::size_t k, std::size_t p, const Value& value, const DegreesOfFreedom& dofs, Vec F) const {
     Numbers N;

@@ -1,8 +1,8 @@
-// Where the material points go when a phase ends, and how fast, in one pass over the cells:
+// The new positions and velocities of the material points when a phase ends, in one pass over the cells:
 //
 //   x_p⁺ = x_p + Σ_i N_ip u_i,   v_p⁺ = s v_p + Σ_i N_ip w_i
 //
-// They lie apart from the points, to which nothing has happened if one of them would leave the grid.
+// They are kept apart from the points, which stay unchanged if one of them would leave the grid.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@ class PointMotion {
   using Weights = PointWeights<B, K>;
   static constexpr int dim = Weights::dim;
   static constexpr int per_cell = Weights::per_cell;
-  static constexpr int lanes = dim == 3 ? 4 : dim, width = 2 * lanes;  // u, and w behind it
+  static constexpr int lanes = dim == 3 ? 4 : dim, width = 2 * lanes;  // width: u, followed by w
   using Points = MaterialPoints<dim>;
   using Corners = std::array<Lanes<width>, per_cell>;
 
  public:
-  /// u, w: over the grid's functions, component i at [dim function + i]. after(k): follows upon occupied cell k,
-  /// several at a time.
+  /// u, w: over the grid's functions, component i at [dim function + i]. after(k) is called after occupied cell k, in
+  /// parallel.
   template <class After>
   void find(const Points& points, const Weights& weights, const double* u, const double* w, double s,
             const After& after) {
@@ -49,7 +49,7 @@ class PointMotion {
   std::array<std::vector<double>, dim> x, v;  // x⁺ [m] and v⁺ [m/s], each (points)
 
  private:
-  // The point's (Σ N u_i, Σ N w_i) as a function of its number, in occupied cell k.
+  // The function that gives (Σ N u_i, Σ N w_i) of a point by its number, in occupied cell k.
   [[gnu::always_inline]] static auto field(const Weights& weights, std::size_t k, const Corners& corners) {
     if constexpr (Weights::from_positions && dim == 2) {
       // Σ_a N_a c_a = c_00 + (c_10 − c_00) ξ + [c_01 − c_00 + (c_11 − c_01 − c_10 + c_00) ξ] η

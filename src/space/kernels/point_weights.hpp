@@ -19,27 +19,28 @@
 
 namespace stillpoint {
 
-/// All weights of a point lie together: the loops over cells go from point to point and take the local functions of one
-/// at a time. A row of gradients is ∂N_a/∂x_j for one j, and if axisymmetric the last row is N_a/r.
+/// The weights of the points. All weights of a point are contiguous: the loops over cells go from point to point and
+/// take the local functions of one at a time. A row of gradients is ∂N_a/∂x_j for one j, and if axisymmetric the last
+/// row is N_a/r.
 ///
-/// Linear functions in the plane and in space are made anew where they are needed, from the position of a point in its
-/// cell: that is less work than to read them from memory, and an eighth of the bytes or less. In space not even that is
-/// kept, but found from the point's position by one product: the points do not move before the next rebuild(). Of other
-/// functions in space the factors along each axis are kept, 18 numbers for 27 functions and their gradients, of which
-/// they are products.
+/// Linear functions in the plane and in space are recomputed where they are needed, from the position of a point in its
+/// cell: that is less work than to read them from memory, and takes an eighth of the memory or less. In space not even
+/// the position in the cell is stored, but computed from the point's position by one product: the points do not move
+/// before the next rebuild(). For other functions in space the factors along each axis are stored, 18 numbers for 27
+/// functions and their gradients, which are products of the factors.
 template <AxisBasis B, Kinematics K>
 class PointWeights final : public PointFunctions<dimensions(K)> {
  public:
   static constexpr int dim = dimensions(K);
   using Basis = TensorBasis<B, dim>;
   static constexpr int per_cell = Basis::per_cell;
-  static constexpr int slack = 8;  // entries after the last, for who reads a few at a time
+  static constexpr int slack = 8;  // entries after the last, for loops that read a few at a time
   static constexpr int rows = K == Kinematics::axisymmetric ? dim + 1 : dim;
   static constexpr bool from_positions = dim > 1 && std::same_as<B, BSpline<1>>;
   static constexpr bool from_factors = dim == 3 && !from_positions;
   static constexpr bool keeps_positions = from_positions && dim < 3;
 
-  /// A cell's corner and sides, from which its linear functions are made.
+  /// A cell's corner and sides, by which its linear functions are computed.
   struct Cell {
     Point<dim> left, side, inverse_side;  // [m], [m], [1/m]
   };
@@ -49,7 +50,8 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
     rebuild(grid, points, [](std::size_t) {});
   }
-  /// after(k): follows upon the weights of occupied cell k, while they are near; several cells at a time.
+  /// after(k) is called after the weights of occupied cell k, while they are in the cache; for several cells in
+  /// parallel.
   template <class After>
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points, const After& after) {
     points_ = &points;
@@ -86,7 +88,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
     });
   }
 
-  /// N_a, [a] (per_cell), of point p in occupied cell k.
+  /// The values N_a of point p in occupied cell k, [a] (per_cell).
   auto N([[maybe_unused]] std::size_t k, std::size_t p) const {
     if constexpr (from_positions && dim == 3) {
       return trilinear(k, p).N;
@@ -99,7 +101,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
       return N_.data() + per_cell * p;
     }
   }
-  /// Its gradients, [per_cell row + a] (rows × per_cell).
+  /// The gradients at point p in occupied cell k, [per_cell row + a] (rows × per_cell).
   auto dN([[maybe_unused]] std::size_t k, std::size_t p) const {
     if constexpr (from_positions && dim == 3) {
       std::array<double, rows * per_cell> of_point;
@@ -129,7 +131,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
       return dN_.data() + rows * per_cell * p;
     }
   }
-  /// What is kept for each point.
+  /// The arrays that are stored for each point.
   static std::vector<PointArray> arrays() {
     constexpr double real = sizeof(double);
     if constexpr (keeps_positions) return {{"position in the cell", dim * real}};
@@ -137,24 +139,24 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
     if constexpr (from_factors) return {{"factors of N and its slopes", 2 * dim * B::per_cell * real}};
     return {{"weights N", per_cell * real}, {"gradients of N", rows * per_cell * real}};
   }
-  /// Where point p of occupied cell k lies in it along an axis, 0 to 1; from_positions alone.
+  /// The position of point p of occupied cell k in the cell along an axis, 0 to 1; only if from_positions.
   double position_in_cell(std::size_t axis, std::size_t k, std::size_t p) const {
     if constexpr (keeps_positions) return position_[axis][p];
     return (points_->x[axis][p] - cell_[k].left[axis]) * cell_[k].inverse_side[axis];
   }
-  /// The same of eight points from p on, of which those past the end of the cell have any numbers.
+  /// The positions in the cell of eight points from p on; the values of points past the end of the cell are arbitrary.
   [[gnu::always_inline]] Lanes<8> eight_in_cell(std::size_t axis, std::size_t k, std::size_t p) const {
     const auto x = Lanes<8>::load_first(points_->x[axis].data() + p, points_->size() - p);
     return x.plus(-cell_[k].left[axis]).times(cell_[k].inverse_side[axis]);
   }
-  /// Of all points, (P + slack); keeps_positions alone.
+  /// The positions in their cells of all points, (P + slack); only if keeps_positions.
   const double* position_in_cell(int axis) const { return position_[static_cast<std::size_t>(axis)].data(); }
   const Cell& cell(std::size_t k) const { return cell_[k]; }
-  /// Of functions of an axis the a-th of the cell and its derivative at each point, (P + slack); from_factors alone.
+  /// The a-th function of the cell along an axis and its derivative at each point, (P + slack); only if from_factors.
   const double* factor(int axis, int a) const { return factor_[number_of_factor(axis, a)].data(); }
   const double* slope(int axis, int a) const { return factor_[number_of_factor(axis, B::per_cell + a)].data(); }
 
-  /// Σ_a N_ap u_a at point p of cell k; u over the grid's functions, component i at [dim function + i].
+  /// The value Σ_a N_ap u_a at point p of cell k; u over the grid's functions, component i at [dim function + i].
   std::array<double, dim> value(const double* u, std::size_t k, std::size_t p) const {
     const auto values = N(k, p);
     std::array<double, dim> sum{};
@@ -163,7 +165,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
     }
     return sum;
   }
-  /// H_ij = Σ_a u_a,i ∂N_a/∂x_j, and H_θθ = Σ_a u_a,r N_a/r
+  /// The displacement gradient H_ij = Σ_a u_a,i ∂N_a/∂x_j, with H_θθ = Σ_a u_a,r N_a/r.
   TensorOf<K> gradient(const double* u, std::size_t k, std::size_t p) const {
     const auto gradients = dN(k, p);
     TensorOf<K> H{};
@@ -187,7 +189,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
   }
 
  private:
-  // Of eight corners, in a cell of unit sides.
+  // The trilinear functions of the eight corners, in a cell of unit sides.
   auto trilinear(std::size_t k, std::size_t p) const {
     Point<dim> position;
     for (std::size_t d = 0; d < dim; ++d) position[d] = position_in_cell(d, k, p);
@@ -236,7 +238,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
     }
   }
 
-  // functions: of all cells of the grid, if those of a domain are not means over it.
+  // functions: those of all cells of the grid; unused where points take means over their domains.
   template <class Functions>
   void evaluate_in_cell(const Grid<dim>& grid, const Functions& functions, const std::array<int, dim>& cell,
                         const MaterialPoints<dim>& points, std::size_t k) {
@@ -293,10 +295,10 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
   using PointFunctions<dim>::first_;
 
   const MaterialPoints<dim>* points_ = nullptr;
-  // Either the functions,
+  // Either the functions are stored,
   std::vector<double> N_;   // (P × per_cell)
   std::vector<double> dN_;  // (P × rows × per_cell) [1/m]
-  // or what they are made from: factors and slopes of each axis in turn, or positions.
+  // or their ingredients: factors and slopes of each axis in turn, or positions.
   std::array<std::vector<double>, from_factors ? 2 * dim * B::per_cell : 0> factor_;
   std::array<std::vector<double>, dim> position_;
   std::vector<Cell> cell_;  // (occupied cells)

@@ -1,20 +1,20 @@
-// Means over splines of one degree less than the basis, on the same grid: what MeanDilatation asks where the points of
-// neighbouring cells share too.
+// Means over splines of one degree less than the basis, on the same grid: the Means of MeanDilatation in which the
+// points of neighbouring cells share too.
 //
 //   x̄_p = Σ_A N_pA c_A,   c = G Σ_q N_q V_q x_q,   m_A = Σ_p V_p N_pA,   M_AB = Σ_p V_p N_pA N_pB.
 //
-// With G = m⁻¹ this is S, the averaging of values at functions and back, whose error is of second order in the cells'
-// size. T = I − (I − S)^p adds the means of what S misses, up to p times for a basis of degree p:
+// With G = m⁻¹ this is S, the averaging of values at functions and back, whose error is of second order in the cell
+// size. T = I − (I − S)^p adds the means of the remainder that S leaves, up to p times for a basis of degree p:
 //
 //   G = Σ_j (I − m⁻¹ M)^j m⁻¹,   j = 0 … p − 1,
 //
-// so that it is off by terms of order 2 p, above the p + 1 of the displacement. It keeps constants, and is self-adjoint
+// so that the error is of order 2 p, above the p + 1 of the displacement. T reproduces constants, and is self-adjoint
 // in Σ V x y with eigenvalues from 0 to 1, as a projection is; but it needs no system to be solved, and reaches p
-// cells. Its rank is the number of splines, about one a cell: as many constraints as means over cells are, which for
-// smooth bases is half as many as there are unknowns. (A projection onto polynomials of that degree in each cell by
-// itself, with three or six constraints a cell, locks as if there were none.)
+// cells. Its rank is the number of splines, about one a cell: as many constraints as there are means over cells, which
+// for smooth bases is half the number of unknowns. (A projection onto polynomials of that degree in each cell by
+// itself, with three or six constraints a cell, locks as if nothing were averaged.)
 //
-// Points of different materials have means of their own.
+// Points of different materials have separate means.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ class SplineMeans {
   static constexpr int degree = std::max(1, B::degree - 1);
   using Spline = std::conditional_t<B::window == 1, BSpline<degree>, DomainBSpline<degree>>;
   using Basis = TensorBasis<Spline, dim>;
-  // A cell's functions lie in rows along the first axis.
+  // The functions of a cell are stored in rows along the first axis.
   static constexpr int along = Spline::per_cell, rows = Basis::per_cell / along, lanes = along <= 2 ? 2 : 4;
   static constexpr int weights_of_point = lanes + along * (dim - 1);
   using Block = PointBlock<K>;
@@ -54,7 +54,7 @@ class SplineMeans {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using OfCell = std::array<double, static_cast<std::size_t>(per_cell)>;
 
-  /// For the points of a phase, which outlive this or the next rebuild().
+  /// Prepares for the points of a phase, which must outlive this object or the next rebuild().
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
     points_ = &points;
     evaluate(grid);
@@ -64,11 +64,11 @@ class SplineMeans {
     weigh();
   }
 
-  /// Those that reach a point, of all materials.
+  /// The number of functions that reach a point, over all materials.
   std::size_t functions() const { return corner_sum_.functions(); }
   /// Number of local function a in occupied cell k.
   int function(std::size_t k, int a) const { return function_[per_cell * k + static_cast<std::size_t>(a)]; }
-  /// G, as a matrix.
+  /// The matrix G.
   Matrix matrix() const {
     const auto n = static_cast<Eigen::Index>(functions());
     Matrix first(n, n);
@@ -79,14 +79,14 @@ class SplineMeans {
     return G;
   }
 
-  /// N_pA of the functions of the point's cell.
+  /// The values N_pA of the functions of the point's cell.
   OfCell N(std::size_t p) const {
     OfCell N;
     for (int a = 0; a < per_cell; ++a)
       N[static_cast<std::size_t>(a)] = weight_[weights_of_point * p + a % along] * row_weight(p, a / along);
     return N;
   }
-  /// x̄ of the block's points.
+  /// Sets the means x̄ of the block's points.
   void values(const Block& block, const std::vector<double>& c, Row& x) const {
     for_cells(
         block, [&](std::size_t k, std::size_t begin, std::size_t end) __attribute__((always_inline)) {
@@ -104,7 +104,7 @@ class SplineMeans {
           }
         });
   }
-  /// Takes y_p of the block's points into Σ_p N_p y_p; blocks of different cells may do so at a time.
+  /// Adds y_p of the block's points to Σ_p N_p y_p; blocks of different cells may do so in parallel.
   void add(const Block& block, const Row& y) const {
     for_cells(
         block, [&](std::size_t k, std::size_t begin, std::size_t end) __attribute__((always_inline)) {
@@ -120,7 +120,8 @@ class SplineMeans {
           });
         });
   }
-  /// c = G Σ_p N_p y_p of what all blocks added, (functions): c = m⁻¹ b, and p − 1 times c = m⁻¹ b + (I − m⁻¹ M) c.
+  /// The coefficients c = G Σ_p N_p y_p of the sum over all blocks, (functions): c = m⁻¹ b, then p − 1 times c = m⁻¹ b
+  /// + (I − m⁻¹ M) c.
   void coefficients(std::vector<double>& c) const {
     for_each_block(functions(),
                    [&](std::size_t A) { first_[A] = inverse_m_[A] * corner_sum_.sum<1>(A, corner_.data())[0]; });
@@ -136,13 +137,13 @@ class SplineMeans {
     }
   }
 
-  /// What is kept for each point.
+  /// The arrays that are stored for each point.
   static std::vector<PointArray> arrays() {
     return {{"weights of means", weights_of_point * static_cast<double>(sizeof(double))}};
   }
 
  private:
-  static constexpr int terms = B::degree;  // of G
+  static constexpr int terms = B::degree;  // number of terms of G
 
   [[gnu::always_inline]] Lanes<lanes> along_row(std::size_t p) const {
     return Lanes<lanes>::load(weight_.data() + weights_of_point * p);
@@ -156,7 +157,7 @@ class SplineMeans {
     return weight;
   }
 
-  // The factors of N along each axis, those of the first with zeros behind them.
+  // Computes the factors of N along each axis, those of the first axis padded with zeros.
   void evaluate(const Grid<dim>& grid) {
     weight_.assign(weights_of_point * points_->size(), 0);
     for_each_block(points_->cells(), [&](std::size_t k) {
@@ -188,7 +189,7 @@ class SplineMeans {
     }
     corner_sum_.rebuild(function_, static_cast<std::size_t>(next));
   }
-  // m⁻¹ and I − m⁻¹ M. Functions that no point feels have no mean, and none asks for it.
+  // Computes m⁻¹ and I − m⁻¹ M. Functions that no point reaches have no mean, and none is needed.
   void weigh() {
     inverse_m_.assign(functions(), 0);
     std::vector<Eigen::Triplet<double>> entries;
@@ -215,7 +216,7 @@ class SplineMeans {
     missed_ = one - Matrix(Eigen::Map<const Eigen::VectorXd>(inverse_m_.data(), n).asDiagonal() * M);
   }
 
-  /// visit(occupied cell, first point, one past the last) of the block's.
+  /// Calls visit(occupied cell, first point, one past the last) for the cells of the block.
   template <class Visit>
   [[gnu::always_inline]] void for_cells(const Block& block, const Visit& visit) const {
     for (std::size_t k = block.first_cell; k < block.last_cell; ++k)
@@ -228,11 +229,11 @@ class SplineMeans {
   CornerSum corner_sum_;
   std::vector<double> inverse_m_;             // (functions) [1/m³]
   Matrix missed_;                             // I − m⁻¹ M, (functions × functions)
-  mutable std::vector<double> corner_;        // (cells × per_cell): sums over each cell's points, of one quantity
+  mutable std::vector<double> corner_;        // sums over each cell's points of one quantity, (cells × per_cell)
   mutable std::vector<double> first_, next_;  // (functions)
 };
 
-/// What MeanDilatation asks in one of its passes over the points.
+/// The Means of MeanDilatation in one pass over the points.
 template <AxisBasis B, Kinematics K>
 class SplinePass {
   using Block = PointBlock<K>;
@@ -240,8 +241,9 @@ class SplinePass {
   using Coefficients = const std::vector<double>*;
 
  public:
-  /// Coefficients of the state's means and shares, and of the means' derivative; without shares they are summed, and
-  /// those of a derivative always are: they are known when all blocks have been there, and then go to write_push().
+  /// The coefficients of the state's means and shares, and of the means' derivative. Where those of the shares are
+  /// null, the shares are summed, as those of a derivative always are: their coefficients are known after all blocks,
+  /// and then go to write_shares().
   struct Known {
     Coefficients means = nullptr, shares = nullptr, rates_of_means = nullptr;
   };
@@ -261,7 +263,7 @@ class SplinePass {
     splines_->add(block, y);
     share.fill(0);
   }
-  /// Σ_q T_qp y_q = V_p Σ_A N_pA c_A
+  /// The shares Σ_q T_qp y_q = V_p Σ_A N_pA c_A.
   void write_shares(const Block& block, const std::vector<double>& c, Row& share) const {
     splines_->values(block, c, share);
     for (std::size_t q = 0; q < block.count; ++q) share[q] *= V_[block.first + q];

@@ -4,18 +4,18 @@
 //   flip           v_p += Σ_i N_ip (v_i − v_i at the start), or a share of it and the rest of Σ_i N_ip v_i
 //   pic            v_p  = Σ_i N_ip v_i
 //   xpic(m)        v_p  = v_p − (I − S S⁺)^m v_p + Σ_i N_ip (v_i − v_i at the start), S to points, S⁺ to the grid;
-//                  what m passes of averaging do not keep is noise [Hammerquist and Nairn 2017]
+//                  whatever m passes of averaging remove is noise [Hammerquist and Nairn 2017]
 //   apic           v_p  = Σ_i N_ip v_i,  B_p = Σ_i N_ip v_i ⊗ (x_i − x_p), as they are at the end [Jiang et al. 2015]
 //
 // x_i is the centre of function i, Σ_i N_i(x) x_i = x; affine_velocity.hpp has B_p and w_ip.
 //
 // A node at a surface has points on one side only, and their mean velocity is that of a place further inside: a body
-// that turns is strained there at the start of every phase, and 3 to 5 % of its angular momentum are gone after a turn.
-// In a motion that nothing damps, flip's points therefore bring their velocity to where the node is,
+// that rotates is strained there at the start of every phase, and loses 3 to 5 % of its angular momentum in a
+// revolution. In an undamped motion, flip therefore extrapolates the points' velocities to the node,
 //
 //   v_i = Σ_p m_p N_ip (v_p + ∇v_p (x_i − x_p))/m_i,   ∇v_p = Σ_j v_j ⊗ ∇N_jp of the means v_j,
 //
-// with the same sum of momenta, since Σ_i N_ip (x_i − x_p) = 0; and apic begins with B_p of the same means.
+// with the same sum of momenta, since Σ_i N_ip (x_i − x_p) = 0; and apic begins with the B_p of the same means.
 #pragma once
 
 #include <algorithm>
@@ -41,10 +41,10 @@ class VelocityTransfer {
   using MotionAbout = typename Affine::MotionAbout;
 
  public:
-  /// damped: whether the scene damps its motion, so that what a turn keeps of it does not matter.
+  /// damped: whether the scene damps its motion, so that conservation in a rotation does not matter.
   VelocityTransfer(const PhaseSpec& spec, bool damped) : spec_(spec), damped_(damped) {}
 
-  /// Makes B_p of apic's points ready for a phase: in the first, where they have velocities v_p alone, from those.
+  /// Prepares B_p of apic's points for a phase: in the first one, where they have velocities v_p alone, from those.
   /// mass: m_i, (functions); momentum: Σ_p m_p N_ip v_p, (functions × dim).
   void begin_phase(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
                    const std::vector<double>& mass, const std::vector<double>& momentum, bool first) const {
@@ -63,7 +63,8 @@ class VelocityTransfer {
     }
   }
 
-  /// v_i from the points, (functions × dim). mass: m_i, (functions); momentum: Σ_p m_p N_ip v_p, (functions × dim).
+  /// The nodal velocities v_i from the points, (functions × dim). mass: m_i, (functions); momentum: Σ_p m_p N_ip v_p,
+  /// (functions × dim).
   std::vector<double> to_grid(const Grid<dim>& grid, const Points& points, const Weights& weights,
                               const CornerSum& corner_sum, const std::vector<double>& mass,
                               const std::vector<double>& momentum) {
@@ -83,15 +84,15 @@ class VelocityTransfer {
     return v;
   }
 
-  /// A run goes on in a phase that began with these points.
+  /// Resumes a run in a phase that began with these points.
   void resume(const Points& points) { at_start_ = ConservationCheck<dim>::of_points(points); }
 
   const ConservationCheck<dim>& conservation() const { return conservation_; }
   ConservationCheck<dim>& conservation() { return conservation_; }
 
-  /// Where the points go at a phase's end, and how fast, which nothing knows of before take_velocity(). u, v, v_start:
-  /// over the grid's functions, (functions × dim); mass: (functions). after(k): follows upon occupied cell k, several
-  /// at a time.
+  /// Computes the points' positions and velocities at a phase's end, which take effect only with take_velocity(). u,
+  /// v_end, v_start: over the grid's functions, (functions × dim); mass: (functions). after(k) is called after occupied
+  /// cell k, in parallel.
   template <class After>
   void move(const Points& points, const Weights& weights, const CornerSum& corner_sum, const std::vector<double>& mass,
             const std::vector<double>& u, const std::vector<double>& v_end, const std::vector<double>& v_start,
@@ -109,9 +110,9 @@ class VelocityTransfer {
       }
     }
   }
-  /// Of the last move().
+  /// The result of the last move().
   PointMotion<B, K>& motion() { return motion_; }
-  /// The points take the velocities of move(), while their positions are still those of the phase's start. impulse: of
+  /// Gives the points the velocities of move(), while their positions are still those of the phase's start. impulse: of
   /// the forces over the phase, (functions × dim).
   void take_velocity(const Grid<dim>& grid, Points& points, const Weights& weights, const std::vector<double>& mass,
                      const std::vector<double>& u, const std::vector<double>& v_end, const std::vector<double>& v_start,
@@ -140,12 +141,12 @@ class VelocityTransfer {
     });
   }
 
-  // Share of the increment in what the points have at the end; the rest is the velocity itself.
+  // The share of the increment in the points' final velocity; the rest is the nodal velocity itself.
   double kept_share() const {
     return spec_.transfer == Transfer::flip ? spec_.flip_share.value() : spec_.transfer == Transfer::xpic ? 1 : 0;
   }
 
-  // Σ_p m_p (N_ip v_p + Σ_j A_ij w_j), likewise. about(centres of the cell, cell, point): A and w.
+  // The momenta Σ_p m_p (N_ip v_p + Σ_j A_ij w_j), (functions × dim). about(centres of the cell, cell, point): A and w.
   template <class About>
   std::vector<double> momentum_about(const Grid<dim>& grid, const Points& points, const Weights& weights,
                                      const CornerSum& corner_sum, const About& about) const {
@@ -172,14 +173,16 @@ class VelocityTransfer {
     });
   }
 
-  // v_i from momenta m_i v_i. A node whose mass is next to nothing takes the velocity of its cells' points.
+  // Turns momenta m_i v_i into velocities v_i. A node with negligible mass takes the mean velocity of its cells'
+  // points.
   static void make_velocity(const Points& points, const CornerSum& corner_sum, const std::vector<double>& mass,
                             std::vector<double>& v) {
     constexpr double next_to_nothing = 1e-12;
     const double body = sum_over(mass.size(), [&](std::size_t f) { return mass[f]; });
     for_each_block(mass.size(), [&](std::size_t f) {
       double m = mass[f];
-      if (!(m > next_to_nothing * body)) {  // it may be of its cells, which are never heavier
+      if (!(m > next_to_nothing * body)) {  // it may be light because its cells are, which are never heavier than the
+                                            // body
         const auto of_cells = momentum_of_cells(points, corner_sum, f);
         if (!(m > next_to_nothing * of_cells[dim])) {
           m = of_cells[dim];
@@ -189,7 +192,7 @@ class VelocityTransfer {
       for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? v[dim * f + i] / m : 0;
     });
   }
-  // Σ m_p v_p and Σ m_p of all points in the cells that a function acts in.
+  // The sums Σ m_p v_p and Σ m_p over all points in the cells that a function acts in.
   static std::array<double, dim + 1> momentum_of_cells(const Points& points, const CornerSum& corner_sum,
                                                        std::size_t function) {
     std::array<double, dim + 1> of_cells{};
@@ -203,7 +206,8 @@ class VelocityTransfer {
     return of_cells;
   }
 
-  // Σ_p m_p v_p has changed by the impulse in flip and xpic; in pic and apic it is Σ_i m_i v_i of the start and that.
+  // Checks Σ_p m_p v_p: in flip and xpic it has changed by the impulse; in pic and apic it is the initial Σ_i m_i v_i
+  // plus the impulse.
   void check_momentum(const Points& points, const std::vector<double>& mass, const std::vector<double>& v_start,
                       const std::vector<double>& impulse) {
     const double share = kept_share();
@@ -216,7 +220,7 @@ class VelocityTransfer {
                                    });
   }
 
-  // (I − S S⁺)^m v_p
+  // The noise (I − S S⁺)^m v_p.
   std::array<std::vector<double>, dim> null_space_part(const Points& points, const Weights& weights,
                                                        const CornerSum& corner_sum,
                                                        const std::vector<double>& mass) const {
@@ -247,7 +251,7 @@ class VelocityTransfer {
   PhaseSpec spec_;
   bool damped_;
   ConservationCheck<dim> conservation_;
-  typename ConservationCheck<dim>::Momentum at_start_;  // of the points when the phase began
+  typename ConservationCheck<dim>::Momentum at_start_;  // momentum of the points when the phase began
   PointMotion<B, K> motion_;
   std::vector<double> increment_;  // w_i, (functions × dim)
 };

@@ -1,5 +1,5 @@
-// Products of displacement gradients' tensors in the components of a Kinematics: a 1 × 1, 2 × 2 or 3 × 3 matrix, row by
-// row, and if axisymmetric the hoop's component beside it.
+// Operations on tensors in the components of a Kinematics: a 1 × 1, 2 × 2 or 3 × 3 matrix, row by row, and if
+// axisymmetric the hoop component after it.
 #pragma once
 
 #include <stillpoint/tensor.hpp>
@@ -11,7 +11,7 @@ namespace stillpoint {
 template <Kinematics K>
 using TensorOf = std::array<double, gradient_components(K)>;
 
-/// A Cauchy stress, σ_xx or σ_xx, σ_yy, σ_zz, σ_xy (σ_zz the hoop's) and σ_yz, σ_zx, in these components.
+/// The tensor of a Cauchy stress σ_xx or σ_xx, σ_yy, σ_zz, σ_xy (σ_zz the hoop stress) and σ_yz, σ_zx.
 template <Kinematics K>
 TensorOf<K> tensor_of(const std::array<double, stress_components(K)>& s) {
   if constexpr (K == Kinematics::line)
@@ -24,7 +24,7 @@ TensorOf<K> tensor_of(const std::array<double, stress_components(K)>& s) {
     return {s[0], s[3], s[3], s[1], s[2]};
 }
 
-/// I + H
+/// The sum I + H.
 template <Kinematics K>
 TensorOf<K> plus_identity(TensorOf<K> H) {
   constexpr int dim = dimensions(K);
@@ -33,7 +33,7 @@ TensorOf<K> plus_identity(TensorOf<K> H) {
   return H;
 }
 
-/// A B
+/// The product A B.
 template <Kinematics K>
 TensorOf<K> product(const TensorOf<K>& A, const TensorOf<K>& B) {
   constexpr int dim = dimensions(K);
@@ -47,7 +47,7 @@ TensorOf<K> product(const TensorOf<K>& A, const TensorOf<K>& B) {
   return C;
 }
 
-/// Aᵀ
+/// The transpose Aᵀ.
 template <Kinematics K>
 TensorOf<K> transposed(TensorOf<K> A) {
   constexpr int dim = dimensions(K);
@@ -73,7 +73,7 @@ double determinant(const TensorOf<K>& A) {
     return (A[0] * A[3] - A[1] * A[2]) * A[4];
 }
 
-/// A⁻¹
+/// The inverse A⁻¹.
 template <Kinematics K>
 TensorOf<K> inverse(const TensorOf<K>& A) {
   if constexpr (K == Kinematics::line) {

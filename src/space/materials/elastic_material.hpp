@@ -1,4 +1,4 @@
-// A material law without history applied to blocks of points.
+// Material laws without history, applied to blocks of points.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace stillpoint {
 
-/// A law without history. Once the body has moved on it keeps the deformation F_0 = I + H_0 with which the phase began:
+/// A law without history. In a body that moves on it stores the deformation F_0 = I + H_0 with which the phase began:
 ///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began,
-/// as H_0, and H = f F_0 − I = H + H_0 + H H_0, so that small strains lose no digits beside 1.
+/// in the form of H_0, and H = f F_0 − I = H + H_0 + H H_0, so that small strains lose no digits beside 1.
 template <ElasticLaw Law>
 class ElasticMaterial : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
@@ -46,7 +46,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
           return push(plus_identity<K>(H_0), law.first_piola(total(H_0, block.H_at(q))));
         });
   }
-  // Where P is linear in H, δP = P(δH).
+  // For a law with P linear in H, δP = P(δH).
   [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
     if constexpr (Law::finite_strain) return Base::tangent(kind, block, V, dt);
     const Law law = law_;
@@ -60,7 +60,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
 
   ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
     if (!moved()) return law_.moduli(H);
-    // Column b: the answer to a unit dH_b, dF = dH F_0
+    // Column b is the response to a unit dH_b, dF = dH F_0
     const Tensor F_0 = plus_identity<K>(H0(p));
     const ModuliMatrix A = law_.moduli(total(H0(p), H));
     ModuliMatrix pushed{};
@@ -108,7 +108,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
     for (std::size_t c = 0; c < components; ++c) H[c] = H0_[count_ * c + p - begin_];
     return H;
   }
-  // (I + H)(I + H_0) − I
+  // The composition (I + H)(I + H_0) − I.
   static Tensor total(const Tensor& H_0, const Tensor& H) {
     Tensor all = product<K>(H, H_0);
     for (int c = 0; c < components; ++c) all[c] += H[c] + H_0[c];
@@ -122,7 +122,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   }
 
  private:
-  // answer(q) becomes the block's V P.
+  // Stores answer(q) as the block's V P.
   template <class Answer>
   double loop(Block& block, const double* V, const Answer& answer) const {
     const double* volume = V + block.first;
@@ -133,7 +133,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
     return Base::sum_in_groups(count, point);
   }
 
-  std::vector<double> H0_;  // (components × points); empty in a body that never moves on
+  std::vector<double> H0_;  // (components × points); empty in a body of a single phase
 };
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// A material law with history applied to blocks of points.
+// Material laws with history, applied to blocks of points.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace stillpoint {
 
-/// A law with history. A trial leaves what was committed alone, and to commit is to swap them.
+/// A law with history. A trial does not change the committed history; committing swaps the two.
 template <HistoryLaw Law>
 class HistoryMaterial final : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
@@ -101,7 +101,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   }
 
  private:
-  // answer(q, what point q remembers) becomes the block's V P.
+  // Stores answer(q, committed history of point q) as the block's V P.
   template <class Answer>
   [[gnu::always_inline]] double loop(Block& block, const double* V, const Answer& answer) const {
     const double* from = committed_.data() + block.first - begin_;

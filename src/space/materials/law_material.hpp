@@ -1,4 +1,4 @@
-// What laws with and without history have in common when they are applied to blocks of points: the loops that the
+// The common part of laws with and without history in their application to blocks of points: the loops that the
 // compiler vectorises.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace stillpoint {
 
-/// See ElasticMaterial and HistoryMaterial.
+/// Base class of ElasticMaterial and HistoryMaterial.
 template <class Law>
 class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
  protected:
@@ -43,16 +43,16 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
   LawMaterialBase(const Law& law, std::size_t begin, std::size_t count, const PointMaterialInfo& info)
       : PointMaterial<K>(info), law_(law), begin_(begin), count_(count) {}
 
-  /// Σ point(q), q = 0 … count − 1, vectorised. What is left of whole groups is one that begins early enough: a point
-  /// that it meets again answers the same again, which costs less than a rest of single points. The loop is one over
-  /// all groups, as the compiler makes a third more of their instructions if each is a loop of its own.
+  /// Σ point(q), q = 0 … count − 1, vectorised. The remainder of whole groups is a group too, which begins early
+  /// enough: a point evaluated twice gives the same answer, which costs less than a remainder of single points. There
+  /// is one loop over all groups, as the compiler makes a third more instructions if each is a loop of its own.
   template <class Point>
   [[gnu::always_inline]] static double sum_in_groups(std::size_t count, const Point& point) {
-    constexpr std::size_t group = 8;  // fills the registers of any of today's processors
+    constexpr std::size_t group = 8;  // fills the registers of present processors
     const std::size_t whole = count / group * group;
     double sum = 0;
 #pragma omp simd reduction(+ : sum)
-    for (std::size_t q = 0; q < whole; ++q) sum += point(q);  // all locals are point's own, or GCC gives up
+    for (std::size_t q = 0; q < whole; ++q) sum += point(q);  // all locals are point's own, or GCC does not vectorise
     if (whole == count) return sum;
     if (count < group) {
       for (std::size_t q = 0; q < count; ++q) sum += point(q);
@@ -81,7 +81,7 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
   }
 
-  // Of rows of values, (rows × points), those of points from[begin] … from[begin + count − 1].
+  // Takes the values of points from[begin] … from[begin + count − 1] out of rows of values, (rows × points).
   void take_values(std::vector<double>& values, const std::vector<int>& from, std::size_t begin,
                    std::size_t count) const {
     const std::size_t rows = values.size() / count_;

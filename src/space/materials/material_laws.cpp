@@ -39,7 +39,7 @@ std::vector<std::string_view> cone_names() {
   return names;
 }
 
-// Those of this library.
+// The laws of this library.
 std::vector<LawInfo> built_in() {
   using enum StressState;
   static const std::vector<StressState> all = {uniaxial_stress, uniaxial_strain, plane_strain,
@@ -90,7 +90,7 @@ GrowingTable<LawInfo>& table() {
 
 const std::vector<LawInfo>& material_laws() { return table().rows(); }
 
-// A law of the program's own may have a parameter of this name; it remembers nothing.
+// A user-defined law may have a parameter of this name, but has no history.
 bool is_viscous(const MaterialSpec& material) {
   const auto law = std::ranges::find(material_laws(), material.law, &LawInfo::name);
   const auto beta = material.parameters.find(fluidity);

@@ -1,4 +1,4 @@
-// The material laws on offer, their stress states and their parameters: what scenes may say and `stillpoint list
+// The available material laws, their stress states and their parameters: the choices of scenes, which `stillpoint list
 // materials` shows.
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace stillpoint {
 
-/// With those that the program has added.
+/// All laws, including those that the program has added.
 const std::vector<LawInfo>& material_laws();
 
-/// A further row, or another one in the place of that of the same name.
+/// Adds a row, or replaces the one of the same name.
 void put_law(const LawInfo& about);
 
-/// Whether what is stressed beyond its strength flows at a rate, so that the answer depends on time.
+/// Whether a material stressed beyond its strength flows at a finite rate, so that the answer depends on time.
 bool is_viscous(const MaterialSpec& material);
-/// The same material given all the time that it takes: what it bears in the long run.
+/// The same material without viscosity, which gives its long-term strength.
 MaterialSpec rate_independent(MaterialSpec material);
 
-/// The answers of a law that the program has added; null if that is none of those.
+/// Makes a law that the program has added; null if there is none of this name.
 std::shared_ptr<const LawAnswers> own_law_answers(const std::string& law, StressState state,
                                                   const LawParameters& parameters);
 

@@ -6,7 +6,8 @@
 
 namespace stillpoint {
 
-/// Those of the law, as PointMaterial::moduli(); stable: the elastic ones without what makes them indefinite.
+/// The moduli of the law, as PointMaterial::moduli(); for Tangent::stable the positive semi-definite part of the
+/// elastic ones.
 template <Kinematics K>
 typename PointMaterial<K>::ModuliMatrix moduli_of(const PointMaterial<K>& law, Tangent kind, const TensorOf<K>& H,
                                                   const TensorOf<K>& dH, double dt, std::size_t p) {

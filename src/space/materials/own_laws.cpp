@@ -1,4 +1,4 @@
-// Laws that a program has added.
+// User-defined material laws.
 #include <map>
 #include <mutex>
 #include <set>

@@ -1,4 +1,4 @@
-// A law of the program's own applied to blocks of points.
+// User-defined laws applied to blocks of points.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace stillpoint {
 
-/// Such a law at a single point.
+/// A user-defined law at a single point.
 template <StressState S>
 class OwnLawAtPoint {
  public:
   static constexpr StressState state = S;
-  static constexpr bool finite_strain = true;  // for all that is known
+  static constexpr bool finite_strain = true;  // assumed, as nothing is known of the law
 
   explicit OwnLawAtPoint(std::shared_ptr<const LawAnswers> answers) : answers_(std::move(answers)) {}
 
@@ -40,7 +40,7 @@ class OwnLawAtPoint {
   std::shared_ptr<const LawAnswers> answers_;
 };
 
-/// One virtual call serves a block, whose loop the program has compiled.
+/// The material of a user-defined law. One virtual call serves a block, whose loop the program has compiled.
 template <StressState S>
 class OwnMaterial final : public ElasticMaterial<OwnLawAtPoint<S>> {
   using Base = ElasticMaterial<OwnLawAtPoint<S>>;

@@ -1,4 +1,4 @@
-// Which law goes with which stress state: the instantiations.
+// The instantiations of laws for stress states.
 #include "space/materials/point_material.hpp"
 
 #include <stillpoint/drucker_prager.hpp>

@@ -1,11 +1,11 @@
-// A kinematics that is known only as the program runs becomes a template parameter.
+// Turns a kinematics that is known only at run time into a template parameter.
 #pragma once
 
 #include <stillpoint/material.hpp>
 
 namespace stillpoint {
 
-/// visit<K>(), which returns the same type for each.
+/// Calls visit<K>(), which returns the same type for each kinematics.
 template <class Visit>
 decltype(auto) with_kinematics(Kinematics kinematics, const Visit& visit) {
   switch (kinematics) {

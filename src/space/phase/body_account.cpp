@@ -13,7 +13,7 @@
 namespace stillpoint {
 namespace {
 
-/// visit(occupied cell, point, number of the point)
+/// Calls visit(occupied cell, point, number of the point) for all points.
 template <int Dim, class Visit>
 void for_points(const MaterialPoints<Dim>& points, const Visit& visit) {
   for (std::size_t k = 0; k < points.cells(); ++k) {
@@ -43,7 +43,7 @@ PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
           .history_names = {names.begin(), names.end()},
           .updated_lagrangian = moves_on(),
           .nonlinear = finite_strain || remembers,
-          // With history the elastic part is small, and what it yields only softens; but springs go with it.
+          // With history the elastic part is small, and yielding only softens; but the stiffness of springs may grow.
           .stiffens = finite_strain && (!remembers || (moves_on() && held_by_springs))};
 }
 

@@ -1,4 +1,4 @@
-// What is told of a body and of its points, whatever the functions of the grid that moves it.
+// The data of a body and of its points for output, independent of the basis.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,31 @@
 
 namespace stillpoint {
 
-/// P: how many points the body was filled with; of one that came into parts since then, their mean or sum is told.
+/// P: the number of points that the body was filled with; the values of a point that was split are the mean or sum over
+/// its parts.
 template <Kinematics K>
 class BodyAccount {
   static constexpr int dim = dimensions(K);
 
  public:
-  /// All outlive it.
+  /// All arguments must outlive this object.
   BodyAccount(const Problem& problem, const Grid<dim>& grid, const Body<K>& body)
       : problem_(problem), grid_(grid), body_(body) {}
 
-  /// held_by_springs: whether a support is, which go with a body from phase to phase.
+  /// held_by_springs: whether a support holds by springs, which move with the body from phase to phase.
   PhaseInfo describe(bool held_by_springs) const;
-  /// What all points have, `of_phase`, and what laws keep, each for its share of the points.
+  /// The arrays of all points: `of_phase`, and those that laws store, each weighted by its share of the points.
   std::vector<PointArray> arrays(std::size_t P, const std::vector<PointArray>& of_phase) const;
-  /// (P × dim)
+  /// The positions of the points, (P × dim).
   std::vector<double> positions(std::size_t P) const;
-  /// origin: positions at the start of the run, (P × dim); none if points stay where they are.
+  /// origin: positions at the start of the run, (P × dim); empty if points do not move on.
   PointData point_data(std::size_t P, const std::vector<double>& origin) const;
-  /// One of PhaseInfo::history_names, (P).
+  /// Writes one of PhaseInfo::history_names, (P).
   void history(const std::string& name, Vec out) const;
-  /// Of point p in occupied cell k.
+  /// The place of point p in occupied cell k.
   PlaceInBody place(std::size_t k, std::size_t p) const;
-  /// A wave's time through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max [s].
+  /// The time of a wave through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max
+  /// [s].
   double shortest_time() const;
 
  private:
@@ -43,7 +45,8 @@ class BodyAccount {
   const Body<K>& body_;
 };
 
-/// Of a scene that has it: σ_yy = −ρ b_y (surface − y) from ∂σ_yy/∂y + ρ b_y = 0, σ_xx = σ_zz = K0 σ_yy.
+/// Sets the initial stress of a scene that has one: σ_yy = −ρ b_y (surface − y) from ∂σ_yy/∂y + ρ b_y = 0, σ_xx = σ_zz
+/// = K0 σ_yy.
 template <Kinematics K>
 void set_geostatic_stress(const Problem& problem, Body<K>& body);
 template <Kinematics K>

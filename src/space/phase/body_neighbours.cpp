@@ -57,7 +57,7 @@ std::size_t BodyNeighbours<Dim>::body_of(std::size_t p) const {
          1;
 }
 
-// From each point of a to the nearest ones of b, over the cells that share functions.
+// The smallest gap from the points of a to the nearest ones of b, over the cells that share functions.
 template <int Dim>
 BodyGap BodyNeighbours<Dim>::gap_between(std::size_t a, std::size_t b, const std::vector<BodyDepth>* shapes) const {
   std::unordered_map<int, std::vector<std::size_t>> of_b;
@@ -98,7 +98,7 @@ double BodyNeighbours<Dim>::distance(std::size_t p, std::size_t q) const {
   return std::sqrt(square);
 }
 
-// Half the spacing of the points that a body was filled with, along the widest of its sides.
+// Half the initial spacing of a body's points, along the widest of its sides.
 template <int Dim>
 double BodyNeighbours<Dim>::half_spacing(std::size_t body) const {
   const std::vector<int>& along = problem_.bodies[body].points_per_cell;
@@ -108,7 +108,7 @@ double BodyNeighbours<Dim>::half_spacing(std::size_t body) const {
   return widest / 2;
 }
 
-// On the way from p, in a, to q, in b: from where a ends to where b begins. 0 if they touch there.
+// The gap on the line from p, in a, to q, in b: from the end of a to the beginning of b. 0 if they touch there.
 template <int Dim>
 double BodyNeighbours<Dim>::gap_along(std::size_t p, std::size_t q, const BodyDepth& a, const BodyDepth& b) const {
   const double way = distance(p, q);
@@ -117,7 +117,7 @@ double BodyNeighbours<Dim>::gap_along(std::size_t p, std::size_t q, const BodyDe
     for (int d = 0; d < Dim; ++d) x[d] = points_.x[d][p] + share * (points_.x[d][q] - points_.x[d][p]);
     return x;
   };
-  // The last share of the way from one side that its body holds.
+  // The share of the line, from one end, that lies in the body at that end.
   const auto last_in = [&](const BodyDepth& body, bool from_p) {
     constexpr int halvings = 48;
     double inside = 0, outside = 1;

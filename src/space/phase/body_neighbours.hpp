@@ -1,4 +1,4 @@
-// Which bodies share functions of the grid without touching each other: the grid moves them as one, across the gap.
+// Bodies that share functions of the grid without touching each other: the grid moves them as one, across the gap.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -17,8 +17,8 @@ namespace stillpoint {
 template <int Dim>
 class BodyNeighbours {
  public:
-  /// All outlive it, and are of the phase that begins; first_number: of the points of each body, and how many there
-  /// are.
+  /// All arguments belong to the phase that begins, and must outlive this object; first_number: the number of the first
+  /// point of each body, and the number of all points.
   BodyNeighbours(const Problem& problem, const GridFunctions<Dim>& functions, const MaterialPoints<Dim>& points,
                  const PointFunctions<Dim>& weights, const std::vector<int>& first_number)
       : problem_(problem),
@@ -28,9 +28,10 @@ class BodyNeighbours {
         weights_(weights),
         first_number_(first_number) {}
 
-  /// at_start: whether bodies are still where the scene puts them, so that their surfaces are known.
+  /// The gaps of all such pairs. at_start: whether bodies are in their initial positions, so that their surfaces are
+  /// known.
   std::vector<BodyGap> find(bool at_start) const;
-  /// For each function the bodies that it reaches, ascending.
+  /// The bodies that each function reaches, in ascending order.
   std::vector<std::vector<std::size_t>> bodies_of_functions() const;
 
  private:

@@ -1,15 +1,16 @@
-// The deformation of elastic points when a phase begins, from where they are: a body whose stress depends on the
-// deformation alone has no other memory than its points' positions.
+// The deformation of elastic points at the beginning of a phase, from their positions: a body whose stress depends on
+// the deformation alone has no other memory than those.
 //
-// Multiplied up from phase to phase, F_p = f_p F_p drifts away from the deformation that the positions show. What is
-// in that difference and no function of the grid feels stays for good, so that a sudden load leaves other stresses than
-// a slow one. So the displacement U(x) = x − X of the material now at x is fitted to the points', body by body, and
+// Accumulated from phase to phase, F_p = f_p F_p drifts away from the deformation that the positions show. The part of
+// that difference which no function of the grid feels is permanent, so that a sudden load leaves other stresses than a
+// slow one. Hence the displacement U(x) = x − X of the material now at x is fitted to that of the points, body by body,
+// and
 //
 //   F_p = (I − ∂U/∂x)⁻¹
 //
-// is taken where the phase begins [reference map: Kamrin, Rycroft and Nave 2012]. Where the fit has too little to go by
-// the gradients I − F_p⁻¹ so far decide (point_fit.hpp). V_p stays as it was multiplied up, which integrates better: a
-// column that a sudden load compresses to 0.3 has a third of the stress error that V_p(0) det F_p leaves.
+// is taken at the beginning of the phase [reference map: Kamrin, Rycroft and Nave 2012]. Where the positions do not
+// determine the fit, the gradients I − F_p⁻¹ so far do (point_fit.hpp). V_p stays as accumulated, which integrates
+// better: a column that a sudden load compresses to 0.3 has a third of the stress error that V_p(0) det F_p leaves.
 #pragma once
 
 #include <algorithm>
@@ -31,26 +32,25 @@ class DeformationFromPositions {
   using Fit = PointFit<dim, B, K>;
   using Values = typename Fit::Values;
 
-  // Of a cell. A fit that misses a point by more runs across a gap in the body, or from one of its parts to another
-  // that lies against it: what it says there is no strain.
+  // Share of a cell. A fit that misses a point by more than this spans a gap in the body, or two of its parts that lie
+  // against each other: its gradient there is no strain.
   static constexpr double largest_miss = 0.25;
-  // A point's volume is off by less than this factor, or the fit is.
+  // The fit is rejected at a point whose volume it changes by a larger factor.
   static constexpr double largest_factor = 2;
-  static constexpr double tolerance = 1e-4;  // of a cell
+  static constexpr double tolerance = 1e-4;  // share of a cell
 
  public:
-  /// Whether some body's law knows the deformation alone, and its stress depends on nothing else; no other material may
-  /// remember what the phases of these bodies do.
+  /// Whether the law of some body depends on the deformation alone, and none has a history.
   static bool applies(Body<K>& body) {
     return std::ranges::any_of(body.materials, [](const auto& material) { return !material->memory().empty(); }) &&
            std::ranges::none_of(body.materials,
                                 [](const auto& material) { return material->info().history_dependent; });
   }
 
-  /// How much of a function's displacement counts as a motion of points, (functions). A function with N_ip next to
-  /// nothing at all points has to go far to strain them, and hardly moves them: no phase need end for that.
+  /// The share of a function's displacement that counts as a motion of points, (functions). A function with N_ip next
+  /// to nothing at all points may move far to strain them, but hardly moves them: no phase has to end for that.
   static std::vector<double> share_of_motion(const Body<K>& body, const Weights& weights, std::size_t functions) {
-    constexpr double full = 0.05;  // the largest N_ip from which on all of it counts
+    constexpr double full = 0.05;  // the largest N_ip from which on the share is 1
     std::vector<double> share(functions, 0);
     for_points(body.points, [&](std::size_t k, std::size_t p) {
       const auto N = weights.N(k, p);
@@ -62,7 +62,7 @@ class DeformationFromPositions {
     return share;
   }
 
-  /// The first phase begins: an unknown that a support holds at rest now has U = 0 for as long as it is held.
+  /// Prepares the first phase: an unknown that a support holds at rest now has U = 0 for as long as it is held.
   void begin(Body<K>& body, const Weights& weights, const HeldUnknowns& held, std::size_t functions) {
     anchored_.assign(body.first_number.size() - 1, {});
     for (std::size_t b = 0; b < anchored_.size(); ++b) {
@@ -107,7 +107,7 @@ class DeformationFromPositions {
   }
 
  private:
-  // F_p − I of the points whose law knows the deformation alone, wherever they are kept.
+  // The stored F_p − I of the points whose law depends on the deformation alone.
   class PointDeformations {
    public:
     explicit PointDeformations(Body<K>& body) : points_(body.points) {
@@ -148,8 +148,8 @@ class DeformationFromPositions {
     return !held.motion(s).moves() && held.motion(s).displacement(0) == 0;
   }
 
-  // Domains show their gradients themselves: these decide, and what the fit takes from them is what no function feels,
-  // Σ_p V_p ∇N̄_ip (∇U − g_p) = 0.
+  // Domains know their gradients themselves, and these take precedence: the fit removes from them only the part that no
+  // function feels, Σ_p V_p ∇N̄_ip (∇U − g_p) = 0.
   static PointFitOptions options(double h) {
     if constexpr (B::window > 1) {
       return {.gradient_share = 1, .tolerance = tolerance * h, .iterations = 40};
@@ -158,13 +158,13 @@ class DeformationFromPositions {
     }
   }
 
-  // I − H
+  // The difference I − H.
   static TensorOf<K> identity_minus(TensorOf<K> H) {
     for (double& component : H) component = -component;
     return plus_identity<K>(H);
   }
 
-  // U_p and I − F_p⁻¹ of the points of body b; empty if its law is another.
+  // The displacements U_p and I − F_p⁻¹ of the points of body b; empty if its law is another.
   static Values displacements(const Body<K>& body, std::size_t b, const PointDeformations& memory,
                               const std::vector<double>& origin) {
     const MaterialPoints<dim>& points = body.points;
@@ -191,7 +191,7 @@ class DeformationFromPositions {
     return values;
   }
 
-  // F − I, of a domain by its corners, which show what its point alone does not.
+  // The present F − I; that of a domain by its corners, which show what its point alone does not.
   static TensorOf<K> present_deformation(const MaterialPoints<dim>& points, const PointDeformations& memory,
                                          std::size_t k, std::size_t p) {
     if constexpr (B::window > 1) {
@@ -215,7 +215,7 @@ class DeformationFromPositions {
     return zero;
   }
 
-  // Functions near which the fit misses no point by much, (functions).
+  // Whether the fit misses no point near a function by much, (functions).
   static std::vector<char> trusted_functions(const Grid<dim>& grid, const MaterialPoints<dim>& points,
                                              const Weights& weights, const Fit& fit, const Values& values,
                                              const std::vector<double>& U) {
@@ -238,7 +238,7 @@ class DeformationFromPositions {
     return trusted;
   }
 
-  std::vector<std::vector<char>> anchored_;  // of each body: unknowns that were held at rest at first
+  std::vector<std::vector<char>> anchored_;  // for each body, the unknowns that were held at rest at the start
 };
 
 }  // namespace stillpoint

@@ -12,7 +12,8 @@ std::vector<FreePart> find_free_parts(const BodyOnGrid<Dim>& body, int first_axi
   const auto& [functions, points, weights] = body;
   const int per_cell = functions.per_cell();
   constexpr int nowhere = -1;
-  // Functions of one cell are of one part: each points to another of its part, the first to itself.
+  // Functions of one cell belong to one part (a union-find structure): each points to another of its part, the first to
+  // itself.
   std::vector<int> next(dofs.number.size() / Dim);
   std::iota(next.begin(), next.end(), 0);
   const auto first_of = [&next](int f) {

@@ -1,4 +1,4 @@
-// Parts of the body that nothing holds along an axis: what could move off as a whole.
+// Parts of the body that nothing holds along an axis, and that could move off as a whole.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace stillpoint {
 
-/// What of a phase tells parts of its body apart.
+/// The data of a phase by which parts of its body are found.
 template <int Dim>
 struct BodyOnGrid {
   const GridFunctions<Dim>& functions;
@@ -16,8 +16,8 @@ struct BodyOnGrid {
   const PointFunctions<Dim>& weights;
 };
 
-/// first_axis: 1 if axisymmetric, as all points move outwards against hoop stress. sprung: whether a spring of a
-/// support acts on an unknown of the grid. as_one: whether what shares no function counts as one part all the same.
+/// Finds the free parts. first_axis: 1 if axisymmetric, as hoop stress resists all radial motion. sprung: whether a
+/// spring of a support acts on an unknown of the grid. as_one: whether parts that share no function count as one part.
 template <int Dim>
 std::vector<FreePart> find_free_parts(const BodyOnGrid<Dim>& body, int first_axis, const DegreesOfFreedom& dofs,
                                       const std::vector<char>& sprung, bool as_one);

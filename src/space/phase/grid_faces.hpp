@@ -1,4 +1,4 @@
-// What becomes of a material point that a phase takes past a face of the grid.
+// The treatment of material points that a phase takes past a face of the grid.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -14,10 +14,10 @@
 
 namespace stillpoint {
 
-/// Rounding never loses a point: past a face by that alone, it is put back onto it. Nothing passes a face on which a
-/// support or a wall stands: a point that a step leaves behind it, by less than a tenth of a cell, is put back as well
-/// (the nodes follow a wall that sets out at once to the order of the integrator). Further away it has left the grid.
-/// Nor does it pass an axis of symmetry that the body reaches.
+/// The faces of a grid. A point past a face by a rounding error is put back onto it. At a face with a support or a
+/// wall, a point that a step leaves behind it by less than a tenth of a cell is put back as well (nodes follow a wall
+/// that sets out suddenly to the order of the integrator). Further away a point has left the grid. An axis of symmetry
+/// that the body reaches counts as such a face.
 template <int Dim>
 class GridFaces {
  public:
@@ -34,7 +34,7 @@ class GridFaces {
     if (is_at_axis) hold(Face::left);
   }
 
-  /// Whether a point may stay at coordinate x, if need be put back. False for a NaN.
+  /// Whether a point may stay at coordinate x, if necessary after put_back(). False for a NaN.
   bool keeps(int d, double x) const {
     const Axis& axis = grid_.axes[d];
     return x >= axis.min() - slack_[d][0] && x <= axis.max() + slack_[d][1];

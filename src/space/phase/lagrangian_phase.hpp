@@ -3,7 +3,7 @@
 //
 //   f_p = I + Σ_i u_i ⊗ ∇N_ip,   R_i = Σ_p V_p P_p ∇N_ip,   F_i = Σ_p N_ip m_p b + tractions and point forces
 //
-// If the scene asks for it a phase ends and the next begins: the points move on, the grid starts afresh.
+// If the scene asks for it, a phase ends and the next begins: the points move on, and the grid is reset.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -27,84 +27,85 @@
 
 namespace stillpoint {
 
-/// What stays the same in all phases of a body.
+/// The properties that all phases of a body share.
 struct PhaseInfo {
   int dim = 0;
-  int gradient_components = 0;  // of a displacement gradient (material.hpp)
-  int stress_components = 0;    // of a Cauchy stress
+  int gradient_components = 0;  // number in a displacement gradient (material.hpp)
+  int stress_components = 0;    // number in a Cauchy stress
   std::size_t points = 0;
   double total_mass = 0;                   // Σ m_p [kg]
-  std::vector<std::string> history_names;  // what laws remember beside the stress ("plastic_strain")
-  bool updated_lagrangian = false;         // whether there will be more phases than one
+  std::vector<std::string> history_names;  // history variables of laws beside the stress ("plastic_strain")
+  bool updated_lagrangian = false;         // whether there will be further phases
   bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
-  bool stiffens = false;  // whether a point can become stiffer than it was, so that the critical step has to follow
+  bool stiffens = false;  // whether a point can become stiffer than before, so that the critical step has to follow
 };
 
-/// How a phase is discretised, for `stillpoint check`.
+/// The discretisation of a phase, for `stillpoint check`.
 struct Discretisation {
   std::vector<PointArray> arrays;
   std::size_t supported_degrees_of_freedom = 0;
-  std::vector<int> grid_cells;  // along each coordinate
+  std::vector<int> grid_cells;  // number along each coordinate
   std::size_t occupied_cells = 0;
   QuadratureReport quadrature;
 };
 
-/// P points, in the order in which the body was first filled, whatever the phase.
+/// The data of P points, in the order in which the body was first filled, in every phase.
 struct PointData {
   std::vector<double> positions;          // when the phase began, (P × dim) [m]
-  std::vector<double> initial_positions;  // when the run began, likewise
+  std::vector<double> initial_positions;  // when the run began, (P × dim) [m]
   std::vector<double> volumes;            // V_p when the phase began, (P) [m³]
   std::vector<double> masses;             // m_p, (P) [kg]
-  std::vector<int> materials;             // number of each point's material, by name, (P)
+  std::vector<int> materials;             // index of each point's material, in the order of the names, (P)
 };
 
-/// Values at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain ∂u/∂x
-/// since the phase began, (P × gradient_components); Cauchy stress, (P × stress_components) [Pa], if the law has a
-/// history as of the last commit; volume V_p det f_p, of a law of small strain V_p, (P) [m³].
+/// Quantities at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain
+/// ∂u/∂x since the phase began, (P × gradient_components); Cauchy stress, (P × stress_components) [Pa], for a law with
+/// history that of the last commit; volume V_p det f_p, for a law of small strain V_p, (P) [m³].
 enum class PointQuantity { displacement, velocity, strain, stress, volume };
 
-/// How well masses and momenta are kept, the worst so far.
+/// The largest errors so far in the conservation of mass and momentum.
 struct TransferErrors {
   double mass = 0;  // |Σ_i m_i − Σ_p m_p(0)|/Σ_p m_p(0)
-  /// Σ_p m_p v_p beside the grid's, and its change over a phase beside the impulse of the forces; in a body that
-  /// nothing acts on, beside that of the start. Relative to Σ_p m_p |v_p|.
+  /// The error of Σ_p m_p v_p against the grid's momentum, and of its change over a phase against the impulse of the
+  /// forces; in a body that nothing acts on, against the momentum at the start. Relative to Σ_p m_p |v_p|.
   double momentum = 0;
-  /// Of such a body, about the origin, relative to Σ_p m_p |x_p − x_c| |v_p|; empty if forces act.
+  /// The error of the angular momentum about the origin of a body that nothing acts on, relative to Σ_p m_p |x_p − x_c|
+  /// |v_p|; empty if forces act.
   std::optional<double> angular_momentum;
   double added_mass = 0;  // inertia that nodes were given so that none shortens the step, as a share of Σ_p m_p
 };
 
-/// Where the committed stress is furthest beyond the strength, as that of a viscous law may be for a while.
+/// The point whose committed stress exceeds its strength most, as that of a viscous law may for a while.
 struct OverStress {
   double share = 0;       // f/(√J₂ − f), the yield function over the strength; NaN if it is not finite
-  std::size_t point = 0;  // its number
+  std::size_t point = 0;  // number of the point
 };
 
 /// A part of the body, which shares no function of the grid with the others, and an axis along which no support holds
 /// it. Bodies that move on from phase to phase may meet, and count as one part.
 struct FreePart {
   int axis = 0;
-  bool is_whole = false;              // whether it is all of the body
+  bool is_whole = false;              // whether it is the whole body
   std::size_t point = 0;              // the number of one of its material points
-  std::vector<std::size_t> unknowns;  // degrees of freedom that are 1 if it moves by 1, those of the values
+  std::vector<std::size_t> unknowns;  // degrees of freedom that are 1 if the part moves by 1, those of the values
 };
 
-/// When a phase should end, and how the next one begins.
+/// The control of a body's phases: when a phase should end, and how the next one begins.
 class PhaseControl {
  public:
   virtual ~PhaseControl() = default;
-  /// How far the phase has come: 1 if it should end (phase.max_motion or phase.max_strain is reached).
+  /// The progress of the phase towards its end: 1 if it should end (phase.max_motion or phase.max_strain is reached).
   virtual double progress(double t, ConstVec u) = 0;
   /// Ends the phase at t with u and v, and begins the next, with other unknowns: size() and everything else may change.
-  /// Returns v, (size()); u is 0. Throws PointLost; std::logic_error if the scene has a single phase, or if
-  /// initial_velocity() has not begun the first.
+  /// Returns v, (size()); u is 0. Throws PointLost if a point leaves the grid, and std::logic_error if the scene has a
+  /// single phase, or if initial_velocity() has not begun the first one.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
-  /// Saves the phase as it is between two steps, or restores it: its unknowns become those of then.
+  /// Saves the phase as it is between two steps, or restores it, which also restores its unknowns.
   virtual void archive(const StateArchive& state) = 0;
 };
 
-/// Of material points as well, by their numbers from 0.
+/// A diagnosis that also locates material points, by their numbers from 0.
 class PhaseDiagnosis : public Diagnosis {
  public:
   virtual PlaceInBody of_point(std::size_t number) const = 0;
@@ -115,52 +116,52 @@ class LagrangianPhase : public SemiDiscrete {
  public:
   const PhaseInfo& info() const { return info_; }
   virtual Discretisation discretisation() const = 0;
-  /// Where the unknowns stand, at the coefficients by which the basis gives a linear motion; empty for a basis of
-  /// slopes.
+  /// The positions of the unknowns, at which the coefficients of a linear motion equal the motion; empty for a basis
+  /// with slopes.
   virtual NodalLayout layout() const = 0;
   virtual PointData point_data() const = 0;
-  /// nodal: u, or v for the velocity, (n).
+  /// Writes a quantity at the points. nodal: u, or v for the velocity, (n).
   virtual void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const = 0;
-  /// One of info().history_names, (P); 0 if a point's law does not remember it.
+  /// Writes one of info().history_names, (P); 0 if the law of a point has no such variable.
   virtual void point_history(const std::string& name, Vec out) const = 0;
 
-  /// Fields at places of the body, as it is at (t, u, v).
+  /// Reads fields at places of the body in its state (t, u, v).
   virtual std::unique_ptr<PlaceReader> read_places(double t, ConstVec u, ConstVec v) const = 0;
 
-  /// What no function of the grid feels of the points' Cauchy stresses: their difference to their least-squares fit by
-  /// the grid's functions, body by body, √(Σ V_p |σ_p − σ(x_p)|²/Σ V_p |σ_p|²).
+  /// The relative norm of the part of the points' Cauchy stresses that no function of the grid feels: their difference
+  /// from their least-squares fit by the grid's functions, body by body, √(Σ V_p |σ_p − σ(x_p)|²/Σ V_p |σ_p|²).
   virtual double null_space_stress(double t, ConstVec u) const = 0;
 
-  /// Empty: no law is viscous.
+  /// The largest stress beyond the strength; empty: no law is viscous.
   virtual std::optional<OverStress> over_stress() const = 0;
 
-  /// u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
+  /// The u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
   virtual std::vector<double> initial_displacement(double t) const = 0;
   virtual std::vector<double> initial_velocity(double t) = 0;
 
-  /// Of the last evaluation.
+  /// The reactions of walls in the last evaluation.
   virtual std::vector<WallReaction> wall_reactions(double t) const = 0;
   /// Displacements of the supports since the phase began, in the order of TrialState::reactions [m].
   virtual std::vector<double> support_displacements(double t) const = 0;
-  /// Of the supports that have a name; reactions: TrialState's, of an evaluation at (t, u).
+  /// The reactions of the supports that have a name; reactions: TrialState's, of an evaluation at (t, u).
   virtual std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const = 0;
-  /// Of the supports that hold by springs, at (t, u).
+  /// The reports of the supports that hold by springs, at (t, u).
   virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
-  /// Of loads that a displacement drives, at (t, u); none if none are.
+  /// The state of loads that a displacement drives, at (t, u); empty if there are none.
   virtual std::optional<LoadState> load_state(double t, ConstVec u) const = 0;
   virtual std::vector<FreePart> free_parts() const = 0;
   /// The bodies of the scene that share a function of the grid, pair by pair.
   virtual std::vector<BodyGap> body_gaps() const = 0;
-  /// Of each body of the scene: along which axes a support, a spring or a wall acts at a function that reaches it.
+  /// For each body of the scene, the axes along which a support, a spring or a wall acts at a function that reaches it.
   virtual std::vector<HeldAxes> held_bodies() const = 0;
-  /// s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at most.
-  /// Infinite if u cannot be evaluated.
+  /// The s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at
+  /// most. Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;
   const PhaseDiagnosis& diagnosis() const override = 0;
   virtual PhaseControl& control() = 0;
   virtual const PhaseControl& control() const = 0;
 
-  // --- the same, one by one ------------------------------------------------------------------------
+  // --- shorthands for single quantities -------------------------------------------------------------
   int dim() const { return info_.dim; }
   std::size_t points() const { return info_.points; }
   std::vector<double> positions() const { return point_data().positions; }
@@ -168,7 +169,7 @@ class LagrangianPhase : public SemiDiscrete {
   void point_velocity(double t, ConstVec v, Vec out) const { point_field(PointQuantity::velocity, t, v, out); }
   void point_strain(double t, ConstVec u, Vec out) const { point_field(PointQuantity::strain, t, u, out); }
   void point_stress(double t, ConstVec u, Vec out) const { point_field(PointQuantity::stress, t, u, out); }
-  /// Of all arrays together.
+  /// The memory per point of all arrays together.
   double bytes_per_point() const {
     double total = 0;
     for (const PointArray& array : discretisation().arrays) total += array.bytes_per_point;
@@ -179,15 +180,15 @@ class LagrangianPhase : public SemiDiscrete {
   PhaseInfo info_;
 };
 
-/// A material point has left the grid.
+/// Thrown if a material point has left the grid.
 class PointLost : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Places the bodies, evaluates and freezes the weights, assembles the mass. The instantiation for the scene's
-/// kinematics and basis is chosen here, once. Throws SceneError on what only shows now: a support that no
-/// material reaches, a force where there is no material, a mass matrix that is not positive definite.
+/// Makes the first phase: places the bodies, evaluates and freezes the weights, assembles the mass. The instantiation
+/// for the scene's kinematics and basis is chosen here, once. Throws SceneError for faults that only show now: a
+/// support that no material reaches, a force where there is no material, a mass matrix that is not positive definite.
 std::unique_ptr<LagrangianPhase> make_phase(const Problem& problem);
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// The displacement gradients that the laws of points answer to.
+// The displacement gradients that the laws of points take.
 #pragma once
 
 #include <algorithm>
@@ -14,27 +14,27 @@
 
 namespace stillpoint {
 
-/// What points share their change of volume over, if they do.
+/// The averaging by which points share their change of volume, if they do.
 template <AxisBasis B, Kinematics K>
 struct SharedDilatation {
   bool over_cells = false;
-  const SplineMeans<B, K>* splines = nullptr;  // or null
-  std::vector<double> means{};                 // over these, of a displacement
+  const SplineMeans<B, K>* splines = nullptr;  // null: not over splines
+  std::vector<double> means{};                 // means over the splines, for a displacement
 };
 
-/// Point by point. Where points share their change of volume those of a cell are averaged once for all that follow one
-/// another.
+/// The gradients point by point. Where points share their change of volume, those of a cell are averaged once for all
+/// successive calls.
 template <AxisBasis B, Kinematics K>
 class LawGradients {
   using Block = PointBlock<K>;
 
  public:
-  /// u: over the grid's functions; shared: of u. All outlive this.
+  /// u: over the grid's functions; shared: for u. All arguments must outlive this object.
   LawGradients(const Body<K>& body, const PointWeights<B, K>& weights, const SharedDilatation<B, K>& shared,
                const double* u)
       : body_(body), weights_(weights), shared_(shared), u_(u) {}
 
-  /// Of point p in occupied cell k.
+  /// The gradient at point p in occupied cell k.
   TensorOf<K> at(std::size_t k, std::size_t p) {
     if constexpr (dimensions(K) > 1) {
       if (shared_.over_cells || shared_.splines) {
@@ -46,7 +46,7 @@ class LawGradients {
   }
 
  private:
-  // The points of cell k, or the part of them that p is in.
+  // Averages the points of cell k, or the part of them that contains p.
   void average(std::size_t k, std::size_t p) {
     const auto& points = body_.points;
     const std::size_t begin = points.begin(k);

@@ -1,4 +1,4 @@
-// Lagrangian phases for one basis and one kind of kinematics: what they are made of. What they do is in
+// Lagrangian phases for one basis and one kinematics: the parts of a phase. Its functions are defined in
 // phase_forces.hpp, phase_points.hpp, phase_inertia.hpp, phase_change.hpp, phase_cut_cells.hpp and phase_diagnosis.hpp.
 #pragma once
 
@@ -123,18 +123,19 @@ class MaterialPointPhase final : public LagrangianPhase,
   const PhaseControl& control() const override { return *this; }
 
  private:
-  // Two of them are enough for any run: one that evaluations write to, one that is committed.
+  // The arrays of a trial. Two are enough for any run: one that evaluations write to, one that is committed.
   struct TrialArrays {
     std::vector<double> u;                     // over the grid's functions, (functions × Dim)
     std::vector<std::vector<double>> history;  // of each material
-    std::vector<double> averages;              // what MeanDilatation does to each point, if they share theirs
+    std::vector<double> averages;              // effect of MeanDilatation on each point, if points share their
+                                               // dilatation
   };
   struct Trial final : TrialState {
     const MaterialPointPhase* of = nullptr;
     long phase = 0;
     bool evaluated = false;
-    double motion = 0;          // the largest [cells], if that ends the phase
-    bool keeps_history = true;  // false if there is nothing in it that was not committed before
+    double motion = 0;          // the largest motion [cells], if it ends the phase
+    bool keeps_history = true;  // false if the trial holds nothing that was not committed before
     std::shared_ptr<TrialArrays> arrays;
   };
   Trial& own(TrialState& trial) const {
@@ -164,7 +165,7 @@ class MaterialPointPhase final : public LagrangianPhase,
   double stress(std::size_t m, Block& block, double dt, double* history, double* averages) const;
   void tangent(Tangent kind, std::size_t m, Block& block, double dt) const;
 
-  // --- and its matrix, phase_dilatation_matrix.hpp -------------------------------------------------
+  // --- the matrix of that law, phase_dilatation_matrix.hpp -----------------------------------------
   SparseMatrix matrix_of_means(Tangent kind, double dt) const;
   SparseMatrix matrix_of_spline_means(Tangent kind, double dt) const;
   template <class Visit>
@@ -255,20 +256,20 @@ class MaterialPointPhase final : public LagrangianPhase,
   const PointMaterial<K>& material_of(std::size_t k) const {
     return *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(k))];
   }
-  // The grid's displacements from the free unknowns and the supports at time t.
+  // Sets the grid's displacements from the free unknowns and the supports at time t.
   void spread(double t, ConstVec u, std::vector<double>& grid) const {
     for_each_index(u.size(),
                    [u, to = grid.data(), number = dofs_->free.data()](std::size_t k) { to[number[k]] = u[k]; });
     spread_others(t, grid);
   }
-  // Those that are not free, from those that are.
+  // Sets the grid's displacements that are not free from those that are.
   void spread_others(double t, std::vector<double>& grid) const {
     for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
       grid[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.displacement(s, t);
     }
     dofs_->extend(grid.data());
   }
-  /// visit(occupied cell, point, number of the point)
+  /// Calls visit(occupied cell, point, number of the point) for all points.
   template <class Visit>
   void for_points(const Visit& visit) const {
     for (std::size_t k = 0; k < body_.points.cells(); ++k) {
@@ -277,7 +278,7 @@ class MaterialPointPhase final : public LagrangianPhase,
       }
     }
   }
-  /// out: what value_at(occupied cell, point) gives, an array, at each point's number; of one in parts their mean.
+  /// Writes value_at(occupied cell, point), an array, to out at each point's number; for a point in parts their mean.
   template <class ValueAt>
   void write_points(Vec out, const ValueAt& value_at) const {
     if (body_.points.size() > points()) return write_means(out, value_at);
@@ -300,7 +301,7 @@ class MaterialPointPhase final : public LagrangianPhase,
 
   const Problem problem_;
   bool history_dependent_ = false;
-  double grid_moved_ = 0;  // by the wall that it follows [m]
+  double grid_moved_ = 0;  // displacement of the wall that the grid follows [m]
   Grid<Dim> grid_;
   const FunctionsOfBasis<B, Dim> functions_{grid_};
   Body<K> body_;
@@ -308,42 +309,46 @@ class MaterialPointPhase final : public LagrangianPhase,
   NodalInertia<B, K> inertia_;
   Conditions<K> conditions_;
   PointOrder<Dim> order_;
-  // Positions at the start of the run, in the points' order of then, (P × Dim); none if points stay where they are.
+  // Positions at the start of the run, by the points' numbers, (P × Dim); empty if points do not move on.
   std::vector<double> origin_;
-  long looks_ = 0;  // of progress() at the strain
+  long looks_ = 0;  // number of times that progress() looked at the strain
   SurfaceDepths<Dim> depths_;
   DeformationFromPositions<B, K> deformation_;
-  double motion_since_deformation_ = 0;  // was taken from the positions, at most [cells]
+  double motion_since_deformation_ = 0;  // since the deformation was taken from the positions, at most [cells]
 
-  ExtendedFunctions extension_;  // into slivers of a body that does not move on
+  ExtendedFunctions extension_;  // into slivers of a body with a single phase
 
-  // Of the present phase:
+  // The present phase:
   long phase_ = 0;
   PointWeights<B, K> weights_;
-  NodalTotals<B, K> totals_;                                 // of the points as the phase begins
-  ElasticCells<has_elastic_cells ? Dim : 2> elastic_cells_;  // of a linear body in bilinear or trilinear cells
+  NodalTotals<B, K> totals_;                                 // sums over the points when the phase begins
+  ElasticCells<has_elastic_cells ? Dim : 2> elastic_cells_;  // for a linear body in bilinear or trilinear cells
   HeldUnknowns held_;
-  std::vector<char> reached_, untouched_;  // by a point, and by neither support nor wall, (functions)
+  std::vector<char> reached_, untouched_;  // whether reached by a point, and whether touched by neither support nor
+                                           // wall, (functions)
   std::optional<DegreesOfFreedom> dofs_;
-  std::vector<double> motion_weight_;      // cells that a unit of each unknown moves points by, at most, (n) [1/m]
-  std::vector<double> constant_force_;     // part of F, (n)
+  std::vector<double> motion_weight_;      // motion of points per unit of each unknown, at most, in cells, (n) [1/m]
+  std::vector<double> constant_force_;     // constant part of F, (n)
   std::optional<SplitMatrix> consistent_;  // M as assembled, if projections or moving supports need it
   std::optional<Mass> mass_;
   std::vector<double> start_velocity_;  // over the grid's functions, (functions × Dim)
-  std::vector<double> committed_u_;     // likewise
+  std::vector<double> committed_u_;     // u of the last commit over the grid's functions, (functions × Dim)
   double committed_t_ = 0, committed_motion_ = 0;
-  // If points share their change of volume: V/W of cells, or splines, and what averaging does to the committed state.
+  // If points share their change of volume: V/W of cells, or splines, and the effect of averaging in the committed
+  // state.
   std::vector<double> volume_share_, committed_averages_;
   SplineMeans<B, K> splines_;
 
-  // Work arrays, sized once a phase; evaluations of one phase are not for several threads at once.
+  // Work arrays, sized once a phase; they keep evaluations of one phase from running in several threads at once.
   mutable NodalForce<B, K> nodal_force_;
   mutable std::vector<double> grid_u_, grid_du_;  // (functions × Dim)
   // Coefficients of means over splines: of the state, its shares, and their derivatives.
   mutable std::vector<double> means_, shares_, rates_of_means_, rates_of_shares_;
   mutable std::vector<double> shared_forces_;                 // (n + supports)
-  mutable std::shared_ptr<TrialArrays> spare_;                // of the first trial, for that of the next phase
-  mutable std::vector<std::vector<double>> scratch_history_;  // of each material, that nobody reads
+  mutable std::shared_ptr<TrialArrays> spare_;                // arrays of the first trial, kept for that of the next
+                                                              // phase
+  mutable std::vector<std::vector<double>> scratch_history_;  // for each material, a history that is written but never
+                                                              // read
   mutable double undeformed_bound_ = 0;
 };
 

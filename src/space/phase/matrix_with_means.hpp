@@ -7,7 +7,7 @@
 
 namespace stillpoint {
 
-/// Summed over the cells; n unknowns u, s coefficients c of means.
+/// The entries of matrices, summed over the cells; n unknowns u, s coefficients c of means.
 struct EntriesOfMeans {
   const MatrixEntries& force_of_mean;  // K_uc, (n × s)
   const MatrixEntries& share_of_u;     // K_cu, (s × n)
@@ -15,11 +15,13 @@ struct EntriesOfMeans {
   const MatrixEntries& share_of_mean;  // K_cc, (s × s)
 };
 
-/// With c = G D u the coefficients of the means, D_A = Σ_p V_p N_pA ∂J_p/∂u, and R = R(u, c) + Dᵀ G Σ_p N_p y_p:
+/// The stiffness matrix with c = G D u the coefficients of the means, D_A = Σ_p V_p N_pA ∂J_p/∂u, and R = R(u, c) + Dᵀ
+/// G Σ_p N_p y_p:
 ///
 ///   K = K_uu + K_uc G D + (G D)ᵀ (K_cu + K_cc G D)
 ///
-/// where K_uc = ∂R/∂c, K_cu and K_cc are derivatives of Σ_p N_p y_p, and K_uu that of R(u, c) and of D at its shares.
+/// where K_uc = ∂R/∂c, K_cu and K_cc are derivatives of Σ_p N_p y_p, and K_uu is that of R(u, c) and of D at its
+/// shares.
 SparseMatrix matrix_with_means(const SparseMatrix& K_uu, const SparseMatrix& G, const EntriesOfMeans& entries);
 
 }  // namespace stillpoint

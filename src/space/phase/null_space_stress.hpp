@@ -1,4 +1,4 @@
-// What no function of the grid feels of the points' stresses: null_space_stress() of a phase.
+// The null-space stress of a phase, the part of the points' stresses that no function of the grid feels.
 #pragma once
 
 #include "space/kernels/point_fit.hpp"
@@ -8,7 +8,7 @@
 namespace stillpoint {
 
 // Forces are Σ_p V_p σ_p ∇N_ip: a stress that varies from point to point faster than the functions is in the null space
-// of that sum, nothing ever relaxes it [Gritton and Berzins 2017].
+// of that sum, and nothing ever relaxes it [Gritton and Berzins 2017].
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::null_space_stress(double t, ConstVec u) const {
   constexpr int stresses = stillpoint::stress_components(K);

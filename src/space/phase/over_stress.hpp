@@ -1,4 +1,4 @@
-// How far points of viscous materials are beyond their strength: over_stress() of a phase.
+// The stress of points of viscous materials beyond their strength: over_stress() of a phase.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace stillpoint {
 
-// Where there is next to no strength, as at a free surface of ground without cohesion, a hundredth of the largest √J₂
-// stands in for it.
+// Where the strength is next to nothing, as at a free surface of ground without cohesion, a hundredth of the largest
+// √J₂ takes its place.
 template <AxisBasis B, Kinematics K>
 std::optional<OverStress> MaterialPointPhase<B, K>::over_stress() const {
   constexpr double next_to_none = 0.01;

@@ -1,4 +1,5 @@
-// What a phase is saved as: what its points are, and what accepted steps have left. The rest follows from these.
+// The saved state of a phase: the state of its points, and what accepted steps have changed. The rest follows from
+// these.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>
@@ -28,7 +29,7 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   if (state.restores() && updated_lagrangian()) {
     take_saved_grid();
     resume_phase(t);
-    conditions_.archive(state);  // what they remember, in place of what a phase begins with
+    conditions_.archive(state);  // replaces the initial state of the phase by the saved one
   }
   state("committed_u", Vec(committed_u_));
   state("committed_t", committed_t_);
@@ -40,10 +41,10 @@ void MaterialPointPhase<B, K>::archive(const StateArchive& state) {
   transfer_.conservation().archive(state);
 }
 
-// Where the points and the wall that it follows were when the phase began.
+// Restores the grid from the saved displacement of the followed wall, and checks the order of the saved points.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_saved_grid() {
-  constexpr double furthest = 1000;  // of the grid's own size; a wall that went further is none that a run could follow
+  constexpr double furthest = 1000;  // share of the grid's own size; no run could follow a wall further
   double size = 0;
   for (std::size_t d = 0; d < Dim; ++d) size = std::max(size, problem_.grid.max[d] - problem_.grid.min[d]);
   if (!(std::abs(grid_moved_) <= furthest * size)) throw StateError("its grid has gone too far");
@@ -53,7 +54,7 @@ void MaterialPointPhase<B, K>::take_saved_grid() {
   if (const std::string fault = disorder_of(body_.points, cells, points()); !fault.empty()) throw StateError(fault);
 }
 
-// The phase that began at t, with the points as they were then.
+// Resumes the phase that began at t, with the points as they were then.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::resume_phase(double t) {
   place_functions(t);

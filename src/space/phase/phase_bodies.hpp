@@ -1,4 +1,4 @@
-// The bodies of a phase: which of them the grid moves as one, and which something holds.
+// The bodies of a phase: those that the grid moves as one, and those that are held.
 #pragma once
 
 #include "space/phase/body_neighbours.hpp"

@@ -1,4 +1,4 @@
-// How a phase begins and ends.
+// The beginning and the end of a phase.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
     const bool committed = history_dependent_ && t == committed_t_;
     share = (committed ? committed_motion_ : largest_motion(u)) / problem_.phase.max_motion;
   }
-  constexpr long between_looks = 8;  // at the strain, which costs a pass over the points
+  constexpr long between_looks = 8;  // the strain costs a pass over the points, and is checked only every so many calls
   if (problem_.phase.max_strain && ++looks_ % between_looks == 0) {
     spread(t, u, grid_u_);
     share = std::max(share, largest_strain(grid_u_.data()) / *problem_.phase.max_strain);
@@ -27,7 +27,7 @@ double MaterialPointPhase<B, K>::progress(double t, ConstVec u) {
   return share;
 }
 
-// A step that leads past 3/2 of where the phase was to end is too long for its frozen weights.
+// Whether a trial is within the phase: a step past 3/2 of the motion that ends it is too long for the frozen weights.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::is_within_phase(double motion, const double* grid_u) const {
   constexpr double most = 1.5, of_remapping_every_step = 0.5;
@@ -119,7 +119,7 @@ bool MaterialPointPhase<B, K>::follows_positions() {
          DeformationFromPositions<B, K>::applies(body_);
 }
 
-// A function that hardly reaches a point moves none by what it does.
+// Weighs the unknowns by the motion of points that they cause: a function that hardly reaches a point moves none.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::weigh_motion() {
   std::array<double, Dim> per_length;
@@ -134,7 +134,8 @@ void MaterialPointPhase<B, K>::weigh_motion() {
   for (std::size_t k = 0; k < size(); ++k) motion_weight_[k] *= share[static_cast<std::size_t>(dofs_->free[k] / Dim)];
 }
 
-// Not after every phase if they are short: what the grid does not feel grows with the way of the points.
+// Takes the deformation from the positions, but not after every phase if phases are short: the part of the deformation
+// that the grid does not feel grows with the motion of the points.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_deformation_from_positions() {
   constexpr double cells_between = 0.1;
@@ -152,13 +153,14 @@ std::vector<char> MaterialPointPhase<B, K>::active_functions() const {
   return reached;
 }
 
-// Where grid_u_ and grid_v take the points, before anything changes: a run that ends here shows the state it had.
-// Throws PointLost if that is out of the next grid. Whether one has to be put back onto a face.
+// Computes the positions to which grid_u_ and grid_v take the points, before anything changes: a run that ends here
+// still has its state. Throws PointLost if one is outside the next grid. Returns whether one has to be put back onto a
+// face.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::move_points(const Grid<Dim>& next_grid, const GridFaces<Dim>& faces,
                                            const std::vector<double>& grid_v) {
   const std::size_t none = body_.points.cells();
-  std::size_t first_outside = none;  // the first cell with such a point
+  std::size_t first_outside = none;  // the first cell with a point past a face
   const NextCells<Dim> next_cells(next_grid);
   order_.cells().resize(body_.points.size());
   const PointMotion<B, K>& motion = transfer_.motion();
@@ -183,7 +185,7 @@ bool MaterialPointPhase<B, K>::move_points(const Grid<Dim>& next_grid, const Gri
   return first_outside < none;
 }
 
-// x_p += Σ N_ip u_i,  V_p *= det f_p, and velocities by the scene's transfer
+// Updates the points: x_p += Σ N_ip u_i, V_p *= det f_p, and velocities by the scene's transfer.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::end_phase(const std::vector<double>& grid_v) {
   transfer_.take_velocity(grid_, body_.points, weights_, inertia_.mass(), grid_u_, grid_v, start_velocity_,
@@ -206,7 +208,7 @@ void MaterialPointPhase<B, K>::end_phase(const std::vector<double>& grid_v) {
   conditions_.end_phase(grid_u_.data());
 }
 
-// Largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.
+// The largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
   return reduce(
@@ -215,7 +217,7 @@ double MaterialPointPhase<B, K>::largest_motion(ConstVec u) const {
       [](double a, double b) { return a > b ? a : b; });
 }
 
-// The grid's displacements and, if the phase ends by it, the largest motion, in one pass over the unknowns.
+// Sets the grid's displacements and returns the largest motion, if it ends the phase, in one pass over the unknowns.
 template <AxisBasis B, Kinematics K>
 double MaterialPointPhase<B, K>::spread_and_measure(double t, ConstVec u, std::vector<double>& grid) const {
   if (!problem_.phase.ends_by_motion()) {

@@ -1,4 +1,4 @@
-// How a phase deals with cells that the body hardly reaches.
+// The extension of functions into cells that the body hardly reaches.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace stillpoint {
 
-// Where the body does not move on: in later phases nobody knows where in a cell it ends.
+// Extends functions only in a body with a single phase: in later phases it is not known where in a cell the body ends.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::extend_into_slivers() {
   const std::vector<CellShares> covered = std::move(body_.covered);
@@ -23,7 +23,7 @@ void MaterialPointPhase<B, K>::extend_into_slivers() {
     const int unknown = Dim * function + i;
     return held.is_prescribed(unknown) || held.is_guided(unknown);
   };
-  // What holds the function has to hold those that it follows.
+  // A function may follow others only if each of its held components is held in them too.
   const auto may_follow = [&](int function, const auto& sources) {
     return std::ranges::all_of(sources, [&](const ExtendedFunctions::Source& source) {
       bool may = reached[static_cast<std::size_t>(source.function)] != 0;

@@ -1,4 +1,4 @@
-// What messages say of a phase that fails: which point or node, which quantity, what to try.
+// Messages about a phase that fails: which point or node, which quantity, what to try.
 #pragma once
 
 #include "space/phase/material_point_phase.hpp"
@@ -14,7 +14,7 @@ PlaceInBody MaterialPointPhase<B, K>::of_point(std::size_t number) const {
   return at;
 }
 
-// Beside the point at which its function, or its slope's, is largest.
+// The place of an unknown, beside the point at which the function's |N| is largest.
 template <AxisBasis B, Kinematics K>
 PlaceInBody MaterialPointPhase<B, K>::of_unknown(std::size_t unknown) const {
   const int function = dofs_->free[unknown] / Dim;
@@ -55,7 +55,7 @@ std::string MaterialPointPhase<B, K>::refusal_of_motion(ConstVec u) const {
       to_string(of_unknown(furthest)), u[furthest]);
 }
 
-/// Of a component of P: "P.xy".
+/// The name of a component of P: "P.xy".
 template <Kinematics K>
 std::string name_of_stress(int component) {
   constexpr int dim = dimensions(K);
@@ -64,7 +64,8 @@ std::string name_of_stress(int component) {
   return std::string("P.") + axes[component / dim] + axes[component % dim];
 }
 
-// The point with the smallest det f among those that answer no stress; of several the first by number.
+// The message about the point with the smallest det f among those without a finite stress; of several the first by
+// number.
 template <AxisBasis B, Kinematics K>
 std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
   struct Bad {
@@ -77,7 +78,7 @@ std::string MaterialPointPhase<B, K>::refusal_at_points(Trial& trial) const {
   const double dt = trial.t - committed_t_;
   const auto look = [&](std::size_t m, Block& block) {
     double* history = history_dependent_ ? trial.arrays->history[m].data() : nullptr;
-    std::array<double, Block::size> det;  // of the displacement itself, not of a mean
+    std::array<double, Block::size> det;  // det f of the displacement itself, not of a mean
     for (std::size_t q = 0; q < block.count; ++q) det[q] = determinant<K>(plus_identity<K>(block.H_at(q)));
     stress<true>(m, block, history_dependent_ ? dt : 0, history, nullptr);
     for (std::size_t q = 0; q < block.count; ++q) {

@@ -1,7 +1,7 @@
-// What the laws of a phase answer to: each point's own change of volume, or a mean that points share.
+// The laws of a phase with each point's own change of volume, or with a mean that points share.
 //
-// Means over cells are found in a block of points, forces and all. Means over splines take three passes over the
-// points: the coefficients of J̄, take_means(); the laws, whose a/J̄ are summed; the forces of what these push with,
+// Means over cells are computed within a block of points, including their forces. Means over splines take three passes
+// over the points: the coefficients of J̄, take_means(); the laws, whose a/J̄ are summed; and the forces of these sums,
 // add_shared_forces().
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace stillpoint {
 
-// use(MeanDilatation) for a block of material m.
+// Calls use(MeanDilatation) for a block of material m.
 template <AxisBasis B, Kinematics K>
 template <class Use>
 auto MaterialPointPhase<B, K>::with_means(std::size_t m, [[maybe_unused]] const Block& block,
@@ -30,7 +30,7 @@ auto MaterialPointPhase<B, K>::with_means(std::size_t m, [[maybe_unused]] const 
   return use(mean);
 }
 
-// block.H as the law of material m sees it; where means are over splines after take_means().
+// Averages block.H for the law of material m; for means over splines take_means() has to come before.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m, [[maybe_unused]] Block& block) const {
   if constexpr (Dim > 1) {
@@ -38,7 +38,7 @@ void MaterialPointPhase<B, K>::average_dilatation([[maybe_unused]] std::size_t m
   }
 }
 
-// Of the displacement u over the grid's functions.
+// Computes the coefficients of means for the displacement u over the grid's functions.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_means([[maybe_unused]] const double* u) const {
   if constexpr (Dim > 1) {
@@ -52,7 +52,7 @@ void MaterialPointPhase<B, K>::take_means([[maybe_unused]] const double* u) cons
   }
 }
 
-// Their derivative along du.
+// Computes the derivative of the means' coefficients along du.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_rates_of_means([[maybe_unused]] const double* u,
                                                    [[maybe_unused]] const double* du) const {
@@ -75,7 +75,7 @@ void MaterialPointPhase<B, K>::add_means_of(const Block& block, typename Block::
   splines_.add(block, x);
 }
 
-// What derivatives at finite strain need of the state u: the laws' a/J̄.
+// Computes the coefficients of the shares, the laws' a/J̄ in the state u, which derivatives at finite strain need.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_shares([[maybe_unused]] const double* u, [[maybe_unused]] double dt) const {
   if constexpr (Dim > 1) {
@@ -93,8 +93,8 @@ void MaterialPointPhase<B, K>::take_shares([[maybe_unused]] const double* u, [[m
   }
 }
 
-// The forces of what all blocks have added to the shares in their stress() or tangent() under u. False if they are not
-// finite.
+// Adds the forces of the shares that all blocks have summed in their stress() or tangent() under u. Returns false if
+// they are not finite.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::add_shared_forces([[maybe_unused]] const double* u, [[maybe_unused]] Vec R,
                                                  [[maybe_unused]] Vec reactions) const {
@@ -117,7 +117,7 @@ bool MaterialPointPhase<B, K>::add_shared_forces([[maybe_unused]] const double* 
   return true;
 }
 
-// As a phase begins, and what averaging does to the committed state.
+// Prepares the means of a phase, and the effect of averaging in the committed state.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::begin_means() {
   if constexpr (Dim > 1) {
@@ -143,7 +143,7 @@ void MaterialPointPhase<B, K>::begin_means() {
   }
 }
 
-// The points' gradients under u over the grid's functions, which outlives what is returned.
+// The averaging of the points' gradients under u over the grid's functions, which must outlive the result.
 template <AxisBasis B, Kinematics K>
 SharedDilatation<B, K> MaterialPointPhase<B, K>::shared_dilatation(const double* u) const {
   take_means(u);
@@ -152,7 +152,7 @@ SharedDilatation<B, K> MaterialPointPhase<B, K>::shared_dilatation(const double*
           .means = means_};
 }
 
-// block.VP = V P. As PointMaterial::stress().
+// Sets block.VP = V P, as PointMaterial::stress() does.
 template <AxisBasis B, Kinematics K>
 template <bool Increments>
 double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, double* history,
@@ -176,7 +176,8 @@ double MaterialPointPhase<B, K>::stress(std::size_t m, Block& block, double dt, 
   return law.stress(block, V, dt, history);
 }
 
-// block.VP = V δP; where means are over splines after take_means(), take_shares() and take_rates_of_means().
+// Sets block.VP = V δP; for means over splines take_means(), take_shares() and take_rates_of_means() have to come
+// before.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block, double dt) const {
   const PointMaterial<K>& law = *body_.materials[m];
@@ -197,7 +198,7 @@ void MaterialPointPhase<B, K>::tangent(Tangent kind, std::size_t m, Block& block
   law.tangent(kind, block, V, dt);
 }
 
-// For a stress whose history nobody reads.
+// A history that stress() may write and nothing reads.
 template <AxisBasis B, Kinematics K>
 double* MaterialPointPhase<B, K>::scratch_history(std::size_t m) const {
   return scratch_history_.empty() ? nullptr : scratch_history_[m].data();

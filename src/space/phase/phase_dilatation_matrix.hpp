@@ -1,4 +1,4 @@
-// K of points that share their change of volume.
+// The tangent stiffness of points that share their change of volume.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace stillpoint {
 
-/// Of a cell with a spline matrix of its own: how forces at its functions and shares at its splines answer to a
-/// displacement of the former and to means of the latter.
+/// The matrices of a cell with a spline basis for the means: the derivatives of forces at its functions and of shares
+/// at its splines by displacements of the former and means of the latter.
 template <int Unknowns, int Splines>
 struct MixedCellMatrix {
   template <int Rows, int Columns>
@@ -27,7 +27,8 @@ struct MixedCellMatrix {
   Matrix<Splines, Splines> share_of_mean{};
 };
 
-/// SplinePass for a unit derivative: of the block's points the rates of means are given, and those of shares are asked.
+/// A SplinePass for a unit derivative: takes the given rates of means of the block's points, and returns those of
+/// shares.
 template <AxisBasis B, Kinematics K>
 struct UnitPass : SplinePass<B, K> {
   using Row = typename PointBlock<K>::Row;
@@ -43,7 +44,8 @@ struct UnitPass : SplinePass<B, K> {
   }
 };
 
-// visit(part) with the block's points, H and dH of cell k gathered, once but for a cell that has more than a block.
+// Calls visit() with the block's points, H and dH of cell k gathered, once except for a cell with more points than a
+// block.
 template <AxisBasis B, Kinematics K>
 template <class Visit>
 void MaterialPointPhase<B, K>::for_parts_of_cell(std::size_t k, Block& block, const Visit& visit) const {
@@ -58,7 +60,7 @@ void MaterialPointPhase<B, K>::for_parts_of_cell(std::size_t k, Block& block, co
   }
 }
 
-// block.direction of a unit of component i of cell k's local function b.
+// Sets block.direction to that of a unit of component i of cell k's local function b.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_unit(std::size_t k, int b, int i, Block& block) const {
   for (auto& row : block.direction) std::fill_n(row.begin(), block.count, 0.0);
@@ -70,7 +72,8 @@ void MaterialPointPhase<B, K>::take_unit(std::size_t k, int b, int i, Block& blo
   }
 }
 
-// take(column, forces at the cell's functions) of columns 0 … columns − 1: direct(column) says what moves.
+// Calls take(column, forces at the cell's functions) for columns 0 … columns − 1; direct(column) sets the block's
+// direction.
 template <AxisBasis B, Kinematics K>
 template <class Mean, class Direct, class Take>
 void MaterialPointPhase<B, K>::answer_columns(Tangent kind, double dt, std::size_t k, Block& block, Mean& mean,
@@ -102,7 +105,7 @@ void MaterialPointPhase<B, K>::answer_columns(Tangent kind, double dt, std::size
   }
 }
 
-// Column by column: the points of a cell answer together.
+// Assembled column by column, as the points of a cell are coupled.
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix_of_means(Tangent kind, double dt) const {
   if constexpr (Dim > 1) {
@@ -126,7 +129,7 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_means(Tangent kind, double dt) 
   }
 }
 
-// See matrix_with_means().
+// For means over splines, by matrix_with_means().
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix_of_spline_means(Tangent kind, double dt) const {
   constexpr int unknowns = Dim * per_cell, splines = SplineMeans<B, K>::per_cell;
@@ -141,7 +144,7 @@ SparseMatrix MaterialPointPhase<B, K>::matrix_of_spline_means(Tangent kind, doub
     for_parts_of_cell(k, block, [&] {
       const bool finite = body_.materials[static_cast<std::size_t>(points.material_of_cell(k))]->info().finite_strain;
       typename Block::Row of_mean{}, of_share{};
-      std::vector<TensorOf<K>> f(block.count);  // of the points themselves
+      std::vector<TensorOf<K>> f(block.count);  // f of the points themselves
       for (std::size_t q = 0; q < block.count; ++q) f[q] = ChangeOfVolume<K>::deformation(block, finite, q);
       std::vector<typename SplineMeans<B, K>::OfCell> N(block.count);
       for (std::size_t q = 0; q < block.count; ++q) N[q] = splines_.N(block.first + q);

@@ -1,4 +1,4 @@
-// What becomes of the domains when a phase ends: their corners move on, and those that are too wide are halved.
+// Domains at the end of a phase: their corners move with the body, and those that are too wide are halved.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,13 @@ void MaterialPointPhase<B, K>::halve_domains() {
     if (from.empty()) return;
     refuse_folded_domains();
     take_materials(from);
-    motion_since_deformation_ = std::numeric_limits<double>::infinity();  // halves are deformed as their corners say
+    motion_since_deformation_ = std::numeric_limits<double>::infinity();  // halves have the deformation of their
+                                                                          // corners
   }
 }
 
-// Under a point force a domain may have a corner that is drawn out by itself, until what is left of it is no convex
-// quadrilateral.
+// Throws SceneError for a folded domain: under a point force one corner may be drawn out alone, until the rest of the
+// domain is no convex quadrilateral.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::refuse_folded_domains() const {
   const auto folded = std::ranges::find_if(body_.points.volume, [](double V) { return !(V > 0); });
@@ -37,7 +38,7 @@ void MaterialPointPhase<B, K>::refuse_folded_domains() const {
                   body_.points.number[p] + 1, fmt::join(body_.points.position(p), ", ")));
 }
 
-// What the materials remember goes with the points, of which there are others now.
+// Transfers the materials' stored states to the changed set of points.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_materials(const std::vector<int>& from) {
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
@@ -47,7 +48,7 @@ void MaterialPointPhase<B, K>::take_materials(const std::vector<int>& from) {
   spare_.reset();
 }
 
-// x_c += Σ_i N_i(x_c) u_i
+// Moves the corners of a domain, x_c += Σ_i N_i(x_c) u_i.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::move_corners(std::size_t k, std::size_t p) {
   const auto cell = grid_.cell_at(body_.points.cell[k]);

@@ -1,4 +1,4 @@
-// The kinematics and the basis of a scene become template parameters here, once.
+// Turns the kinematics and the basis of a scene into template parameters.
 #include "space/phase/phase_factory.hpp"
 
 #include <stdexcept>

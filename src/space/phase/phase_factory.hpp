@@ -1,4 +1,4 @@
-// One source file for each kinematics, so that they compile side by side.
+// Factories of phases, with one source file for each kinematics, so that they compile in parallel.
 #pragma once
 
 #include <stillpoint/material.hpp>
@@ -10,7 +10,7 @@ namespace stillpoint {
 template <Kinematics K>
 std::unique_ptr<LagrangianPhase> make_phase_of(const Problem& problem);
 
-/// The same where points stand for domains; on a line and in the plane.
+/// Makes a phase in which points represent domains; on a line and in the plane.
 template <Kinematics K>
 std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Problem& problem);
 

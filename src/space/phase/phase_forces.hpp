@@ -1,4 +1,4 @@
-// Forces of a phase: R(u), its tangent, and what is remembered of an accepted step.
+// Forces of a phase: R(u), its tangent, and the commit of an accepted step.
 #pragma once
 
 #include "space/materials/moduli_of.hpp"
@@ -21,7 +21,7 @@ SparseMatrix MaterialPointPhase<B, K>::of_loads(double t, ConstVec u) const {
   return conditions_.tangent_of_loads(parts(), t, grid_u_.data());
 }
 
-// Phases that follow one upon the other use the same arrays, whose pages are there already.
+// Successive phases use the same arrays, whose memory pages are already mapped.
 template <AxisBasis B, Kinematics K>
 std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   auto trial = std::make_unique<Trial>();
@@ -39,7 +39,7 @@ std::unique_ptr<TrialState> MaterialPointPhase<B, K>::make_trial() const {
   return trial;
 }
 
-// Where R(u) = K u in cells whose functions are bilinear their points are needed no more than by moments.
+// In bilinear or trilinear cells with R(u) = K u, the points are needed only by their moments.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::take_elastic_moments() {
   if constexpr (has_elastic_cells) {
@@ -47,7 +47,7 @@ void MaterialPointPhase<B, K>::take_elastic_moments() {
     std::vector<typename ElasticCells<Dim>::Moduli> moduli;
     for (std::size_t m = 0; m < body_.materials.size(); ++m) {
       const auto p = static_cast<std::size_t>(body_.points.material_begin[m]);
-      const auto A = body_.materials[m]->moduli(Tangent::elastic, {}, {}, 0, p);  // of xx, xy, …, row by row
+      const auto A = body_.materials[m]->moduli(Tangent::elastic, {}, {}, 0, p);  // for xx, xy, …, row by row
       moduli.push_back({.normal = A[0], .cross = A[Dim + 1], .shear = A[components + 1]});
     }
     elastic_cells_.rebuild(body_.points, weights_, std::move(moduli), averages_dilatation());
@@ -61,7 +61,7 @@ auto MaterialPointPhase<B, K>::of_elastic_cells(const std::vector<double>& grid_
   };
 }
 
-// Whether a phase begins here, with stresses that laws have answered before: the points have them still.
+// Whether u is the beginning of a phase after the first, and the committed stresses of the points still hold.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::stands_as_committed(double t, const std::vector<double>& grid_u) const {
   const bool begins = history_dependent_ && phase_ > 0 && t == held_.start() && t == committed_t_;
@@ -145,7 +145,7 @@ void MaterialPointPhase<B, K>::apply(Tangent kind, double t, ConstVec u, ConstVe
   conditions_.add_springs_product(grid_du_.data(), dR);
 }
 
-// K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i
+// The stiffness K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i.
 template <AxisBasis B, Kinematics K>
 SparseMatrix MaterialPointPhase<B, K>::matrix(Tangent kind, double t, ConstVec u) const {
   spread(t, u, grid_u_);

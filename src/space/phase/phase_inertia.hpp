@@ -1,4 +1,4 @@
-// The inertia of a phase, and what becomes of the points' momentum when it ends.
+// The inertia of a phase, and the momentum of the points at its end.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace stillpoint {
 
-// λ + 2μ of each material [Pa].
+// The wave modulus λ + 2μ of each material [Pa].
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::wave_moduli() const {
   std::vector<double> moduli;
@@ -16,7 +16,7 @@ std::vector<double> MaterialPointPhase<B, K>::wave_moduli() const {
   return moduli;
 }
 
-// stiffness_bound(), with those of extended functions at what they follow.
+// The stiffness_bound(), with that of extended functions added to their sources.
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::bound_of_functions() const {
   if (extension_.empty()) return totals_.bound();
@@ -53,7 +53,7 @@ void MaterialPointPhase<B, K>::make_mass() {
   }
 }
 
-// Whether neither a support nor a wall takes hold of a function in any component, (functions).
+// Whether neither a support nor a wall holds a function in any component, (functions).
 template <AxisBasis B, Kinematics K>
 std::vector<char> MaterialPointPhase<B, K>::untouched_functions() const {
   std::vector<char> untouched(static_cast<std::size_t>(Basis::count(grid_)), 1);
@@ -66,7 +66,7 @@ std::vector<char> MaterialPointPhase<B, K>::untouched_functions() const {
   return untouched;
 }
 
-// The inertia that light functions were given, at the degrees of freedom.
+// The inertia added to light functions, at the degrees of freedom.
 template <AxisBasis B, Kinematics K>
 std::vector<RelativeInertia> MaterialPointPhase<B, K>::relative_inertia() const {
   std::vector<RelativeInertia> terms;
@@ -103,7 +103,7 @@ std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
   return v;
 }
 
-// v over the grid's functions.
+// The velocities v over the grid's functions.
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec v) const {
   std::vector<double> grid_v(grid_u_.size(), 0.0);
@@ -117,7 +117,7 @@ std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec 
   return grid_v;
 }
 
-// Whether nothing acts on the body from outside.
+// Whether no external forces act on the body.
 template <AxisBasis B, Kinematics K>
 bool MaterialPointPhase<B, K>::is_free() const {
   return problem_.supports.empty() && problem_.walls.empty() && problem_.forces.empty() && problem_.tractions.empty() &&
@@ -125,9 +125,10 @@ bool MaterialPointPhase<B, K>::is_free() const {
          is_undamped(problem_.damping.strategy);
 }
 
-// What the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim): by the inertia that
-// they moved, not by the mass that the points have. What supports and walls give is not known apart from what added
-// inertia takes there, so that the mass counts; scaled by Gershgorin the inertia is no mass at all.
+// The momentum that the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim), with
+// the inertia of the motion instead of the points' mass. Next to supports and walls the mass counts, since their forces
+// are not known apart from those that added inertia takes; with scaling by Gershgorin it always does, as that inertia
+// is no mass.
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>& grid_v) const {
   std::vector<double> gain(grid_v.size());
@@ -145,8 +146,9 @@ std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>&
   return gain;
 }
 
-// The relative inertia δ_i has turned by Σ δ_i d_i × ḋ_i, d_i = u_i − Σ_k w_k u_k, when the phase ends: apic's points
-// take that over as spin, so that none of the angular momentum is lost. Points that carry a gradient cannot take it.
+// Transfers the spin of the relative inertia: δ_i has an angular momentum Σ δ_i d_i × ḋ_i, d_i = u_i − Σ_k w_k u_k,
+// when the phase ends, which apic's points take over as spin, so that none is lost. Points that store a gradient cannot
+// take it.
 template <AxisBasis B, Kinematics K>
 void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
   if constexpr (Dim > 1) {

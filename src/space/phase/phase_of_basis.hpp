@@ -1,4 +1,4 @@
-// make_phase_of() and make_phase_of_domains() for one kinematics: the choice of the basis.
+// The choice of the basis in make_phase_of() and make_phase_of_domains(), for one kinematics.
 #pragma once
 
 #include <stdexcept>
@@ -21,7 +21,7 @@
 
 namespace stillpoint {
 
-/// Spline: the family of the basis, by its degree.
+/// Makes a phase with a spline basis. Spline: the family of the basis, by its degree.
 template <template <int> class Spline, Kinematics K>
 std::unique_ptr<LagrangianPhase> make_phase_of_splines(const Problem& problem) {
   switch (problem.grid.basis) {

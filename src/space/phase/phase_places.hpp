@@ -20,7 +20,7 @@
 
 namespace stillpoint {
 
-/// The displacement gradient that the law of point p in occupied cell k answers to.
+/// The displacement gradient that the law of point p in occupied cell k takes.
 template <Kinematics K>
 using GradientOfPoint = std::function<TensorOf<K>(std::size_t k, std::size_t p)>;
 
@@ -31,8 +31,8 @@ class PhasePlaces final : public PlaceReader {
   using Cell = std::array<int, dim>;
 
  public:
-  /// functions: those of single cells; degree: theirs. gradient: of u. u since the phase began and v, (functions ×
-  /// dim). What is referred to outlives this.
+  /// functions: a basis whose local functions belong to single cells; degree: that of the basis. gradient: for u. u
+  /// since the phase began and v, (functions × dim). The referenced objects must outlive this one.
   PhasePlaces(std::unique_ptr<const GridFunctions<dim>> functions, int degree, const Body<K>& body,
               const DegreesOfFreedom& dofs, GradientOfPoint<K> gradient, std::vector<double> u, std::vector<double> v)
       : functions_(std::move(functions)),
@@ -78,7 +78,7 @@ class PhasePlaces final : public PlaceReader {
         for (int j = 0; j < dim; ++j) out[dim * i + j] += u[i] * values.dN[per_cell * j + a];
       }
     }
-    // ∂u_r/∂r is the limit of u_r/r on the axis
+    // on the axis u_r/r has the limit ∂u_r/∂r
     if constexpr (K == Kinematics::axisymmetric) out[dim * dim] = at[0] > 0 ? u_r / at[0] : out[0];
   }
   void stress(ConstVec x, Vec out) const override {
@@ -96,7 +96,8 @@ class PhasePlaces final : public PlaceReader {
     const Point<dim> at = point_at(x);
     if (!cell_for(at)) return no_value;
     const auto shares = around_.fit(at, degree_);
-    const auto material = static_cast<std::size_t>(body_.points.material_of_cell(shares.front().k));  // of all
+    const auto material = static_cast<std::size_t>(body_.points.material_of_cell(shares.front().k));  // shared by all
+                                                                                                      // of them
     const auto begin = static_cast<std::size_t>(body_.points.material_begin[material]);
     for (const auto& [shown, values] : body_.materials[material]->shown_history()) {
       if (shown != name) continue;
@@ -120,20 +121,20 @@ class PhasePlaces final : public PlaceReader {
     const auto& nodes = grid_.axes[d].nodes;
     return nodes[static_cast<std::size_t>(cell[d]) + 1] - nodes[static_cast<std::size_t>(cell[d])];
   }
-  // How far outside a cell x is along an axis [m].
+  // The distance of x from a cell along an axis, below 0 inside [m].
   double outside(const Point<dim>& x, const Cell& cell, int d) const {
     const auto& nodes = grid_.axes[d].nodes;
     const auto c = static_cast<std::size_t>(cell[d]);
     return std::max(nodes[c] - x[d], x[d] - nodes[c + 1]);
   }
 
-  // A cell with material points; of domains one that they are partly in.
+  // Marks the cells with material points; for domains the cells that they are partly in.
   void mark_occupied() {
     const MaterialPoints<dim>& points = body_.points;
     if (!points.has_domains()) {
       for (const int cell : points.cell) occupied_[static_cast<std::size_t>(cell)] = 1;
     } else {
-      constexpr double within = 1 - 1e-6;  // of the way to a corner, which may be on a line
+      constexpr double within = 1 - 1e-6;  // share of the way to a corner, which may lie on a grid line
       for (std::size_t p = 0; p < points.size(); ++p) {
         const Point<dim> middle = points.position(p);
         for (Point<dim> x : Domain<dim>::of(points, p).x) {
@@ -144,7 +145,7 @@ class PhasePlaces final : public PlaceReader {
     }
   }
 
-  // All functions of a cell that count at x are reached by material.
+  // Whether material reaches all functions of a cell that do not vanish at x.
   bool is_whole(const Cell& cell, const Point<dim>& x) const {
     constexpr double rounding = 1e-12;
     const auto values = functions_->evaluate(cell, x);
@@ -154,9 +155,9 @@ class PhasePlaces final : public PlaceReader {
     }
     return true;
   }
-  // The cell whose functions hold at x, if it has points: that of x, or one beside it if x is on its border.
+  // The cell that represents x, if it has points: that of x, or a neighbour if x is on its border.
   std::optional<Cell> cell_with_points(const Point<dim>& x) const {
-    constexpr double rounding = 1e-9;  // of a cell
+    constexpr double rounding = 1e-9;  // share of a cell
     const Cell here = grid_.cell_of(x);
     for (int k = 0; k < power(3, dim); ++k) {
       constexpr std::array aside = {0, -1, 1};
@@ -172,7 +173,7 @@ class PhasePlaces final : public PlaceReader {
     }
     return std::nullopt;
   }
-  // The cell whose functions hold at x, or are continued to there.
+  // The cell that represents x, or whose functions are extrapolated to x.
   std::optional<Cell> cell_for(const Point<dim>& x) const {
     if (const auto cell = cell_with_points(x)) return cell;
     const Cell cell = grid_.cell_of(body_.points.position(around_.nearest(x).p));
@@ -197,13 +198,13 @@ class PhasePlaces final : public PlaceReader {
   }
 
   std::unique_ptr<const GridFunctions<dim>> functions_;
-  int degree_;  // of fits
+  int degree_;  // degree of the fits
   const Grid<dim>& grid_;
   const Body<K>& body_;
   const DegreesOfFreedom& dofs_;
   GradientOfPoint<K> gradient_;
   std::vector<double> u_, v_;
-  std::vector<char> occupied_;  // cells of the grid whose functions a point takes
+  std::vector<char> occupied_;  // whether a cell has material points, (cells of the grid)
   PointsAround<dim> around_;
 };
 

@@ -1,4 +1,4 @@
-// What a user sees of the points of a phase, and how initial values come to the grid.
+// Output fields at the points of a phase, and the projection of initial values onto the grid.
 #pragma once
 
 #include <set>
@@ -110,8 +110,8 @@ Discretisation MaterialPointPhase<B, K>::discretisation() const {
           body_.quadrature};
 }
 
-// M_ff u_f = Σ_p m_p N_fp u_0(x_p) − M_fs u_s: the least-squares fit at the material points, whatever M the motion
-// has.
+// The projection M_ff u_f = Σ_p m_p N_fp u_0(x_p) − M_fs u_s: the least-squares fit at the material points, whatever
+// the mass of the motion.
 template <AxisBasis B, Kinematics K>
 std::vector<double> MaterialPointPhase<B, K>::project(const std::vector<Expression>& field,
                                                       const std::vector<double>& held) const {

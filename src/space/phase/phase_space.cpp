@@ -2,7 +2,7 @@
 
 namespace stillpoint {
 
-// Hermite's functions, eight to a node and unknowns of three dimensions, are not offered in space.
+// Hermite's basis, with eight functions at a node and three unknowns each, is not available in space.
 template <>
 std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::space>(const Problem& problem) {
   return make_phase_of_splines<BSpline, Kinematics::space>(problem);

@@ -21,8 +21,9 @@ struct Body {
   QuadratureReport quadrature;
   std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
   std::vector<std::string> material_names;
-  std::vector<CellShares> covered;  // by each [[body]]; empty if that of one is not known
-  std::vector<int> first_number;    // of the points of each [[body]], and how many there are: (bodies + 1)
+  std::vector<CellShares> covered;  // cells covered by each [[body]]; empty if that of one is not known
+  std::vector<int> first_number;    // number of the first point of each [[body]], and the number of all points: (bodies
+                                    // + 1)
 };
 
 namespace detail {
@@ -35,14 +36,15 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }  // namespace detail
 
 /// Places every body of the scene. Points are numbered body by body, in the order in which a body is filled.
-/// updated_lagrangian: whether points will change cells. Of a static solver, in which no time passes, nothing is
+/// updated_lagrangian: whether points will change cells. With a static solver, in which no time passes, no material is
 /// viscous.
 template <Kinematics K>
 Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool updated_lagrangian) {
   constexpr int dim = dimensions(K);
   Body<K> body;
   MaterialPoints<dim>& points = body.points;
-  std::map<std::string, std::vector<std::pair<MaterialPoints<dim>, int>>> by_material;  // with each first number
+  std::map<std::string, std::vector<std::pair<MaterialPoints<dim>, int>>> by_material;  // the points with their first
+                                                                                        // number
   int number = 0;
   for (const BodySpec& spec : problem.bodies) {
     PlacedBody<dim> placed = place_body<dim>(spec, grid, problem.materials.at(spec.material).parameters.at("rho"),

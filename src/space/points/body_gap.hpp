@@ -1,4 +1,4 @@
-// How far two bodies that share functions of the grid are apart.
+// The gap between two bodies that share functions of the grid.
 #pragma once
 
 #include <array>
@@ -6,14 +6,14 @@
 
 namespace stillpoint {
 
-/// Bodies a < b of a scene.
+/// The gap between bodies a < b of a scene.
 struct BodyGap {
   std::size_t a = 0, b = 0;
-  double gap = 0;    // the least between them [m]; 0 if they touch
-  double cells = 0;  // the same in cells
+  double gap = 0;    // the smallest distance [m]; 0 if they touch
+  double cells = 0;  // the same distance in cells
 };
 
-/// Along which axes something holds a body.
+/// The axes along which a body is held.
 using HeldAxes = std::array<bool, 3>;
 
 }  // namespace stillpoint

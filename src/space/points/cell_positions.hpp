@@ -1,4 +1,4 @@
-// The pattern in which material points lie in a cell.
+// The positions of the material points in a cell.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -14,7 +14,7 @@
 
 namespace stillpoint {
 
-/// Places of n points in [−1, 1], ascending: Gauss-Legendre's, or in the middles of n equal parts.
+/// The positions of n points in [−1, 1], ascending: those of Gauss–Legendre, or the middles of n equal parts.
 inline std::vector<double> line_positions(Placement placement, int n) {
   const auto count = static_cast<std::size_t>(n);
   if (placement == Placement::gauss) return GaussRule(-1, 1, count).at;
@@ -23,8 +23,8 @@ inline std::vector<double> line_positions(Placement placement, int n) {
   return xi;
 }
 
-/// How far each of these positions may move without coming nearer to a neighbour's than half the way, or past −1 or 1:
-/// half the spacing of uniform positions.
+/// The largest shift of each of these positions that stays within half the distance to its neighbours and between −1
+/// and 1: for uniform positions half their spacing.
 inline std::vector<double> line_room(const std::vector<double>& xi) {
   std::vector<double> room;
   for (std::size_t k = 0; k < xi.size(); ++k) {
@@ -35,7 +35,7 @@ inline std::vector<double> line_room(const std::vector<double>& xi) {
   return room;
 }
 
-/// Places of one cell's points in the cube [−1, 1]^Dim, the first coordinate running fastest.
+/// The positions of the points of one cell in the cube [−1, 1]^Dim, the first coordinate running fastest.
 template <int Dim>
 class CellPositions {
  public:
@@ -61,10 +61,10 @@ class CellPositions {
     xi_ = pattern_;
   }
 
-  /// Whether every cell has positions of its own.
+  /// Whether every cell has different positions.
   bool vary() const { return random_ || jitter_ > 0; }
 
-  /// (Dim × count); asked once a cell, in order.
+  /// The positions of the next cell, (Dim × count); called once a cell, in order.
   const Eigen::MatrixXd& next() {
     if (!vary()) return xi_;
     for (Eigen::Index p = 0; p < xi_.cols(); ++p) {
@@ -78,9 +78,9 @@ class CellPositions {
   }
 
  private:
-  static constexpr std::uint32_t seed_of_zero = 4357;  // as GSL has it, whose numbers these are
+  static constexpr std::uint32_t seed_of_zero = 4357;  // GSL's value, whose random numbers these are
 
-  // Uniform in (0, 1).
+  // A random number, uniform in (0, 1).
   double share() {
     constexpr double range = 4294967296.0;  // 2³²
     std::uint_fast32_t drawn = 0;

@@ -14,15 +14,15 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kMomentRounding = 1e-11;  // of moments of order one
+constexpr double kMomentRounding = 1e-11;  // for moments of order one
 constexpr double kNoShareOfCell = 1e-12;
 
 Eigen::VectorXd as_vector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 
-/// The box along the principal axes of a part of a cell; seen from it moments are of order one, however thin the part
-/// and wherever it points to. A polynomial keeps its total degree.
+/// The box along the principal axes of a part of a cell; in its coordinates moments are of order one, however thin the
+/// part and whatever its orientation. A polynomial keeps its total degree.
 class PrincipalBox {
  public:
   explicit PrincipalBox(const Polygon& part) {
@@ -36,7 +36,7 @@ class PrincipalBox {
     low_ = corners.rowwise().minCoeff();
     high_ = corners.rowwise().maxCoeff();
   }
-  /// In [−1, 1]², (2 × n).
+  /// The positions in the coordinates of the box, [−1, 1]², (2 × n).
   Eigen::MatrixXd xi(const std::vector<PlanePoint>& x) const {
     const Eigen::Array2Xd along = (axes_ * positions(x)).colwise() - (low_ + high_) / 2;
     return along.colwise() / ((high_ - low_) / 2).array();
@@ -46,7 +46,7 @@ class PrincipalBox {
   static Eigen::Map<const Eigen::Matrix2Xd> positions(const std::vector<PlanePoint>& x) {
     return {x.front().data(), 2, static_cast<Index>(x.size())};
   }
-  Eigen::Matrix2d axes_;  // a row each
+  Eigen::Matrix2d axes_;  // one in each row
   Eigen::Vector2d low_, high_;
 };
 
@@ -57,7 +57,7 @@ class Moments {
     xi_ = box_.xi(rule_.x);
   }
   const PrincipalBox& box() const { return box_; }
-  /// Means over the part of the Legendre products of this total degree.
+  /// The means over the part of the Legendre products of this total degree.
   Eigen::VectorXd of_degree(int degree) const { return legendre_products(xi_, degree) * share_; }
 
  private:
@@ -67,7 +67,7 @@ class Moments {
   Eigen::MatrixXd xi_;
 };
 
-/// Without the points that have no share.
+/// The rule of the points x and their shares, without the points whose share is 0.
 PlaneRule with_shares(const std::vector<PlanePoint>& x, const Eigen::VectorXd& share) {
   PlaneRule rule;
   for (std::size_t p = 0; p < x.size(); ++p) {
@@ -79,9 +79,9 @@ PlaneRule with_shares(const std::vector<PlanePoint>& x, const Eigen::VectorXd& s
   return rule;
 }
 
-/// As few of some points as A has rows, with shares ≥ 0 and the same sums A share: along a null vector z of A over the
-/// lightest points but one more than it has rows, share − t z keeps the sums until a share is none
-/// [Tchakaloff 1957; Davis 1967].
+/// Reduces a rule to as many points as A has rows, with shares ≥ 0 and the same sums A share: along a null vector z of
+/// A over the lightest points, one more than it has rows, share − t z keeps the sums until a share vanishes [Tchakaloff
+/// 1957; Davis 1967].
 PlaneRule thinned(PlaneRule rule, Eigen::MatrixXd A) {
   const Index m = A.rows();
   while (A.cols() > m) {
@@ -95,7 +95,7 @@ PlaneRule thinned(PlaneRule rule, Eigen::MatrixXd A) {
     const Eigen::VectorXd z =
         Eigen::HouseholderQR<Eigen::MatrixXd>(transposed).householderQ() * Eigen::VectorXd::Unit(m + 1, m);
     double t = std::numeric_limits<double>::infinity();
-    Index first = 0;  // to have none
+    Index first = 0;  // the point whose share vanishes first
     for (Index k = 0; k <= m; ++k) {
       const double lasts = z(k) > 0 ? share_of(order[static_cast<std::size_t>(k)]) / z(k) : t;
       if (lasts < t) t = lasts, first = k;

@@ -1,12 +1,12 @@
-// Domains that are stretched over more than a cell are halved, and go on as two.
+// The halving of domains that are stretched over more than a cell.
 //
-// A domain takes the functions of the cell that its lower corner is in and of the next one, so it may be a cell wide.
-// Shrunk to that it would share no corners with its neighbours: Σ_p V_p ∇N̄_ip would not telescope there, and what is
-// pulled would give way without end, or rest on stresses that are in equilibrium with nothing. Its halves have its
-// velocity and its number, half of its mass, and of its volume what they cover of it.
+// A domain takes the functions of the cell of its lower corner and of the next one, so it may be a cell wide. If it
+// were shrunk to that width it would share no corners with its neighbours: Σ_p V_p ∇N̄_ip would not telescope there,
+// and a body under tension would yield without limit, or rest on stresses that are not in equilibrium. The halves have
+// its velocity and its number, half of its mass, and of its volume the parts that they cover.
 //
-// A neighbour beside the edge that is halved may stay whole. In the middle of that edge it takes the mean of the
-// functions at the ends, which is off by less than 1/8 of a quadratic one.
+// A neighbour at the edge that is halved may stay whole. In the middle of that edge it takes the mean of the functions
+// at the ends, with an error of less than 1/8 of a quadratic function.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace stillpoint {
 
-/// The axis of its own along which domain p has to be halved, or −1. By its mean sides: a corner that sticks out for
-/// itself is drawn in where functions are taken.
+/// The axis of its own along which domain p has to be halved, or −1. It is decided by the mean sides: a single
+/// protruding corner is drawn in where functions are evaluated.
 template <int Dim>
 int axis_to_halve(const MaterialPoints<Dim>& points, std::size_t p) {
   constexpr double rounding = 1e-9;
@@ -43,7 +43,7 @@ int axis_to_halve(const MaterialPoints<Dim>& points, std::size_t p) {
   return along;
 }
 
-/// Leaves one half of domain p.
+/// Replaces domain p by one half of it.
 template <int Dim>
 void keep_half(MaterialPoints<Dim>& points, std::size_t p, int axis, bool upper) {
   const auto domain = Domain<Dim>::of(points, p);
@@ -62,8 +62,8 @@ void keep_half(MaterialPoints<Dim>& points, std::size_t p, int axis, bool upper)
   points.mass[p] /= 2;
 }
 
-/// Halves every domain that is wider than a cell, once. Which point each one was; empty: there is none. The points have
-/// to be sorted anew. A half that is folded has no volume, or less.
+/// Halves every domain that is wider than a cell, once. Returns the former number of each point; empty if there is no
+/// such domain. The points have to be sorted anew afterwards. A half that is folded has no volume, or a negative one.
 template <int Dim>
 std::vector<int> halve_wide_domains(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
   points.widest = widest_domain(grid);

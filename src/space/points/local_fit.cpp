@@ -11,11 +11,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The monomials of ξ up to a total degree, a column each, the constant first; a row for each point.
+// The monomials of ξ up to a total degree, one in each column, the constant first; one row for each point.
 MatrixXd monomials(const std::vector<double>& xi, std::size_t dim, int degree) {
   const auto n = static_cast<Index>(xi.size() / dim);
   std::vector<VectorXd> columns = {VectorXd::Ones(n)};
-  // Those of one degree more: each of the last degree, times a coordinate that is no earlier than its own last one.
+  // The monomials of the next degree: each of the last degree, times a coordinate that is not before its own last one.
   std::vector<std::size_t> last = {0};
   std::size_t begin = 0;
   for (int d = 1; d <= degree; ++d) {

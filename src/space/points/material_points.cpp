@@ -20,10 +20,10 @@
 namespace stillpoint {
 namespace {
 
-constexpr double kRounding = 1e-12;  // a share of a cell's length or area that is none
-constexpr double kSliver = 1e-6;     // a share of a cell's area, or volume, that is not worth a point
+constexpr double kRounding = 1e-12;  // a share of a cell's length or area that counts as none
+constexpr double kSliver = 1e-6;     // a share of a cell's area, or volume, that gets no point
 
-/// An interval along each coordinate.
+/// A box, an interval along each coordinate.
 template <int Dim>
 struct Box {
   Point<Dim> low, high;
@@ -38,7 +38,7 @@ struct Box {
     for (int d = 0; d < Dim; ++d) r[d] = (high[d] - low[d]) / 2;
     return r;
   }
-  /// The position of ξ in [−1, 1]^Dim.
+  /// The position in the box of ξ in [−1, 1]^Dim.
   Point<Dim> position(const Eigen::MatrixXd& xi, Eigen::Index p) const {
     Point<Dim> x;
     for (int d = 0; d < Dim; ++d) x[d] = low[d] + 0.5 * (1 + xi(d, p)) * (high[d] - low[d]);
@@ -46,7 +46,7 @@ struct Box {
   }
 };
 
-/// Fills a box or another shape.
+/// Fills a box or another shape with points.
 template <int Dim>
 class Filling {
  public:
@@ -85,14 +85,14 @@ class Filling {
     return box;
   }
 
-  /// Of the cell's lengths, how much the part has; not positive if it has none.
+  /// The smallest share of the cell's lengths that the part has; not positive if the part is empty.
   static double smallest_share(const Box<Dim>& part, const Box<Dim>& cell) {
     double share = 1;
     for (int d = 0; d < Dim; ++d) share = std::min(share, (part.high[d] - part.low[d]) / (cell.high[d] - cell.low[d]));
     return share;
   }
 
-  /// The whole pattern in a part of a cell that is a box.
+  /// Fills a part of a cell that is a box with the whole pattern.
   void fill(int number, const Box<Dim>& part, const Box<Dim>& cell) {
     const Eigen::MatrixXd& xi = positions_.next();
     if (fit_.weights.size() == 0 || positions_.vary()) {
@@ -118,9 +118,9 @@ class Filling {
     if constexpr (Dim == 3) fill_solid(number, part, cell);
   }
 
-  /// The part of a cell that lies in the polygon.
+  /// Fills the part of a cell that lies in the polygon.
   void fill_polygon(int number, const Box<Dim>& cell) {
-    Polygon local;  // the cell is the unit square
+    Polygon local;  // corners in coordinates in which the cell is the unit square
     for (const auto& corner : body_.polygon)
       local.push_back({(corner[0] - cell.low[0]) / (cell.high[0] - cell.low[0]),
                        (corner[1] - cell.low[1]) / (cell.high[1] - cell.low[1])});
@@ -138,7 +138,7 @@ class Filling {
     for (std::size_t p = 0; p < cut.points.x.size(); ++p) {
       Point<Dim> x;
       for (std::size_t d = 0; d < 2; ++d) {
-        // a point that lies on a line of the grid but for rounding stays in its cell
+        // a point on a line of the grid, to rounding, stays in its cell
         const double at = std::clamp(cut.points.x[p][d], kRounding, 1 - kRounding);
         x[d] = cell.low[d] + at * (cell.high[d] - cell.low[d]);
       }
@@ -146,7 +146,7 @@ class Filling {
     }
   }
 
-  /// The part of the solid in a part of a cell that is a box.
+  /// Fills the part of the solid in a part of a cell that is a box.
   void fill_solid(int number, const Box<Dim>& part, const Box<Dim>& cell) {
     const SpaceBox box{part.low, part.high};
     const Solid::Part known = solid_->part_of(box);
@@ -184,7 +184,7 @@ class Filling {
     return fitted ? inside.fitted_shares(std::move(x)) : inside.equal_shares(std::move(x));
   }
 
-  /// polygon and part: in a cell that is the unit square.
+  /// polygon and part: in coordinates in which the cell is the unit square.
   CutCellRule rule_of_cut_cell(const Polygon& polygon, const Polygon& part) {
     const Eigen::MatrixXd& xi = positions_.next();
     const bool fitted = body_.volumes == VolumeRule::consistent;
@@ -215,12 +215,12 @@ class Filling {
   CellShares& covered_;
   bool domains_;
   CellPositions<Dim> positions_;
-  std::shared_ptr<const Solid> solid_;  // of a body in space that is no box
+  std::shared_ptr<const Solid> solid_;  // the solid of a body in space that is not a box
   MomentFit fit_;
   QuadratureReport quadrature_;
 };
 
-/// The points of a file, sorted by cell; in one dimension by position.
+/// Takes the points of a file, sorted by cell; in one dimension by position.
 template <int Dim>
 void take_from_file(const std::filesystem::path& file, const Grid<Dim>& grid, PointCollector<Dim>& points) {
   std::vector<double> min, max;

@@ -18,10 +18,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rounding_of_moments = 1e-11;  // of moments of order one
-constexpr int highest_degree = 9;              // past what any basis here can use
+constexpr double rounding_of_moments = 1e-11;  // for moments of order one
+constexpr int highest_degree = 9;              // more than any basis here can use
 
-// Powers (k_1, ..., k_Dim) by (largest, total): the groups in which degrees are tried.
+// The powers (k_1, ..., k_Dim) by (largest, total): the groups in which degrees are tried.
 std::map<std::pair<int, int>, std::vector<std::vector<int>>> power_groups(int dim, int degree) {
   std::map<std::pair<int, int>, std::vector<std::vector<int>>> groups;
   std::vector<int> k(static_cast<std::size_t>(dim), 0);
@@ -35,8 +35,8 @@ std::map<std::pair<int, int>, std::vector<std::vector<int>>> power_groups(int di
   }
 }
 
-// Values of the Legendre polynomials of each coordinate at the points, and their products: well conditioned, and all
-// their means but the first vanish.
+// The values of the Legendre polynomials of each coordinate at the points, and their products: well conditioned, and
+// all their means but the first vanish.
 class Legendre {
  public:
   explicit Legendre(const MatrixXd& xi) : values_(xi.rows() * stride, xi.cols()) {
@@ -48,7 +48,7 @@ class Legendre {
       }
     }
   }
-  // A row for each product of powers, a column for each point.
+  // The products, one row for each product of powers, one column for each point.
   MatrixXd products(const std::vector<std::vector<int>>& powers) const {
     MatrixXd rows = MatrixXd::Ones(static_cast<Index>(powers.size()), values_.cols());
     for (std::size_t j = 0; j < powers.size(); ++j) {
@@ -72,8 +72,8 @@ ConstrainedFit nearest_nonnegative(const MatrixXd& A, const VectorXd& b, const V
   if ((A * w - b).lpNorm<Eigen::Infinity>() > rounding_of_moments) return {};
   if (w.minCoeff() >= -rounding_of_moments) return {w.cwiseMax(0), true};
 
-  // w + Z z ≥ 0 with the smallest z, Z an orthonormal basis of the null space of A: problem LDP, solved through NNLS
-  // with E = [Zᵀ; −wᵀ], f = e_last; no residual means that no such z exists.
+  // Finds the smallest z with w + Z z ≥ 0, Z an orthonormal basis of the null space of A: problem LDP, solved through
+  // NNLS with E = [Zᵀ; −wᵀ], f = e_last; a vanishing residual means that no such z exists.
   const Index n = A.cols(), rank = decomposition.rank();
   if (rank == n) return {std::nullopt, true};
   const MatrixXd null_space =
@@ -96,7 +96,7 @@ MatrixXd legendre_products(const MatrixXd& xi, int degree) {
 VectorXd solve_nnls(const MatrixXd& E, const VectorXd& f) {
   const Index n = E.cols();
   VectorXd x = VectorXd::Zero(n);
-  std::vector<Index> passive;  // where x > 0 is allowed
+  std::vector<Index> passive;  // indices for which x > 0 is allowed
   const double tolerance = 1e-13 * (1 + E.cwiseAbs().maxCoeff()) * (1 + f.cwiseAbs().maxCoeff());
   const auto least_squares = [&] {
     MatrixXd columns(E.rows(), static_cast<Index>(passive.size()));
@@ -111,7 +111,7 @@ VectorXd solve_nnls(const MatrixXd& E, const VectorXd& f) {
     passive.push_back(entering);
     while (!passive.empty()) {
       const VectorXd s = least_squares();
-      // The longest share of the way to s that keeps x ≥ 0; whatever reaches zero leaves the passive set.
+      // The longest share of the way to s that keeps x ≥ 0; variables that reach zero leave the passive set.
       double share = 1;
       for (std::size_t j = 0; j < passive.size(); ++j) {
         const double from = x(passive[j]), to = s(static_cast<Index>(j));

@@ -1,4 +1,4 @@
-// The material point nearest to a position, found among the cells around it.
+// The material point nearest to a position, searched in the cells around it.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct PointInCell {
 template <int Dim>
 class NearestPoint {
  public:
-  /// Both outlive it. There is at least one point.
+  /// Both arguments must outlive this object. There has to be at least one point.
   NearestPoint(const MaterialPoints<Dim>& points, const Grid<Dim>& grid)
       : points_(points), grid_(grid), lists_(static_cast<std::size_t>(grid.cells()) + 1, 0), list_(points.cells()) {
     for (const int cell : points.cell) ++lists_[static_cast<std::size_t>(cell) + 1];
@@ -34,13 +34,13 @@ class NearestPoint {
     }
   }
 
-  /// Of several as near as each other, one of those that the grid lists first.
+  /// The point nearest to x; of several equally near ones, one of those that the grid lists first.
   PointInCell to(const Point<Dim>& x) const {
     const std::array<int, Dim> here = grid_.cell_of(x);
     PointInCell found;
     double least = std::numeric_limits<double>::infinity();
-    // What lies beyond a ring of cells is at least as many cells away as the ring, less the cell of x. A domain may
-    // begin a cell below its point.
+    // Points beyond a ring of cells are at least as many cells away as the ring, less the cell of x. A domain may begin
+    // a cell below its point.
     const int first = points_.has_domains() ? 2 : 1;
     for (int ring = 0; ring < most_cells_ && !(least <= square((ring - first) * narrowest_) && ring >= first); ++ring) {
       visit_ring(here, ring, [&](int cell) {
@@ -62,7 +62,7 @@ class NearestPoint {
  private:
   static double square(double a) { return a * a; }
 
-  /// visit(cell) those of the grid that are `ring` cells away along some axis, and no further along any.
+  /// Calls visit(cell) for the cells of the grid that are `ring` cells away along some axis, and no further along any.
   template <class Visit>
   void visit_ring(const std::array<int, Dim>& here, int ring, const Visit& visit) const {
     std::array<int, Dim> low, high;
@@ -85,10 +85,10 @@ class NearestPoint {
 
   const MaterialPoints<Dim>& points_;
   const Grid<Dim>& grid_;
-  std::vector<int> lists_;         // where the lists of each cell begin in list_, (cells + 1)
+  std::vector<int> lists_;         // first entry of each cell in list_, (cells + 1)
   std::vector<std::size_t> list_;  // occupied cells by their grid number, (occupied cells)
-  double narrowest_ = 0;           // of the cells [m]
-  int most_cells_ = 0;             // along an axis
+  double narrowest_ = 0;           // width of the narrowest cell [m]
+  int most_cells_ = 0;             // largest number of cells along an axis
 };
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// The cells that material points come to lie in when a phase ends.
+// The cells of the material points at the end of a phase.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace stillpoint {
 
-/// From the cells of one grid to those of the next, which has the same lines but next to a wall. Most points stay where
-/// they are, and their cell need not be looked for.
+/// Finds cells in the next grid, whose lines are the same except next to a wall. Most points stay in their cell, which
+/// is then known without a search.
 template <int Dim>
 class NextCells {
  public:
-  /// It outlives this.
+  /// next_grid: must outlive this object.
   explicit NextCells(const Grid<Dim>& next_grid)
       : next_(next_grid), per_length_(PointOrder<Dim>::cells_per_length(next_grid)) {
     for (int d = 0; d < Dim; ++d) {
@@ -24,11 +24,11 @@ class NextCells {
     }
   }
 
-  /// cell: the next grid's numbers of the cells at x, for the points of occupied cell k, which is the one at `here`; x,
-  /// cell: (points). False if one of them lies outside, and is counted to the cell at the end.
+  /// Sets `cell` to the next grid's numbers of the cells at x, for the points of occupied cell k, which lies at `here`;
+  /// x, cell: (points). Returns false if a point is outside the grid, where it is assigned to the end cell.
   bool find(const MaterialPoints<Dim>& points, std::size_t k, const std::array<int, Dim>& here,
             const std::array<std::vector<double>, Dim>& x, std::vector<int>& cell) const {
-    Point<Dim> low{}, high{};  // of the same cell in the next grid, if there is one
+    Point<Dim> low{}, high{};  // bounds of the same cell in the next grid, if there is one
     for (int d = 0; d < Dim; ++d) {
       if (here[d] >= cells_[d]) continue;
       low[d] = lines_[d][here[d]];

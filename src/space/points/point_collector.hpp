@@ -1,4 +1,4 @@
-// Material points as they are placed.
+// Collects material points while they are placed.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -21,7 +21,7 @@ class PointCollector {
     points_.cell.push_back(number);
     points_.cell_begin.push_back(static_cast<int>(points_.size()));
   }
-  /// V = area · thickness, or area · 2π r; area: a length in one dimension [m].
+  /// Adds a point of volume V = area · thickness, or area · 2π r; area: a length in one dimension [m].
   void add(const Point<Dim>& x, double area) {
     add_volume(x, area * (axisymmetric_ ? 2 * std::numbers::pi * x[0] : thickness_));
   }
@@ -30,7 +30,7 @@ class PointCollector {
     points_.volume.push_back(volume);
     points_.mass.push_back(volume * density_);
   }
-  /// Of the last point: a box about it with half sides r.
+  /// Adds the domain of the last point: a box around it with half sides r.
   void add_domain(const Point<Dim>& r) {
     for (int d = 0; d < Dim; ++d) {
       const double x = points_.x[d].back();

@@ -1,16 +1,17 @@
-// The domains that material points stand for: quadrilaterals, whose corners move with the body.
+// The domains that material points represent: quadrilaterals, whose corners move with the body.
 //
-// A domain begins as a point's part of its cell. Functions are taken at its corners x_c,
+// A domain is initially a point's part of its cell. Functions are evaluated at its corners x_c,
 //
 //   N̄_ip = 2^-dim Σ_c N_i(x_c),   ∇N̄_ip = Σ_c N_i(x_c) S_c/V_p,   S_c = ∂V_p/∂x_c:
 //
-// the mean gradient of what interpolates the corners' values [Sadeghirad, Brannon and Burghardt 2013, CPDI2]. Domains
-// that lie side by side share corners and go on doing so, so that Σ_p V_p ∇N̄_ip telescopes to the surface of the body:
-// a stress that is the same everywhere is in equilibrium with its tractions, wherever the points lie in their cells and
-// wherever the surface cuts these. With functions at the points alone it is so by chance only.
+// the mean gradient of the interpolation of the corners' values [Sadeghirad, Brannon and Burghardt 2013, CPDI2].
+// Adjacent domains share corners, and continue to do so, so that Σ_p V_p ∇N̄_ip telescopes to the surface of the body:
+// a uniform stress is in equilibrium with its tractions, wherever the points lie in their cells and the surface cuts
+// these. With functions evaluated at the points alone this holds by chance only.
 //
-// With u_c = Σ_i N_i(x_c) u_i the point goes on as the mean of its corners, and Σ_p f_p F_p from phase to phase is the
-// mean gradient from the first corners to the present ones: the body remembers where its corners are, and no more.
+// With u_c = Σ_i N_i(x_c) u_i the point moves as the mean of its corners, and the product of the f_p from phase to
+// phase is the mean gradient from the first corners to the present ones: the positions of its corners are the body's
+// only memory.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +28,7 @@ struct Domain {
 
   std::array<Point<Dim>, corners> x;  // corner c is the upper one along axis d if bit d of c is set [m]
 
-  /// As it is.
+  /// The domain in its present shape.
   static Domain of(const MaterialPoints<Dim>& points, std::size_t p) {
     Domain domain;
     for (int c = 0; c < corners; ++c) {
@@ -35,7 +36,8 @@ struct Domain {
     }
     return domain;
   }
-  /// What functions are taken at: shrunk to where it is wider than a cell, and no corner outside the grid.
+  /// The domain at whose corners functions are evaluated: shrunk where it is wider than a cell, and without corners
+  /// outside the grid.
   static Domain in_grid(const MaterialPoints<Dim>& points, std::size_t p, const Grid<Dim>& grid) {
     Domain domain = of(points, p);
     for (int d = 0; d < Dim; ++d) {
@@ -50,7 +52,7 @@ struct Domain {
     return domain;
   }
 
-  /// Since it was a box with these half sides r: F_ij = 2^-dim Σ_c ± x_c,i/r_j, (Dim × Dim).
+  /// The deformation since the domain was a box with these half sides r: F_ij = 2^-dim Σ_c ± x_c,i/r_j, (Dim × Dim).
   std::array<double, (Dim * Dim)> deformation(const Point<Dim>& r) const {
     std::array<double, Dim * Dim> F{};
     for (int c = 0; c < corners; ++c) {
@@ -69,7 +71,7 @@ struct Domain {
     return least;
   }
 
-  /// V of a thickness of 1.
+  /// The volume V for a thickness of 1.
   double size() const {
     if constexpr (Dim == 1) {
       return x[1][0] - x[0][0];
@@ -78,7 +80,7 @@ struct Domain {
     }
   }
 
-  /// S_c/V
+  /// The gradients S_c/V.
   std::array<Point<Dim>, corners> gradients() const {
     std::array<Point<Dim>, corners> S;
     if constexpr (Dim == 1) {
@@ -86,7 +88,7 @@ struct Domain {
       S[0] = {-1 / length};
       S[1] = {1 / length};
     } else {
-      // By the diagonals a = x_3 − x_0 and b = x_2 − x_1: V = ½ a × b
+      // With the diagonals a = x_3 − x_0 and b = x_2 − x_1: V = ½ a × b
       const Point<2> a{x[3][0] - x[0][0], x[3][1] - x[0][1]}, b{x[2][0] - x[1][0], x[2][1] - x[1][1]};
       const double twice = a[0] * b[1] - a[1] * b[0];
       S[0] = {-b[1] / twice, b[0] / twice};
@@ -97,8 +99,8 @@ struct Domain {
     return S;
   }
 
-  /// Of a position in it, ξ_d from −1 to 1, as the domain's mean deformation moves it: x = Σ_c weight_c x_c. No load by
-  /// these drives the motion of corners against each other that strains nothing.
+  /// The weights of a position in the domain, ξ_d from −1 to 1, that moves with the domain's mean deformation: x = Σ_c
+  /// weight_c x_c. A load with these weights does not drive the relative motion of corners that strains nothing.
   static std::array<double, corners> weights(const Point<Dim>& xi) {
     std::array<double, corners> weight;
     for (int c = 0; c < corners; ++c) {
@@ -109,7 +111,7 @@ struct Domain {
   }
 };
 
-/// How wide a domain may be along each axis: the narrowest cell.
+/// The largest width of a domain along each axis: the narrowest cell.
 template <int Dim>
 Point<Dim> widest_domain(const Grid<Dim>& grid) {
   Point<Dim> widest;
@@ -121,7 +123,7 @@ Point<Dim> widest_domain(const Grid<Dim>& grid) {
   return widest;
 }
 
-/// The cell whose window holds a domain: that of its lower corner.
+/// The cell whose window contains a domain: that of its lower corner.
 template <int Dim>
 std::array<int, Dim> window_of(const Domain<Dim>& domain, const Grid<Dim>& grid) {
   constexpr double rounding = 1e-12;

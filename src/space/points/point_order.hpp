@@ -14,7 +14,7 @@
 
 namespace stillpoint {
 
-/// apply(values) to every array that is kept of points.
+/// Calls apply(values) for every array of point data.
 template <int Dim, class Apply>
 void for_point_arrays(MaterialPoints<Dim>& points, const Apply& apply) {
   for (auto& x : points.x) apply(x);
@@ -28,8 +28,8 @@ void for_point_arrays(MaterialPoints<Dim>& points, const Apply& apply) {
   apply(points.number);
 }
 
-/// Point k is from now on what point from[k] was, of which there may be more than there were: all that is kept of one
-/// goes with it.
+/// Replaces the points by copies: point k is the former point from[k], with all its data. There may be more points than
+/// before.
 template <int Dim>
 void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from) {
   for_point_arrays(points, [&](auto& values) {
@@ -44,15 +44,15 @@ void take_points(MaterialPoints<Dim>& points, const std::vector<int>& from) {
 template <int Dim>
 class PointOrder {
  public:
-  /// Longest list of points that counts as one cell; a fuller one is listed in parts.
+  /// The largest number of points that are listed as one cell; a fuller cell is listed in parts.
   static constexpr int most_points = 128;
 
-  /// Sorts the points and lists the cells that hold some, or whose functions hold at some.
+  /// Sorts the points and lists the cells that contain points or, with domains, whose window does.
   void sort(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
     find_cells(points, grid);
     sort_by_cells(points, grid);
   }
-  /// The same, where whoever moved the points has found cells() already.
+  /// As sort(), if cells() has been set already by the code that moved the points.
   void sort_by_cells(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
     order_.from().resize(points.size());
     points.cell.clear();
@@ -66,11 +66,11 @@ class PointOrder {
   }
   /// The grid's number of the cell that each point lies in, (points).
   std::vector<int>& cells() { return cell_; }
-  /// What the last sort made of the points.
+  /// The reordering of the points by the last sort.
   const Reordering& order() const { return order_; }
 
-  /// Cells for each length along the axes of a grid, of the first one: the last may be wider or narrower, next to a
-  /// wall that the grid follows [1/m].
+  /// The number of cells per length along the axes of a grid, from the first cell: the last may be wider or narrower,
+  /// next to a wall that the grid follows [1/m].
   static Point<Dim> cells_per_length(const Grid<Dim>& grid) {
     Point<Dim> per_length;
     for (int d = 0; d < Dim; ++d) per_length[d] = 1 / (grid.axes[d].nodes[1] - grid.axes[d].nodes[0]);
@@ -92,8 +92,8 @@ class PointOrder {
       cell_[p] = grid.cell_number(cell);
     });
   }
-  // Counting sort, stable, and the list of cells with their first points. Points that follow upon each other in a cell,
-  // as most do, are taken together.
+  // A stable counting sort, which also lists the cells with their first points. Successive points in one cell, as most
+  // are, are taken together.
   void sort_material(MaterialPoints<Dim>& points, int cells, int begin, int end) {
     next_.assign(static_cast<std::size_t>(cells) + 1, 0);
     for_runs(begin, end, [this](std::size_t c, int, int count) { next_[c + 1] += count; });
@@ -112,7 +112,7 @@ class PointOrder {
       next += count;
     });
   }
-  /// visit(cell, first point, points)
+  /// Calls visit(cell, first point, number of points) for each run of successive points in one cell.
   template <class Visit>
   void for_runs(int begin, int end, const Visit& visit) const {
     for (int p = begin; p < end;) {

@@ -1,4 +1,4 @@
-// The material points around a place, and polynomials that are fitted to what they have.
+// The material points around a place, and polynomial fits to their values.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ class PointsAround {
   using Cell = std::array<int, Dim>;
 
  public:
-  /// Point p in occupied cell k, and its part in a fitted value.
+  /// Point p in occupied cell k, and its weight in a fitted value.
   struct Share {
     std::size_t k, p;
     double weight;
   };
 
-  /// Both outlive this.
+  /// Both arguments must outlive this object.
   PointsAround(const Grid<Dim>& grid, const MaterialPoints<Dim>& points) : grid_(grid), points_(points) {}
 
   PointInCell nearest(const Point<Dim>& x) const {
@@ -31,12 +31,12 @@ class PointsAround {
     return nearest_->to(x);
   }
 
-  /// By least squares over the points of the cell of x and of all that touch it, of the material of the nearest one, as
-  /// far as they determine a polynomial of this degree (local_fit.hpp), with the weights
+  /// The least-squares fit at x, over the points of the cell of x and of all that touch it, of the material of the
+  /// nearest one. The polynomial has this degree as far as the points determine it (local_fit.hpp), and the weights are
   ///
   ///   w_p = V_p Π_d (1 − (ξ_d/2)²)²,   ξ = (x_p − x)/h with the sides h of the widest cell around:
   ///
-  /// nearer points count more.
+  /// so that nearer points count more.
   std::vector<Share> fit(const Point<Dim>& x, int degree) const {
     const Cell here = grid_.cell_of(x);
     Point<Dim> h{};
@@ -65,7 +65,7 @@ class PointsAround {
       if (points_.material_of_cell(k) != material) continue;
       double w = points_.volume[p];
       for (int d = 0; d < Dim; ++d) {
-        constexpr double least = 1e-3;  // of a point two cells away
+        constexpr double least = 1e-3;  // lower limit, for a point two cells away
         xi.push_back((points_.x[d][p] - x[d]) / h[d]);
         const double fall = std::max(1 - xi.back() * xi.back() / 4, least);
         w *= fall * fall;
@@ -81,7 +81,7 @@ class PointsAround {
   }
 
  private:
-  // Points by the cells that they are in: those of cell c begin at list_begin_[c] in list_.
+  // Lists the points by their cells: those of cell c begin at list_begin_[c] in list_.
   void list_points() const {
     std::vector<std::size_t> cell_of(points_.size());
     list_begin_.assign(static_cast<std::size_t>(grid_.cells()) + 1, 0);
@@ -96,11 +96,11 @@ class PointsAround {
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) list_[next[cell_of[p]]++] = {k, p};
     }
   }
-  // Those of the cell of x and of all that touch it.
+  // The points of cell `here` and of all cells that touch it.
   std::vector<PointInCell> points_around(const Cell& here) const {
     return points_.has_domains() || Dim == 3 ? listed_around(here) : sorted_around(here);
   }
-  // On a line or in the plane, where the points are sorted by the cells that they are in, which those of domains need
+  // Finds the points on a line or in the plane, where they are sorted by their cells, which points with domains need
   // not be.
   std::vector<PointInCell> sorted_around(const Cell& here) const {
     Cell from, to;
@@ -136,7 +136,7 @@ class PointsAround {
 
   const Grid<Dim>& grid_;
   const MaterialPoints<Dim>& points_;
-  // Made if they are asked for:
+  // Made on demand:
   mutable std::optional<NearestPoint<Dim>> nearest_;
   mutable std::vector<std::size_t> list_begin_;
   mutable std::vector<PointInCell> list_;

@@ -18,13 +18,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRoundingOfMoments = 1e-11;  // of order one
+constexpr double kRoundingOfMoments = 1e-11;  // for moments of order one
 constexpr double kNoShare = 1e-12;
 
-/// Of polynomials in space up to a total degree.
+/// The number of polynomials in space up to a total degree.
 std::size_t count_of(int degree) { return static_cast<std::size_t>((degree + 1) * (degree + 2) * (degree + 3)) / 6; }
 
-// Copies, which Eigen aligns: it adds up other memory in an order that depends on where that lies.
+// Copies the positions, as Eigen sums memory that is not aligned in an order that depends on its address.
 Eigen::Matrix3Xd columns(const std::vector<SpacePoint>& x) {
   return Eigen::Map<const Eigen::Matrix3Xd>(x.front().data(), 3, static_cast<Index>(x.size()));
 }
@@ -90,7 +90,7 @@ MatrixXd CellPart::products(const Eigen::Matrix3Xd& xi, int degree) {
   return rows;
 }
 
-// yz, zx, xy and xyz along the axes of the grid
+// The products yz, zx, xy and xyz along the axes of the grid.
 MatrixXd CellPart::products_of_axes(const std::vector<SpacePoint>& x) const {
   const Eigen::Array3Xd xi = ((2 * extent_.cwiseInverse()).asDiagonal() * (columns(x).colwise() - centroid_)).array();
   MatrixXd rows(4, xi.cols());
@@ -98,7 +98,7 @@ MatrixXd CellPart::products_of_axes(const std::vector<SpacePoint>& x) const {
   return rows;
 }
 
-// A lattice of Gauss and Legendre's positions, the coarsest that has some inside.
+// Points of a Gauss–Legendre lattice that lie inside, of the coarsest lattice with enough of them.
 std::vector<SpacePoint> CellPart::lattice_inside() const {
   std::vector<SpacePoint> inside;
   for (int n = 2 + degree_; inside.size() < count_of(degree_) && n <= 32; n *= 2) {
@@ -123,7 +123,7 @@ std::vector<SpacePoint> CellPart::or_one(std::vector<SpacePoint> inside) const {
   if (solid_.contains(middle)) return {middle};
   const auto distance = [&](const SpacePoint& x) { return (Eigen::Vector3d(x.data()) - centroid_).squaredNorm(); };
   const std::vector<SpacePoint> some = solid_.rules_lie_inside() ? rule_.x : lattice_inside();
-  if (some.empty()) return {middle};  // of a sliver: nothing nearer is known
+  if (some.empty()) return {middle};  // for a sliver: nothing nearer is known
   return {*std::ranges::min_element(some, {}, distance)};
 }
 
@@ -166,7 +166,7 @@ SolidCellRule CellPart::fitted_shares(std::vector<SpacePoint> inside) const {
 SolidCellRule CellPart::gauss_points() const {
   const std::vector<SpacePoint> from = solid_.rules_lie_inside() ? rule_.x : lattice_inside();
   for (int degree = degree_; degree > 0 && !from.empty(); --degree) {
-    // Four points cannot feel all of what eight functions do.
+    // Four points cannot resolve all of the trilinear functions, of which there are eight.
     const bool more = degree == 1 && most_points_ >= 8;
     const auto rows = static_cast<Index>(count_of(degree)), all = rows + (more ? 4 : 0);
     MatrixXd A(all, static_cast<Index>(from.size()));

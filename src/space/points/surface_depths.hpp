@@ -1,5 +1,5 @@
-// How deep material points lay below the surface of their body when it was filled, remembered for those that come near
-// a face of the grid.
+// The initial depths of material points below the surface of their body, stored for points that come near a face of the
+// grid.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -18,19 +18,20 @@ namespace stillpoint {
 template <int Dim>
 class SurfaceDepths {
  public:
-  /// The problem outlives it.
+  /// The problem must outlive this object.
   explicit SurfaceDepths(const Problem& problem) : problem_(problem) {}
 
-  /// first_number: of the points of each body, and how many there are; origin: positions at the start of the run, by
-  /// number, (P × Dim), or empty if points stay where they are. Both outlive this object.
+  /// first_number: the number of the first point of each body, and the number of all points; origin: positions at the
+  /// start of the run, by number, (P × Dim), or empty if points do not move on. Both must outlive this object.
   void begin(const std::vector<int>& first_number, const std::vector<double>& origin) {
     first_number_ = &first_number;
     origin_ = &origin;
     for (const BodySpec& body : problem_.bodies) bodies_.emplace_back(body);
   }
 
-  /// Of the point with this number, along the normal of a face of the grid [m], or two cells if it is deeper. Empty if
-  /// the surface of its body is not known. x: its position, if that of the start is the same.
+  /// The initial depth of the point with this number, along the normal of a face of the grid [m], or two cells if it is
+  /// deeper. Empty if the surface of its body is not known. x: its position, which is the initial one if there is no
+  /// origin.
   std::optional<double> along(Face face, int number, const Point<Dim>& x) {
     auto& known = known_[static_cast<std::size_t>(face)];
     const auto [found, is_new] = known.try_emplace(number);
@@ -45,7 +46,7 @@ class SurfaceDepths {
   }
 
   std::size_t bodies() const { return problem_.bodies.size(); }
-  /// Between a body, as it was described, and a face of the grid at this coordinate [m]; 0 if nobody knows.
+  /// The initial gap between a body and a face of the grid at this coordinate [m]; 0 if it is not known.
   double gap(std::size_t body, Face face, double at) const {
     if (!bodies_[body].is_known()) return 0;
     const auto axis = static_cast<std::size_t>(axis_of(face));
