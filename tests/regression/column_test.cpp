@@ -212,8 +212,7 @@ TEST_CASE("in many phases the linear column at points settles too far, the less 
 }
 
 TEST_CASE("a run of elastic points in many phases says what a linear basis costs them, and no other run does") {
-  const auto warns = [](const std::string& basis, double max_motion,
-                        Quadrature quadrature = Quadrature::points) {
+  const auto warns = [](const std::string& basis, double max_motion, Quadrature quadrature = Quadrature::points) {
     Scene scene = scenes::load("column", {"material.soil.law=hencky", "grid.basis=" + basis});
     scene.phase.max_motion = max_motion;
     scene.phase.quadrature = quadrature;

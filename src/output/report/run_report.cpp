@@ -67,14 +67,15 @@ Json RunReport::picture() const {
 
 std::string RunReport::page(const Summary& summary) const {
   const StopSpec& stop = scene_.stop;
-  return report_page(summary.title.empty() ? summary.scene : summary.title,
-                     {{"kind", "run"},
-                      {"summary", Json::parse(to_json(summary))},
-                      {"goals", {{"residual", stop.residual}, {"distance", stop.distance.value()}, {"time", stop.time}}},
-                      {"history", history_excerpt(folder_ / "history.csv")},
-                      {"picture", picture()},
-                      {"lacks_memory", lacks_memory_},
-                      {"scene", {{"text", scene_.text}, {"set", scene_.overrides}}}});
+  return report_page(
+      summary.title.empty() ? summary.scene : summary.title,
+      {{"kind", "run"},
+       {"summary", Json::parse(to_json(summary))},
+       {"goals", {{"residual", stop.residual}, {"distance", stop.distance.value()}, {"time", stop.time}}},
+       {"history", history_excerpt(folder_ / "history.csv")},
+       {"picture", picture()},
+       {"lacks_memory", lacks_memory_},
+       {"scene", {{"text", scene_.text}, {"set", scene_.overrides}}}});
 }
 
 }  // namespace stillpoint

@@ -175,7 +175,7 @@ Problem resolved(Problem problem, const Catalogue& catalogue) {
   } catch (const EnoughProblems&) {
   }
   if (!reading.problems.empty()) throw SceneError(std::move(reading.problems));
-  return scene;
+  return static_cast<Problem&>(scene);
 }
 
 }  // namespace stillpoint
