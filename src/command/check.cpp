@@ -45,7 +45,7 @@ void print_memory(const MemoryNeed& need) {
 }
 
 // What the scene leaves open and a rule decides.
-void print_choices(const Scene& scene) {
+void print_choices(const Scene& scene, bool remembers) {
   const auto tell = [](const char* key, const std::string& value, const auto& choice) {
     if (!choice.is_asked() && choice.why() != "by default")
       fmt::print("  chosen           {} = {}: {}\n", key, value, choice.why());
@@ -55,8 +55,9 @@ void print_choices(const Scene& scene) {
     tell("phase.max_motion", fmt::format("{:g}", phase.max_motion.value()), phase.max_motion);
     tell("phase.quadrature", phase.quadrature == Quadrature::domains ? "domains" : "points", phase.quadrature);
     tell("phase.transfer", phase.transfer == Transfer::apic ? "apic" : "flip", phase.transfer);
-    tell("phase.deformation", phase.deformation == DeformationRule::accumulated ? "accumulated" : "positions",
-         phase.deformation);
+    if (!remembers)
+      tell("phase.deformation", phase.deformation == DeformationRule::accumulated ? "accumulated" : "positions",
+           phase.deformation);
   }
   const StrategyInfo* const strategy = catalogue().strategy(scene.damping.strategy);
   if (strategy && strategy->uses("alpha"))
@@ -86,7 +87,7 @@ int check(const SceneArguments& arguments) {
   print_cut_cells(phase.discretisation().quadrature);
   fmt::print("  phases           {}\n",
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
-  print_choices(scene);
+  print_choices(scene, !phase.info().history_names.empty());
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
              phase.discretisation().supported_degrees_of_freedom,
              model.multigrid            ? "multigrid"

@@ -88,7 +88,8 @@ class Resolution {
   void resolve_body(std::size_t k) {
     BodySpec& body = problem_.bodies[k];
     const GridSpec& grid = problem_.grid;
-    body.points_per_cell.resize(static_cast<std::size_t>(problem_.dim), body.points_per_cell.at(0));
+    if (body.points_per_cell.empty()) body.points_per_cell = BodySpec().points_per_cell;
+    body.points_per_cell.resize(static_cast<std::size_t>(problem_.dim), body.points_per_cell.front());
     body.min.take(grid.min, "that of the grid");
     body.max.take(grid.max, "that of the grid");
     if (!body.file.empty()) return read_points(k);
@@ -96,7 +97,7 @@ class Resolution {
     if (!has_grid_) return;
     if (problem_.dim == 2 && !body.polygon.empty()) return resolve_polygon(body);
     resolve_box(body);
-    if (problem_.dim == 3 && body.has_shape()) resolve_solid(body);
+    if (problem_.dim == 3 && body.has_shape() && body.min.size() == 3 && body.max.size() == 3) resolve_solid(body);
   }
 
   void resolve_box(BodySpec& body) {
@@ -113,7 +114,7 @@ class Resolution {
     for (std::vector<double>& corner : body.polygon) {
       move_into(corner, problem_.grid.min, problem_.grid.max, problem_.grid);
       snap_to_lines(corner, problem_.grid);
-      for (std::size_t axis = 0; axis < corner.size(); ++axis) {
+      for (std::size_t axis = 0; axis < std::min(corner.size(), low.size()); ++axis) {
         low[axis] = std::min(low[axis], corner[axis]);
         high[axis] = std::max(high[axis], corner[axis]);
       }
@@ -125,6 +126,7 @@ class Resolution {
   void resolve_solid(BodySpec& body) {
     const auto axes = across(static_cast<std::size_t>(body.axis));
     for (std::vector<double>& corner : body.polygon) {
+      if (corner.size() != 2) return;
       std::vector<double> position = problem_.grid.min;
       for (std::size_t d = 0; d < 2; ++d) position[axes[d]] = corner[d];
       snap_to_lines(position, problem_.grid);

@@ -14,6 +14,10 @@ std::string SceneCheck::axis_key(const std::string& key, std::size_t axis) const
 
 bool SceneCheck::inside(const std::vector<double>& position, const std::vector<double>& min,
                         const std::vector<double>& max, const std::string& box, const std::string& key) {
+  if (!position.empty() && position.size() != min.size()) {  // of a program: a file's were counted when they were read
+    add(key, fmt::format("expected {} coordinates, found {}", min.size(), position.size()));
+    return false;
+  }
   for (std::size_t axis = 0; axis < position.size(); ++axis) {
     if (position[axis] >= min[axis] && position[axis] <= max[axis]) continue;
     add(axis_key(key, axis),

@@ -65,6 +65,11 @@ TEST_CASE("what is wrong with a problem that a program has changed is told by it
   problem.supports.at(0).at = {-5};
   CHECK_THROWS_WITH(resolve(problem), Contains("support[0].at") && Contains("lies outside the grid"));
   CHECK_THROWS_AS(Simulation(problem), SceneError);
+  problem.supports[0].at = {0, 0};
+  CHECK_THROWS_WITH(resolve(problem), Contains("support[0].at: expected 1 coordinates, found 2"));
+  problem.supports[0].at = {0};
+  problem.grid.min = {0, 0};
+  CHECK_THROWS_WITH(resolve(problem), Contains("grid"));
 }
 
 TEST_CASE("a run of a changed problem is the run of a scene that says so") {
