@@ -27,6 +27,8 @@ struct EntryOf<T> {
 template <class T>
 class Choice {
  public:
+  static constexpr std::string_view by_default = "by default";
+
   Choice() = default;
   Choice(T asked) : value_(asked), asked_(std::move(asked)) {}
   Choice(std::initializer_list<typename EntryOf<T>::type> asked) requires Array<T> : Choice(T(asked)) {}
@@ -44,7 +46,7 @@ class Choice {
   std::string_view why() const { return is_asked() ? "asked for" : why_; }
 
   /// Takes this value, unless another one is asked for. why: outlives it.
-  void take(T value, std::string_view why) {
+  void take(T value, std::string_view why = by_default) {
     value_ = asked_ ? *asked_ : std::move(value);
     why_ = why;
   }
@@ -61,7 +63,7 @@ class Choice {
  private:
   T value_{};
   std::optional<T> asked_;
-  std::string_view why_ = "by default";
+  std::string_view why_ = by_default;
 };
 
 }  // namespace stillpoint

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stillpoint {
@@ -19,6 +20,10 @@ struct VariantSpec {  // [[variant]]: the same scene with other values, drawn be
 };
 
 struct Scene : Problem {
+  Scene() = default;
+  /// A problem of a program's own, which stands in no file.
+  explicit Scene(Problem problem) : Problem(std::move(problem)) {}
+
   std::filesystem::path file;
   std::string text;                    // contents of the file
   std::vector<std::string> overrides;  // laid over the file's contents

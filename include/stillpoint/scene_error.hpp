@@ -19,7 +19,7 @@ std::string to_string(const Location& where);
 struct Mistake {
   Location where;
   std::string message;  // the fault, and what was expected
-  std::string key{};    // the faulty key, if its location is not known yet; the message does not contain it
+  std::string key{};    // the key that is wrong, as long as nobody has said where it stands (Scene::located)
 };
 
 /// All faults of a scene, found at once. what() has a line for each.

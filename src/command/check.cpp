@@ -47,7 +47,7 @@ void print_memory(const MemoryNeed& need) {
 // What the scene leaves open and a rule decides.
 void print_choices(const Scene& scene, bool remembers) {
   const auto tell = [](const char* key, const std::string& value, const auto& choice) {
-    if (!choice.is_asked() && choice.why() != "by default")
+    if (!choice.is_asked() && choice.why() != choice.by_default)
       fmt::print("  chosen           {} = {}: {}\n", key, value, choice.why());
   };
   const PhaseSpec& phase = scene.phase;

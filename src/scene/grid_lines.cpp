@@ -6,6 +6,15 @@
 #include <fmt/format.h>
 
 namespace stillpoint {
+namespace {
+
+// How far a position may miss a box along an axis and still be taken to lie in it [m].
+double slack_of(double min, double max, double cell_length) {
+  constexpr double rounding = 1e-12;  // of the box and its distance from the origin
+  return std::max(rounding * std::max({max - min, std::abs(min), std::abs(max)}), 2 * kSliver * cell_length);
+}
+
+}  // namespace
 
 GridFault fault_of_grid(const Problem& problem) {
   const GridSpec& grid = problem.grid;
@@ -43,11 +52,6 @@ GridFault fault_of_grid(const Problem& problem) {
 
 double known_cell_length(const GridSpec& grid, std::size_t axis) {
   return axis < grid.cells.size() ? grid.cell_length(axis) : 0;
-}
-
-double slack_of(double min, double max, double cell_length) {
-  constexpr double rounding = 1e-12;  // of the box and its distance from the origin
-  return std::max(rounding * std::max({max - min, std::abs(min), std::abs(max)}), 2 * kSliver * cell_length);
 }
 
 void move_into(std::vector<double>& position, const std::vector<double>& min, const std::vector<double>& max,

@@ -12,22 +12,19 @@ namespace stillpoint {
 /// A share of a cell that is taken for none.
 inline constexpr double kSliver = 1e-6;
 
-/// What is wrong with a grid.
+/// What is wrong with a grid, if anything is.
 struct GridFault {
-  std::string key;  // "max"; empty: nothing
-  int axis = -1;    // of the key's entry; −1: of all
+  std::string key;  // of [grid], "max"; empty: the table as a whole
+  int axis = -1;    // whose entry of the key is wrong; −1: all of them
   std::string message{};
 
   bool empty() const { return message.empty(); }
 };
-/// Of a problem's grid, if it is no box that can be divided into its cells; `silent` if that was to be seen when it was
-/// read.
+/// Why a problem's grid is no box that can be divided into its cells.
 GridFault fault_of_grid(const Problem& problem);
 
 /// A cell's length along an axis; 0 if the cells are not known.
 double known_cell_length(const GridSpec& grid, std::size_t axis);
-/// How far a position may miss a box along an axis and still be taken to lie in it [m].
-double slack_of(double min, double max, double cell_length);
 /// Moves a position that misses a box by no more than a sliver onto its border.
 void move_into(std::vector<double>& position, const std::vector<double>& min, const std::vector<double>& max,
                const GridSpec& grid);

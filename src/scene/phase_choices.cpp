@@ -23,12 +23,12 @@ void resolve_quadrature(Problem& problem, const Catalogue& catalogue, bool remem
   if (rests && why_no_domains(problem).empty()) {
     phase.quadrature.take(Quadrature::domains, "the points of elastic boxes, damped, lie side by side");
   } else {
-    phase.quadrature.take(Quadrature::points, "by default");
+    phase.quadrature.take(Quadrature::points);
   }
   if (rests && phase.quadrature == Quadrature::domains && !phase.flip_share.is_asked()) {
     phase.transfer.take(Transfer::apic, "domains, damped");
   } else {
-    phase.transfer.take(Transfer::flip, "by default");
+    phase.transfer.take(Transfer::flip);
   }
 }
 
@@ -68,12 +68,12 @@ void resolve_phases(Problem& problem, const Catalogue& catalogue) {
   if (remembers && !problem.solve.is_static()) {
     phase.max_motion.take(motion_of_what_remembers, "a law remembers");
   } else {
-    phase.max_motion.take(PhaseSpec::never, "by default");
+    phase.max_motion.take(PhaseSpec::never);
   }
   if (problem.solve.is_static() || !phase.ends()) {
-    phase.quadrature.take(Quadrature::points, "by default");
-    phase.transfer.take(Transfer::flip, "by default");
-    phase.deformation.take(DeformationRule::positions, "by default");
+    phase.quadrature.take(Quadrature::points);
+    phase.transfer.take(Transfer::flip);
+    phase.deformation.take(DeformationRule::positions);
     return;
   }
   resolve_quadrature(problem, catalogue, remembers);
@@ -82,7 +82,7 @@ void resolve_phases(Problem& problem, const Catalogue& catalogue) {
   if (jumps || phase.dilatation != Dilatation::points) {
     phase.deformation.take(DeformationRule::accumulated, "strains jump at grid lines, or dilatation is a mean");
   } else {
-    phase.deformation.take(DeformationRule::positions, "by default");
+    phase.deformation.take(DeformationRule::positions);
   }
 }
 

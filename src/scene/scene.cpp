@@ -15,10 +15,10 @@ namespace {
 
 std::string all_of(const std::vector<Mistake>& problems) {
   std::string text;
-  for (const Mistake& problem : problems)
-    text +=
-        fmt::format("{}{}{}{}", text.empty() ? "" : "\n", problem.key.empty() ? to_string(problem.where) : problem.key,
-                    problem.key.empty() && problem.where.file.empty() ? "" : ": ", problem.message);
+  for (const Mistake& problem : problems) {
+    const std::string place = to_string(problem.where);
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : "\n", place, place.empty() ? "" : ": ", problem.message);
+  }
   return text;
 }
 

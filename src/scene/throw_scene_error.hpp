@@ -11,7 +11,7 @@ namespace stillpoint {
 
 /// Throws a SceneError of one key; who has the scene finds where it stands (located()).
 [[noreturn]] inline void throw_scene_error(const std::string& key, const std::string& message) {
-  throw SceneError({{.where = {}, .message = message, .key = key}});
+  throw SceneError({{.where = {.file = key}, .message = message, .key = key}});
 }
 
 /// What make() returns. A SceneError that it throws is told with the places in the scene's file.

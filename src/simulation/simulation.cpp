@@ -10,23 +10,13 @@
 #include "simulation/thread_scope.hpp"
 
 namespace stillpoint {
-namespace {
-
-Scene scene_of(Problem problem) {
-  Scene scene;
-  static_cast<Problem&>(scene) = std::move(problem);
-  return scene;
-}
-
-}  // namespace
-
 Simulation::Simulation(Scene scene, SimulationOptions options) {
   const int all = omp_get_max_threads();
   const ThreadScope threads(threads_to_begin_with(options.threads, body_size(scene).points));
   impl_ = located(scene, [&] { return std::make_unique<Impl>(scene, std::move(options), all); });
 }
 Simulation::Simulation(Problem problem, SimulationOptions options)
-    : Simulation(scene_of(resolve(std::move(problem))), std::move(options)) {}
+    : Simulation(Scene(resolve(std::move(problem))), std::move(options)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;

@@ -72,19 +72,19 @@ std::size_t memory_of(const LagrangianPhase& phase) {
 }
 
 // A simulation that steps by the method alone, with no end but a failure.
-Simulation free_running(const Problem& problem, int threads, SetUpStore& store) {
-  return Simulation(problem, {.threads = threads, .records = false, .stops = false, .store = &store});
+Simulation free_running(const Scene& scene, int threads, SetUpStore& store) {
+  return Simulation(scene, {.threads = threads, .records = false, .stops = false, .store = &store});
 }
 
 /// One run and its measurements.
 class Benchmark {
  public:
-  Benchmark(const Problem& problem, const ReferenceSolution& exact, const BenchmarkLimits& limits, SetUpStore& store,
+  Benchmark(const Scene& scene, const ReferenceSolution& exact, const BenchmarkLimits& limits, SetUpStore& store,
             ComparedRun& run)
       : exact_(exact),
         limits_(limits),
         run_(run),
-        simulation_(free_running(problem, limits.threads, store)),
+        simulation_(free_running(scene, limits.threads, store)),
         set_up_s_(wall_.seconds()),
         tracker_(limits.goal) {
     fill_set_up(simulation_.model(), set_up_s_, run_);
@@ -178,13 +178,13 @@ class Benchmark {
 
 }  // namespace
 
-double run_benchmark(const Problem& problem, const ReferenceSolution& exact, const BenchmarkLimits& limits,
+double run_benchmark(const Scene& scene, const ReferenceSolution& exact, const BenchmarkLimits& limits,
                      SetUpStore& store, ComparedRun& run) {
-  return Benchmark(problem, exact, limits, store, run).run();
+  return Benchmark(scene, exact, limits, store, run).run();
 }
 
-double time_benchmark(const Problem& problem, long steps, int threads, SetUpStore& store) {
-  Simulation simulation = free_running(problem, threads, store);
+double time_benchmark(const Scene& scene, long steps, int threads, SetUpStore& store) {
+  Simulation simulation = free_running(scene, threads, store);
   const Stopwatch wall;
   while (simulation.steps() < steps && !simulation.done()) simulation.step();
   return wall.seconds();

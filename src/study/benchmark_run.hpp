@@ -24,11 +24,11 @@ struct BenchmarkLimits {
 /// Fills run.status, reason, counts, samples, last values and the set-up. The scene's integrator and damping are those
 /// to try. Returns the wall time of the steps alone, without the measurements between them, until the run had
 /// converged; for a run that does not converge, that of all its steps [s].
-double run_benchmark(const Problem& problem, const ReferenceSolution& exact, const BenchmarkLimits& limits,
+double run_benchmark(const Scene& scene, const ReferenceSolution& exact, const BenchmarkLimits& limits,
                      SetUpStore& store, ComparedRun& run);
 
 /// Takes the same number of steps again without measurements. Returns the wall time of the steps [s].
-double time_benchmark(const Problem& problem, long steps, int threads, SetUpStore& store);
+double time_benchmark(const Scene& scene, long steps, int threads, SetUpStore& store);
 
 /// Fills in the set-up costs of a simulation without a store; seconds: the time for the parts that were not in the
 /// store.

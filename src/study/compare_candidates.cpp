@@ -9,6 +9,7 @@
 #include "linalg/multigrid.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/catalogue.hpp"
+#include "study/setting.hpp"
 
 namespace stillpoint {
 namespace {
@@ -165,16 +166,15 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Problem& 
   return all;
 }
 
-Scene scene_of(const ComparedRun& run, Scene scene) {
-  Problem& problem = scene;
-  if (!run.mass.empty()) problem.mass.kind = MassKind::multigrid;
-  if (const StrategyInfo* const info = catalogue().strategy(run.strategy)) {
-    take_strategy(run, *info, problem);
-  } else {
-    problem.solve.method = run.strategy;
-  }
-  problem = located(scene, [&] { return resolve(problem); });
-  return scene;
+Scene scene_of(const ComparedRun& run, const Scene& scene) {
+  return changed(scene, [&](Problem& problem) {
+    if (!run.mass.empty()) problem.mass.kind = MassKind::multigrid;
+    if (const StrategyInfo* const info = catalogue().strategy(run.strategy)) {
+      take_strategy(run, *info, problem);
+    } else {
+      problem.solve.method = run.strategy;
+    }
+  });
 }
 
 }  // namespace stillpoint

@@ -22,6 +22,6 @@ std::vector<Candidate> candidates(const CompareOptions& options, const Problem& 
 
 /// The scene with what the names of a run say, resolved and checked anew. Numbers that belong to another strategy's
 /// damping or steps are left out. Throws SceneError.
-Scene scene_of(const ComparedRun& run, Scene scene);
+Scene scene_of(const ComparedRun& run, const Scene& scene);
 
 }  // namespace stillpoint

@@ -66,12 +66,12 @@ std::optional<Found> solve(const Problem& problem, LagrangianPhase& phase, std::
   return std::nullopt;
 }
 
-Found relax(Problem problem, int threads, const std::function<bool()>& interrupted, SetUpStore& store,
+Found relax(Scene scene, int threads, const std::function<bool()>& interrupted, SetUpStore& store,
             std::vector<std::string>& notes) {
-  problem.stop.residual = tight_in_motion;
-  problem.stop.distance = 0;
-  problem.output.snapshots.clear();
-  Simulation simulation(problem, {.threads = threads, .interrupted = interrupted, .store = &store});
+  scene.stop.residual = tight_in_motion;
+  scene.stop.distance = 0;
+  scene.output.snapshots.clear();
+  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted, .store = &store});
   simulation.run();
   const Summary summary = simulation.summary();
   if (summary.status != RunStatus::equilibrium)
@@ -90,16 +90,16 @@ ReferenceSolution::ReferenceSolution(std::vector<double> u, Mass mass)
 
 double ReferenceSolution::error(ConstVec u) const { return mass_norm_of_difference(mass_, u, u_) / size_; }
 
-Equilibrium find_equilibrium(const Problem& problem, int threads, const std::function<bool()>& interrupted,
+Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted,
                              SetUpStore& store) {
-  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(problem)).phase;
+  std::unique_ptr<LagrangianPhase> phase = store.phase(without_time(scene)).phase;
   if (phase->info().updated_lagrangian) {
     throw_scene_error(
         "phase",
         "an equilibrium is compared on one set of unknowns, so in one phase; expected phase.max_motion = \"none\", "
         "or stop.residual = 0 and stop.time to compare the way to it");
   }
-  if (problem.stop.time == 0 && loads_vary(problem)) {
+  if (scene.stop.time == 0 && loads_vary(scene)) {
     throw_scene_error(
         "stop.time",
         "loads or supports depend on t, and the equilibrium to compare with is that at the end; expected the t at "
@@ -109,16 +109,16 @@ Equilibrium find_equilibrium(const Problem& problem, int threads, const std::fun
     throw_scene_error("body_force",
                       "in equilibrium nothing is displaced, so that no error is relative; expected a load");
   };
-  const std::vector<double> load = total_load_at(*phase, problem.stop.time);
+  const std::vector<double> load = total_load_at(*phase, scene.stop.time);
   if (!phase->contact() && std::ranges::all_of(load, [](double force) { return force == 0; })) refuse();
   const bool unique = !phase->history_dependent() && !phase->contact();
   const std::size_t points = phase->points();
   const Mass mass = phase->mass();
   std::vector<std::string> notes;
   std::optional<Found> found;
-  if (!phase->contact()) found = solve(problem, *phase, notes);
-  store.give_back(problem.mass, std::move(phase));
-  if (!found) found = relax(problem, threads, interrupted, store, notes);
+  if (!phase->contact()) found = solve(scene, *phase, notes);
+  store.give_back(scene.mass, std::move(phase));
+  if (!found) found = relax(scene, threads, interrupted, store, notes);
   Equilibrium equilibrium{.state = {std::move(found->u), mass},
                           .points = points,
                           .method = found->method,

@@ -1,7 +1,7 @@
 // The exact discrete equilibrium of a scene, relative to which relaxation is measured.
 #pragma once
 
-#include <stillpoint/problem.hpp>
+#include <stillpoint/scene.hpp>
 
 #include <functional>
 #include <optional>
@@ -44,7 +44,7 @@ struct Equilibrium {
 /// Finds the equilibrium by Newton's method in one load step, or if that fails by the scene's own relaxation; at
 /// stop.time if that is set. Throws SceneError for a scene of several phases, with loads that have no end, or if
 /// nothing is displaced.
-Equilibrium find_equilibrium(const Problem& problem, int threads, const std::function<bool()>& interrupted,
+Equilibrium find_equilibrium(const Scene& scene, int threads, const std::function<bool()>& interrupted,
                              SetUpStore& store);
 
 /// The limit of slow loading: a sequence of equilibria, in 64 load steps. Empty, with a note, if there is none.

@@ -6,11 +6,17 @@
 
 namespace stillpoint {
 
-Scene with(Scene scene, const Settings& settings) {
+Scene changed(Scene scene, const std::function<void(Problem&)>& change) {
   Problem& problem = scene;
-  for (const Setting& setting : settings) setting.apply(problem);
+  change(problem);
   problem = located(scene, [&] { return resolve(problem); });
   return scene;
+}
+
+Scene with(const Scene& scene, const Settings& settings) {
+  return changed(scene, [&](Problem& problem) {
+    for (const Setting& setting : settings) setting.apply(problem);
+  });
 }
 
 std::vector<std::string> texts_of(const Settings& settings) {

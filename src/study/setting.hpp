@@ -15,8 +15,11 @@ struct Setting {
 };
 using Settings = std::vector<Setting>;
 
-/// The scene with these values, resolved and checked anew; its file is not read again. Throws SceneError.
-Scene with(Scene scene, const Settings& settings);
+/// The scene with what `change` does to its problem, resolved and checked anew; its file is not read again. Throws
+/// SceneError.
+Scene changed(Scene scene, const std::function<void(Problem&)>& change);
+/// The scene with these values, likewise.
+Scene with(const Scene& scene, const Settings& settings);
 
 std::vector<std::string> texts_of(const Settings& settings);
 

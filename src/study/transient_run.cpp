@@ -10,6 +10,7 @@
 #include "simulation/catalogue.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "study/benchmark_run.hpp"
+#include "study/setting.hpp"
 
 namespace stillpoint {
 namespace {
@@ -20,12 +21,12 @@ struct Ended {
   std::vector<double> displacement;
 };
 
-Ended follow(Problem problem, int threads, SetUpStore& store, const std::function<bool()>& interrupted = {}) {
-  problem.output.snapshots.clear();
-  problem.output.fields_every = 0;
-  problem.output.every = problem.stop.time;  // an output row costs time, and changes the steps
+Ended follow(Scene scene, int threads, SetUpStore& store, const std::function<bool()>& interrupted = {}) {
+  scene.output.snapshots.clear();
+  scene.output.fields_every = 0;
+  scene.output.every = scene.stop.time;  // an output row costs time, and changes the steps
   const Stopwatch watch;
-  Simulation simulation(problem, {.threads = threads, .interrupted = interrupted, .store = &store});
+  Simulation simulation(scene, {.threads = threads, .interrupted = interrupted, .store = &store});
   ComparedRun set_up;
   fill_set_up(simulation.model(), watch.seconds(), set_up);
   simulation.run();
@@ -48,17 +49,18 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
 
 }  // namespace
 
-TransientReference transient_reference(const Problem& problem, SetUpStore& store) {
-  std::unique_ptr<LagrangianPhase> phase = store.phase(problem).phase;
-  const StrategyInfo& strategy = *catalogue().strategy(problem.damping.strategy);
+TransientReference transient_reference(const Scene& scene, SetUpStore& store) {
+  std::unique_ptr<LagrangianPhase> phase = store.phase(scene).phase;
+  const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
   const bool smooth = !phase->history_dependent() && !phase->contact() && !phase->info().updated_lagrangian &&
                       !strategy.is_local && !strategy.is_relaxation;
-  store.give_back(problem.mass, std::move(phase));
-  Problem accurate = problem;
-  accurate.integrator.step.reset();
-  accurate.integrator.method = smooth ? "erk:fehlberg-13-7-8" : "leapfrog";
-  accurate.integrator.rtol = smooth ? std::optional(1e-11) : std::nullopt;
-  if (!smooth) accurate.integrator.step_fraction = 1.0 / 16;
+  store.give_back(scene.mass, std::move(phase));
+  const Scene accurate = changed(scene, [smooth](Problem& problem) {
+    problem.integrator.step.reset();
+    problem.integrator.method = smooth ? "erk:fehlberg-13-7-8" : "leapfrog";
+    problem.integrator.rtol = smooth ? std::optional(1e-11) : std::nullopt;
+    if (!smooth) problem.integrator.step_fraction = 1.0 / 16;
+  });
   Ended ended = follow(accurate, 0, store);
   if (ended.summary.status != RunStatus::end_time) {
     throw std::runtime_error("the reference of the transient did not reach stop.time: " + ended.summary.reason);
@@ -67,9 +69,9 @@ TransientReference transient_reference(const Problem& problem, SetUpStore& store
           smooth ? "erk:fehlberg-13-7-8 at rtol 1e-11" : "leapfrog at a sixteenth of the critical step"};
 }
 
-double run_transient(const Problem& problem, const TransientReference& reference, int threads,
+double run_transient(const Scene& scene, const TransientReference& reference, int threads,
                      const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run) {
-  const Ended ended = follow(problem, threads, store, interrupted);
+  const Ended ended = follow(scene, threads, store, interrupted);
   run.setup_s = ended.set_up.setup_s;
   run.setup_parts = ended.set_up.setup_parts;
   run.steps = ended.summary.steps;
@@ -96,8 +98,8 @@ double run_transient(const Problem& problem, const TransientReference& reference
   return seconds;
 }
 
-double time_transient(const Problem& problem, int threads, SetUpStore& store) {
-  return stepping_s(follow(problem, threads, store).summary);
+double time_transient(const Scene& scene, int threads, SetUpStore& store) {
+  return stepping_s(follow(scene, threads, store).summary);
 }
 
 }  // namespace stillpoint

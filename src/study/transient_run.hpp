@@ -18,12 +18,12 @@ struct TransientReference {
 
 /// The motion with the scene's own damping: by an integrator of order 7 at rtol 1e-11 if it is smooth, by leapfrog at a
 /// sixteenth of the critical step if there are history-dependent laws, contact or several phases.
-TransientReference transient_reference(const Problem& problem, SetUpStore& store);
+TransientReference transient_reference(const Scene& scene, SetUpStore& store);
 
 /// Fills the row, with a single sample at stop.time. Returns the wall time of the steps [s].
-double run_transient(const Problem& problem, const TransientReference& reference, int threads,
+double run_transient(const Scene& scene, const TransientReference& reference, int threads,
                      const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run);
 /// The wall time of the steps of the same run [s].
-double time_transient(const Problem& problem, int threads, SetUpStore& store);
+double time_transient(const Scene& scene, int threads, SetUpStore& store);
 
 }  // namespace stillpoint

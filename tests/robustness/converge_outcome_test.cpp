@@ -209,6 +209,14 @@ TEST_CASE(
   CHECK(says(study, "levels 1, 2, 3, 4 are left out of its order, as errors are no more than"));
 }
 
+TEST_CASE("a level that is no scene is refused with the key of the scene's file that made it so") {
+  const auto study = [] {
+    converge(fs::path(STILLPOINT_PROBLEMS) / "block.toml", {}, {.levels = 4, .ratio = 100, .finds_dominant = false});
+  };
+  CHECK_THROWS_WITH(study(),
+                    Catch::Contains("block.toml:14:9: grid.cells: ") && Catch::Contains("cells are more than"));
+}
+
 TEST_CASE("what a scene does not have cannot be refined, and a level that fails is left out by name") {
   const auto refusal = [](const std::string& problem, const std::vector<std::string>& set, Refinement what) {
     try {

@@ -166,8 +166,7 @@ Scene read_scene(const std::filesystem::path& file, std::string text, const std:
 }
 
 Problem resolved(Problem problem, const Catalogue& catalogue) {
-  Scene scene;
-  static_cast<Problem&>(scene) = std::move(problem);
+  Scene scene(std::move(problem));
   Reading reading{.dim = scene.dim, .constants = scene.constants};
   try {
     const std::vector<FileMistake> files = resolve(scene, catalogue);

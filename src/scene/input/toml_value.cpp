@@ -52,7 +52,8 @@ std::optional<Expression> compile(const toml::value<std::string>& text, const Va
 void Reading::problem(const Location& where, const std::string& path, const std::string& message) {
   wrong.insert(path);
   constexpr std::size_t longest = 200;  // of a path with the names of users in it
-  add({where, path.empty() ? message : shortened(path, longest) + ": " + message});
+  // A program's own problem stands nowhere.
+  add({where, path.empty() ? message : shortened(path, longest) + ": " + message, where.file.empty() ? path : ""});
 }
 
 void Reading::add(Mistake problem) {

@@ -18,6 +18,7 @@ namespace {
 bool check_box(SceneCheck& check, std::size_t k) {
   const GridSpec& grid = check.scene().grid;
   const BodySpec& body = check.scene().bodies[k];
+  if (!check.sound(check.body_key(k, "min")) || !check.sound(check.body_key(k, "max"))) return false;
   if (body.min.empty() || body.max.empty()) return false;
   const bool min_inside = check.inside(body.min, grid.min, grid.max, "grid", check.body_key(k, "min"));
   const bool max_inside = check.inside(body.max, grid.min, grid.max, "grid", check.body_key(k, "max"));

@@ -46,7 +46,8 @@ void check_faces(SceneCheck& check) {
     const std::string name = fmt::format("support[{}]", k);
     if (!support.face) continue;
     const std::vector<double> least(static_cast<std::size_t>(scene.dim), -kInfinity), most(least.size(), kInfinity);
-    take({name, *support.face, support.component.is_asked() ? support.component.value() : -1,
+    take({name, *support.face,
+          check.given(name + ".component", support.component.is_asked()) ? support.component.value() : -1,
           part_of_face(*support.face, support.from, support.to, least, most)});
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k)

@@ -72,6 +72,13 @@ TEST_CASE("what is wrong with a problem that a program has changed is told by it
   CHECK_THROWS_WITH(resolve(problem), Contains("grid"));
 }
 
+TEST_CASE("a value that cannot be read is reported alone, and not what its default would do") {
+  CHECK(scenes::refusal("granular_column", {"body.min=[0.1, 0.1]"}) ==
+        "--set body.min=[0.1, 0.1]: body.min: expected 3 values, found 2");
+  CHECK(scenes::refusal("torsion", {"support[0].component=r"}) ==
+        "--set support[0].component=r: support[0].component: unknown value 'r'; expected one of x, y, z");
+}
+
 TEST_CASE("a run of a changed problem is the run of a scene that says so") {
   Problem problem = scenes::load("bar", {"stop={residual=0, steps=40}"});
   problem.grid.cells = {7};
