@@ -45,9 +45,10 @@ struct Found {
 };
 
 // The same scene for Newton's method, in which no time passes, so that its materials are not viscous.
-Problem without_time(Problem problem) {
-  problem.solve.method = "newton";
-  return problem;
+Problem without_time(const Problem& problem) {
+  Problem timeless = problem;
+  timeless.solve.method = "newton";
+  return timeless;
 }
 
 // Solves as accurately as rounding allows. Leaves the solution in the phase.
