@@ -35,7 +35,6 @@ class Chain : public SemiDiscrete, public Tangents {
  public:
   explicit Chain(ChainOptions options = {}) : options_(with_masses(std::move(options))), mass_(make_mass(options_)) {}
 
-  std::size_t size() const override { return options_.n; }
   const Mass& mass() const override { return mass_; }
   const ChainOptions& options() const { return options_; }
 

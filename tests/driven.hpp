@@ -29,7 +29,7 @@ class Motion {
   stillpoint::RelaxationSystem& relaxation() { return simulation_.system(); }
   stillpoint::ConstVec u() const { return simulation_.u(); }
   stillpoint::ConstVec v() const { return simulation_.v(); }
-  stillpoint::WallReaction wall(std::size_t number = 0) { return phase().wall_reactions(t()).at(number); }
+  stillpoint::WallReaction wall(std::size_t number = 0) { return phase().supports().wall_reactions(t()).at(number); }
 
   /// Mean over the points, which are of equal mass in these scenes.
   std::vector<double> mean_velocity() {

@@ -45,12 +45,12 @@ std::vector<double> solution(const LagrangianPhase& phase);
 /// Displacements (P × dim) and Cauchy stresses (P × 4) at the points.
 inline std::vector<double> point_displacement(const LagrangianPhase& phase, ConstVec u, double t = 0) {
   std::vector<double> out(static_cast<std::size_t>(phase.dim()) * phase.points());
-  phase.point_displacement(t, u, out);
+  phase.fields().point_displacement(t, u, out);
   return out;
 }
 inline std::vector<double> point_stress(const LagrangianPhase& phase, ConstVec u, double t = 0) {
   std::vector<double> out(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
-  phase.point_stress(t, u, out);
+  phase.fields().point_stress(t, u, out);
   return out;
 }
 

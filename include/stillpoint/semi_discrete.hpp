@@ -82,13 +82,11 @@ class SemiDiscrete {
  public:
   virtual ~SemiDiscrete() = default;
 
-  virtual std::size_t size() const = 0;
   virtual const Mass& mass() const = 0;
+  std::size_t size() const { return mass().size(); }
 
   /// F_i = Σ_p N_ip m_p b(x_p, t) + tractions and point forces, including those that follow the deformation; u, F: (n).
   virtual void external_force(double t, ConstVec u, Vec F) const = 0;
-  /// Whether F is the same at every t and u.
-  virtual bool loads_are_constant() const { return false; }
   virtual std::unique_ptr<TrialState> make_trial() const { return std::make_unique<TrialState>(); }
   /// R_i = Σ_p V_p P_p ∇N_ip from trial stresses; u, R: (n). Repeatable: the committed state is not touched.
   /// t places the moving supports. trial: made by this system for this phase; its last contents do not matter.
@@ -98,17 +96,24 @@ class SemiDiscrete {
   /// committed ones. Called once an accepted step if history_dependent(); throws std::logic_error if the trial is not
   /// of this phase, or not evaluated since the last commit.
   virtual void commit(TrialState& /*trial*/) {}
-  /// Whether R(u) depends on the committed state, so that every accepted step has to commit.
-  virtual bool history_dependent() const { return false; }
   virtual const Tangents& tangents() const = 0;
   virtual const Diagnosis& diagnosis() const;
 
   /// Q −= M_fs (a_s(t) + c v_s(t)), the inertia and damping forces of moving supports s on the free degrees of freedom
   /// f; no change if no support moves.
   virtual void add_support_inertia(double /*t*/, double /*c*/, Vec /*Q*/) const {}
+
+  /// Whether F is the same at every t and u.
+  bool loads_are_constant() const { return loads_are_constant_; }
+  /// Whether R(u) depends on the committed state, so that every accepted step has to commit.
+  bool history_dependent() const { return history_dependent_; }
   /// Null if nothing touches the body.
-  virtual const Contact* contact() const { return nullptr; }
-  virtual Contact* contact() { return nullptr; }
+  const Contact* contact() const { return contact_; }
+  Contact* contact() { return contact_; }
+
+ protected:
+  bool loads_are_constant_ = false, history_dependent_ = false;
+  Contact* contact_ = nullptr;
 };
 
 }  // namespace stillpoint

@@ -76,24 +76,25 @@ int check(const SceneArguments& arguments) {
   fmt::print("  space            {}, {}, {} basis, {} cells of which {} hold material\n",
              counted(static_cast<std::size_t>(scene.dim), "dimension"), to_string(scene.state),
              basis_names[static_cast<std::size_t>(scene.grid.basis)],
-             fmt::join(phase.discretisation().grid_cells, " x "), phase.discretisation().occupied_cells);
+             fmt::join(phase.shape().discretisation().grid_cells, " x "),
+             phase.shape().discretisation().occupied_cells);
   for (const BodySpec& body : scene.bodies) {
     fmt::print("  body             of {}: {}, {} volumes\n", body.material, scene.materials.at(body.material).law,
                body.volumes == VolumeRule::equal ? "equal" : "consistent");
   }
-  const std::optional<int> degree = phase.discretisation().quadrature.degree;
+  const std::optional<int> degree = phase.shape().discretisation().quadrature.degree;
   fmt::print("  points           {}, mass {:.6g} kg{}\n", phase.points(), phase.info().total_mass,
              degree ? fmt::format("; they integrate polynomials up to degree {}", *degree) : "");
-  print_cut_cells(phase.discretisation().quadrature);
+  print_cut_cells(phase.shape().discretisation().quadrature);
   fmt::print("  phases           {}\n",
              phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
   print_choices(scene, !phase.info().history_names.empty());
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
-             phase.discretisation().supported_degrees_of_freedom,
+             phase.shape().discretisation().supported_degrees_of_freedom,
              model.multigrid            ? "multigrid"
              : phase.mass().is_lumped() ? "lumped"
                                         : "consistent");
-  for (const WeakSupport& weak : phase.weak_supports(0, model.u)) {
+  for (const WeakSupport& weak : phase.supports().weak_supports(0, model.u)) {
     fmt::print("  weak support     support[{}]: {} of {:.4g} {}\n", weak.support, counted(weak.springs, "spring"),
                weak.stiffness, scene.supports[weak.support].face ? "N/m3" : "N/m");
   }
@@ -116,10 +117,10 @@ int check(const SceneArguments& arguments) {
   }
   for (const std::string& note : model.notes) fmt::print("  note             {}\n", note);
   fmt::print("  bytes a point\n");
-  for (const PointArray& array : phase.discretisation().arrays) {
+  for (const PointArray& array : phase.shape().discretisation().arrays) {
     fmt::print("    {:<17}{:4.0f}\n", array.name, array.bytes_per_point);
   }
-  const double total = phase.bytes_per_point();
+  const double total = phase.shape().discretisation().bytes_per_point();
   fmt::print("    {:<17}{:4.0f}   {:.3g} MB for all points\n", "together", total,
              total * static_cast<double>(phase.points()) / 1e6);
   print_memory(memory);

@@ -43,7 +43,7 @@ void for_stresses(const ExactSolution& solution, const LagrangianPhase& phase, c
   const auto dim = static_cast<std::size_t>(phase.dim());
   const auto components = static_cast<std::size_t>(phase.info().stress_components);
   std::vector<double> stress(components * phase.points()), exact(components), difference(components);
-  phase.point_stress(t, u, stress);
+  phase.fields().point_stress(t, u, stress);
   for (std::size_t p = 0; p < phase.points(); ++p) {
     solution.stress({data.positions.data() + dim * p, dim}, t, exact);
     for (std::size_t i = 0; i < components; ++i) difference[i] = stress[components * p + i] - exact[i];
@@ -71,8 +71,8 @@ std::optional<ExactError> exact_error(const Problem& problem, const LagrangianPh
   if (!solution) return std::nullopt;
   const auto dim = static_cast<std::size_t>(phase.dim());
   std::vector<double> displacement(dim * phase.points()), exact_u(dim);
-  phase.point_displacement(t, u, displacement);
-  const PointData data = phase.point_data();
+  phase.fields().point_displacement(t, u, displacement);
+  const PointData data = phase.fields().point_data();
   Norms in_u;
   for (std::size_t p = 0; p < phase.points(); ++p) {
     solution->displacement({data.positions.data() + dim * p, dim}, t, exact_u);
@@ -105,7 +105,7 @@ EnergyError energy_error(const Problem& problem, const LagrangianPhase& phase, d
     materials.push_back(&material);
   }
   double difference = 0, exact = 0;
-  const PointData data = phase.point_data();
+  const PointData data = phase.fields().point_data();
   for_stresses(*solution, phase, data, t, u, [&](std::size_t p, ConstVec off, ConstVec sigma) {
     const MaterialSpec& material = *materials[static_cast<std::size_t>(data.materials[p])];
     difference += data.volumes[p] * energy(material, problem.state, off);

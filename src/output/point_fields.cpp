@@ -26,18 +26,18 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
                                 ConstVec v) {
   std::vector<double> values(suffixes(phase, name).size() * phase.points());
   if (name == "u") {
-    phase.point_displacement(t, u, values);
+    phase.fields().point_displacement(t, u, values);
   } else if (name == "v") {
-    phase.point_velocity(t, v, values);
+    phase.fields().point_velocity(t, v, values);
   } else if (name == "strain") {
-    phase.point_strain(t, u, values);
+    phase.fields().point_strain(t, u, values);
   } else if (name == "stress") {
-    phase.point_stress(t, u, values);
+    phase.fields().point_stress(t, u, values);
   } else if (name == "volume") {
-    phase.point_field(PointQuantity::volume, t, u, values);
+    phase.fields().point_field(PointQuantity::volume, t, u, values);
   } else {
     if (!is_field(phase, name)) throw std::invalid_argument("there is no field " + name);
-    phase.point_history(name, values);
+    phase.fields().point_history(name, values);
   }
   return values;
 }
@@ -49,9 +49,9 @@ bool is_field(const LagrangianPhase& phase, const std::string& name) {
 }
 
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u) {
-  std::vector<double> position = phase.point_data().initial_positions;
+  std::vector<double> position = phase.fields().point_data().initial_positions;
   std::vector<double> displacement(position.size());
-  phase.point_displacement(t, u, displacement);
+  phase.fields().point_displacement(t, u, displacement);
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += displacement[i];
   return position;
 }
@@ -65,8 +65,8 @@ std::vector<double> change_of(const LagrangianPhase& phase, PointQuantity quanti
                                                              : 1;
   const std::vector<double> nothing(x.size(), 0.0);
   std::vector<double> values(static_cast<std::size_t>(components) * phase.points()), rest(values.size());
-  phase.point_field(quantity, t, x, values);
-  phase.point_field(quantity, t, nothing, rest);
+  phase.fields().point_field(quantity, t, x, values);
+  phase.fields().point_field(quantity, t, nothing, rest);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= rest[i];
   return values;
 }

@@ -111,7 +111,7 @@ const std::vector<double>& ProbedMoment::field(const std::string& name) {
 }
 
 const PlaceReader& ProbedMoment::places() {
-  if (!places_) places_ = phase_.read_places(t_, u_, v_);
+  if (!places_) places_ = phase_.fields().read_places(t_, u_, v_);
   return *places_;
 }
 
@@ -121,7 +121,7 @@ double ProbedMoment::slope_angle() {
 }
 
 Probes::Probes(const Problem& problem, const LagrangianPhase& phase) : problem_(problem), phase_(phase) {
-  const PointData data = problem.probes.empty() ? PointData() : phase.point_data();
+  const PointData data = problem.probes.empty() ? PointData() : phase.fields().point_data();
   for (std::size_t k = 0; k < problem.probes.size(); ++k) {
     const ProbeSpec& spec = problem.probes[k];
     require_fields(problem, phase, k);
@@ -129,7 +129,7 @@ Probes::Probes(const Problem& problem, const LagrangianPhase& phase) : problem_(
     if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
     for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
   }
-  for (const WallReaction& wall : phase.wall_reactions(0)) {
+  for (const WallReaction& wall : phase.supports().wall_reactions(0)) {
     columns_.push_back(wall.name + ".normal");
     for (const std::string& component : shear_components(wall, phase.dim())) columns_.push_back(wall.name + component);
   }
@@ -147,7 +147,7 @@ std::vector<double> Probes::read(double t, ConstVec u, ConstVec v) {
   ProbedMoment moment(problem_, phase_, t, u, v);
   std::vector<double> values;
   for (const auto& probe : probes_) probe->read(moment, values);
-  for (const WallReaction& wall : phase_.wall_reactions(t)) {
+  for (const WallReaction& wall : phase_.supports().wall_reactions(t)) {
     values.push_back(wall.normal);
     const std::size_t components = shear_components(wall, phase_.dim()).size();
     values.insert(values.end(), wall.shear.begin(), wall.shear.begin() + static_cast<std::ptrdiff_t>(components));
@@ -179,7 +179,7 @@ std::vector<std::string> Probes::notes() const {
 
 void check_probes(const Problem& problem, const LagrangianPhase& phase) {
   const std::vector<double> nothing(phase.size());
-  const PointData data = problem.probes.empty() ? PointData() : phase.point_data();
+  const PointData data = problem.probes.empty() ? PointData() : phase.fields().point_data();
   std::unique_ptr<PlaceReader> places;
   for (std::size_t k = 0; k < problem.probes.size(); ++k) {
     const ProbeSpec& probe = problem.probes[k];
@@ -188,7 +188,7 @@ void check_probes(const Problem& problem, const LagrangianPhase& phase) {
       throw_scene_error(key + ".point",
                         fmt::format("there is no material point {}; expected 1 to {}", *probe.point, phase.points()));
     if (probe.kind == ProbeKind::point && !probe.point && probe.frame == ProbeFrame::material) {
-      if (!places) places = phase.read_places(0, nothing, nothing);
+      if (!places) places = phase.fields().read_places(0, nothing, nothing);
       if (!places->holds(probe.at)) throw_scene_error(key + ".at", "there is no material at this place");
     }
     if (probe.kind != ProbeKind::mean) continue;

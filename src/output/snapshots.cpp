@@ -84,7 +84,7 @@ void Snapshots::take(double t, ConstVec u, ConstVec v) {
                    .points = phase_.points(),
                    .position = current_positions(phase_, t, u),
                    .fields = {},
-                   .material = phase_.point_data().materials};
+                   .material = phase_.fields().point_data().materials};
   std::vector<std::string> names = {"u", "v", "stress"};
   std::ranges::copy(phase_.info().history_names, std::back_inserter(names));
   for (const std::string& name : names) {

@@ -116,7 +116,7 @@ std::vector<std::string> Points::names() {
 Array Points::field(const std::string& name) {
   Simulation& now = simulation().at_rest();
   if (const auto constant = constant_fields.find(name); constant != constant_fields.end())
-    return array_of_points(now.phase().point_data().*constant->second, now.points());
+    return array_of_points(now.phase().fields().point_data().*constant->second, now.points());
   const auto computed = computed_fields.find(name);
   const bool is_remembered = std::ranges::count(now.phase().info().history_names, name) > 0;
   if (computed == computed_fields.end() && !is_remembered)

@@ -85,10 +85,10 @@ std::optional<HeldByGap> held_by_gap(const Problem& problem, const std::vector<B
 
 std::vector<std::string> BodyNotes::at_start(const Problem& problem, const LagrangianPhase& phase) {
   std::vector<std::string> notes;
-  const std::vector<BodyGap> pairs = phase.body_gaps();
+  const std::vector<BodyGap> pairs = phase.shape().body_gaps();
   if (pairs.empty()) return notes;
   const bool may_move = phase.info().updated_lagrangian || !problem.stop.wants_equilibrium();
-  if (const auto found = may_move ? std::nullopt : held_by_gap(problem, pairs, phase.held_bodies())) {
+  if (const auto found = may_move ? std::nullopt : held_by_gap(problem, pairs, phase.supports().held_bodies())) {
     throw_scene_error(fmt::format("body[{}]", found->body),
                       fmt::format("nothing holds it{}: {}, and only functions of the grid that reach both carry forces "
                                   "across the gap; expected a support, bodies that touch, or stop.residual = 0 and "
@@ -110,7 +110,7 @@ std::vector<std::string> BodyNotes::later(const Problem& problem, const Lagrangi
   std::vector<std::string> notes;
   const std::size_t bodies = problem.bodies.size();
   if (known_.size() == bodies * (bodies - 1) / 2) return notes;
-  for (const BodyGap& pair : phase.body_gaps()) {
+  for (const BodyGap& pair : phase.shape().body_gaps()) {
     if (!known_.insert({pair.a, pair.b}).second) continue;
     notes.push_back(
         fmt::format("{} when they have come to share functions of the grid, which push them apart, or hold "

@@ -14,7 +14,7 @@ std::optional<std::string> Chatter::observe(const LagrangianPhase& phase, double
   way_ += way;
   ++phases_;
   if (!position_.empty() && way_ < long_way) return std::nullopt;
-  const std::vector<double> now = phase.positions();
+  const std::vector<double> now = phase.fields().positions();
   double furthest = 0;
   for (std::size_t i = 0; i < position_.size(); ++i) furthest = std::max(furthest, std::abs(now[i] - position_[i]));
   const bool chatters = !position_.empty() && furthest <= nowhere * way_ * cell && residual > smaller * residual_;

@@ -57,7 +57,7 @@ void Creep::sample(double t, ConstVec u, bool settled) {
   last_t_ = t;
   const auto dim = static_cast<std::size_t>(phase_.dim());
   std::vector<double> of_points(dim * phase_.points());
-  phase_.point_displacement(t, u, of_points);
+  phase_.fields().point_displacement(t, u, of_points);
   for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_points[dim * stride_ * (k / dim) + k % dim];
   sum_t_ += t;
   ++samples_;
@@ -95,7 +95,7 @@ bool Creep::loads_have_changed(double t) const {
   constexpr std::size_t places = 8;
   constexpr double same = 1e-9;
   const auto dim = static_cast<std::size_t>(phase_.dim());
-  const std::vector<double> x = phase_.point_data().initial_positions;
+  const std::vector<double> x = phase_.fields().point_data().initial_positions;
   bool changed = false;
   problem_.for_each_formula([&](const std::string&, const Expression& formula) {
     if (changed || !formula.uses('t')) return;

@@ -32,9 +32,9 @@ double displacement_scale(const Problem& problem, const Model& model) {
   const auto widen = [&](double factor) {
     for (const double u : at_points) scale = std::max(scale, factor * std::abs(u));
   };
-  phase.point_displacement(0, model.u, at_points);
+  phase.fields().point_displacement(0, model.u, at_points);
   widen(1);
-  phase.point_velocity(0, model.v, at_points);
+  phase.fields().point_velocity(0, model.v, at_points);
   widen(1 / *model.omega_1);
 
   const SparseCholesky K(phase.tangents().matrix(Tangent::elastic, 0, model.u));
@@ -44,7 +44,7 @@ double displacement_scale(const Problem& problem, const Model& model) {
     const double t = samples > 0 ? span * k / samples : 0;
     std::vector<double> u = total_load_at(phase, t);
     K.solve(u, u);
-    phase.point_displacement(t, u, at_points);
+    phase.fields().point_displacement(t, u, at_points);
     widen(1);
   }
   return scale;

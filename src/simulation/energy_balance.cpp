@@ -29,7 +29,7 @@ std::vector<double> EnergyBalance::values(double kinetic_energy) const {
 void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u) {
   if (!watches_) return;
   const ConstVec F = system.last_external_force(), reactions = system.last_reactions();
-  const std::vector<double> support = phase_.support_displacements(t);
+  const std::vector<double> support = phase_.supports().support_displacements(t);
   if (last_.u.empty()) {  // the start of the run: nothing has moved yet but supports, from where nothing is deformed
     remember(F, u, std::vector<double>(reactions.size(), 0.0), std::vector<double>(support.size(), 0.0));
   }
@@ -45,7 +45,7 @@ void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u
 void EnergyBalance::begin_phase(double t, const RelaxationSystem& system) {
   if (!watches_) return;
   remember(system.last_external_force(), std::vector<double>(system.size(), 0.0), system.last_reactions(),
-           phase_.support_displacements(t));
+           phase_.supports().support_displacements(t));
 }
 
 void EnergyBalance::remember(ConstVec F, ConstVec u, ConstVec reactions, ConstVec support) {
@@ -60,7 +60,7 @@ void EnergyBalance::archive(const StateArchive& state) {
   state("t", t_);
   state("power", power_);
   state.none_or(phase_.size(), "u", last_.u);
-  const std::size_t n = last_.u.size(), supports = n > 0 ? phase_.support_displacements(t_).size() : 0;
+  const std::size_t n = last_.u.size(), supports = n > 0 ? phase_.supports().support_displacements(t_).size() : 0;
   last_.F.resize(n);
   last_.reactions.resize(supports);
   last_.support.resize(supports);
@@ -71,7 +71,7 @@ void EnergyBalance::archive(const StateArchive& state) {
 
 double EnergyBalance::wall_power(double t) const {
   double power = 0;
-  for (const WallReaction& wall : phase_.wall_reactions(t)) power += wall.power;
+  for (const WallReaction& wall : phase_.supports().wall_reactions(t)) power += wall.power;
   return power;
 }
 

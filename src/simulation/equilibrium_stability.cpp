@@ -24,9 +24,9 @@ double stress_part(const LagrangianPhase& phase, double t, ConstVec u, ConstVec 
   const auto gradients = static_cast<std::size_t>(phase.info().gradient_components);
   const auto stresses = static_cast<std::size_t>(phase.info().stress_components);
   const std::vector<double> gradient = change_of(phase, PointQuantity::strain, t, x);
-  const std::vector<double> volume = phase.point_data().volumes;
+  const std::vector<double> volume = phase.fields().point_data().volumes;
   std::vector<double> stress(stresses * phase.points());
-  phase.point_stress(t, u, stress);
+  phase.fields().point_stress(t, u, stress);
   const auto square = [](const std::vector<double>& values, std::size_t width, std::size_t p) {
     double sum = 0;
     for (std::size_t i = 0; i < width; ++i) sum += values[width * p + i] * values[width * p + i];
@@ -56,7 +56,7 @@ bool moves_no_material(const LagrangianPhase& phase, double t, const std::vector
   }
   if (!(of_mode < light * most * sum)) return false;
   const std::vector<double> moved = change_of(phase, PointQuantity::displacement, t, x);
-  const std::vector<double> mass = phase.point_data().masses;
+  const std::vector<double> mass = phase.fields().point_data().masses;
   const auto dim = static_cast<std::size_t>(phase.dim());
   double energy = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) energy += mass[i / dim] * moved[i] * moved[i];

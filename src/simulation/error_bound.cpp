@@ -33,7 +33,7 @@ double ErrorBound::omega_V() const { return by_strain_ ? 1 : volume_ ? volume_->
 
 // ‖u‖_K² = uᵀK u over free unknowns and supports: u·R + u_s·R_s.
 double ErrorBound::strain_norm(const RelaxationSystem& relaxation, const Vector& u) const {
-  const std::vector<double> support = phase_.support_displacements(relaxation.last_t());
+  const std::vector<double> support = phase_.supports().support_displacements(relaxation.last_t());
   const ConstVec reactions = relaxation.last_reactions();
   double work = relaxation.internal_work(u);
   for (std::size_t s = 0; s < std::min(support.size(), reactions.size()); ++s) work += support[s] * reactions[s];

@@ -40,7 +40,7 @@ std::string formula_without_value(const Problem& problem, const LagrangianPhase&
 std::string own_load_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
   const auto own = own_load(problem.own_load);
   if (!own) return "";
-  const std::vector<double> x = phase.positions();
+  const std::vector<double> x = phase.fields().positions();
   std::vector<double> b(x.size());
   for (const double at : {t, t + step / 2, t + step}) {
     own->b(at, problem.dim, x, b);
@@ -69,7 +69,7 @@ std::string failure_of_step(const Problem& problem, const LagrangianPhase& phase
 std::string most_stressed(const LagrangianPhase& phase, double t, ConstVec u) {
   const auto components = static_cast<std::size_t>(phase.info().stress_components);
   std::vector<double> stress(components * phase.points());
-  phase.point_stress(t, u, stress);
+  phase.fields().point_stress(t, u, stress);
   const std::size_t largest = largest_entry(stress);
   return fmt::format("{} is stressed most, by {:.3g} Pa", to_string(phase.diagnosis().of_point(largest / components)),
                      std::abs(stress[largest]));

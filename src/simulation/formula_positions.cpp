@@ -99,7 +99,7 @@ std::vector<double> formula_positions(const Problem& problem, const LagrangianPh
     const double face = (is_upper(*support.face) ? problem.grid.max : problem.grid.min)[axis];
     return over(held_part(problem.grid, support), face, problem.grid);
   }
-  return phase.positions();
+  return phase.fields().positions();
 }
 
 }  // namespace stillpoint

@@ -141,7 +141,7 @@ void note_free_parts(const Problem& problem, const LagrangianPhase& phase, Const
   std::vector<double> F(phase.size());
   phase.external_force(varies ? problem.stop.time : 0, u, F);
   std::vector<std::string> balanced;
-  for (const FreePart& part : phase.free_parts()) {
+  for (const FreePart& part : phase.shape().free_parts()) {
     const std::string along = fmt::format(
         "{} along {}",
         part.is_whole ? "the body" : fmt::format("the part of the body around material point {}", part.point + 1),

@@ -91,7 +91,7 @@ void LoadSchedule::look_at_own(const Problem& problem, const LagrangianPhase& ph
   if (!is_open_) settled_from_ = end > 0 ? std::min(settles_at, end) : settles_at;
   if (!(settles_at < (end > 0 ? end : std::numeric_limits<double>::infinity()))) return;
   dim_ = problem.dim;
-  x_ = phase.positions();
+  x_ = phase.fields().positions();
   b_settled_.resize(x_.size());
   own_->b(settles_at, dim_, x_, b_settled_);
   constexpr double span = 1e3;  // [s], if there is no end

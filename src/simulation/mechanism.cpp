@@ -38,7 +38,7 @@ struct PointMotion {
 
 PointMotion motion_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVec x) {
   PointMotion motion{.dim = static_cast<std::size_t>(phase.dim()),
-                     .position = phase.info().nonlinear ? current_positions(phase, t, u) : phase.positions(),
+                     .position = phase.info().nonlinear ? current_positions(phase, t, u) : phase.fields().positions(),
                      .displacement = change_of(phase, PointQuantity::displacement, t, x)};
   for (std::size_t p = 1; p < phase.points(); ++p) {
     if (motion.length(p) > motion.length(motion.furthest)) motion.furthest = p;

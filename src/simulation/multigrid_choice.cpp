@@ -97,8 +97,8 @@ bool multigrid_pays(const Problem& problem, double unknowns, bool linear) {
 void choose_multigrid(const Problem& problem, SetUp& set_up, Model& model) {
   const bool is_asked = problem.mass.kind == MassKind::multigrid;
   const auto unknowns = static_cast<double>(model.phase->size());
-  if (!is_asked &&
-      !(may_choose(model) && multigrid_pays(problem, unknowns, model.linear) && model.phase->free_parts().empty()))
+  if (!is_asked && !(may_choose(model) && multigrid_pays(problem, unknowns, model.linear) &&
+                     model.phase->shape().free_parts().empty()))
     return;
   if (is_asked) refuse_what_remembers(model), refuse_phases(problem, model);
   MultigridAttempt made = shared_multigrid_mass(set_up, problem.mass, *model.phase, model.u,

@@ -68,7 +68,7 @@ std::shared_ptr<MultigridMass> mass_of(std::shared_ptr<const Multigrid> cycle, s
 }
 
 std::shared_ptr<MultigridMass> mass_with_cycle_of(const SparseMatrix& K, const LagrangianPhase& phase) {
-  NodalLayout layout = phase.layout();
+  NodalLayout layout = phase.shape().layout();
   auto made = mass_of(make_multigrid(K, layout), phase.size());
   made->layout = std::move(layout);
   return made;
@@ -105,7 +105,7 @@ MultigridAttempt next_multigrid_mass(const LagrangianPhase& phase, const Multigr
   const LinearMap apply_K = row_product(K);
   const auto anew = [&] { return with_frequencies(mass_with_cycle_of(K, phase), apply_K, phase, u, true); };
   if (!last) return anew();
-  const auto carried = mass_of(carry(last->cycle, last->layout, phase.layout(), K), phase.size());
+  const auto carried = mass_of(carry(last->cycle, last->layout, phase.shape().layout(), K), phase.size());
   const bool serves = find_frequencies(apply_K, out_of_balance(phase, u), /*only_omega_max=*/true, *carried) &&
                       carried->spread <= worse * last->spread;
   if (!serves) return anew();

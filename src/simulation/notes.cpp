@@ -71,7 +71,7 @@ int fewest_gauss_points(int dim, int degree) {
 // which is p for m = 3p − 2.
 std::vector<std::string> quadrature_notes(const Problem& problem, const LagrangianPhase& phase, bool scaled) {
   std::vector<std::string> notes;
-  const QuadratureReport quadrature = phase.discretisation().quadrature;
+  const QuadratureReport quadrature = phase.shape().discretisation().quadrature;
   if (quadrature.cells_limited_by_sign > 0) {
     notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
                                 quadrature.cells_limited_by_sign));
@@ -191,10 +191,10 @@ std::vector<std::string> lowest_mode_notes(const Problem& problem, const Lagrang
                                            double omega_1) {
   if (!phase.mass().is_lumped() || x.empty()) return {};
   const auto dim = static_cast<std::size_t>(phase.dim());
-  const std::vector<double> nothing(x.size(), 0.0), mass = phase.point_data().masses;
+  const std::vector<double> nothing(x.size(), 0.0), mass = phase.fields().point_data().masses;
   std::vector<double> of_points(dim * phase.points()), of_supports(of_points.size()), Mx(x.size());
-  phase.point_velocity(0, x, of_points);
-  phase.point_velocity(0, nothing, of_supports);
+  phase.fields().point_velocity(0, x, of_points);
+  phase.fields().point_velocity(0, nothing, of_supports);
   double material = 0, nodes = 0;
   for (std::size_t i = 0; i < of_points.size(); ++i) {
     const double v = of_points[i] - of_supports[i];
@@ -273,11 +273,11 @@ std::optional<std::string> lost_motion_note(const LagrangianPhase& phase, double
   };
   std::vector<double> moved(static_cast<std::size_t>(phase.dim()) * phase.points()),
       stress(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
-  phase.point_field(PointQuantity::displacement, t, u, moved);
+  phase.fields().point_field(PointQuantity::displacement, t, u, moved);
   const double most = largest(moved);
-  const double rounding = std::numeric_limits<double>::epsilon() * largest(phase.point_data().positions);
+  const double rounding = std::numeric_limits<double>::epsilon() * largest(phase.fields().point_data().positions);
   if (!(most < digits * rounding)) return std::nullopt;
-  phase.point_stress(t, u, stress);
+  phase.fields().point_stress(t, u, stress);
   if (largest(stress) == 0) return std::nullopt;  // nothing acts
   return fmt::format(
       "the points moved by {:.2g} m at most, and their positions are rounded to {:.1g} m from phase to phase: the "

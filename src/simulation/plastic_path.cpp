@@ -38,7 +38,7 @@ PlasticPath::PlasticPath(const Problem& problem, const Model& model) : model_(mo
   const bool yields = std::ranges::find(remembered, plastic) != remembered.end();
   watches_ = yields && problem.stop.wants_equilibrium();
   if (!watches_) return;
-  volumes_ = model.phase->point_data().volumes;
+  volumes_ = model.phase->fields().point_data().volumes;
   of_points_.resize(volumes_.size());
   constexpr double samples_a_period = 32, periods_of_the_shortest = 100;  // if the longest is not known
   const double period =
@@ -78,7 +78,7 @@ std::optional<double> PlasticPath::unbalanced_work(double t, ConstVec u) const {
 }
 
 const std::vector<double>& PlasticPath::plastic_strain() const {
-  model_.phase->point_history(plastic, of_points_);
+  model_.phase->fields().point_history(plastic, of_points_);
   return of_points_;
 }
 
@@ -90,7 +90,7 @@ double PlasticPath::total_plastic_strain() const {
 double PlasticPath::plastic_work(double t, ConstVec u) const {
   const auto n = static_cast<std::size_t>(model_.phase->info().stress_components);
   std::vector<double> stress(n * volumes_.size());
-  model_.phase->point_stress(t, u, stress);
+  model_.phase->fields().point_stress(t, u, stress);
   const std::vector<double>& strain = plastic_strain();
   return sum_over(volumes_.size(), [&](std::size_t p) {
     return strain[p] > 0 ? volumes_[p] * strain[p] * root_J2(ConstVec(stress).subspan(n * p, n)) : 0.0;
@@ -115,7 +115,7 @@ double PlasticPath::across_loads(double t, const RelaxationSystem& system) {
 // ½ (|F·u| + |R·u|) + |R_s·u_s|, since the phase began
 double PlasticPath::work(double t, RelaxationSystem& system, const Vector& u) const {
   const ConstVec reactions = system.last_reactions();
-  const std::vector<double> moved = model_.phase->support_displacements(t);
+  const std::vector<double> moved = model_.phase->supports().support_displacements(t);
   double of_supports = 0;
   for (std::size_t s = 0; s < moved.size(); ++s) of_supports += reactions[s] * moved[s];
   return 0.5 * system.work_scale(u) + std::abs(of_supports);

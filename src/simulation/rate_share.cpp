@@ -42,10 +42,11 @@ void RateShare::sample(double t, long steps, PhaseMotion& motion) {
 // Since the last sample; displacements of supports are known at any time, whenever the phase began.
 double RateShare::work_of_driving(double t, const RelaxationSystem& system) const {
   const ConstVec reactions = system.last_reactions();
-  const std::vector<double> now = phase_.support_displacements(t), before = phase_.support_displacements(t_);
+  const std::vector<double> now = phase_.supports().support_displacements(t),
+                            before = phase_.supports().support_displacements(t_);
   double work = 0;
   for (std::size_t s = 0; s < std::min(reactions.size(), now.size()); ++s) work += reactions[s] * (now[s] - before[s]);
-  for (const WallReaction& wall : phase_.wall_reactions(t)) work += wall.power * (t - t_);
+  for (const WallReaction& wall : phase_.supports().wall_reactions(t)) work += wall.power * (t - t_);
   return work;
 }
 

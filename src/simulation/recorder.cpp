@@ -76,7 +76,7 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
   energy_balance_.advance(t, motion.system, motion.u());
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   std::ranges::copy(reaction_values(problem_, phase_, t, motion), std::back_inserter(values));
-  if (const auto load = phase_.load_state(t, motion.u())) {
+  if (const auto load = phase_.supports().load_state(t, motion.u())) {
     values.insert(values.end(), {load->factor, load->displacement});
     if (!(load->factor <= largest_factor_)) largest_factor_ = load->factor;
   }
@@ -129,7 +129,7 @@ void Recorder::finish(double t, const PhaseMotion* motion) {
 void Recorder::fill(Summary& s, double t, PhaseMotion& motion) {
   if (energy_balance_.watches()) s.external_work = energy_balance_.external_work();
   s.snapshots = snapshots_.taken();
-  if (const auto load = phase_.load_state(t, motion.u()))
+  if (const auto load = phase_.supports().load_state(t, motion.u()))
     s.load = LoadFigures{.factor = load->factor,
                          .largest_factor = std::max(largest_factor_, load->factor),
                          .displacement = load->displacement};

@@ -131,12 +131,12 @@ void Simulation::Impl::say_how_far_one_phase_went() {
 
 void Simulation::Impl::say_what_phases_left() {
   if (status_ != RunStatus::equilibrium || !model_.phase->info().updated_lagrangian) return;
-  if (const std::string fault = fault_of_push(scene_, model_.phase->wall_reactions(t_)); !fault.empty()) {
+  if (const std::string fault = fault_of_push(scene_, model_.phase->supports().wall_reactions(t_)); !fault.empty()) {
     status_ = RunStatus::step_limit;
     reason_ = fmt::format("no equilibrium: {}; it ended with {}", fault, reason_);
     return;
   }
-  const double unfelt = model_.phase->null_space_stress(t_, motion_->u());
+  const double unfelt = model_.phase->fields().null_space_stress(t_, motion_->u());
   if (const auto note = null_space_note(scene_, *model_.phase, unfelt)) reason_ += "; but " + *note;
 }
 

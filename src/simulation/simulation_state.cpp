@@ -58,7 +58,7 @@ void require_same(const Origin& saved, const Origin& now) {
 
 // Of the body as it was placed, which a file of points may have changed since.
 std::int64_t checksum_of_body(const LagrangianPhase& phase) {
-  const PointData points = phase.point_data();
+  const PointData points = phase.fields().point_data();
   std::uint64_t sum = 0;
   for (const auto* values : {&points.initial_positions, &points.masses})
     sum = checksum(sum, values->data(), values->size() * sizeof(double));

@@ -57,7 +57,7 @@ Summary Simulation::Impl::summary() {
 void Simulation::Impl::fill_model(Summary& s) const {
   s.points = model_.phase->points();
   s.dofs = model_.phase->size();
-  s.bytes_per_point = model_.phase->bytes_per_point();
+  s.bytes_per_point = model_.phase->shape().discretisation().bytes_per_point();
   s.omega_1 = model_.omega_1;
   s.omega_max = model_.omega_max;
   s.c = model_.c ? model_.c : motion_->integrator->damping_rate();
@@ -103,14 +103,14 @@ void Simulation::Impl::fill_state(Summary& s) {
   add_note(s, note_on_unbalanced_work(s.unbalanced_plastic_work, model_));
   s.error = exact_error(scene_, *model_.phase, t_, motion_->u());
   if (model_.phase->info().updated_lagrangian) {
-    for (std::string& note : notes_on_late_walls(scene_, model_.phase->wall_reactions(t_)))
+    for (std::string& note : notes_on_late_walls(scene_, model_.phase->supports().wall_reactions(t_)))
       s.notes.push_back(std::move(note));
     const auto transfer = model_.phase->control().transfer_errors();
     s.mass_error = transfer.mass;
     s.momentum_error = transfer.momentum;
     s.angular_momentum_error = transfer.angular_momentum;
     s.added_mass = transfer.added_mass;
-    s.null_space_stress = model_.phase->null_space_stress(t_, motion_->u());
+    s.null_space_stress = model_.phase->fields().null_space_stress(t_, motion_->u());
     add_note(s, null_space_note(scene_, *model_.phase, *s.null_space_stress));
     add_note(s, lost_motion_note(*model_.phase, t_, motion_->u(), phases_));
   }

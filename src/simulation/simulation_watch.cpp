@@ -136,7 +136,9 @@ void Simulation::Impl::look_for_standstill() {
 void Simulation::Impl::look_for_limit_load() {
   const ConstVec reactions = motion_->system.last_reactions();
   const double force = reactions.empty() ? 0 : reactions.back();
-  if (!limit_load_.observe(*model_.phase->load_state(t_, motion_->u()), force) || scene_.stop.load_growth <= 0) return;
+  if (!limit_load_.observe(*model_.phase->supports().load_state(t_, motion_->u()), force) ||
+      scene_.stop.load_growth <= 0)
+    return;
   measure();
   const LimitLoad::Body body{.residual = residual_,
                              .kinetic_energy = kinetic_energy_,

@@ -11,7 +11,7 @@ std::optional<SinglePhaseStrain> strain_in_single_phase(const LagrangianPhase& p
   if (phase.info().updated_lagrangian || !phase.history_dependent()) return std::nullopt;
   const auto components = static_cast<std::size_t>(phase.info().gradient_components);
   std::vector<double> gradient(components * phase.points());
-  phase.point_strain(t, u, gradient);
+  phase.fields().point_strain(t, u, gradient);
   SinglePhaseStrain most;
   for (std::size_t k = 0; k < gradient.size(); ++k)
     if (std::abs(gradient[k]) > most.strain) most = {std::abs(gradient[k]), k / components};

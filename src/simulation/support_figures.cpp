@@ -21,7 +21,7 @@ int moment_components(const Problem& problem) { return dimension_info(problem.di
 double largest_displacement(const LagrangianPhase& phase, double t, ConstVec u) {
   const auto dim = static_cast<std::size_t>(phase.dim());
   std::vector<double> of_points(dim * phase.points());
-  phase.point_displacement(t, u, of_points);
+  phase.fields().point_displacement(t, u, of_points);
   double largest = 0;
   for (std::size_t p = 0; p < phase.points(); ++p) {
     double square = 0;
@@ -62,7 +62,8 @@ std::vector<double> reaction_values(const Problem& problem, const LagrangianPhas
                                     PhaseMotion& motion) {
   std::vector<double> values;
   if (!has_named_supports(problem)) return values;
-  for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
+  for (const SupportReaction& support :
+       phase.supports().support_reactions(t, motion.u(), motion.system.last_reactions())) {
     values.insert(values.end(), support.force.begin(), support.force.begin() + problem.dim);
     values.insert(values.end(), support.moment.begin(), support.moment.begin() + moment_components(problem));
   }
@@ -73,13 +74,14 @@ void fill_supports(const Problem& problem, const LagrangianPhase& phase, double 
                    Summary& summary) {
   if (has_named_supports(problem)) {
     motion.residual(t);
-    for (const SupportReaction& support : phase.support_reactions(t, motion.u(), motion.system.last_reactions())) {
+    for (const SupportReaction& support :
+         phase.supports().support_reactions(t, motion.u(), motion.system.last_reactions())) {
       summary.reactions[support.name] = {support.force.begin(), support.force.begin() + problem.dim};
       if (const int moments = moment_components(problem); moments > 0)
         summary.reaction_moments[support.name] = {support.moment.begin(), support.moment.begin() + moments};
     }
   }
-  const std::vector<WeakSupport> weak = phase.weak_supports(t, motion.u());
+  const std::vector<WeakSupport> weak = phase.supports().weak_supports(t, motion.u());
   const double largest = weak.empty() ? 0 : largest_displacement(phase, t, motion.u());
   for (const WeakSupport& one : weak) {
     const SupportSpec& support = problem.supports[one.support];

@@ -27,7 +27,7 @@ double longest_time_constant(const MaterialSpec& material) {
 }  // namespace
 
 std::string creep(const Problem& problem, const LagrangianPhase& phase) {
-  const std::optional<OverStress> over = phase.over_stress();
+  const std::optional<OverStress> over = phase.fields().over_stress();
   if (!over || over->share <= largest_over_stress) return "";
   std::vector<std::string> keys;
   for (const std::string& name : viscous_materials(problem)) keys.push_back(fluidity_of(name));

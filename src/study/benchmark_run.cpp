@@ -68,7 +68,8 @@ class ConvergenceTracker {
 // The memory of the points and about ten vectors of unknowns [bytes].
 std::size_t memory_of(const LagrangianPhase& phase) {
   return static_cast<std::size_t>(10.0 * sizeof(double) * static_cast<double>(phase.size()) +
-                                  phase.bytes_per_point() * static_cast<double>(phase.points()));
+                                  phase.shape().discretisation().bytes_per_point() *
+                                      static_cast<double>(phase.points()));
 }
 
 // A simulation that steps by the method alone, with no end but a failure.

@@ -212,8 +212,9 @@ class Comparing {
     run.residual = report.residual;
     run.error = exact_->error(u);
     if (ramp_) run.overshoot = ramp_->error(u);
-    run.memory_bytes =
-        static_cast<std::size_t>(phase->bytes_per_point() * static_cast<double>(phase->points())) + report.factor_bytes;
+    run.memory_bytes = static_cast<std::size_t>(phase->shape().discretisation().bytes_per_point() *
+                                                static_cast<double>(phase->points())) +
+                       report.factor_bytes;
     run.wall_s = spread_of({report.wall_s});
     store_.give_back(scene.mass, std::move(phase));
     return report.wall_s;

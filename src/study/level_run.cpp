@@ -38,7 +38,7 @@ double exact_value(const ExactSolution* exact, const LagrangianPhase& phase, con
 void read_at_places(Simulation& simulation, const CommonPlaces& places, LevelRun& run) {
   const LagrangianPhase& phase = simulation.phase();
   if (phase.info().updated_lagrangian) return;
-  const auto reader = phase.read_places(simulation.t(), simulation.u(), simulation.v());
+  const auto reader = phase.fields().read_places(simulation.t(), simulation.u(), simulation.v());
   FieldsAtPlaces fields = read_at(places, *reader, static_cast<std::size_t>(phase.info().stress_components));
   run.u = std::move(fields.u);
   run.stress = std::move(fields.stress);
@@ -71,7 +71,7 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
   };
   run.u = copy("u");
   run.stress = copy("stress");
-  run.volume = simulation.phase().point_data().volumes;
+  run.volume = simulation.phase().fields().point_data().volumes;
 }
 
 // The relative error from other sources than the level: rounding, amplified in an equilibrium by its condition number

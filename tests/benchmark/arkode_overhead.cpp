@@ -36,7 +36,6 @@ double seconds_now() {
 /// M = I, R = u.
 class Oscillators : public SemiDiscrete, private Tangents {
  public:
-  std::size_t size() const override { return dofs; }
   const Mass& mass() const override { return mass_; }
   void external_force(double, ConstVec, Vec F) const override { std::ranges::fill(F, 0.0); }
   bool internal_force(double, ConstVec u, Vec R, TrialState&) const override {

@@ -22,7 +22,7 @@ Read read_at(const Scene& scene, const std::vector<double>& x) {
   const auto phase = make_phase(scene);
   const auto u = statics::solution(*phase);
   statics::commit(*phase, u);
-  const auto places = phase->read_places(0, u, std::vector<double>(u.size()));
+  const auto places = phase->fields().read_places(0, u, std::vector<double>(u.size()));
   Read read{std::vector<double>(x.size()),
             std::vector<double>(static_cast<std::size_t>(phase->info().gradient_components)),
             std::vector<double>(static_cast<std::size_t>(phase->info().stress_components))};

@@ -64,7 +64,7 @@ TEST_CASE("equal volumes bias the bar by 1.8 % in displacement, and the check sa
   const Scene scene = bar({"body.volumes=equal", "stop.residual=1e-10"});
   const auto phase = make_phase(scene);
   CHECK(dense_frequencies(*phase)(0) == Approx(0.15488492).epsilon(4e-8));
-  CHECK(phase->discretisation().quadrature.degree == 1);
+  CHECK(phase->shape().discretisation().quadrature.degree == 1);
   const Summary s = run(scene);
   CHECK(probe(s, "p12", "u") == Approx(0.0097526).epsilon(1e-5));
   CHECK(off_by(probe(s, "p12", "u"), u12) == Approx(0.0177).margin(0.0005));

@@ -59,7 +59,7 @@ std::vector<std::string> at_large_strain(const std::string& law, const std::stri
 double error_at_large_strain(const ExactColumn& exact, std::vector<std::string> overrides) {
   const auto phase = make_phase(column(overrides));
   const auto u = statics::point_displacement(*phase, statics::solution(*phase));
-  const auto x = phase->positions();
+  const auto x = phase->fields().positions();
   Largest off;
   for (std::size_t p = 0; p < phase->points(); ++p) {
     CHECK_THAT(u[2 * p], WithinAbs(0, 1e-9));
@@ -152,7 +152,7 @@ TEST_CASE("at large strain each cell of the linear column bears exactly the weig
       CAPTURE(law, state);
       const auto phase = make_phase(column(at_large_strain(law, state)));
       const auto u = statics::solution(*phase);
-      const auto x = phase->positions(), stress = statics::point_stress(*phase, u);
+      const auto x = phase->fields().positions(), stress = statics::point_stress(*phase, u);
       const double h = H / 16;
       for (std::size_t p = 0; p < phase->points(); ++p) {
         const double middle = (std::floor(x[2 * p + 1] / h) + 0.5) * h;
@@ -174,7 +174,7 @@ TEST_CASE("relaxed at large strain in a single phase, the column is the static s
     const auto phase = make_phase(scene);
     const auto u = statics::solution(*phase);
     std::vector<double> top(2);
-    phase->read_places(0, u, std::vector<double>(u.size()))->displacement(s.probe_positions.at("top"), top);
+    phase->fields().read_places(0, u, std::vector<double>(u.size()))->displacement(s.probe_positions.at("top"), top);
     CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(top[1], 1e-6));
     CHECK_THAT(scenes::probe(s, "top", "u.y"), WithinRel(ExactColumn{law}.u(s.probe_positions.at("top")[1]), 2e-3));
   }

@@ -178,7 +178,7 @@ TEST_CASE("a bar that ends in a sliver settles by g L²/2 exactly where the basi
       CAPTURE(basis, sliver);
       const auto phase = make_phase(bar({"grid.basis=" + basis, "constants.sliver=" + sliver}));
       const std::vector<double> u = statics::point_displacement(*phase, statics::solution(*phase));
-      const std::vector<double> x = phase->positions();
+      const std::vector<double> x = phase->fields().positions();
       const double L = 1 + 0.1 * std::stod(sliver);
       double worst = 0;
       for (std::size_t p = 0; p < x.size(); ++p)
@@ -195,7 +195,7 @@ TEST_CASE("a block with slivers along two faces is stretched evenly by a tractio
       CAPTURE(basis, sliver);
       const auto phase = make_phase(block({"grid.basis=" + basis, "constants.sliver=" + sliver}));
       const std::vector<double> u = statics::solution(*phase), of_points = statics::point_displacement(*phase, u);
-      const std::vector<double> x = phase->positions();
+      const std::vector<double> x = phase->fields().positions();
       double worst = 0;
       for (std::size_t p = 0; p < phase->points(); ++p) {
         const double error = std::max(std::abs(of_points[2 * p] - stress * (1 - nu * nu) / E * x[2 * p]),
@@ -280,8 +280,8 @@ TEST_CASE("what is held in a sliver stays held") {
     CAPTURE(basis);
     const auto phase = make_phase(bar({"grid.basis=" + basis, "body.min=0.099", "constants.sliver=1e-3"}));
     CHECK(omega_1(*phase) > 0);
-    CHECK(phase->discretisation().quadrature.slivers == 2);
-    CHECK(phase->discretisation().quadrature.joined == 1);
+    CHECK(phase->shape().discretisation().quadrature.slivers == 2);
+    CHECK(phase->shape().discretisation().quadrature.joined == 1);
   }
 }
 
@@ -291,6 +291,6 @@ TEST_CASE("a body whose faces lie on grid lines, or that moves on, keeps every f
         block(
             {"constants.sliver=0.01", "material.block={law='hencky', E=1, nu=0.25, rho=1}", "phase.max_motion=0.1"})}) {
     CAPTURE(scene.name);
-    CHECK(make_phase(scene)->discretisation().quadrature.joined == 0);
+    CHECK(make_phase(scene)->shape().discretisation().quadrature.joined == 0);
   }
 }

@@ -188,7 +188,7 @@ namespace {
 /// √(Σ_p |u_p|²) over the points, which all have the same volume.
 double at_points(const LagrangianPhase& phase, ConstVec u) {
   Values of_points(static_cast<std::size_t>(phase.dim()) * phase.points());
-  phase.point_displacement(0, u, of_points);
+  phase.fields().point_displacement(0, u, of_points);
   double sum = 0;
   for (const double value : of_points) sum += value * value;
   return std::sqrt(sum);

@@ -85,10 +85,10 @@ Settled settled(double s0, int cells, const std::vector<std::string>& more = {})
   Simulation simulation(column(s0, cells, more), {.records = false});
   while (!simulation.done()) simulation.run_until(simulation.t() + 1);
   const LagrangianPhase& phase = simulation.phase();
-  const std::vector<double> X = phase.point_data().initial_positions;
+  const std::vector<double> X = phase.fields().point_data().initial_positions;
   std::vector<double> u(phase.points()), stress(phase.points());
-  phase.point_displacement(simulation.t(), simulation.u(), u);
-  phase.point_stress(simulation.t(), simulation.u(), stress);
+  phase.fields().point_displacement(simulation.t(), simulation.u(), u);
+  phase.fields().point_stress(simulation.t(), simulation.u(), stress);
   double off = 0;
   for (std::size_t p = 0; p < X.size(); ++p) off += std::abs(stress[p] + s0 * (1 - X[p])) / s0;
   const auto top = static_cast<std::size_t>(std::ranges::max_element(X) - X.begin());

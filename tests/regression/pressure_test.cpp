@@ -65,7 +65,7 @@ TEST_CASE("the cylinder has Lamé's radial and hoop stress in the middle of its 
   const double p = 1e-9, a = 1, b = 2, mean_stress = p * a * a / (b * b - a * a);
   const int cells = 32;
   const auto phase = make_phase(scenes::load("cylinder", {fmt::format("grid.cells=[{}, 2]", cells)}));
-  const auto x = phase->positions(), stress = statics::point_stress(*phase, statics::solution(*phase));
+  const auto x = phase->fields().positions(), stress = statics::point_stress(*phase, statics::solution(*phase));
   std::vector<std::array<double, 3>> mean(cells);  // of the eight points at a cell's radius: rr, zz, θθ
   for (std::size_t k = 0; k < phase->points(); ++k) {
     for (std::size_t i = 0; i < 3; ++i)

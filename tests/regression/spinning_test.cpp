@@ -37,9 +37,9 @@ State state_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVec v) {
   const std::size_t n = phase.points();
   std::vector<double> of_velocity(2 * n), place(2 * n),
       stress(n * static_cast<std::size_t>(phase.info().stress_components));
-  phase.point_field(PointQuantity::velocity, t, v, of_velocity);
-  phase.point_field(PointQuantity::stress, t, u, stress);
-  const PointData data = phase.point_data();
+  phase.fields().point_field(PointQuantity::velocity, t, v, of_velocity);
+  phase.fields().point_field(PointQuantity::stress, t, u, stress);
+  const PointData data = phase.fields().point_data();
   State state;
   std::vector<std::array<double, 2>> by_distance;
   for (std::size_t p = 0; p < n; ++p) {

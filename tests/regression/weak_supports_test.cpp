@@ -70,7 +70,7 @@ TEST_CASE("a pin in mid-face holds a stretched block against rigid motion and le
                                            at)});
     Simulation simulation(scene);
     REQUIRE(simulation.run() == RunStatus::equilibrium);
-    const std::vector<double> x = simulation.phase().positions();
+    const std::vector<double> x = simulation.phase().fields().positions();
     const ConstVec u = simulation.field("u");
     double error = 0;
     for (std::size_t p = 0; p < simulation.points(); ++p) {
@@ -307,8 +307,8 @@ TEST_CASE("from phase to phase a pin's force goes on, as do gap and reaction") {
       for (std::size_t k = 0; k < u.size(); ++k) u[k] = 0.01 + 0.001 * std::sin(static_cast<double>(k));
       const auto before = phase->make_trial();
       REQUIRE(phase->internal_force(0.1, u, R, *before));
-      const double gap = phase->weak_supports(0.1, u)[0].gap;
-      const double reaction = phase->support_reactions(0.1, u, before->reactions)[0].force[1];
+      const double gap = phase->supports().weak_supports(0.1, u)[0].gap;
+      const double reaction = phase->supports().support_reactions(0.1, u, before->reactions)[0].force[1];
       v = phase->control().begin_next(0.1, u, std::vector<double>(u.size(), 0.0));
       const std::vector<double> rest(phase->size(), 0.0);
       R.resize(rest.size());
@@ -316,8 +316,9 @@ TEST_CASE("from phase to phase a pin's force goes on, as do gap and reaction") {
       REQUIRE(phase->internal_force(0.1, rest, R, *after));
       CAPTURE(quadrature, change);
       CHECK(std::abs(reaction) > 1e-3);
-      CHECK(phase->weak_supports(0.1, rest)[0].gap == Approx(gap).epsilon(1e-12));
-      CHECK(phase->support_reactions(0.1, rest, after->reactions)[0].force[1] == Approx(reaction).epsilon(1e-12));
+      CHECK(phase->supports().weak_supports(0.1, rest)[0].gap == Approx(gap).epsilon(1e-12));
+      CHECK(phase->supports().support_reactions(0.1, rest, after->reactions)[0].force[1] ==
+            Approx(reaction).epsilon(1e-12));
     }
   }
 }

@@ -138,7 +138,7 @@ TEST_CASE("random points give the exact bar wherever their volumes integrate deg
         scenes::bar({"body.placement=random", "body.points_per_cell=10", "body.seed=" + std::to_string(seed)});
     const Model model = make_model(scene);
     CHECK_FALSE(model.notes.empty());  // a Hermite cubic wants degree 4
-    if (model.phase->discretisation().quadrature.degree < 2) continue;
+    if (model.phase->shape().discretisation().quadrature.degree < 2) continue;
     CAPTURE(seed);
     const Summary s = run(scene);
     CHECK(s.status == RunStatus::equilibrium);

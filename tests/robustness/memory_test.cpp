@@ -27,10 +27,10 @@ TEST_CASE("cells, points, unknowns and bytes a point are known before a body is 
     const Scene scene = load_scene(entry.path());
     const MemoryNeed need = memory_need(scene);
     const auto phase = make_phase(scene);
-    CHECK(need.bytes_per_point == Approx(phase->bytes_per_point()).epsilon(0.02));
+    CHECK(need.bytes_per_point == Approx(phase->shape().discretisation().bytes_per_point()).epsilon(0.02));
     CHECK(need.size.points == Approx(static_cast<double>(phase->points())).epsilon(0.1));
-    CHECK(need.size.cells == Approx(static_cast<double>(phase->discretisation().occupied_cells)).epsilon(0.1));
-    const Discretisation of_phase = phase->discretisation();
+    CHECK(need.size.cells == Approx(static_cast<double>(phase->shape().discretisation().occupied_cells)).epsilon(0.1));
+    const Discretisation of_phase = phase->shape().discretisation();
     CHECK(need.size.unknowns ==
           Approx(static_cast<double>(phase->size() + of_phase.supported_degrees_of_freedom)).epsilon(0.15));
   }

@@ -9,8 +9,9 @@ namespace stillpoint {
 
 template <Kinematics K>
 Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Grid<dim>& grid, const Body<K>& body,
-                          double time_scale)
+                          const std::vector<double>& origin, double time_scale)
     : problem_(problem),
+      depths_(problem, body.first_number, origin),
       all_(make_boundary_conditions<K>(problem, grid, time_scale)),
       axis_(problem, grid, body, time_scale),
       weak_supports_(problem, grid, time_scale),
@@ -25,8 +26,8 @@ Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Gr
 // Supports come first, so that reactions on the axis which they take count as theirs.
 template <Kinematics K>
 HeldUnknowns Conditions<K>::hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
-                                 const PointFunctions<dim>& weights, const std::vector<char>& reached,
-                                 const FaceGaps<dim>& gaps) {
+                                 const PointFunctions<dim>& weights, const std::vector<char>& reached) {
+  const FaceGaps<dim> gaps(functions, points, weights, depths_);
   HeldUnknowns held(dim * reached.size(), t);
   for (const auto& condition : all_) condition->hold(functions, reached, gaps, held);
   axis_.hold(functions, points, weights, reached, held);
@@ -134,6 +135,11 @@ std::vector<double> Conditions<K>::support_displacements(const HeldUnknowns& hel
   return moved;
 }
 
+template <Kinematics K>
+bool Conditions<K>::name_supports() const {
+  return std::ranges::any_of(problem_.supports, [](const SupportSpec& support) { return !support.name.empty(); });
+}
+
 // The reactions R_s − F_s at the prescribed values and −k g of springs. The reaction of a prescribed slope is a moment
 // and no force, and is left out.
 template <Kinematics K>
@@ -147,7 +153,6 @@ std::vector<SupportReaction> Conditions<K>::support_reactions(const Parts& phase
     place[s] = named.size();
     named.push_back({problem_.supports[s].name, {}});
   }
-  if (named.empty()) return named;
   const HeldUnknowns& held = phase.held;
   const std::size_t prescribed = held.prescribed().size();
   std::vector<double> F_s(prescribed, 0);

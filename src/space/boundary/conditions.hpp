@@ -14,6 +14,7 @@
 #include "space/boundary/load_state.hpp"
 #include "space/boundary/support_report.hpp"
 #include "space/boundary/weak_supports.hpp"
+#include "space/points/surface_depths.hpp"
 
 namespace stillpoint {
 
@@ -25,13 +26,13 @@ class Conditions {
   using Parts = PhaseParts<dim>;
 
   /// problem: the scene without the loads that a displacement drives, which are in `whole`; must outlive this object.
-  /// grid, body: as placed; time_scale: see PrescribedMotion.
+  /// grid, body: as placed; origin: see SurfaceDepths; time_scale: see PrescribedMotion.
   Conditions(const Problem& problem, const Problem& whole, const Grid<dim>& grid, const Body<K>& body,
-             double time_scale);
+             const std::vector<double>& origin, double time_scale);
 
   // --- a phase begins, in this order ---------------------------------------------------------------
   HeldUnknowns hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
-                    const PointFunctions<dim>& weights, const std::vector<char>& reached, const FaceGaps<dim>& gaps);
+                    const PointFunctions<dim>& weights, const std::vector<char>& reached);
   /// F += the forces that depend on neither t nor u, (n). Throws SceneError, see WeakSupports and LoadControl.
   void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound, Vec F);
   /// Changes initial velocities of the phase that would go through a wall; v: (n).
@@ -74,6 +75,8 @@ class Conditions {
   // --- reactions and displacements; the argument `reactions` as in add_springs() --------------------
   std::vector<WallReaction> wall_reactions(double t) const;
   std::vector<double> support_displacements(const HeldUnknowns& held, double t) const;
+  /// Whether a support of the scene has a name.
+  bool name_supports() const;
   std::vector<SupportReaction> support_reactions(const Parts& phase, double t, const double* u,
                                                  ConstVec reactions) const;
   std::vector<WeakSupport> weak_supports(double t, const double* u) const { return weak_supports_.report(t, u); }
@@ -82,6 +85,7 @@ class Conditions {
 
  private:
   const Problem& problem_;
+  SurfaceDepths<dim> depths_;
   BoundaryConditions<dim> all_;
   AxisOfSymmetry<K> axis_;
   WeakSupports<K> weak_supports_;

@@ -11,7 +11,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "base/parallel_loop.hpp"
@@ -35,24 +34,19 @@ class NodalForce {
   static constexpr std::size_t points_for_threads = 8192;  // with fewer points, waking threads costs more than it saves
 
  public:
-  /// Prepares for the phase of these points and weights, which must outlive it or the next rebuild().
-  void rebuild(const MaterialPoints<dim>& points, const Weights& weights, std::size_t functions) {
+  /// The arrays that an evaluation writes to, those of a call at a time.
+  struct Work {
+    std::vector<double> corner;       // (cells × per_cell × dim) [N]
+    std::vector<double> at_extended;  // forces at the extended unknowns [N]
+  };
+
+  /// Prepares for the phase of these points, weights and corners, which must outlive it or the next rebuild().
+  void rebuild(const MaterialPoints<dim>& points, const Weights& weights, const CornerSum& corner_sum) {
     points_ = &points;
     weights_ = &weights;
-    bool as_before = corner_sum_.functions() == functions && function_of_corner_.size() == per_cell * points.cells();
-    function_of_corner_.resize(per_cell * points.cells());
-    for (std::size_t k = 0; k < points.cells(); ++k) {
-      for (int a = 0; a < per_cell; ++a) {
-        const int function = weights.function(k, a);
-        as_before = std::exchange(function_of_corner_[per_cell * k + a], function) == function && as_before;
-      }
-    }
-    if (!as_before) corner_sum_.rebuild(function_of_corner_, functions);
-    corner_.resize(dim * per_cell * points.cells());
+    corner_sum_ = &corner_sum;
     divide_into_blocks();
   }
-
-  const CornerSum& corner_sum() const { return corner_sum_; }
 
   // Called once a block of up to 128 points, so that the cost of the call is negligible, and the loops around it are
   // compiled once. A lambda that captures more than two words is passed by std::ref(), as it would be copied to the
@@ -66,10 +60,10 @@ class NodalForce {
   /// freedom, (n); reactions: at the prescribed ones, unless Directed. Returns false if an answer was NaN.
   template <bool Increments, bool Directed = false>
   bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
-                Vec reactions, const double* direction = nullptr) {
+                Vec reactions, Work& work, const double* direction = nullptr) const {
     double bad = 0;
     const std::size_t blocks = blocks_.size();
-    at_extended_.assign(dofs.extended.size(), 0.0);
+    prepare(dofs, work);
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
       Block block;
@@ -80,31 +74,31 @@ class NodalForce {
           if constexpr (Directed)
             gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
           bad += answer(blocks_[b].material, block);
-          scatter(blocks_[b], block);
+          scatter(blocks_[b], block, work.corner.data());
         });
       }
-      sum_corners<Directed>(dofs, R, reactions);
+      sum_corners<Directed>(dofs, R, reactions, work);
     }
-    give_to_sources<Directed>(dofs, R, reactions);
+    give_to_sources<Directed>(dofs, R, reactions, work);
     return bad == 0;
   }
 
   /// As evaluate(), for forces of cells that are known without a law: of_cells(begin, end, corner) writes those of the
   /// occupied cells begin … end − 1, [dim × per_cell] each, and returns 0, or NaN if it cannot.
   template <bool Directed, class OfCells>
-  bool evaluate_cells(const OfCells& of_cells, const DegreesOfFreedom& dofs, Vec R, Vec reactions) {
+  bool evaluate_cells(const OfCells& of_cells, const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work) const {
     constexpr std::size_t together = 64;
     const std::size_t cells = points_->cells(), parts = (cells + together - 1) / together;
     double bad = 0;
-    at_extended_.assign(dofs.extended.size(), 0.0);
+    prepare(dofs, work);
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
 #pragma omp for schedule(static) reduction(+ : bad)
       for (std::size_t part = 0; part < parts; ++part)
-        bad += of_cells(together * part, std::min(together * (part + 1), cells), corner_.data());
-      sum_corners<Directed>(dofs, R, reactions);
+        bad += of_cells(together * part, std::min(together * (part + 1), cells), work.corner.data());
+      sum_corners<Directed>(dofs, R, reactions, work);
     }
-    give_to_sources<Directed>(dofs, R, reactions);
+    give_to_sources<Directed>(dofs, R, reactions, work);
     return bad == 0;
   }
 
@@ -129,20 +123,24 @@ class NodalForce {
   }
 
  private:
+  void prepare(const DegreesOfFreedom& dofs, Work& work) const {
+    work.corner.resize(dim * per_cell * points_->cells());
+    work.at_extended.assign(dofs.extended.size(), 0.0);
+  }
   // Sums the corners' forces into R and reactions, by all threads of the calling team.
   template <bool Directed>
-  void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions) {
-    const double* corners = corner_.data();
+  void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work) const {
+    const double* corners = work.corner.data();
     const int* number = dofs.number.data();
     const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
 #pragma omp for schedule(static)
-    for (std::size_t f = 0; f < corner_sum_.functions(); ++f) {
-      if (!corner_sum_.reaches(f)) continue;
-      const auto total = corner_sum_.template sum<dim>(f, corners);
+    for (std::size_t f = 0; f < corner_sum_->functions(); ++f) {
+      if (!corner_sum_->reaches(f)) continue;
+      const auto total = corner_sum_->template sum<dim>(f, corners);
       for (int i = 0; i < dim; ++i) {
         const int dof = number[dim * f + i];
         if (dof >= first_extended) {
-          at_extended_[static_cast<std::size_t>(dof - first_extended)] = total[i];
+          work.at_extended[static_cast<std::size_t>(dof - first_extended)] = total[i];
         } else if (dof >= n) {
           if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
         } else if (dof >= 0) {
@@ -152,9 +150,9 @@ class NodalForce {
     }
   }
   template <bool Directed>
-  void give_to_sources(const DegreesOfFreedom& dofs, Vec R, Vec reactions) const {
+  void give_to_sources(const DegreesOfFreedom& dofs, Vec R, Vec reactions, const Work& work) const {
     const std::size_t n = R.size();
-    dofs.give_to_sources(at_extended_, [&](int dof, double force) {
+    dofs.give_to_sources(work.at_extended, [&](int dof, double force) {
       const auto k = static_cast<std::size_t>(dof);
       if (k < n) {
         R[k] += force;
@@ -209,11 +207,11 @@ class NodalForce {
       Cells::template gather<Increments>(*weights_, k, begin(k, block), end(k, block), u, u_before, block.first, H, dH);
     }
   }
-  // corner_[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points.
-  void scatter(const BlockOfCells& cells, const Block& block) {
+  // corner[cell k, a, i] = Σ_p V_p P_ij ∂N_ap/∂x_j over the cell's points.
+  void scatter(const BlockOfCells& cells, const Block& block, double* of_all) const {
     constexpr std::size_t corners = dim * per_cell;
     for (std::size_t k = cells.first_cell; k < cells.last_cell; ++k) {
-      double* corner = corner_.data() + corners * k;
+      double* corner = of_all + corners * k;
       if (begin(k, block) == points_->begin(k)) {
         Cells::scatter(*weights_, k, begin(k, block), end(k, block), block, corner);
       } else {
@@ -226,11 +224,8 @@ class NodalForce {
 
   const MaterialPoints<dim>* points_ = nullptr;
   const Weights* weights_ = nullptr;
-  CornerSum corner_sum_;
-  std::vector<int> function_of_corner_;  // (cells × per_cell)
+  const CornerSum* corner_sum_ = nullptr;
   std::vector<BlockOfCells> blocks_;
-  std::vector<double> corner_;       // (cells × per_cell × dim) [N]
-  std::vector<double> at_extended_;  // forces at the extended unknowns [N]
 };
 
 }  // namespace stillpoint

@@ -54,14 +54,23 @@ class SplineMeans {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using OfCell = std::array<double, static_cast<std::size_t>(per_cell)>;
 
+  /// The arrays in which an evaluation sums over the points.
+  struct Sums {
+    std::vector<double> corner;       // over each cell's points, of one quantity, (cells × per_cell)
+    std::vector<double> first, next;  // (functions)
+  };
+
   /// Prepares for the points of a phase, which must outlive this object or the next rebuild().
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
     points_ = &points;
     evaluate(grid);
     number_functions(grid);
-    corner_.assign(per_cell * points.cells(), 0);
-    for (auto* of_functions : {&first_, &next_}) of_functions->assign(functions(), 0);
     weigh();
+  }
+  /// Gives the sums of an evaluation their sizes in the present phase.
+  void resize(Sums& sums) const {
+    sums.corner.resize(per_cell * points_->cells());
+    for (auto* of_functions : {&sums.first, &sums.next}) of_functions->resize(functions());
   }
 
   /// The number of functions that reach a point, over all materials.
@@ -105,7 +114,7 @@ class SplineMeans {
         });
   }
   /// Adds y_p of the block's points to Σ_p N_p y_p; blocks of different cells may do so in parallel.
-  void add(const Block& block, const Row& y) const {
+  void add(const Block& block, const Row& y, Sums& sums) const {
     for_cells(
         block, [&](std::size_t k, std::size_t begin, std::size_t end) __attribute__((always_inline)) {
           std::array<Lanes<lanes>, static_cast<std::size_t>(rows)> of_cell{};
@@ -113,27 +122,28 @@ class SplineMeans {
             const auto weighted = along_row(p).times(y[p - block.first]);
             unroll<rows>([&](auto r) __attribute__((always_inline)) { of_cell[r].add(row_weight(p, r), weighted); });
           }
-          double* corner = corner_.data() + per_cell * k;
-          const double before = begin == points_->begin(k) ? 0 : 1;
+          double* corner = sums.corner.data() + per_cell * k;
+          const bool begins = begin == points_->begin(k);  // what stands there is of an earlier sum
           unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
-            corner[a] = before * corner[a] + of_cell[a / along][a % along];
+            corner[a] = (begins ? 0 : corner[a]) + of_cell[a / along][a % along];
           });
         });
   }
   /// The coefficients c = G Σ_p N_p y_p of the sum over all blocks, (functions): c = m⁻¹ b, then p − 1 times c = m⁻¹ b
   /// + (I − m⁻¹ M) c.
-  void coefficients(std::vector<double>& c) const {
+  void coefficients(Sums& sums, std::vector<double>& c) const {
+    std::vector<double>&first = sums.first, &next = sums.next;
     for_each_block(functions(),
-                   [&](std::size_t A) { first_[A] = inverse_m_[A] * corner_sum_.sum<1>(A, corner_.data())[0]; });
-    c = first_;
+                   [&](std::size_t A) { first[A] = inverse_m_[A] * corner_sum_.sum<1>(A, sums.corner.data())[0]; });
+    c = first;
     for (int j = 1; j < terms; ++j) {
       for_each_block(functions(), [&](std::size_t A) {
-        double of_row = first_[A];
+        double of_row = first[A];
         for (typename Matrix::InnerIterator entry(missed_, static_cast<Eigen::Index>(A)); entry; ++entry)
           of_row += entry.value() * c[static_cast<std::size_t>(entry.col())];
-        next_[A] = of_row;
+        next[A] = of_row;
       });
-      c.swap(next_);
+      c.swap(next);
     }
   }
 
@@ -227,10 +237,8 @@ class SplineMeans {
   std::vector<double> weight_;  // (P × weights_of_point)
   std::vector<int> function_;   // (cells × per_cell)
   CornerSum corner_sum_;
-  std::vector<double> inverse_m_;             // (functions) [1/m³]
-  Matrix missed_;                             // I − m⁻¹ M, (functions × functions)
-  mutable std::vector<double> corner_;        // sums over each cell's points of one quantity, (cells × per_cell)
-  mutable std::vector<double> first_, next_;  // (functions)
+  std::vector<double> inverse_m_;  // (functions) [1/m³]
+  Matrix missed_;                  // I − m⁻¹ M, (functions × functions)
 };
 
 /// The Means of MeanDilatation in one pass over the points.
@@ -248,8 +256,11 @@ class SplinePass {
     Coefficients means = nullptr, shares = nullptr, rates_of_means = nullptr;
   };
 
-  SplinePass(const SplineMeans<B, K>& splines, const double* V, const Known& known)
-      : splines_(&splines), V_(V), known_(known) {}
+  using Sums = typename SplineMeans<B, K>::Sums;
+
+  /// sums: where the shares are summed; null in a pass that sums none.
+  SplinePass(const SplineMeans<B, K>& splines, const double* V, const Known& known, Sums* sums)
+      : splines_(&splines), V_(V), known_(known), sums_(sums) {}
 
   void means(const Block& block, const Row&, Row& mean) const { splines_->values(block, *known_.means, mean); }
   void rates_of_means(const Block& block, const Row&, Row& mean) const {
@@ -260,7 +271,7 @@ class SplinePass {
     write_shares(block, *known_.shares, share);
   }
   void rates_of_shares(const Block& block, const Row& y, Row& share) const {
-    splines_->add(block, y);
+    splines_->add(block, y, *sums_);
     share.fill(0);
   }
   /// The shares Σ_q T_qp y_q = V_p Σ_A N_pA c_A.
@@ -273,6 +284,7 @@ class SplinePass {
   const SplineMeans<B, K>* splines_;
   const double* V_;
   Known known_;
+  Sums* sums_;
 };
 
 }  // namespace stillpoint

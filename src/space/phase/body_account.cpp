@@ -11,19 +11,6 @@
 #include "base/parallel_loop.hpp"
 
 namespace stillpoint {
-namespace {
-
-/// Calls visit(occupied cell, point, number of the point) for all points.
-template <int Dim, class Visit>
-void for_points(const MaterialPoints<Dim>& points, const Visit& visit) {
-  for (std::size_t k = 0; k < points.cells(); ++k) {
-    for (std::size_t p = points.begin(k); p < points.end(k); ++p)
-      visit(k, p, static_cast<std::size_t>(points.number[p]));
-  }
-}
-
-}  // namespace
-
 template <Kinematics K>
 PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
   std::set<std::string> names;
@@ -33,13 +20,11 @@ PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
     finite_strain = finite_strain || material->info().finite_strain;
     for (const auto& [name, values] : material->shown_history()) names.insert(name);
   }
-  std::vector<double> m(body_.points.size());  // in the order of the points' numbers, which does not change
-  for_points(body_.points, [&](std::size_t, std::size_t p, std::size_t number) { m[number] = body_.points.mass[p]; });
   return {.dim = dim,
           .gradient_components = stillpoint::gradient_components(K),
           .stress_components = stillpoint::stress_components(K),
-          .points = m.size(),
-          .total_mass = sum_over(m.size(), [&](std::size_t p) { return m[p]; }),
+          .points = body_.numbers(),
+          .total_mass = total_mass(),
           .history_names = {names.begin(), names.end()},
           .updated_lagrangian = moves_on(),
           .nonlinear = finite_strain || remembers,
@@ -48,8 +33,9 @@ PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
 }
 
 template <Kinematics K>
-std::vector<PointArray> BodyAccount<K>::arrays(std::size_t P, const std::vector<PointArray>& of_phase) const {
+std::vector<PointArray> BodyAccount<K>::arrays(const std::vector<PointArray>& of_phase) const {
   constexpr double real = sizeof(double);
+  const auto P = static_cast<double>(body_.numbers());
   std::vector<PointArray> arrays = {
       {"position", dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
   std::ranges::copy(of_phase, std::back_inserter(arrays));
@@ -60,7 +46,7 @@ std::vector<PointArray> BodyAccount<K>::arrays(std::size_t P, const std::vector<
     if (body_.points.has_domains()) arrays.push_back({"domain", ((dim << dim) + 2 * dim) * real});
   }
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
-    const double share = (body_.points.material_begin[m + 1] - body_.points.material_begin[m]) / static_cast<double>(P);
+    const double share = (body_.points.material_begin[m + 1] - body_.points.material_begin[m]) / P;
     for (PointArray array : body_.materials[m]->arrays()) {
       array.bytes_per_point *= share;
       arrays.push_back(array);
@@ -70,29 +56,24 @@ std::vector<PointArray> BodyAccount<K>::arrays(std::size_t P, const std::vector<
 }
 
 template <Kinematics K>
-std::vector<double> BodyAccount<K>::positions(std::size_t P) const {
-  const auto& points = body_.points;
-  std::vector<double> out(dim * P, 0);
-  if (points.size() == P) {
-    for_points(points, [&](std::size_t, std::size_t p, std::size_t number) {
-      for (std::size_t d = 0; d < dim; ++d) out[dim * number + d] = points.x[d][p];
-    });
-    return out;
-  }
-  std::vector<double> mass(P, 0);
-  for_points(points, [&](std::size_t, std::size_t p, std::size_t number) { mass[number] += points.mass[p]; });
-  for_points(points, [&](std::size_t, std::size_t p, std::size_t number) {
-    const double share = points.mass[p] / mass[number];
-    for (std::size_t d = 0; d < dim; ++d) out[dim * number + d] += share * points.x[d][p];
-  });
+std::vector<double> BodyAccount<K>::positions() const {
+  std::vector<double> out(dim * body_.numbers());
+  write_points(body_, out, [&](std::size_t, std::size_t p) { return body_.points.position(p); });
   return out;
 }
 
+// In the order of the points' numbers, which does not change.
 template <Kinematics K>
-PointData BodyAccount<K>::point_data(std::size_t P, const std::vector<double>& origin) const {
-  const std::vector<double> of_point(P);
-  const std::vector<double> positions = this->positions(P);
-  PointData data{positions, origin.empty() ? positions : origin, of_point, of_point, std::vector<int>(P)};
+double BodyAccount<K>::total_mass() const {
+  std::vector<double> m(body_.numbers());
+  for_points(body_.points, [&](std::size_t, std::size_t p, std::size_t number) { m[number] = body_.points.mass[p]; });
+  return sum_over(m.size(), [&](std::size_t p) { return m[p]; });
+}
+
+template <Kinematics K>
+PointData BodyAccount<K>::point_data(const std::vector<double>& origin) const {
+  const std::vector<double> of_point(body_.numbers()), positions = this->positions();
+  PointData data{positions, origin.empty() ? positions : origin, of_point, of_point, std::vector<int>(body_.numbers())};
   for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t number) {
     data.volumes[number] += body_.points.volume[p];
     data.masses[number] += body_.points.mass[p];
@@ -112,6 +93,42 @@ void BodyAccount<K>::history(const std::string& name, Vec out) const {
         out[static_cast<std::size_t>(body_.points.number[begin + k])] = values[k];
     }
   }
+}
+
+// Where the strength is next to nothing, as at a free surface of ground without cohesion, a hundredth of the largest
+// √J₂ takes its place.
+template <Kinematics K>
+std::optional<OverStress> BodyAccount<K>::over_stress() const {
+  constexpr double share_of_largest = 0.01;
+  const auto for_viscous = [&](const auto& visit) {
+    for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto& material = *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(k))];
+      if (material.info().viscous) visit(*material.yield_state(p), number);
+    });
+  };
+  bool found = false;
+  double largest = 0;
+  for_viscous([&](const YieldState& at, std::size_t) {
+    found = true;
+    largest = std::max(largest, at.root_J2);
+  });
+  if (!found) return std::nullopt;
+  OverStress worst{.share = -std::numeric_limits<double>::infinity()};
+  for_viscous([&](const YieldState& at, std::size_t number) {
+    const double strength = std::max(at.strength, share_of_largest * largest);
+    const double share = at.f == 0 ? 0 : at.f / strength;
+    if (!std::isnan(worst.share) && !(share <= worst.share)) worst = {share, number};
+  });
+  return worst;
+}
+
+template <Kinematics K>
+PlaceInBody BodyAccount<K>::place_of(std::size_t number) const {
+  PlaceInBody at;
+  for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t n) {
+    if (n == number) at = place(k, p);
+  });
+  return at;
 }
 
 template <Kinematics K>

@@ -1,7 +1,9 @@
 // The data of a body and of its points for output, independent of the basis.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,15 +26,19 @@ class BodyAccount {
   /// held_by_springs: whether a support holds by springs, which move with the body from phase to phase.
   PhaseInfo describe(bool held_by_springs) const;
   /// The arrays of all points: `of_phase`, and those that laws store, each weighted by its share of the points.
-  std::vector<PointArray> arrays(std::size_t P, const std::vector<PointArray>& of_phase) const;
+  std::vector<PointArray> arrays(const std::vector<PointArray>& of_phase) const;
   /// The positions of the points, (P × dim).
-  std::vector<double> positions(std::size_t P) const;
+  std::vector<double> positions() const;
+  double total_mass() const;
   /// origin: positions at the start of the run, (P × dim); empty if points do not move on.
-  PointData point_data(std::size_t P, const std::vector<double>& origin) const;
+  PointData point_data(const std::vector<double>& origin) const;
   /// Writes one of PhaseInfo::history_names, (P).
   void history(const std::string& name, Vec out) const;
-  /// The place of point p in occupied cell k.
+  /// The largest stress of a viscous law beyond its strength; empty: no law is viscous.
+  std::optional<OverStress> over_stress() const;
+  /// The place of point p in occupied cell k, and that of the point with a number.
   PlaceInBody place(std::size_t k, std::size_t p) const;
+  PlaceInBody place_of(std::size_t number) const;
   /// The time of a wave through half the smallest cell, h/2 √(ρ/A) with the undeformed modulus A: about 1/omega_max
   /// [s].
   double shortest_time() const;
@@ -44,6 +50,26 @@ class BodyAccount {
   const Grid<dim>& grid_;
   const Body<K>& body_;
 };
+
+/// Writes value_at(occupied cell, point), an array, to out at each point's number; for a point in parts their mean.
+template <Kinematics K, class ValueAt>
+void write_points(const Body<K>& body, Vec out, const ValueAt& value_at) {
+  const MaterialPoints<dimensions(K)>& points = body.points;
+  if (points.size() == body.numbers()) {
+    return for_points(points, [&](std::size_t k, std::size_t p, std::size_t number) {
+      const auto value = value_at(k, p);
+      std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(value.size() * number));
+    });
+  }
+  std::vector<double> mass(body.numbers(), 0);
+  for_points(points, [&](std::size_t, std::size_t p, std::size_t number) { mass[number] += points.mass[p]; });
+  std::ranges::fill(out, 0.0);
+  for_points(points, [&](std::size_t k, std::size_t p, std::size_t number) {
+    const auto value = value_at(k, p);
+    const double share = points.mass[p] / mass[number];
+    for (std::size_t i = 0; i < value.size(); ++i) out[value.size() * number + i] += share * value[i];
+  });
+}
 
 /// Sets the initial stress of a scene that has one: σ_yy = −ρ b_y (surface − y) from ∂σ_yy/∂y + ρ b_y = 0, σ_xx = σ_zz
 /// = K0 σ_yy.

@@ -41,7 +41,7 @@ class DeformationFromPositions {
 
  public:
   /// Whether the law of some body depends on the deformation alone, and none has a history.
-  static bool applies(Body<K>& body) {
+  static bool applies(const Body<K>& body) {
     return std::ranges::any_of(body.materials, [](const auto& material) { return !material->memory().empty(); }) &&
            std::ranges::none_of(body.materials,
                                 [](const auto& material) { return material->info().history_dependent; });
@@ -52,7 +52,7 @@ class DeformationFromPositions {
   static std::vector<double> share_of_motion(const Body<K>& body, const Weights& weights, std::size_t functions) {
     constexpr double full = 0.05;  // the largest N_ip from which on the share is 1
     std::vector<double> share(functions, 0);
-    for_points(body.points, [&](std::size_t k, std::size_t p) {
+    for_points(body.points, [&](std::size_t k, std::size_t p, std::size_t) {
       const auto N = weights.N(k, p);
       for (int a = 0; a < per_cell; ++a) {
         double& of_function = share[static_cast<std::size_t>(weights.function(k, a))];
@@ -67,7 +67,7 @@ class DeformationFromPositions {
     anchored_.assign(body.first_number.size() - 1, {});
     for (std::size_t b = 0; b < anchored_.size(); ++b) {
       std::vector<char> reached(functions, 0);
-      for_points(body.points, [&](std::size_t k, std::size_t p) {
+      for_points(body.points, [&](std::size_t k, std::size_t p, std::size_t) {
         if (!is_of(body, b, p)) return;
         for (int a = 0; a < per_cell; ++a) reached[static_cast<std::size_t>(weights.function(k, a))] = 1;
       });
@@ -135,12 +135,6 @@ class DeformationFromPositions {
     std::vector<Vec> of_material_;
   };
 
-  template <class Visit>
-  static void for_points(const MaterialPoints<dim>& points, const Visit& visit) {
-    for (std::size_t k = 0; k < points.cells(); ++k) {
-      for (std::size_t p = points.begin(k); p < points.end(k); ++p) visit(k, p);
-    }
-  }
   static bool is_of(const Body<K>& body, std::size_t b, std::size_t p) {
     return body.points.number[p] >= body.first_number[b] && body.points.number[p] < body.first_number[b + 1];
   }

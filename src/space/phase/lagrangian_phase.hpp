@@ -47,6 +47,13 @@ struct Discretisation {
   std::vector<int> grid_cells;  // number along each coordinate
   std::size_t occupied_cells = 0;
   QuadratureReport quadrature;
+
+  /// The memory per point of all arrays together.
+  double bytes_per_point() const {
+    double total = 0;
+    for (const PointArray& array : arrays) total += array.bytes_per_point;
+    return total;
+  }
 };
 
 /// The data of P points, in the order in which the body was first filled, in every phase.
@@ -111,73 +118,97 @@ class PhaseDiagnosis : public Diagnosis {
   virtual PlaceInBody of_point(std::size_t number) const = 0;
 };
 
-/// The semi-discrete system of one phase, with what a user wants to see of its points.
-class LagrangianPhase : public SemiDiscrete {
+/// The fields of a phase, at its points and at positions of the body. P: the number of points.
+class PhaseFields {
  public:
-  const PhaseInfo& info() const { return info_; }
-  virtual Discretisation discretisation() const = 0;
-  /// The positions of the unknowns, at which the coefficients of a linear motion equal the motion; empty for a basis
-  /// with slopes.
-  virtual NodalLayout layout() const = 0;
+  virtual ~PhaseFields() = default;
   virtual PointData point_data() const = 0;
   /// Writes a quantity at the points. nodal: u, or v for the velocity, (n).
   virtual void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const = 0;
-  /// Writes one of info().history_names, (P); 0 if the law of a point has no such variable.
+  /// Writes one of PhaseInfo::history_names, (P); 0 if the law of a point has no such variable.
   virtual void point_history(const std::string& name, Vec out) const = 0;
-
-  /// Reads fields at places of the body in its state (t, u, v).
+  /// Reads fields at positions of the body in its state (t, u, v).
   virtual std::unique_ptr<PlaceReader> read_places(double t, ConstVec u, ConstVec v) const = 0;
-
   /// The relative norm of the part of the points' Cauchy stresses that no function of the grid feels: their difference
   /// from their least-squares fit by the grid's functions, body by body, √(Σ V_p |σ_p − σ(x_p)|²/Σ V_p |σ_p|²).
   virtual double null_space_stress(double t, ConstVec u) const = 0;
-
   /// The largest stress beyond the strength; empty: no law is viscous.
   virtual std::optional<OverStress> over_stress() const = 0;
 
-  /// The u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
-  virtual std::vector<double> initial_displacement(double t) const = 0;
-  virtual std::vector<double> initial_velocity(double t) = 0;
-
-  /// The reactions of walls in the last evaluation.
-  virtual std::vector<WallReaction> wall_reactions(double t) const = 0;
-  /// Displacements of the supports since the phase began, in the order of TrialState::reactions [m].
-  virtual std::vector<double> support_displacements(double t) const = 0;
-  /// The reactions of the supports that have a name; reactions: TrialState's, of an evaluation at (t, u).
-  virtual std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const = 0;
-  /// The reports of the supports that hold by springs, at (t, u).
-  virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
-  /// The state of loads that a displacement drives, at (t, u); empty if there are none.
-  virtual std::optional<LoadState> load_state(double t, ConstVec u) const = 0;
-  virtual std::vector<FreePart> free_parts() const = 0;
-  /// The bodies of the scene that share a function of the grid, pair by pair.
-  virtual std::vector<BodyGap> body_gaps() const = 0;
-  /// For each body of the scene, the axes along which a support, a spring or a wall acts at a function that reaches it.
-  virtual std::vector<HeldAxes> held_bodies() const = 0;
-  /// The s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at
-  /// most. Infinite if u cannot be evaluated.
-  virtual double stiffening(double t, ConstVec u) const = 0;
-  const PhaseDiagnosis& diagnosis() const override = 0;
-  virtual PhaseControl& control() = 0;
-  virtual const PhaseControl& control() const = 0;
-
-  // --- shorthands for single quantities -------------------------------------------------------------
-  int dim() const { return info_.dim; }
-  std::size_t points() const { return info_.points; }
   std::vector<double> positions() const { return point_data().positions; }
   void point_displacement(double t, ConstVec u, Vec out) const { point_field(PointQuantity::displacement, t, u, out); }
   void point_velocity(double t, ConstVec v, Vec out) const { point_field(PointQuantity::velocity, t, v, out); }
   void point_strain(double t, ConstVec u, Vec out) const { point_field(PointQuantity::strain, t, u, out); }
   void point_stress(double t, ConstVec u, Vec out) const { point_field(PointQuantity::stress, t, u, out); }
-  /// The memory per point of all arrays together.
-  double bytes_per_point() const {
-    double total = 0;
-    for (const PointArray& array : discretisation().arrays) total += array.bytes_per_point;
-    return total;
-  }
+};
+
+/// What supports, walls and driven loads bear, and how they move. reactions: TrialState's, of an evaluation at (t, u).
+class PhaseSupports {
+ public:
+  virtual ~PhaseSupports() = default;
+  /// The reactions of walls in the last evaluation.
+  virtual std::vector<WallReaction> wall_reactions(double t) const = 0;
+  /// Displacements of the supports since the phase began, in the order of TrialState::reactions [m].
+  virtual std::vector<double> support_displacements(double t) const = 0;
+  /// The reactions of the supports that have a name.
+  virtual std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const = 0;
+  /// The reports of the supports that hold by springs, at (t, u).
+  virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
+  /// The state of loads that a displacement drives, at (t, u); empty if there are none.
+  virtual std::optional<LoadState> load_state(double t, ConstVec u) const = 0;
+  /// For each body of the scene, the axes along which a support, a spring or a wall acts at a function that reaches it.
+  virtual std::vector<HeldAxes> held_bodies() const = 0;
+};
+
+/// What a phase is made of.
+class PhaseShape {
+ public:
+  virtual ~PhaseShape() = default;
+  virtual Discretisation discretisation() const = 0;
+  /// The positions of the unknowns, at which the coefficients of a linear motion equal the motion; empty for a basis
+  /// with slopes.
+  virtual NodalLayout layout() const = 0;
+  virtual std::vector<FreePart> free_parts() const = 0;
+  /// The bodies of the scene that share a function of the grid, pair by pair.
+  virtual std::vector<BodyGap> body_gaps() const = 0;
+};
+
+/// The semi-discrete system of one phase, with what a user wants to see of it.
+class LagrangianPhase : public SemiDiscrete {
+ public:
+  const PhaseInfo& info() const { return info_; }
+  int dim() const { return info_.dim; }
+  std::size_t points() const { return info_.points; }
+
+  const PhaseFields& fields() const { return parts_.fields; }
+  const PhaseSupports& supports() const { return parts_.supports; }
+  const PhaseShape& shape() const { return parts_.shape; }
+  const PhaseControl& control() const { return parts_.control; }
+  PhaseControl& control() { return parts_.control; }
+  const PhaseDiagnosis& diagnosis() const final { return parts_.diagnosis; }
+
+  /// The u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
+  virtual std::vector<double> initial_displacement(double t) const = 0;
+  virtual std::vector<double> initial_velocity(double t) = 0;
+  /// The s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at
+  /// most. Infinite if u cannot be evaluated.
+  virtual double stiffening(double t, ConstVec u) const = 0;
 
  protected:
+  /// Parts of the derived object.
+  struct Parts {
+    const PhaseFields& fields;
+    const PhaseSupports& supports;
+    const PhaseShape& shape;
+    PhaseControl& control;
+    const PhaseDiagnosis& diagnosis;
+  };
+  explicit LagrangianPhase(const Parts& parts) : parts_(parts) {}
+
   PhaseInfo info_;
+
+ private:
+  Parts parts_;
 };
 
 /// Thrown if a material point has left the grid.

@@ -60,7 +60,7 @@ class LawGradients {
     const bool finite = body_.materials[static_cast<std::size_t>(points.material_of_cell(k))]->info().finite_strain;
     if (shared_.splines) {
       using Pass = SplinePass<B, K>;
-      const Pass pass(*shared_.splines, points.volume.data(), {.means = &shared_.means});
+      const Pass pass(*shared_.splines, points.volume.data(), {.means = &shared_.means}, nullptr);
       return MeanDilatation<K, Pass>(pass, finite).average(block_);
     }
     std::array<double, Block::size + CellSums<K>::slack> share{};

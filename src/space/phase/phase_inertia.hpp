@@ -1,187 +1,158 @@
-// The inertia of a phase, and the momentum of the points at its end.
+// The inertia of a phase: its mass, the projection of initial values by it, and the impulses that it takes up.
 #pragma once
 
-#include <span>
+#include <stillpoint/expression.hpp>
+#include <stillpoint/mass.hpp>
 
-#include "scene/dimensions.hpp"
-#include "space/phase/material_point_phase.hpp"
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "linalg/sparse_cholesky.hpp"
+#include "scene/throw_scene_error.hpp"
+#include "space/kernels/cell_assembly.hpp"
+#include "space/kernels/extended_sums.hpp"
+#include "space/kernels/nodal_inertia.hpp"
+#include "space/phase/phase_frame.hpp"
 
 namespace stillpoint {
 
-// The wave modulus λ + 2μ of each material [Pa].
 template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::wave_moduli() const {
-  std::vector<double> moduli;
-  for (const auto& material : body_.materials) moduli.push_back(material->info().wave_modulus);
-  return moduli;
-}
+class PhaseInertia {
+  static constexpr int dim = dimensions(K);
 
-// The stiffness_bound(), with that of extended functions added to their sources.
-template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::bound_of_functions() const {
-  if (extension_.empty()) return totals_.bound();
-  return stiffness_bound<B, K>(body_.points, weights_, nodal_force_.corner_sum(), wave_moduli(), extension_);
-}
+ public:
+  /// frame: must outlive this object.
+  explicit PhaseInertia(const PhaseFrame<B, K>& frame)
+      : frame_(frame), of_functions_(frame.problem.mass, frame.moves_on()) {}
 
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::make_mass() {
-  std::vector<double> m = totals_.mass();
-  give_mass_to_sources<B>(grid_, extension_, m);
-  inertia_.begin_phase(grid_, std::move(m), bound_of_functions(), untouched_);
-  const bool is_consistent = problem_.mass.kind == MassKind::consistent;
-  if (is_consistent || (projects() && !updated_lagrangian())) {
-    consistent_ = consistent_mass<B, K>(grid_, body_.points, weights_, *dofs_);
-    // Initial values are fitted with the consistent mass, whatever the motion has.
-    if (!is_consistent && !SparseCholesky(consistent_->free).positive_definite()) {
-      throw_scene_error(
-          "initial",
-          "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
-    }
-  }
-  try {
-    if (is_consistent) {
-      mass_.emplace(Mass::consistent(consistent_->free));
-    } else {
-      std::vector<double> diagonal(size());
-      for (std::size_t k = 0; k < diagonal.size(); ++k) {
-        diagonal[k] = inertia_.inertia()[static_cast<std::size_t>(dofs_->free[k] / Dim)];
-      }
-      mass_.emplace(Mass::lumped(std::move(diagonal), relative_inertia()));
-    }
-  } catch (const std::invalid_argument& error) {
-    throw_scene_error("mass.kind", error.what());
-  }
-}
-
-// Whether neither a support nor a wall holds a function in any component, (functions).
-template <AxisBasis B, Kinematics K>
-std::vector<char> MaterialPointPhase<B, K>::untouched_functions() const {
-  std::vector<char> untouched(static_cast<std::size_t>(Basis::count(grid_)), 1);
-  for (std::size_t f = 0; f < untouched.size(); ++f) {
-    for (int i = 0; i < Dim; ++i) {
-      const int unknown = Dim * static_cast<int>(f) + i;
-      if (held_.is_prescribed(unknown) || held_.is_guided(unknown)) untouched[f] = 0;
-    }
-  }
-  return untouched;
-}
-
-// The inertia added to light functions, at the degrees of freedom.
-template <AxisBasis B, Kinematics K>
-std::vector<RelativeInertia> MaterialPointPhase<B, K>::relative_inertia() const {
-  std::vector<RelativeInertia> terms;
-  const auto dof_of = [&](int function, int i) { return dofs_->number[static_cast<std::size_t>(Dim * function + i)]; };
-  for (const AddedInertia& added : inertia_.added()) {
-    const Extrapolation& from = added.relative_to;
-    for (int i = 0; i < Dim; ++i) {
-      RelativeInertia term{.dof = dof_of(added.function, i), .inertia = added.inertia, .masters = from.functions};
-      if (!dofs_->is_free(term.dof)) continue;
-      for (int k = 0; k < from.functions; ++k) {
-        term.master[k] = dof_of(from.function[k], i);
-        term.weight[k] = from.weight[k];
-      }
-      terms.push_back(term);
-    }
-  }
-  return terms;
-}
-
-template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::velocity_from_points(double t) {
-  transfer_.conservation().compare_mass(info_.total_mass, inertia_.mass());
-  transfer_.begin_phase(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), totals_.momentum(),
-                        phase_ == 0);
-  if (is_free()) transfer_.conservation().compare_with_start(body_.points);
-  const std::vector<double> grid_v =
-      transfer_.to_grid(grid_, body_.points, weights_, nodal_force_.corner_sum(), inertia_.mass(), totals_.momentum());
-  std::vector<double> v(size());
-  for_each_index(v.size(), [to = v.data(), from = grid_v.data(), number = dofs_->free.data()](std::size_t k) {
-    to[k] = from[number[k]];
-  });
-  begin_motion(t, v);
-  start_velocity_ = nodal_velocity(t, v);
-  return v;
-}
-
-// The velocities v over the grid's functions.
-template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::nodal_velocity(double t, ConstVec v) const {
-  std::vector<double> grid_v(grid_u_.size(), 0.0);
-  for_each_index(v.size(), [from = v.data(), to = grid_v.data(), number = dofs_->free.data()](std::size_t k) {
-    to[number[k]] = from[k];
-  });
-  for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s) {
-    grid_v[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.motion(s).velocity(t);
-  }
-  dofs_->extend(grid_v.data());
-  return grid_v;
-}
-
-// Whether no external forces act on the body.
-template <AxisBasis B, Kinematics K>
-bool MaterialPointPhase<B, K>::is_free() const {
-  return problem_.supports.empty() && problem_.walls.empty() && problem_.forces.empty() && problem_.tractions.empty() &&
-         !problem_.has_body_force() && !problem_.load && !conditions_.act_on_axis() &&
-         is_undamped(problem_.damping.strategy);
-}
-
-// The momentum that the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim), with
-// the inertia of the motion instead of the points' mass. Next to supports and walls the mass counts, since their forces
-// are not known apart from those that added inertia takes; with scaling by Gershgorin it always does, as that inertia
-// is no mass.
-template <AxisBasis B, Kinematics K>
-std::vector<double> MaterialPointPhase<B, K>::impulse(const std::vector<double>& grid_v) const {
-  std::vector<double> gain(grid_v.size());
-  for_each_index(gain.size(),
-                 [gain = gain.data(), m = inertia_.mass().data(), now = grid_v.data(),
-                  before = start_velocity_.data()](std::size_t i) { gain[i] = m[i / Dim] * (now[i] - before[i]); });
-  if (!mass_->is_lumped() || problem_.mass.scaling == MassScaling::gershgorin || inertia_.added().empty()) return gain;
-  std::vector<double> dv(size()), M_dv(size());
-  const auto grid_number = [&](std::size_t k) { return static_cast<std::size_t>(dofs_->free[k]); };
-  for (std::size_t k = 0; k < dv.size(); ++k) dv[k] = grid_v[grid_number(k)] - start_velocity_[grid_number(k)];
-  mass_->apply(dv, M_dv);
-  for (std::size_t k = 0; k < dv.size(); ++k) {
-    if (untouched_[grid_number(k) / Dim]) gain[grid_number(k)] = M_dv[k] / problem_.mass.factor;
-  }
-  return gain;
-}
-
-// Transfers the spin of the relative inertia: δ_i has an angular momentum Σ δ_i d_i × ḋ_i, d_i = u_i − Σ_k w_k u_k,
-// when the phase ends, which apic's points take over as spin, so that none is lost. Points that store a gradient cannot
-// take it.
-template <AxisBasis B, Kinematics K>
-void MaterialPointPhase<B, K>::keep_spin(const std::vector<double>& grid_v) {
-  if constexpr (Dim > 1) {
-    if (problem_.phase.transfer != Transfer::apic || inertia_.added().empty()) return;
-    if (AffineVelocity<B, K>::carries_gradient) return;
-    constexpr std::span<const Turn> about = dimension_info(Dim).turns;
-    constexpr std::size_t turns = about.size();
-    std::vector<double> spin(turns * inertia_.mass().size());  // δ_i (d_i × ḋ_i)/m_i
-    for (const AddedInertia& added : inertia_.added()) {
-      const auto i = static_cast<std::size_t>(added.function);
-      if (added.relative_to.functions == 0 || !(inertia_.mass()[i] > 0)) continue;
-      const auto d = deviation<Dim>(grid_u_, added), d_dot = deviation<Dim>(grid_v, added);
-      const double delta = added.inertia / problem_.mass.factor;
-      for (std::size_t r = 0; r < turns; ++r) {
-        const auto& [axis, from, to] = about[r];
-        const double turn = d[from] * d_dot[to] - d[to] * d_dot[from];
-        spin[turns * i + r] = delta * turn / inertia_.mass()[i];
+  /// Makes the mass of a phase that begins. Throws SceneError if it is not positive definite.
+  void begin_phase() {
+    std::vector<double> m = frame_.totals.mass();
+    give_mass_to_sources<B>(frame_.grid, frame_.extension, m);
+    of_functions_.begin_phase(frame_.grid, std::move(m), frame_.bound_of_functions(), frame_.unknowns.untouched());
+    const Problem& problem = frame_.problem;
+    const bool is_consistent = problem.mass.kind == MassKind::consistent;
+    const bool projects = !problem.initial_u.empty() || !problem.initial_v.empty();
+    if (is_consistent || (projects && !frame_.moves_on())) {
+      consistent_ = consistent_mass_of_points();
+      // Initial values are fitted with the consistent mass, whatever the motion has.
+      if (!is_consistent && !SparseCholesky(consistent_->free).positive_definite()) {
+        throw_scene_error(
+            "initial",
+            "initial values cannot be fitted: too few material points for the basis; expected more points per cell");
       }
     }
-    for_each_block(body_.points.cells(), [&](std::size_t k) {
-      for (std::size_t p = body_.points.begin(k); p < body_.points.end(k); ++p) {
-        const auto N = weights_.N(k, p);
-        for (std::size_t r = 0; r < turns; ++r) {
-          double of_point = 0;
-          for (int a = 0; a < per_cell; ++a)
-            of_point += N[a] * spin[turns * static_cast<std::size_t>(weights_.function(k, a)) + r];
-          const auto& [axis, from, to] = about[r];
-          body_.points.B_apic[Dim * to + from][p] += of_point / 2;
-          body_.points.B_apic[Dim * from + to][p] -= of_point / 2;
-        }
-      }
+    try {
+      mass_.emplace(is_consistent ? Mass::consistent(consistent_->free) : lumped());
+    } catch (const std::invalid_argument& error) {
+      throw_scene_error("mass.kind", error.what());
+    }
+  }
+
+  const Mass& mass() const { return *mass_; }
+  /// The inertia of the grid's functions, and m_i, (functions) [kg].
+  const NodalInertia<B, K>& of_functions() const { return of_functions_; }
+  const std::vector<double>& node_mass() const { return of_functions_.mass(); }
+  /// What the boundary conditions use of the phase.
+  PhaseParts<dim> parts() const {
+    return {frame_.grid, frame_.functions, frame_.body.points, frame_.weights, frame_.held(), frame_.dofs(),
+            node_mass(), *mass_,           frame_.remembers};
+  }
+  void archive(const StateArchive& state) { of_functions_.archive(state); }
+
+  /// Q −= M_fs (a_s + c v_s) of moving supports s, with a consistent mass.
+  void add_moving_supports(double t, double c, Vec Q) const {
+    if (mass_->is_lumped()) return;
+    const HeldUnknowns& held = frame_.held();
+    for (std::size_t s = 0; s < held.prescribed().size(); ++s) {
+      const PrescribedMotion& motion = held.motion(s);
+      if (!motion.moves()) continue;
+      const double driven = motion.acceleration(t) + c * motion.velocity(t);
+      for (SparseMatrix::InnerIterator m(consistent_->prescribed, static_cast<Eigen::Index>(s)); m; ++m)
+        Q[static_cast<std::size_t>(m.row())] -= m.value() * driven;
+    }
+  }
+
+  /// The projection M_ff u_f = Σ_p m_p N_fp u_0(x_p) − M_fs u_s: the least-squares fit at the material points, whatever
+  /// the mass of the motion; 0 if the field is empty. held: u_s, (prescribed unknowns).
+  std::vector<double> project(const std::vector<Expression>& field, const std::vector<double>& held) const {
+    std::vector<double> u(frame_.size(), 0.0);
+    if (field.empty()) return u;
+    const MaterialPoints<dim>& points = frame_.body.points;
+    frame_.for_points([&](std::size_t k, std::size_t p, std::size_t) {
+      const auto moment = [&](int i) {
+        return points.mass[p] * field[static_cast<std::size_t>(i)](points.position(p), 0);
+      };
+      frame_.weights.add_at_functions(k, p, moment, frame_.dofs(), u);
     });
+    std::optional<SplitMatrix> of_points;
+    if (!consistent_) of_points = consistent_mass_of_points();
+    const SplitMatrix& M = consistent_ ? *consistent_ : *of_points;
+    if (!held.empty()) {
+      const Eigen::Map<const Eigen::VectorXd> u_s(held.data(), static_cast<Eigen::Index>(held.size()));
+      Eigen::Map<Eigen::VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())) -= M.prescribed * u_s;
+    }
+    SparseCholesky(M.free).solve(u, u);
+    return u;
   }
-}
+
+  /// The momentum that the forces of the phase gave to each function, (M (v − v_0))_i [kg m/s], (functions × dim), with
+  /// the inertia of the motion instead of the points' mass. Next to supports and walls the mass counts, since their
+  /// forces are not known apart from those that added inertia takes; with scaling by Gershgorin it always does, as that
+  /// inertia is no mass.
+  std::vector<double> impulse(const std::vector<double>& grid_v, const std::vector<double>& start) const {
+    std::vector<double> gain(grid_v.size());
+    for_each_index(gain.size(),
+                   [gain = gain.data(), m = node_mass().data(), now = grid_v.data(),
+                    before = start.data()](std::size_t i) { gain[i] = m[i / dim] * (now[i] - before[i]); });
+    const MassSpec& spec = frame_.problem.mass;
+    if (!mass_->is_lumped() || spec.scaling == MassScaling::gershgorin || of_functions_.added().empty()) return gain;
+    std::vector<double> dv(frame_.size()), M_dv(frame_.size());
+    const auto grid_number = [&](std::size_t k) { return static_cast<std::size_t>(frame_.dofs().free[k]); };
+    for (std::size_t k = 0; k < dv.size(); ++k) dv[k] = grid_v[grid_number(k)] - start[grid_number(k)];
+    mass_->apply(dv, M_dv);
+    for (std::size_t k = 0; k < dv.size(); ++k) {
+      if (frame_.unknowns.untouched()[grid_number(k) / dim]) gain[grid_number(k)] = M_dv[k] / spec.factor;
+    }
+    return gain;
+  }
+
+ private:
+  SplitMatrix consistent_mass_of_points() const {
+    return consistent_mass<B, K>(frame_.grid, frame_.body.points, frame_.weights, frame_.dofs());
+  }
+  Mass lumped() const {
+    std::vector<double> diagonal(frame_.size());
+    for (std::size_t k = 0; k < diagonal.size(); ++k)
+      diagonal[k] = of_functions_.inertia()[static_cast<std::size_t>(frame_.dofs().free[k] / dim)];
+    return Mass::lumped(std::move(diagonal), relative_inertia());
+  }
+  // The inertia added to light functions, at the degrees of freedom.
+  std::vector<RelativeInertia> relative_inertia() const {
+    const DegreesOfFreedom& dofs = frame_.dofs();
+    std::vector<RelativeInertia> terms;
+    const auto dof_of = [&](int function, int i) { return dofs.number[static_cast<std::size_t>(dim * function + i)]; };
+    for (const AddedInertia& added : of_functions_.added()) {
+      const Extrapolation& from = added.relative_to;
+      for (int i = 0; i < dim; ++i) {
+        RelativeInertia term{.dof = dof_of(added.function, i), .inertia = added.inertia, .masters = from.functions};
+        if (!dofs.is_free(term.dof)) continue;
+        for (int k = 0; k < from.functions; ++k) {
+          term.master[k] = dof_of(from.function[k], i);
+          term.weight[k] = from.weight[k];
+        }
+        terms.push_back(term);
+      }
+    }
+    return terms;
+  }
+
+  const PhaseFrame<B, K>& frame_;
+  NodalInertia<B, K> of_functions_;
+  std::optional<SplitMatrix> consistent_;  // M as assembled, if projections or moving supports need it
+  std::optional<Mass> mass_;
+};
 
 }  // namespace stillpoint

@@ -4,20 +4,8 @@
 #include <stdexcept>
 
 #include "space/grid/domain_basis.hpp"
-#include "space/phase/null_space_stress.hpp"
-#include "space/phase/over_stress.hpp"
-#include "space/phase/phase_archive.hpp"
-#include "space/phase/phase_bodies.hpp"
-#include "space/phase/phase_change.hpp"
-#include "space/phase/phase_cut_cells.hpp"
-#include "space/phase/phase_diagnosis.hpp"
-#include "space/phase/phase_dilatation.hpp"
-#include "space/phase/phase_dilatation_matrix.hpp"
-#include "space/phase/phase_domains.hpp"
+#include "space/phase/material_point_phase.hpp"
 #include "space/phase/phase_factory.hpp"
-#include "space/phase/phase_forces.hpp"
-#include "space/phase/phase_inertia.hpp"
-#include "space/phase/phase_points.hpp"
 
 namespace stillpoint {
 

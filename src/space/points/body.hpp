@@ -24,6 +24,9 @@ struct Body {
   std::vector<CellShares> covered;  // cells covered by each [[body]]; empty if that of one is not known
   std::vector<int> first_number;    // number of the first point of each [[body]], and the number of all points: (bodies
                                     // + 1)
+
+  /// The number of points that the body was filled with; domains that are halved have the number of their whole.
+  std::size_t numbers() const { return static_cast<std::size_t>(first_number.back()); }
 };
 
 namespace detail {
@@ -34,6 +37,15 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }
 
 }  // namespace detail
+
+/// Transfers the stored states of the materials to a changed set of points: point p is a copy of the former from[p].
+template <Kinematics K>
+void take_materials(Body<K>& body, const std::vector<int>& from) {
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
+    body.materials[m]->take(from, begin, static_cast<std::size_t>(body.points.material_begin[m + 1]) - begin);
+  }
+}
 
 /// Places every body of the scene. Points are numbered body by body, in the order in which a body is filled.
 /// updated_lagrangian: whether points will change cells. With a static solver, in which no time passes, no material is

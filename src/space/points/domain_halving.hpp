@@ -9,10 +9,14 @@
 // at the ends, with an error of less than 1/8 of a quadratic function.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "scene/throw_scene_error.hpp"
 #include "space/points/point_domains.hpp"
 #include "space/points/point_order.hpp"
 
@@ -60,6 +64,20 @@ void keep_half(MaterialPoints<Dim>& points, std::size_t p, int axis, bool upper)
   points.rest[axis][p] += upper ? points.half[axis][p] : -points.half[axis][p];
   points.volume[p] *= Domain<Dim>::of(points, p).size() / domain.size();
   points.mass[p] /= 2;
+}
+
+/// Throws SceneError for a folded domain: under a point force one corner may be drawn out alone, until the rest of the
+/// domain is no convex quadrilateral.
+template <int Dim>
+void refuse_folded_domains(const MaterialPoints<Dim>& points) {
+  const auto folded = std::ranges::find_if(points.volume, [](double V) { return !(V > 0); });
+  if (folded == points.volume.end()) return;
+  const auto p = static_cast<std::size_t>(folded - points.volume.begin());
+  throw_scene_error(
+      "phase",
+      fmt::format("the domain of material point {} at ({:.6g}) is stretched over more than a cell, and folded where it "
+                  "would be halved; expected a [[traction]] in the place of a force at a point, smaller loads or cells",
+                  points.number[p] + 1, fmt::join(points.position(p), ", ")));
 }
 
 /// Halves every domain that is wider than a cell, once. Returns the former number of each point; empty if there is no

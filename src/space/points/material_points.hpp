@@ -99,4 +99,13 @@ template <int Dim>
 PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state,
                            bool domains = false);
 
+/// Calls visit(occupied cell, point, number of the point) for all points.
+template <int Dim, class Visit>
+void for_points(const MaterialPoints<Dim>& points, const Visit& visit) {
+  for (std::size_t k = 0; k < points.cells(); ++k) {
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p)
+      visit(k, p, static_cast<std::size_t>(points.number[p]));
+  }
+}
+
 }  // namespace stillpoint

@@ -18,14 +18,10 @@ namespace stillpoint {
 template <int Dim>
 class SurfaceDepths {
  public:
-  /// The problem must outlive this object.
-  explicit SurfaceDepths(const Problem& problem) : problem_(problem) {}
-
   /// first_number: the number of the first point of each body, and the number of all points; origin: positions at the
-  /// start of the run, by number, (P × Dim), or empty if points do not move on. Both must outlive this object.
-  void begin(const std::vector<int>& first_number, const std::vector<double>& origin) {
-    first_number_ = &first_number;
-    origin_ = &origin;
+  /// start of the run, by number, (P × Dim), or empty if points do not move on. All must outlive this object.
+  SurfaceDepths(const Problem& problem, const std::vector<int>& first_number, const std::vector<double>& origin)
+      : problem_(problem), first_number_(first_number), origin_(origin) {
     for (const BodySpec& body : problem_.bodies) bodies_.emplace_back(body);
   }
 
@@ -37,8 +33,8 @@ class SurfaceDepths {
     const auto [found, is_new] = known.try_emplace(number);
     if (!is_new) return found->second;
     Point<Dim> X = x;
-    if (!origin_->empty()) std::copy_n(origin_->begin() + static_cast<std::ptrdiff_t>(Dim) * number, Dim, X.begin());
-    const auto body = std::ranges::upper_bound(*first_number_, number) - first_number_->begin() - 1;
+    if (!origin_.empty()) std::copy_n(origin_.begin() + static_cast<std::ptrdiff_t>(Dim) * number, Dim, X.begin());
+    const auto body = std::ranges::upper_bound(first_number_, number) - first_number_.begin() - 1;
     const auto axis = static_cast<std::size_t>(axis_of(face));
     found->second =
         bodies_[static_cast<std::size_t>(body)].along(X, axis, is_upper(face), 2 * problem_.grid.cell_length(axis));
@@ -55,8 +51,8 @@ class SurfaceDepths {
 
  private:
   const Problem& problem_;
-  const std::vector<int>* first_number_ = nullptr;
-  const std::vector<double>* origin_ = nullptr;
+  const std::vector<int>& first_number_;
+  const std::vector<double>& origin_;
   std::vector<BodyDepth> bodies_;
   std::array<std::unordered_map<int, std::optional<double>>, static_cast<std::size_t>(2 * Dim)> known_;
 };

@@ -32,7 +32,7 @@ Body block(int cells, const std::vector<std::string>& overrides = {}) {
                                   "grid.cells=[" + std::to_string(cells) + "," + std::to_string(cells) + "]"};
   all.insert(all.end(), overrides.begin(), overrides.end());
   const auto phase = make_phase(scenes::load("incompressible", all));
-  Body body{phase->tangents().matrix(Tangent::elastic, 0, std::vector<double>(phase->size())), phase->layout(),
+  Body body{phase->tangents().matrix(Tangent::elastic, 0, std::vector<double>(phase->size())), phase->shape().layout(),
             std::vector<double>(phase->size())};
   phase->external_force(0, std::vector<double>(phase->size()), body.load);
   return body;

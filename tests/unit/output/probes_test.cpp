@@ -162,7 +162,7 @@ TEST_CASE("on the axis of a cylinder the hoop strain at a place is the limit of 
                                            "{face='bottom', kind='roller'}, {face='top', kind='roller'}]"}));
   std::vector<double> u(phase->size());
   for (std::size_t k = 0; k < u.size(); ++k) u[k] = 1e-3 * std::sin(static_cast<double>(k));
-  const auto places = phase->read_places(0, u, std::vector<double>(u.size()));
+  const auto places = phase->fields().read_places(0, u, std::vector<double>(u.size()));
   std::vector<double> on_axis(5), beside(5);
   places->strain(std::vector<double>{0, 0.1}, on_axis);
   places->strain(std::vector<double>{1e-7, 0.1}, beside);

@@ -21,7 +21,8 @@ double strain_energy(Simulation& simulation) {
     const ConstVec field = simulation.field(name);
     return std::vector<double>(field.begin(), field.end());
   };
-  const std::vector<double> H = copy("strain"), s = copy("stress"), V = simulation.phase().point_data().volumes;
+  const std::vector<double> H = copy("strain"), s = copy("stress"),
+                            V = simulation.phase().fields().point_data().volumes;
   double energy = 0;
   for (std::size_t p = 0; p < V.size(); ++p) {  // xx, xy, yx, yy of ∂u/∂x; xx, yy, zz, xy of σ
     const double *h = &H[4 * p], *of = &s[4 * p];

@@ -20,7 +20,9 @@ namespace {
 class Reluctant : public test::Chain {
  public:
   Reluctant(double load, double reach, double strength = 1e9)
-      : Chain({.n = 1, .load = load}), reach_(reach), strength_(strength) {}
+      : Chain({.n = 1, .load = load}), reach_(reach), strength_(strength) {
+    history_dependent_ = true;
+  }
 
   std::vector<double> remembered;  // u of every commit
 
@@ -32,7 +34,6 @@ class Reluctant : public test::Chain {
     return std::abs(u[0] - last()) <= reach_;
   }
   void commit(TrialState& trial) override { remembered.push_back(static_cast<Trial&>(trial).u); }
-  bool history_dependent() const override { return true; }
 
  private:
   struct Trial : TrialState {

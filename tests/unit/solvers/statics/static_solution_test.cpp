@@ -204,7 +204,7 @@ TEST_CASE("Newton's method gives the yielding column its exact stresses in three
   INFO(shown(s.report));
   CHECK(s.report.converged);
   CHECK(s.report.iterations == 3);  // all points on one branch of the return, whose strains are small
-  const auto x = s.phase->positions(), stress = statics::point_stress(*s.phase, s.u);
+  const auto x = s.phase->fields().positions(), stress = statics::point_stress(*s.phase, s.u);
   std::size_t yielding = 0;
   for (std::size_t p = 0; p < s.phase->points(); ++p) {
     const double h = H / 16, middle = (std::floor(x[2 * p + 1] / h) + 0.5) * h, s_yy = -weight * (H - middle);
@@ -229,7 +229,7 @@ TEST_CASE("Newton's method converges with order 2 on a yielding cut, by LU where
     CHECK(s.report.cholesky_factorisations == 1);  // of the state without stress
     CHECK(s.report.lu_factorisations == s.report.iterations - 1);
     std::vector<double> strain(s.phase->points());
-    s.phase->point_history("plastic_strain", strain);
+    s.phase->fields().point_history("plastic_strain", strain);
     CHECK(std::ranges::count_if(strain, [](double gamma) { return gamma > 1e-5; }) > 20);
   }
 }
@@ -387,7 +387,7 @@ TEST_CASE("a beam bends by half its length in one load step, by full steps where
   CHECK(report.residual < 1e-10);
 
   // The mean of the last points, which lie 1/24 before the end.
-  const std::vector<double> x = phase->positions(), moved = statics::point_displacement(*phase, u);
+  const std::vector<double> x = phase->fields().positions(), moved = statics::point_displacement(*phase, u);
   double back = 0, down = 0, count = 0;
   for (std::size_t k = 0; k < x.size(); k += 2) {
     if (x[k] < 10 - 0.05) continue;

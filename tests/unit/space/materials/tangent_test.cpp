@@ -104,7 +104,7 @@ TEST_CASE("the tangent is the derivative of the internal force where functions i
       const auto phase = make_phase(scenes::load(
           "ladder/rotated_square", {"material.steel={law='neo-hookean', E=1, nu=0.3, rho=1}", "grid.cells=[10, 10]",
                                     "grid.basis=" + basis, "phase.dilatation=" + dilatation}));
-      REQUIRE(phase->discretisation().quadrature.joined > 0);
+      REQUIRE(phase->shape().discretisation().quadrature.joined > 0);
       check_tangent(*phase, /*plastic=*/false, /*size=*/1e-4);  // which they follow with up to 200 times that
     }
   }

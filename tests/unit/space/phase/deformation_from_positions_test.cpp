@@ -25,7 +25,7 @@ Simulation advanced(const Scene& scene, double t_end, int threads = 1) {
 
 std::vector<double> stress(const Simulation& simulation) {
   std::vector<double> values(4 * simulation.points());
-  simulation.phase().point_stress(simulation.t(), simulation.u(), values);
+  simulation.phase().fields().point_stress(simulation.t(), simulation.u(), values);
   return values;
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("a uniform strain gives its stress at every point and forces at the en
     const auto phase = make_phase(scenes::bar({"grid.basis=" + basis, "body.points_per_cell=4", "initial.u=0.01*x"}));
     const auto u = phase->initial_displacement(0);
     std::vector<double> stress(phase->points());
-    phase->point_stress(0, u, stress);
+    phase->fields().point_stress(0, u, stress);
     for (const double sigma : stress) CHECK(sigma == Approx(0.01).epsilon(1e-10));
     std::vector<double> R(phase->size()), F(phase->size());
     phase->internal_force(0, u, R, *phase->make_trial());
@@ -167,10 +167,10 @@ TEST_CASE("initial values of a polynomial that the basis holds are reproduced at
   const auto phase =
       make_phase(scenes::bar({"body.points_per_cell=5", "grid.basis=cubic", "initial.u=x^3 - 2*x", "initial.v=x^2"}));
   std::vector<double> u(phase->points()), v(phase->points());
-  phase->point_displacement(0, phase->initial_displacement(0), u);
-  phase->point_velocity(0, phase->initial_velocity(0), v);
+  phase->fields().point_displacement(0, phase->initial_displacement(0), u);
+  phase->fields().point_velocity(0, phase->initial_velocity(0), v);
   for (std::size_t p = 0; p < phase->points(); ++p) {
-    const double x = phase->positions()[p];
+    const double x = phase->fields().positions()[p];
     CHECK(u[p] == Approx(x * x * x - 2 * x).epsilon(1e-9));
     CHECK(v[p] == Approx(x * x).epsilon(1e-9));
   }

@@ -48,7 +48,7 @@ Simulation advanced(const Scene& scene, double t_end,
 /// Σ m_p v_p by the points' velocities, their masses from the volumes of the start.
 Point<2> momentum(const Moment& moment, const std::vector<double>& volume_at_start, double rho) {
   std::vector<double> v(2 * moment.phase.points());
-  moment.phase.point_velocity(moment.t, moment.v, v);
+  moment.phase.fields().point_velocity(moment.t, moment.v, v);
   Point<2> sum{};
   for (std::size_t p = 0; p < volume_at_start.size(); ++p) {
     for (std::size_t i = 0; i < 2; ++i) sum[i] += rho * volume_at_start[p] * v[2 * p + i];
@@ -91,7 +91,7 @@ TEST_CASE("linear momentum goes over from each phase to the next, whatever the b
                                                     "phase={max_motion=0.1, " + transfer + "}"};
         const Scene scene = soil ? free_soil(overrides) : free_block(overrides);
         const auto at_start = make_phase(scene);
-        const std::vector<double> volume = at_start->point_data().volumes;
+        const std::vector<double> volume = at_start->fields().point_data().volumes;
         const double scale = at_start->info().total_mass;  // times 1 m/s
         Point<2> before{};
         int changes = 0;
@@ -215,7 +215,7 @@ TEST_CASE("a step that would move the body half as far again as a phase allows i
         furthest = std::max(furthest, largest_magnitude(moment.u) / 0.25);
       } else {
         std::vector<double> strain(4 * moment.phase.points());
-        moment.phase.point_strain(moment.t, moment.u, strain);
+        moment.phase.fields().point_strain(moment.t, moment.u, strain);
         furthest = std::max(furthest, largest_magnitude(strain));
       }
     });
@@ -265,10 +265,10 @@ TEST_CASE(
 TEST_CASE("the followed wall stays on the last grid line from phase to phase") {
   const Scene scene =
       free_block({"wall=[{name='gate', face='right', motion='0.5*t'}]", "grid.follow=gate", "initial.v=[0.5, 0]"});
-  const int cells = make_phase(scene)->discretisation().grid_cells.at(0);
+  const int cells = make_phase(scene)->shape().discretisation().grid_cells.at(0);
   Simulation simulation = advanced(scene, 0.9);
-  CHECK(simulation.phase().discretisation().grid_cells.at(0) == cells + 2);  // 0.45 m are 1.8 cells
-  CHECK(simulation.phase().discretisation().grid_cells.at(1) == 4);
+  CHECK(simulation.phase().shape().discretisation().grid_cells.at(0) == cells + 2);  // 0.45 m are 1.8 cells
+  CHECK(simulation.phase().shape().discretisation().grid_cells.at(1) == 4);
 }
 
 TEST_CASE("sorting keeps points by material and cell, and their numbers with them") {
@@ -321,26 +321,26 @@ TEST_CASE("every output of a point keeps its number from phase to phase, with tw
       "stop.time=0.8"};
   const Scene scene = free_block(overrides);
   const auto at_start = make_phase(scene);
-  const std::vector<double> start = at_start->positions(), volume = at_start->point_data().volumes;
-  const std::vector<int> material = at_start->point_data().materials;
+  const std::vector<double> start = at_start->fields().positions(), volume = at_start->fields().point_data().volumes;
+  const std::vector<int> material = at_start->fields().point_data().materials;
   REQUIRE(std::ranges::count(material, 0) > 20);  // 'stuff' comes first by name, though second by body
   REQUIRE(material.front() == 1);
   int changes = 0;
   advanced(scene, 0.8, [&](const Moment& moment, bool after) {
     const LagrangianPhase& phase = moment.phase;
     std::vector<double> u(2 * phase.points()), v(u.size());
-    phase.point_displacement(moment.t, moment.u, u);
-    phase.point_velocity(moment.t, moment.v, v);
+    phase.fields().point_displacement(moment.t, moment.u, u);
+    phase.fields().point_velocity(moment.t, moment.v, v);
     changes += after ? 1 : 0;
     for (std::size_t p = 0; p < phase.points(); ++p) {
       const double x = start[2 * p], y = start[2 * p + 1];
       // but for the turn within 0.8 s and what the two do to each other where they touch
       CHECK(u[2 * p] == Approx(moment.t * (1 - 0.1 * (y - 1.5))).margin(0.03));
       CHECK(u[2 * p + 1] == Approx(moment.t * (0.5 + 0.1 * (x - 2))).margin(0.03));
-      CHECK(phase.point_data().volumes[p] == Approx(volume[p]).epsilon(0.1));
+      CHECK(phase.fields().point_data().volumes[p] == Approx(volume[p]).epsilon(0.1));
     }
-    CHECK(phase.point_data().initial_positions == start);
-    CHECK(phase.point_data().materials == material);
+    CHECK(phase.fields().point_data().initial_positions == start);
+    CHECK(phase.fields().point_data().materials == material);
   });
   CHECK(changes > 20);
   const Summary s = run(scene, {.threads = 1});

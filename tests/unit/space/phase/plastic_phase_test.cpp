@@ -46,8 +46,8 @@ std::vector<double> force(const LagrangianPhase& phase, double t, const std::vec
 std::vector<double> state(const LagrangianPhase& phase) {
   const std::size_t P = phase.points();
   std::vector<double> stress(4 * P), strain(P);
-  phase.point_stress(0, std::vector<double>(phase.size(), 0.0), stress);
-  phase.point_history("plastic_strain", strain);
+  phase.fields().point_stress(0, std::vector<double>(phase.size(), 0.0), stress);
+  phase.fields().point_history("plastic_strain", strain);
   stress.insert(stress.end(), strain.begin(), strain.end());
   return stress;
 }

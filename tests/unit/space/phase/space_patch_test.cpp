@@ -163,7 +163,7 @@ TEST_CASE("a part of a face bears its share of a load, whatever cells its edges 
   const auto phase = make_phase(scene);
   std::vector<double> F(phase->size());
   phase->external_force(0, std::vector<double>(F.size()), F);
-  const NodalLayout nodes = phase->layout();
+  const NodalLayout nodes = phase->shape().layout();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < F.size(); ++k) {
     sum[nodes.component[k]] += F[k];

@@ -1,0 +1,255 @@
+// The internal force R(u) of a phase, its tangent, and the commit of an accepted step.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "space/kernels/cell_assembly.hpp"
+#include "space/kernels/elastic_cells.hpp"
+#include "space/kernels/nodal_force.hpp"
+#include "space/materials/moduli_of.hpp"
+#include "space/phase/matrix_of_means.hpp"
+#include "space/phase/phase_frame.hpp"
+#include "space/phase/phase_trial.hpp"
+#include "space/phase/point_laws.hpp"
+
+namespace stillpoint {
+
+/// Evaluations are const, and several threads may make them at the same time, each with work arrays of its own. u, du:
+/// over the grid's functions, (functions × dim); R, dR: (n).
+template <AxisBasis B, Kinematics K>
+class InternalForce {
+  static constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
+  static constexpr int components = stillpoint::gradient_components(K);
+  static constexpr bool has_elastic_cells =
+      (K == Kinematics::plane || K == Kinematics::space) && std::same_as<B, BSpline<1>>;
+  using Block = PointBlock<K>;
+
+ public:
+  struct Work : PointLaws<B, K>::Work {
+    long phase = -1;  // that the arrays have the sizes of
+    std::vector<double> u, du;
+  };
+  using Loan = typename WorkPool<Work>::Loan;
+
+  /// frame: must outlive this object.
+  explicit InternalForce(const PhaseFrame<B, K>& frame) : frame_(frame) {}
+
+  // --- a phase begins ------------------------------------------------------------------------------
+  /// Prepares for the points in their present order: blocks can be visited.
+  void take_points() { points_.rebuild(frame_.body.points, frame_.weights, frame_.corner_sum); }
+  /// Prepares evaluations in the phase that begins at t.
+  void begin_phase(double t) {
+    committed_.u.assign(static_cast<std::size_t>(dim) * frame_.functions_of_grid(), 0);
+    frame_.unknowns.spread_others(t, committed_.u);
+    committed_.t = t;
+    committed_.motion = 0;
+    laws_.begin_phase();
+    laws_.commit_averages(*borrow());
+    take_elastic_moments();
+    const bool stiffens = !frame_.remembers && std::ranges::any_of(frame_.body.materials, [](const auto& law) {
+      return law->info().finite_strain;
+    });
+    if (frame_.phase == 0 && stiffens) undeformed_bound_ = bound_at_rest();
+  }
+
+  const PointLaws<B, K>& laws() const { return laws_; }
+  /// The loops over blocks of points.
+  const NodalForce<B, K>& points() const { return points_; }
+  const CommittedState& committed() const { return committed_; }
+  /// Saves or restores the state of the last commit.
+  void archive(const StateArchive& state) {
+    state("committed_u", Vec(committed_.u));
+    state("committed_t", committed_.t);
+    if (laws_.share_dilatation()) state("committed_effects_of_averages", Vec(committed_.averages));
+  }
+  /// Work arrays of the present phase; those over the functions are 0 where no unknown is.
+  Loan borrow() const {
+    Loan work = works_.borrow();
+    if (work->phase == frame_.phase && work->u.size() == committed_.u.size()) return work;
+    work->phase = frame_.phase;
+    work->u.assign(committed_.u.size(), 0);
+    work->du.assign(committed_.u.size(), 0);
+    laws_.prepare(*work);
+    return work;
+  }
+  WorkPool<TrialArrays>::Loan borrow_trial() const {
+    auto arrays = trials_.borrow();
+    arrays->u.assign(committed_.u.size(), 0);
+    arrays->history.resize(frame_.body.materials.size());
+    for (std::size_t m = 0; m < arrays->history.size(); ++m)
+      arrays->history[m].resize(frame_.body.materials[m]->info().history_size);
+    if (laws_.share_dilatation() && frame_.remembers) arrays->averages.resize(frame_.body.points.size());
+    return arrays;
+  }
+
+  // --- R(u) and its commit ---------------------------------------------------------------------------
+  /// Computes R at the displacements that the trial holds, and the trial's history. Returns false if some stress is not
+  /// finite.
+  bool evaluate(PhaseTrial& trial, Vec R, Work& work) const {
+    const double* u = trial.arrays->u.data();
+    const DegreesOfFreedom& dofs = frame_.dofs();
+    laws_.take_means(u, work);
+    trial.keeps_history = true;
+    bool good = false;
+    if (stands_as_committed(trial)) {
+      trial.keeps_history = false;
+      const auto answer = [this](std::size_t m, Block& block) {
+        return laws_.law(m).committed_stress(block, laws_.volumes());
+      };
+      good = points_.template evaluate<false>(u, nullptr, answer, dofs, R, trial.reactions, work.nodal);
+    } else if (frame_.remembers) {
+      const double dt = trial.t - committed_.t;
+      double* const averages = laws_.share_dilatation() ? trial.arrays->averages.data() : nullptr;
+      const auto answer = [this, dt, history = trial.arrays->history.data(), averages, &work](std::size_t m,
+                                                                                              Block& block) {
+        return laws_.template stress<true>(m, block, dt, history[m].data(), averages, work);
+      };
+      good = points_.template evaluate<true>(u, committed_.u.data(), std::cref(answer), dofs, R, trial.reactions,
+                                             work.nodal);
+    } else if (elastic_cells_.empty()) {
+      const auto answer = [this, &work](std::size_t m, Block& block) {
+        return laws_.template stress<false>(m, block, 0, nullptr, nullptr, work);
+      };
+      good = points_.template evaluate<false>(u, nullptr, answer, dofs, R, trial.reactions, work.nodal);
+    } else {
+      good = points_.template evaluate_cells<false>(of_elastic_cells(u), dofs, R, trial.reactions, work.nodal);
+    }
+    return good && laws_.add_shared_forces(u, R, trial.reactions, work);
+  }
+  void commit(PhaseTrial& trial) {
+    for (std::size_t m = 0; m < frame_.body.materials.size(); ++m)
+      frame_.body.materials[m]->commit(trial.arrays->history[m]);
+    committed_.u.swap(trial.arrays->u);
+    if (laws_.share_dilatation()) committed_.averages.swap(trial.arrays->averages);
+    committed_.t = trial.t;
+    committed_.motion = trial.motion;
+  }
+
+  // --- the tangent at work.u -------------------------------------------------------------------------
+  /// dR = K du for the direction work.du.
+  void apply(Tangent kind, double t, Vec dR, Work& work) const {
+    const DegreesOfFreedom& dofs = frame_.dofs();
+    const double *u = work.u.data(), *du = work.du.data();
+    if (!elastic_cells_.empty()) {
+      points_.template evaluate_cells<true>(of_elastic_cells(du), dofs, dR, {}, work.nodal);
+      return;
+    }
+    const double dt = t - committed_.t;
+    laws_.take_means(u, work);
+    laws_.take_shares(u, dt, work);
+    laws_.take_rates_of_means(u, du, work);
+    const auto answer = [&](std::size_t m, Block& block) {
+      laws_.tangent(kind, m, block, dt, work);
+      return 0.0;
+    };
+    points_.template evaluate<true, true>(u, committed_.u.data(), std::cref(answer), dofs, dR, {}, work.nodal, du);
+    laws_.add_shared_forces(u, dR, {}, work);
+  }
+  /// The stiffness K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i.
+  SparseMatrix matrix(Tangent kind, double t, Work& work) const {
+    const double dt = t - committed_.t;
+    if constexpr (dim > 1) {
+      if (laws_.share_dilatation()) {
+        MatrixOfMeans<B, K> with_means(kind, dt, work.u.data(), frame_, laws_, committed_, work);
+        return laws_.share_over_splines() ? with_means.over_splines() : with_means.over_cells();
+      }
+    }
+    std::ranges::transform(work.u, committed_.u, work.du.begin(), std::minus<>());
+    const PointWeights<B, K>& weights = frame_.weights;
+    const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<dim, per_cell>& matrix) {
+      const auto H = weights.gradient(work.u.data(), k, p), dH = weights.gradient(work.du.data(), k, p);
+      const auto A = moduli_of(frame_.material_of(k), kind, H, dH, dt, p);
+      std::array<TensorOf<K>, dim * per_cell> G{};
+      const auto dN = weights.dN(k, p);
+      for (int a = 0; a < per_cell; ++a) {
+        for (int i = 0; i < dim; ++i) {
+          for (int j = 0; j < dim; ++j) G[dim * a + i][dim * i + j] = dN[per_cell * j + a];
+        }
+        if constexpr (K == Kinematics::axisymmetric) G[dim * a][dim * dim] = dN[per_cell * dim + a];
+      }
+      for (int row = 0; row < dim * per_cell; ++row) {
+        TensorOf<K> left{};  // V G A
+        for (int c = 0; c < components; ++c) {
+          if (G[row][c] == 0) continue;
+          for (int d = 0; d < components; ++d)
+            left[d] += frame_.body.points.volume[p] * G[row][c] * A[components * c + d];
+        }
+        for (int column = 0; column < dim * per_cell; ++column) {
+          for (int d = 0; d < components; ++d) matrix[row][column] += left[d] * G[column][d];
+        }
+      }
+    };
+    return assemble_cells<B, K>(frame_.grid, frame_.body.points, weights, frame_.dofs(), add_point).free;
+  }
+  /// The largest ratio of a point's stiffness bound at work.u to the undeformed one.
+  double stiffening(Work& work) const { return largest_bound(work) / undeformed_bound_; }
+
+  /// The memory of elastic cells [bytes]; 0 if there are none.
+  double bytes_of_elastic_cells() const { return elastic_cells_.empty() ? 0 : elastic_cells_.bytes(); }
+
+ private:
+  // In bilinear or trilinear cells with R(u) = K u, the points are needed only by their moments.
+  void take_elastic_moments() {
+    if constexpr (has_elastic_cells) {
+      const bool is_linear = !frame_.remembers && std::ranges::none_of(frame_.body.materials, [](const auto& law) {
+        return law->info().finite_strain;
+      });
+      if (!is_linear || frame_.moves_on() || frame_.problem.geostatic) return;
+      std::vector<typename ElasticCells<dim>::Moduli> moduli;
+      for (std::size_t m = 0; m < frame_.body.materials.size(); ++m) {
+        const auto p = static_cast<std::size_t>(frame_.body.points.material_begin[m]);
+        const auto A = laws_.law(m).moduli(Tangent::elastic, {}, {}, 0, p);  // for xx, xy, …, row by row
+        moduli.push_back({.normal = A[0], .cross = A[dim + 1], .shear = A[components + 1]});
+      }
+      elastic_cells_.rebuild(frame_.body.points, frame_.weights, std::move(moduli), laws_.share_dilatation());
+    }
+  }
+  auto of_elastic_cells(const double* u) const {
+    return [this, u](std::size_t begin, std::size_t end, double* corner) {
+      return elastic_cells_.forces(u, begin, end, corner);
+    };
+  }
+
+  // Whether the trial is at the beginning of a phase after the first, where the committed stresses still hold.
+  bool stands_as_committed(const PhaseTrial& trial) const {
+    const bool begins =
+        frame_.remembers && frame_.phase > 0 && trial.t == frame_.held().start() && trial.t == committed_.t;
+    return begins && !laws_.share_dilatation() &&
+           std::ranges::all_of(frame_.body.materials, [](const auto& law) { return law->info().stress_stays; }) &&
+           std::ranges::all_of(trial.arrays->u, [](double u) { return u == 0; });
+  }
+
+  double largest_bound(Work& work) const {
+    double largest = 0;
+    laws_.take_means(work.u.data(), work);
+    points_.visit(work.u.data(), [&](std::size_t m, Block& block) {
+      laws_.average(m, block, work);
+      const double bound = laws_.law(m).stiffness_bound(block);
+#pragma omp critical(stillpoint_stiffening)
+      largest = bound <= largest ? largest : bound;
+    });
+    return largest;
+  }
+  double bound_at_rest() const {
+    const Loan work = borrow();
+    std::ranges::fill(work->u, 0.0);
+    return largest_bound(*work);
+  }
+
+  const PhaseFrame<B, K>& frame_;
+  NodalForce<B, K> points_;
+  CommittedState committed_;
+  PointLaws<B, K> laws_{frame_, points_, committed_};
+  ElasticCells<has_elastic_cells ? dim : 2> elastic_cells_;  // for a linear body in bilinear or trilinear cells
+  double undeformed_bound_ = 0;                              // stiffness bound of the points as placed
+  WorkPool<Work> works_;
+  WorkPool<TrialArrays> trials_;
+};
+
+}  // namespace stillpoint

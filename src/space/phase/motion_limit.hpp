@@ -1,0 +1,101 @@
+// How far a phase may take the points: the motion and the strain that end it, and those that a trial may not pass.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "space/phase/deformation_from_positions.hpp"
+#include "space/phase/internal_force.hpp"
+#include "space/phase/phase_frame.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class MotionLimit {
+  static constexpr int dim = dimensions(K);
+  using Block = PointBlock<K>;
+
+ public:
+  /// The arguments must outlive this object.
+  MotionLimit(const PhaseFrame<B, K>& frame, const InternalForce<B, K>& force) : frame_(frame), force_(force) {}
+
+  /// Weighs the unknowns of a phase by the motion of points that they cause. by_reach: whether a function that hardly
+  /// reaches a point moves none.
+  void begin_phase(bool by_reach) {
+    std::array<double, dim> per_length;
+    for (std::size_t d = 0; d < dim; ++d) per_length[d] = 1 / frame_.problem.grid.cell_length(d);
+    weight_.resize(frame_.size());
+    const std::vector<int>& free = frame_.dofs().free;
+    for_each_index(weight_.size(), [per_length, weight = weight_.data(), unknown = free.data()](std::size_t k) {
+      weight[k] = per_length[static_cast<std::size_t>(unknown[k] % dim)];
+    });
+    if (!by_reach) return;
+    const std::vector<double> share =
+        DeformationFromPositions<B, K>::share_of_motion(frame_.body, frame_.weights, frame_.functions_of_grid());
+    for (std::size_t k = 0; k < weight_.size(); ++k) weight_[k] *= share[static_cast<std::size_t>(free[k] / dim)];
+  }
+
+  /// Sets the grid's displacements and returns the largest motion [cells], if it ends the phase, in one pass over the
+  /// unknowns.
+  double spread_and_measure(double t, ConstVec u, std::vector<double>& grid) const {
+    if (spec().ends_by_motion()) return frame_.unknowns.spread_and_measure(t, u, weight_, grid);
+    frame_.unknowns.spread(t, u, grid);
+    return 0;
+  }
+  /// The largest |u_i| over a cell's width; no point moves further than the nodes around it if N_i ≥ 0 and Σ N_i = 1.
+  double largest_motion(ConstVec u) const {
+    return reduce(
+        u.size(), 0.0, [u = u.data(), weight = weight_.data()](std::size_t k) { return std::abs(u[k]) * weight[k]; },
+        [](double a, double b) { return a > b ? a : b; });
+  }
+  /// Whether a trial is within the phase: a step past 3/2 of the motion that ends it is too long for the frozen
+  /// weights.
+  bool allows(double motion, const double* grid_u) const {
+    constexpr double share_of_limit = 1.5, cells_if_every_step_remaps = 0.5;
+    if (spec().ends_by_motion()) {
+      const double allowed = spec().max_motion > 0 ? share_of_limit * spec().max_motion : cells_if_every_step_remaps;
+      if (!(motion <= allowed)) return false;
+    }
+    return !spec().max_strain || largest_strain(grid_u) <= share_of_limit * *spec().max_strain;
+  }
+  /// The progress of a phase that moves on towards its end at (t, u), which is 1 there.
+  double progress(double t, ConstVec u) {
+    double share = 0;
+    if (spec().ends_by_motion()) {
+      const bool committed = frame_.remembers && t == force_.committed().t;
+      share = (committed ? force_.committed().motion : largest_motion(u)) / spec().max_motion;
+    }
+    constexpr long calls_between_looks = 8;  // the strain costs a pass over the points
+    if (spec().max_strain && ++looks_ % calls_between_looks == 0) {
+      const auto work = force_.borrow();
+      frame_.unknowns.spread(t, u, work->u);
+      share = std::max(share, largest_strain(work->u.data()) / *spec().max_strain);
+    }
+    return share;
+  }
+  void archive(const StateArchive& state) { state("looks", looks_); }
+
+ private:
+  const PhaseSpec& spec() const { return frame_.problem.phase; }
+  double largest_strain(const double* grid_u) const {
+    double largest = 0;
+    force_.points().visit(grid_u, [&](std::size_t, const Block& block) {
+      double of_block = 0;
+      for (const auto& row : block.H) {
+        for (std::size_t q = 0; q < block.count; ++q) of_block = std::max(of_block, std::abs(row[q]));
+      }
+#pragma omp critical(stillpoint_largest_strain)
+      largest = std::max(largest, of_block);
+    });
+    return largest;
+  }
+
+  const PhaseFrame<B, K>& frame_;
+  const InternalForce<B, K>& force_;
+  std::vector<double> weight_;  // motion of points per unit of each unknown, at most, in cells, (n) [1/m]
+  long looks_ = 0;              // number of times that progress() looked at the strain
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,113 @@
+// The parts of a phase, and the order in which they begin.
+#pragma once
+
+#include <stillpoint/problem.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "scene/controlled_loads.hpp"
+#include "space/boundary/conditions.hpp"
+#include "space/grid/cut_cells.hpp"
+#include "space/grid/sliver_extension.hpp"
+#include "space/phase/internal_force.hpp"
+#include "space/phase/motion_limit.hpp"
+#include "space/phase/phase_frame.hpp"
+#include "space/phase/phase_inertia.hpp"
+#include "space/phase/remap.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+struct PhaseAssembly {
+  static constexpr int dim = dimensions(K);
+
+  /// Places the bodies and begins the first phase.
+  explicit PhaseAssembly(const Problem& whole)
+      : problem(without_reference_loads(whole)),
+        conditions(problem, whole, frame.grid, frame.body, frame.origin, frame.account().shortest_time()) {
+    extend_into_slivers();
+    if (frame.moves_on()) frame.origin = frame.account().positions();
+    if (problem.geostatic) set_geostatic_stress(problem, frame.body);
+    if (frame.moves_on()) set_initial_velocity(problem, frame.body);
+    begin_phase(0);
+  }
+  PhaseAssembly(const PhaseAssembly&) = delete;
+  PhaseAssembly& operator=(const PhaseAssembly&) = delete;
+
+  /// Begins a phase at t with the points where they are, in their order.
+  void begin_phase(double t) {
+    place_functions(t);
+    remap.take_deformation();
+    begin_forces(t);
+  }
+  /// Resumes the phase that began at t, with the points and their deformation as they were then.
+  void resume_phase(double t) {
+    place_functions(t);
+    begin_forces(t);
+    remap.resume(t);
+  }
+
+  const Problem problem;  // without the loads that a displacement drives
+  PhaseFrame<B, K> frame{problem};
+  Conditions<K> conditions;
+  InternalForce<B, K> force{frame};
+  PhaseInertia<B, K> inertia{frame};
+  MotionLimit<B, K> limit{frame, force};
+  Remap<B, K> remap{frame, force, inertia, conditions};
+  std::vector<double> constant_force;  // constant part of F, (n)
+
+ private:
+  void make_weights() {
+    frame.make_weights();
+    force.take_points();
+  }
+  HeldUnknowns hold(double t, const std::vector<char>& reached) {
+    return conditions.hold(t, frame.functions, frame.body.points, frame.weights, reached);
+  }
+  void place_functions(double t) {
+    make_weights();
+    std::vector<char> reached = frame.reached_functions();
+    HeldUnknowns held = hold(t, reached);
+    frame.unknowns.begin_phase(std::move(reached), std::move(held), frame.extension);
+    limit.begin_phase(/*by_reach=*/remap.follows_positions());
+  }
+  void begin_forces(double t) {
+    force.begin_phase(t);
+    inertia.begin_phase();
+    constant_force.assign(frame.size(), 0);
+    conditions.begin_phase(
+        inertia.parts(), [this] { return frame.bound_of_functions(); }, constant_force);
+  }
+
+  // Extends functions into cells that the body hardly reaches, but only in a body with a single phase: in later phases
+  // it is not known where in a cell the body ends.
+  void extend_into_slivers() {
+    const std::vector<CellShares> covered = std::move(frame.body.covered);
+    const CutCells<dim> cut(frame.grid, covered, B::degree);
+    if (cut.slivers().empty()) return;
+    make_weights();
+    const std::vector<char> reached = frame.reached_functions();
+    const HeldUnknowns held = hold(0, reached);
+    const auto is_held = [&](int function, int i) {
+      const int unknown = dim * function + i;
+      return held.is_prescribed(unknown) || held.is_guided(unknown);
+    };
+    // A function may follow others only if each of its held components is held in them too.
+    const auto may_follow = [&](int function, const auto& sources) {
+      return std::ranges::all_of(sources, [&](const ExtendedFunctions::Source& source) {
+        bool may = reached[static_cast<std::size_t>(source.function)] != 0;
+        for (int i = 0; i < dim; ++i) may = may && (!is_held(function, i) || is_held(source.function, i));
+        return may;
+      });
+    };
+    const SliverExtension<B, dim> extension(frame.grid, cut, may_follow);
+    frame.body.quadrature.slivers = extension.slivers();
+    if (frame.moves_on()) return;
+    frame.extension = extension.functions();
+    frame.body.quadrature.joined = extension.joined();
+  }
+};
+
+}  // namespace stillpoint

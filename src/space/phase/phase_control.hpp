@@ -1,0 +1,87 @@
+// How a phase ends and the next begins, and its saved state: that of its points, and what accepted steps have changed.
+// The rest follows from these.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "space/phase/lagrangian_phase.hpp"
+#include "space/phase/phase_assembly.hpp"
+#include "space/points/domain_halving.hpp"
+#include "space/points/saved_points.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class PhaseControlOf final : public PhaseControl {
+  static constexpr int dim = dimensions(K);
+
+ public:
+  /// all: must outlive this object.
+  explicit PhaseControlOf(PhaseAssembly<B, K>& all) : all_(all) {}
+
+  double progress(double t, ConstVec u) override {
+    if (!all_.frame.moves_on()) return 0;
+    if (all_.problem.phase.max_motion == 0) return 1;
+    if (all_.conditions.ask_for_next_phase(u)) return 1;
+    return all_.limit.progress(t, u);
+  }
+  std::vector<double> begin_next(double t, ConstVec u, ConstVec v) override {
+    all_.remap.end_phase(t, u, v, all_.limit.largest_motion(u));
+    all_.begin_phase(t);
+    return all_.remap.begin_motion(t);
+  }
+  TransferErrors transfer_errors() const override {
+    const auto& kept = all_.remap.conservation();
+    return {kept.mass(), kept.momentum(), kept.angular_momentum(), all_.inertia.of_functions().largest_added_mass()};
+  }
+
+  void archive(const StateArchive& state) override {
+    PhaseFrame<B, K>& frame = all_.frame;
+    Body<K>& body = frame.body;
+    double t = frame.held().start();
+    state("began_at", t);
+    state("phase", frame.phase);
+    if (body.points.has_domains()) {
+      if (const std::vector<int> from = archive_number_of_points(state, body.points); !from.empty())
+        take_materials(body, from);
+    }
+    state("grid_moved", frame.grid_moved);
+    for (std::size_t m = 0; m < body.materials.size(); ++m)
+      state(fmt::format("memory_of_material_{}", m), body.materials[m]->memory());
+    if (frame.moves_on()) archive_points(state, body.points);
+    all_.conditions.archive(state);
+    if (state.restores() && frame.moves_on()) {
+      take_saved_grid();
+      all_.resume_phase(t);
+      all_.conditions.archive(state);  // replaces the initial state of the phase by the saved one
+    }
+    all_.force.archive(state);
+    all_.limit.archive(state);
+    all_.remap.archive(state);
+    all_.inertia.archive(state);
+  }
+
+ private:
+  // Restores the grid from the saved displacement of the followed wall, and checks the order of the saved points.
+  void take_saved_grid() {
+    constexpr double largest_share = 1000;  // of the grid's own size; no run could follow a wall further
+    PhaseFrame<B, K>& frame = all_.frame;
+    double size = 0;
+    for (std::size_t d = 0; d < dim; ++d) size = std::max(size, all_.problem.grid.max[d] - all_.problem.grid.min[d]);
+    if (!(std::abs(frame.grid_moved) <= largest_share * size)) throw StateError("its grid has gone too far");
+    frame.grid = grid_at<dim>(all_.problem, frame.grid_moved);
+    long cells = 1;
+    for (const Axis& axis : frame.grid.axes) cells *= axis.cells();
+    const std::string fault = disorder_of(frame.body.points, cells, frame.body.numbers());
+    if (!fault.empty()) throw StateError(fault);
+  }
+
+  PhaseAssembly<B, K>& all_;
+};
+
+}  // namespace stillpoint

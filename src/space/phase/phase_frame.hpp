@@ -1,0 +1,117 @@
+// What is frozen when a phase begins: the grid, the points, the weights of the grid's functions at them, and which of
+// the grid's unknowns are free.
+#pragma once
+
+#include <stillpoint/problem.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "space/grid/extended_functions.hpp"
+#include "space/grid/grid_functions.hpp"
+#include "space/grid/scene_grid.hpp"
+#include "space/kernels/corner_sum.hpp"
+#include "space/kernels/extended_sums.hpp"
+#include "space/kernels/nodal_totals.hpp"
+#include "space/kernels/point_weights.hpp"
+#include "space/phase/body_account.hpp"
+#include "space/phase/phase_unknowns.hpp"
+#include "space/points/body.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+struct PhaseFrame {
+  static constexpr int dim = dimensions(K);
+  using Basis = TensorBasis<B, dim>;
+
+  /// Places the bodies; the problem must outlive this object.
+  explicit PhaseFrame(const Problem& of)
+      : problem(of),
+        grid(grid_at<dim>(of, 0)),
+        body(make_body<K>(of, grid, of.phase.ends())),
+        remembers(std::ranges::any_of(body.materials, [](const auto& law) { return law->info().history_dependent; })),
+        total_mass(account().total_mass()) {}
+  PhaseFrame(const PhaseFrame&) = delete;
+  PhaseFrame& operator=(const PhaseFrame&) = delete;
+
+  /// Evaluates the weights of the points where they are now, and the sums over the points at the grid's functions.
+  void make_weights() {
+    totals.begin(grid, body.points, weights, wave_moduli());
+    number_corners();
+    totals.sum(corner_sum);
+  }
+  /// Whether a point gives a function mass or stiffness, (functions).
+  std::vector<char> reached_functions() const {
+    std::vector<char> reached(functions_of_grid());
+    for (std::size_t f = 0; f < reached.size(); ++f) reached[f] = static_cast<char>(totals.reaches(f));
+    return reached;
+  }
+
+  std::size_t functions_of_grid() const { return static_cast<std::size_t>(functions.count()); }
+  bool moves_on() const { return problem.phase.ends(); }
+  std::size_t size() const { return unknowns.size(); }
+  const DegreesOfFreedom& dofs() const { return unknowns.dofs(); }
+  const HeldUnknowns& held() const { return unknowns.held(); }
+  BodyAccount<K> account() const { return {problem, grid, body}; }
+  const PointMaterial<K>& material_of(std::size_t k) const {
+    return *body.materials[static_cast<std::size_t>(body.points.material_of_cell(k))];
+  }
+  /// The wave modulus λ + 2μ of each material [Pa].
+  std::vector<double> wave_moduli() const {
+    std::vector<double> moduli;
+    for (const auto& material : body.materials) moduli.push_back(material->info().wave_modulus);
+    return moduli;
+  }
+  /// The stiffness bound of each function, with that of extended functions added to their sources, (functions) [N/m].
+  std::vector<double> bound_of_functions() const {
+    if (extension.empty()) return totals.bound();
+    return stiffness_bound<B, K>(body.points, weights, corner_sum, wave_moduli(), extension);
+  }
+
+  /// Calls visit(occupied cell, point, number of the point) for all points.
+  template <class Visit>
+  void for_points(const Visit& visit) const {
+    stillpoint::for_points(body.points, visit);
+  }
+
+  const Problem& problem;
+  Grid<dim> grid;
+  double grid_moved = 0;  // displacement of the wall that the grid follows [m]
+  const FunctionsOfBasis<B, dim> functions{grid};
+  Body<K> body;
+  const bool remembers;     // whether some of the points have a history
+  const double total_mass;  // Σ_p m_p at the start [kg]
+  // Positions at the start of the run, by the points' numbers, (P × dim); empty if points do not move on.
+  std::vector<double> origin;
+  long phase = 0;  // number of the phase
+  PointWeights<B, K> weights;
+  CornerSum corner_sum;
+  NodalTotals<B, K> totals;     // sums over the points when the phase begins
+  ExtendedFunctions extension;  // into slivers of a body with a single phase
+  PhaseUnknowns unknowns{dim};
+
+ private:
+  // The corners are sorted anew only if some cell has other functions than before.
+  void number_corners() {
+    constexpr int per_cell = Basis::per_cell;
+    const MaterialPoints<dim>& points = body.points;
+    const std::size_t count = functions_of_grid();
+    bool as_before = corner_sum.functions() == count && function_of_corner_.size() == per_cell * points.cells();
+    function_of_corner_.resize(per_cell * points.cells());
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      for (int a = 0; a < per_cell; ++a) {
+        const int function = weights.function(k, a);
+        as_before =
+            std::exchange(function_of_corner_[per_cell * k + static_cast<std::size_t>(a)], function) == function &&
+            as_before;
+      }
+    }
+    if (!as_before) corner_sum.rebuild(function_of_corner_, count);
+  }
+
+  std::vector<int> function_of_corner_;  // (cells × per_cell)
+};
+
+}  // namespace stillpoint

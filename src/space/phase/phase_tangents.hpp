@@ -1,0 +1,41 @@
+// The tangent stiffness of a phase, with the springs of its conditions.
+#pragma once
+
+#include <stdexcept>
+
+#include "space/phase/phase_assembly.hpp"
+
+namespace stillpoint {
+
+template <AxisBasis B, Kinematics K>
+class PhaseTangents final : public Tangents {
+ public:
+  /// all: must outlive this object.
+  explicit PhaseTangents(const PhaseAssembly<B, K>& all) : all_(all) {}
+
+  void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const override {
+    if (kind == Tangent::stable) throw std::logic_error("the stable tangent is a matrix alone");
+    const auto work = all_.force.borrow();
+    all_.frame.unknowns.spread(t, u, work->u);
+    all_.frame.unknowns.spread_direction(du, work->du);
+    all_.force.apply(kind, t, dR, *work);
+    all_.conditions.add_springs_product(work->du.data(), dR);
+  }
+  SparseMatrix matrix(Tangent kind, double t, ConstVec u) const override {
+    const auto work = all_.force.borrow();
+    all_.frame.unknowns.spread(t, u, work->u);
+    SparseMatrix matrix = all_.force.matrix(kind, t, *work);
+    all_.conditions.add_springs_matrix(matrix);
+    return matrix;
+  }
+  SparseMatrix of_loads(double t, ConstVec u) const override {
+    const auto work = all_.force.borrow();
+    all_.frame.unknowns.spread(t, u, work->u);
+    return all_.conditions.tangent_of_loads(all_.inertia.parts(), t, work->u.data());
+  }
+
+ private:
+  const PhaseAssembly<B, K>& all_;
+};
+
+}  // namespace stillpoint
