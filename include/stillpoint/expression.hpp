@@ -21,7 +21,7 @@ class ExpressionError : public std::runtime_error {
   int position_;
 };
 
-/// A formula with value semantics; one object must not be evaluated by several threads at once.
+/// A formula with value semantics. Threads that evaluate one, or its copies, wait for each other.
 class Expression {
  public:
   /// The constant 0.
@@ -30,11 +30,6 @@ class Expression {
   /// variables: the names that the formula may use, of "x", "y", "z", "t". Throws ExpressionError, also if a formula
   /// without variables is not a finite number.
   Expression(const std::string& text, const Constants& constants, const std::string& variables = "xyzt");
-  Expression(const Expression&);
-  Expression(Expression&&) noexcept;
-  Expression& operator=(const Expression&);
-  Expression& operator=(Expression&&) noexcept;
-  ~Expression();
 
   /// x: up to three coordinates [m], the missing ones 0; t [s].
   double operator()(std::span<const double> x, double t) const;
@@ -47,9 +42,7 @@ class Expression {
 
  private:
   struct Source;
-  struct Compiled;
-  std::shared_ptr<const Source> source_;  // null: a plain number
-  mutable std::unique_ptr<Compiled> compiled_;
+  std::shared_ptr<Source> source_;  // null: a plain number
   double value_ = 0;
   std::string text_;
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -174,49 +176,20 @@ std::vector<std::string> names_in(std::string_view formula) {
   return names;
 }
 
-/// What a formula is made of. Copies share it.
-struct Expression::Source {
-  std::string text, variables;
-  Constants constants;  // those that the formula names
-  std::string used;     // those of x, y, z, t that it depends on
+namespace {
 
-  Source(std::string text_, const Constants& all, std::string variables_)
-      : text(std::move(text_)), variables(std::move(variables_)) {
-    check_characters(text);
-    for (const char name : variables)
-      if (all.contains(std::string(1, name)))
-        throw ExpressionError(fmt::format("the constant '{}' has the name of a variable", name), -1);
-    for (const std::string& name : names_in(text)) look_up(name, all);
-  }
-
- private:
-  void look_up(const std::string& name, const Constants& all) {
-    if (name.size() == 1 && variables.find(name) != std::string::npos) {
-      if (used.find(name) == std::string::npos) used += name;
-      return;
-    }
-    for (const Constants* const known : {&all, &default_constants()}) {
-      const auto found = known->find(name);
-      if (found == known->end()) continue;
-      constants.insert(*found);
-      return;
-    }
-  }
-};
-
-/// muParser's form of it, some 5 kB, with variables of its own. It is not there before somebody wants a value: scenes
-/// are copied, and may have hundreds of thousands of formulas.
-struct Expression::Compiled {
+/// muParser's form of a formula, some 5 kB.
+struct Compiled {
   std::array<double, 4> values{};  // of x, y, z, t; the parser reads them in place
   mu::Parser parser;
 
-  explicit Compiled(const Source& source) {
+  Compiled(const std::string& text, const std::string& used, const Constants& constants) {
     parser.ClearConst();  // muParser's own are called _pi and _e
     parser.DefineOprtChars(kOperatorCharacters);
     for (const auto& [name, value] : kOwnFunctions) parser.DefineFun(name, value);
-    for (const char name : source.used) parser.DefineVar(std::string(1, name), &values.at(kVariables.find(name)));
-    for (const auto& [name, value] : source.constants) parser.DefineConst(name, value);
-    parser.SetExpr(source.text);
+    for (const char name : used) parser.DefineVar(std::string(1, name), &values.at(kVariables.find(name)));
+    for (const auto& [name, value] : constants) parser.DefineConst(name, value);
+    parser.SetExpr(text);
     parser.Eval();
   }
   Compiled(const Compiled&) = delete;
@@ -231,6 +204,50 @@ struct Expression::Compiled {
   }
 };
 
+}  // namespace
+
+/// What a formula is made of, and its compiled form, which is not there before somebody wants a value: a scene may have
+/// hundreds of thousands of formulas. Copies share both; one thread at a time evaluates.
+struct Expression::Source {
+  std::string text, variables;
+  Constants constants;  // those that the formula names
+  std::string used;     // those of x, y, z, t that it depends on
+
+  Source(std::string text_, const Constants& all, std::string variables_)
+      : text(std::move(text_)), variables(std::move(variables_)) {
+    check_characters(text);
+    for (const char name : variables)
+      if (all.contains(std::string(1, name)))
+        throw ExpressionError(fmt::format("the constant '{}' has the name of a variable", name), -1);
+    for (const std::string& name : names_in(text)) look_up(name, all);
+  }
+
+  double evaluate(std::span<const double> x, double t) {
+    const std::scoped_lock lock(mutex_);
+    if (!compiled_) compiled_ = std::make_unique<Compiled>(text, used, constants);
+    for (std::size_t axis = 0; axis < 3; ++axis) compiled_->values[axis] = axis < x.size() ? x[axis] : 0;
+    compiled_->values[3] = t;
+    return compiled_->evaluate();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<Compiled> compiled_;
+
+  void look_up(const std::string& name, const Constants& all) {
+    if (name.size() == 1 && variables.find(name) != std::string::npos) {
+      if (used.find(name) == std::string::npos) used += name;
+      return;
+    }
+    for (const Constants* const known : {&all, &default_constants()}) {
+      const auto found = known->find(name);
+      if (found == known->end()) continue;
+      constants.insert(*found);
+      return;
+    }
+  }
+};
+
 Expression::Expression() : Expression(0.0) {}
 
 Expression::Expression(double value) : value_(value), text_(fmt::format("{}", value)) {}
@@ -241,9 +258,9 @@ Expression::Expression(const std::string& text, const Constants& constants, cons
     value_ = *number;
     return;
   }
-  const auto source = std::make_shared<const Source>(text, constants, variables);
+  const auto source = std::make_shared<Source>(text, constants, variables);
   try {
-    Compiled compiled(*source);
+    Compiled compiled(text, source->used, source->constants);
     if (compiled.parser.GetNumResults() != 1)
       throw ExpressionError("a formula has one value; ',' makes more of them", -1);
     value_ = compiled.evaluate();
@@ -257,23 +274,9 @@ Expression::Expression(const std::string& text, const Constants& constants, cons
   }
 }
 
-Expression::Expression(const Expression& other) : source_(other.source_), value_(other.value_), text_(other.text_) {}
-
-Expression& Expression::operator=(const Expression& other) {
-  if (this != &other) *this = Expression(other);
-  return *this;
-}
-
-Expression::Expression(Expression&&) noexcept = default;
-Expression& Expression::operator=(Expression&&) noexcept = default;
-Expression::~Expression() = default;
-
 double Expression::operator()(std::span<const double> x, double t) const {
   if (!source_) return value_;
-  if (!compiled_) compiled_ = std::make_unique<Compiled>(*source_);
-  for (std::size_t axis = 0; axis < 3; ++axis) compiled_->values[axis] = axis < x.size() ? x[axis] : 0;
-  compiled_->values[3] = t;
-  return compiled_->evaluate();
+  return source_->evaluate(x, t);
 }
 
 bool Expression::uses(char variable) const { return source_ && source_->used.find(variable) != std::string::npos; }

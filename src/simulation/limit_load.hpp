@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "space/boundary/load_state.hpp"
+#include "space/boundary/condition_reports.hpp"
 
 namespace stillpoint {
 

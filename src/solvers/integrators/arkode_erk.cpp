@@ -10,8 +10,6 @@
 // ARKODE's root finding places inside the step. The step ends there, v is set to 0 and ARKODE begins anew from that
 // state. The root function costs a force evaluation each time that it is asked, and is counted.
 
-#include "solvers/integrators/arkode_erk.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -26,6 +24,7 @@
 
 #include "linalg/sundials.hpp"
 #include "solvers/integrators/arkode_tables.hpp"
+#include "solvers/integrators/integrator_families.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
 
 namespace stillpoint {

@@ -9,9 +9,7 @@
 
 #include "base/gpl.hpp"
 #include "base/text.hpp"
-#include "solvers/integrators/arkode_erk.hpp"
-#include "solvers/integrators/integrator_by_gsl.hpp"
-#include "solvers/integrators/staggered_integrators.hpp"
+#include "solvers/integrators/integrator_families.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,5 +1,3 @@
-#include "solvers/integrators/integrator_by_gsl.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include "base/quiet_gsl.hpp"
+#include "solvers/integrators/integrator_families.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
 #include "solvers/spectrum/two_by_two.hpp"
 

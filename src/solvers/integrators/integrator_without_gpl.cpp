@@ -1,7 +1,7 @@
 // A build without GSL has none of GSL's steppers.
 #include <stdexcept>
 
-#include "solvers/integrators/integrator_by_gsl.hpp"
+#include "solvers/integrators/integrator_families.hpp"
 
 namespace stillpoint {
 

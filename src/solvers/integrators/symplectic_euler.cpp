@@ -10,8 +10,8 @@
 
 #include "base/parallel_loop.hpp"
 #include "solvers/integrators/damped_acceleration.hpp"
+#include "solvers/integrators/integrator_families.hpp"
 #include "solvers/integrators/kick_drift.hpp"
-#include "solvers/integrators/staggered_integrators.hpp"
 #include "solvers/integrators/stepping_integrator.hpp"
 
 namespace stillpoint {

@@ -1,41 +1,21 @@
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
-#include <optional>
-#include <span>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
-#include "linalg/conjugate_gradients.hpp"
-#include "linalg/gmres.hpp"
-#include "linalg/power_iteration.hpp"
-#include "linalg/row_product.hpp"
-#include "linalg/sparse_lu.hpp"
 #include "solvers/statics/last_increment.hpp"
 #include "solvers/statics/load_increments.hpp"
-#include "solvers/statics/semidefinite_factor.hpp"
-#include "solvers/statics/subtract_product.hpp"
+#include "solvers/statics/newton_direction.hpp"
 #include "system/largest_at.hpp"
 #include "system/static_balance.hpp"
 
 namespace stillpoint {
 namespace {
-
-bool symmetric(const SparseMatrix& K, double tolerance) {
-  return (K - SparseMatrix(K.transpose())).norm() <= tolerance * K.norm();
-}
-
-bool same(const SparseMatrix& A, const SparseMatrix& B) {
-  const auto all = [](const SparseMatrix& matrix, const auto* values) {
-    return std::span(values, static_cast<std::size_t>(matrix.nonZeros()));
-  };
-  return A.rows() == B.rows() && A.nonZeros() == B.nonZeros() &&
-         std::ranges::equal(all(A, A.valuePtr()), all(B, B.valuePtr())) &&
-         std::ranges::equal(all(A, A.innerIndexPtr()), all(B, B.innerIndexPtr()));
-}
 
 class Newton {
  public:
@@ -45,8 +25,8 @@ class Newton {
         u_(u),
         options_(options),
         balance_(system, t, VectorSpace()),
-        trial_(u.size()),
-        du_(u.size()) {}
+        direction_(system, t, options, balance_, report_),
+        trial_(u.size()) {}
 
   StaticReport solve() {
     if (!balance_.start(u_)) {
@@ -113,7 +93,7 @@ class Newton {
     short_steps_ = 0;
     double residual = balance_.evaluate(step.to, u) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
     step.residuals.push_back(residual);
-    indefinite_ = false;
+    direction_.begin_load_step();
     for (int iteration = 0; !(residual <= options_.tolerance); ++iteration) {
       if (iteration == options_.max_iterations || !std::isfinite(residual) || (!full_steps_ && crawling())) {
         report_.reason = fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations", residual,
@@ -123,7 +103,7 @@ class Newton {
       heed_stop_request();
       ++report_.iterations;
       const double before = residual;
-      const bool nearer = consistent_direction(step.to, u) && descend(step.to, u, before);
+      const bool nearer = direction_.find(step.to, u) && descend(step.to, u, before);
       if (!nearer && before <= options_.near_enough) {
         balance_.evaluate(step.to, u);
         break;
@@ -131,19 +111,19 @@ class Newton {
       if (!nearer) {
         // Opening or just yielding points may leave K singular; K_e never is in a body that is held.
         ++report_.elastic_iterations;
-        if (!balance_.evaluate(step.to, u) || !elastic_direction(u) || !descend(step.to, u, residual)) {
+        if (!balance_.evaluate(step.to, u) || !direction_.find_elastic(u) || !descend(step.to, u, residual)) {
           report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller", residual);
           return false;
         }
       }
       residual = balance_.residual();
       step.residuals.push_back(residual);
-      constexpr double as_of_a_linear_system = 1e-6;
-      if (!is_used_again_ && !(residual <= as_of_a_linear_system * before)) forget_factor();
-      constexpr double hardly = 0.9;
-      if (residual <= options_.near_enough && residual > hardly * before) break;
+      constexpr double decrease_of_linear_system = 1e-6;
+      if (!(residual <= decrease_of_linear_system * before)) direction_.forget_new_factor();
+      constexpr double least_decrease = 0.9;
+      if (residual <= options_.near_enough && residual > least_decrease * before) break;
     }
-    if (indefinite_ && !accepts_) {
+    if (direction_.indefinite() && !accepts_) {
       refused_ = true;
       report_.reason = "the equilibrium found is unstable: K is indefinite";
       return false;
@@ -169,7 +149,7 @@ class Newton {
     constexpr double decrease = 1e-4;
     for (int halvings = 0; halvings < most_halvings; ++halvings) {
       const double lambda = std::ldexp(1, -halvings);
-      for (std::size_t i = 0; i < u.size(); ++i) trial_[i] = u[i] + lambda * du_[i];
+      for (std::size_t i = 0; i < u.size(); ++i) trial_[i] = u[i] + lambda * direction_.du()[i];
       if (!balance_.evaluate(s, trial_)) continue;
       if (!full_steps_ && !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
       std::ranges::copy(trial_, u.begin());
@@ -177,94 +157,6 @@ class Newton {
       return true;
     }
     return false;
-  }
-
-  // Solves K du = Q at u, with Q as last evaluated. False if K du = Q cannot be solved.
-  bool consistent_direction(double s, ConstVec u) {
-    indefinite_ = false;
-    const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
-    if (options_.solver == LinearSolver::iterative) {
-      const LinearMap by_laws = [&](ConstVec x, Vec Kx) {
-        system_.tangents().apply(Tangent::consistent, t_, u, x, Kx);
-        subtract_product(s, of_loads, x, Kx);
-      };
-      const LinearMap apply_K = options_.assembles ? row_product(consistent_matrix(s, u, of_loads)) : by_laws;
-      const bool may_be_unsymmetric = system_.history_dependent() || of_loads.nonZeros() > 0;
-      return by_iterations(apply_K, !may_be_unsymmetric || looks_symmetric(apply_K));
-    }
-    const SparseMatrix K = consistent_matrix(s, u, of_loads);
-    if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
-    if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
-      if (by_cholesky(K)) return true;
-      indefinite_ = !semidefinite_;
-    }
-    return by_lu(K);
-  }
-  SparseMatrix consistent_matrix(double s, ConstVec u, const SparseMatrix& of_loads) const {
-    SparseMatrix K = system_.tangents().matrix(Tangent::consistent, t_, u);
-    if (of_loads.nonZeros() > 0) K -= s * of_loads;
-    return K;
-  }
-  bool elastic_direction(ConstVec u) {
-    if (options_.solver == LinearSolver::iterative) {
-      return by_iterations([&](ConstVec x, Vec Kx) { system_.tangents().apply(Tangent::elastic, t_, u, x, Kx); }, true);
-    }
-    return by_cholesky(system_.tangents().matrix(Tangent::elastic, t_, u));
-  }
-
-  // Solves K du = Q. False if K is indefinite, or if it is singular and Q drives a motion that it does not resist.
-  bool by_cholesky(const SparseMatrix& K) {
-    is_used_again_ = factor_ && same(K, factorised_);
-    if (!is_used_again_) {
-      forget_factor();  // released first, as there may be no room for two
-      factorised_ = K;
-      factor_.emplace(factorised_, system_.mass());
-      ++report_.cholesky_factorisations;
-      report_.factor_bytes = std::max(report_.factor_bytes, factor_->bytes());
-    }
-    semidefinite_ = factor_->semidefinite();
-    const bool found = semidefinite_ && factor_->solve(balance_.Q.span(), du_);
-    if (!found) forget_factor();
-    return found;
-  }
-  void forget_factor() {
-    factor_.reset();
-    factorised_ = {};
-  }
-  bool by_lu(const SparseMatrix& K) {
-    const SparseLu factor(K);
-    ++report_.lu_factorisations;
-    report_.factor_bytes = std::max(report_.factor_bytes, factor.bytes());
-    if (factor.regular() && factor.pivot_ratio() > suspicious_pivot_ratio) {
-      factor.solve(balance_.Q.span(), du_);
-      return true;
-    }
-    if (solve_unsymmetric_singular(K, system_.mass(), balance_.Q.span(), du_)) return true;
-    if (factor.regular()) factor.solve(balance_.Q.span(), du_);
-    return factor.regular();
-  }
-  bool by_iterations(const LinearMap& K, bool is_symmetric) {
-    const std::size_t n = du_.size();
-    const int most = options_.max_cg_iterations > 0 ? options_.max_cg_iterations : 10 * static_cast<int>(n);
-    const double forcing = std::min(0.1, balance_.residual());
-    const LinearMap B = options_.preconditioner ? options_.preconditioner : division_by(system_.mass().diagonal());
-    const IterativeResult result = is_symmetric
-                                       ? stillpoint::conjugate_gradients(K, B, balance_.Q.span(), du_, forcing, most)
-                                       : gmres(K, B, balance_.Q.span(), du_, forcing, most);
-    report_.tangent_products += result.iterations;
-    return result.converged;
-  }
-
-  // Whether x·K y = y·K x for the out-of-balance force x and an unrelated vector y.
-  bool looks_symmetric(const LinearMap& K) {
-    const VectorSpace vectors;
-    Vector y = vectors.make(du_.size()), Kx = vectors.make(du_.size()), Ky = vectors.make(du_.size());
-    std::ranges::copy(start_vector(du_.size()), y.span().begin());
-    K(balance_.Q.span(), Kx.span());
-    K(y.span(), Ky.span());
-    report_.tangent_products += 2;
-    constexpr double rounding = 1e-10;
-    return std::abs(dot(balance_.Q, Ky) - dot(y, Kx)) <= rounding * norm(balance_.Q) * norm(Ky);
   }
 
   StaticReport finished() {
@@ -281,20 +173,16 @@ class Newton {
   Vec u_;
   const NewtonOptions& options_;
   StaticBalance balance_;
-  std::vector<double> trial_, du_;
-  LastIncrement last_;                        // known if the points have a history
-  SparseMatrix factorised_;                   // K of the factor
-  std::optional<SemidefiniteFactor> factor_;  // kept if the next K may be the same
-  bool is_used_again_ = false;                // the last K was the factorised one
+  StaticReport report_;
+  NewtonDirection direction_;
+  std::vector<double> trial_;
+  LastIncrement last_;  // known if the points have a history
   static constexpr int most_short_steps = 3;
   static constexpr double short_step = 0.3;
-  bool full_steps_ = false;    // full steps are taken, whatever ‖Q‖ does
-  int short_steps_ = 0;        // short steps in succession
-  bool semidefinite_ = false;  // the last factor's K was semidefinite
-  bool indefinite_ = false;    // K of the last iteration was, if symmetric
-  bool refused_ = false;       // an equilibrium was refused since the last one taken
-  bool accepts_ = false;       // indefinite equilibria are accepted
-  StaticReport report_;
+  bool full_steps_ = false;  // full steps are taken, whatever ‖Q‖ does
+  int short_steps_ = 0;      // short steps in succession
+  bool refused_ = false;     // an equilibrium was refused since the last one taken
+  bool accepts_ = false;     // indefinite equilibria are accepted
 };
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include "space/boundary/condition_reports.hpp"
 #include "space/boundary/face_gaps.hpp"
 #include "space/boundary/prescribed_motion.hpp"
-#include "space/boundary/wall_reaction.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/grid/matrix_entries.hpp"
 #include "space/kernels/point_functions.hpp"

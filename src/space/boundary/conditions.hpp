@@ -10,9 +10,8 @@
 
 #include "space/boundary/axis_of_symmetry.hpp"
 #include "space/boundary/boundary_conditions.hpp"
+#include "space/boundary/condition_reports.hpp"
 #include "space/boundary/load_control.hpp"
-#include "space/boundary/load_state.hpp"
-#include "space/boundary/support_report.hpp"
 #include "space/boundary/weak_supports.hpp"
 #include "space/points/surface_depths.hpp"
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "space/boundary/boundary_conditions.hpp"
-#include "space/boundary/load_state.hpp"
+#include "space/boundary/condition_reports.hpp"
 #include "space/boundary/springs.hpp"
 #include "space/boundary/weak_supports.hpp"
 

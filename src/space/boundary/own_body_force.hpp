@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/work_pool.hpp"
 #include "scene/own_loads.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
@@ -24,35 +25,40 @@ class OwnBodyForceCondition final : public BoundaryCondition<Dim> {
   void begin_phase(const Parts& phase, Vec F) override {
     const auto& points = phase.points;
     x_.resize(dim * points.size());
-    b_.resize(x_.size());
     for (std::size_t p = 0; p < points.size(); ++p) {
       const auto at = points.position(p);
       for (std::size_t d = 0; d < dim; ++d) x_[dim * p + d] = at[d];
     }
     if (varies()) return;
-    ask(phase.held.start());
-    add_point_loads(phase, at_points(), F);
+    steady_ = *ask(phase.held.start());
+    add_point_loads(phase, at_points(steady_), F);
   }
   bool varies() const override { return own_->about.settles_at > 0; }
   void add_load(const Parts& phase, double t, Vec F) const override {
     if (!varies()) return;
-    ask(t);
-    add_point_loads(phase, at_points(), F);
+    add_point_loads(phase, at_points(*ask(t)), F);
   }
   void add_load_on_supports(const Parts& phase, double t, const double*, Vec F_s) const override {
-    if (varies()) ask(t);
-    add_point_loads_on_supports(phase, at_points(), F_s);
+    if (!varies()) return add_point_loads_on_supports(phase, at_points(steady_), F_s);
+    add_point_loads_on_supports(phase, at_points(*ask(t)), F_s);
   }
 
  private:
-  void ask(double t) const { own_->b(t, Dim, x_, b_); }
-  auto at_points() const {
-    return [this](std::size_t p, int i) { return b_[dim * p + static_cast<std::size_t>(i)]; };
+  // The values at t, (points × dim) [m/s²].
+  WorkPool<std::vector<double>>::Loan ask(double t) const {
+    auto b = values_.borrow();
+    b->resize(x_.size());
+    own_->b(t, Dim, x_, *b);
+    return b;
+  }
+  static auto at_points(const std::vector<double>& b) {
+    return [&b](std::size_t p, int i) { return b[dim * p + static_cast<std::size_t>(i)]; };
   }
 
   std::shared_ptr<const OwnLoadRow> own_;
-  std::vector<double> x_;          // positions when the phase began, (points × dim) [m]
-  mutable std::vector<double> b_;  // value of the last evaluation, (points × dim) [m/s²]
+  std::vector<double> x_;       // positions when the phase began, (points × dim) [m]
+  std::vector<double> steady_;  // values that do not depend on t, (points × dim) [m/s²]
+  WorkPool<std::vector<double>> values_;
 };
 
 }  // namespace stillpoint

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/work_pool.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
@@ -60,32 +61,37 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     });
   }
   void add_load(const Parts& phase, double t, Vec F) const override {
-    evaluate(t);
-    for (const Piece& piece : pieces_)
-      if (!piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, nullptr), F);
+    const auto values = evaluate(t);
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      if (!pieces_[k].traction->pressure)
+        add_force(pieces_[k], phase.dofs, force_of(pieces_[k], values->of_piece[k], nullptr), F);
+    }
   }
   bool follows() const override {
     return std::ranges::any_of(problem_.tractions, [](const TractionSpec& t) { return t.pressure.has_value(); });
   }
   void add_following_force(const Parts& phase, double t, const double* u, Vec F) const override {
-    evaluate(t);
-    for (const Piece& piece : pieces_)
-      if (piece.traction->pressure) add_force(piece, phase.dofs, force_of(piece, u), F);
+    const auto values = evaluate(t);
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      if (pieces_[k].traction->pressure)
+        add_force(pieces_[k], phase.dofs, force_of(pieces_[k], values->of_piece[k], u), F);
+    }
   }
   void add_load_on_supports(const Parts& phase, double t, const double* u, Vec F_s) const override {
-    evaluate(t);
-    for (const Piece& piece : pieces_) {
-      const auto force = force_of(piece, u);
-      piece.at.for_prescribed(
+    const auto values = evaluate(t);
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const auto force = force_of(pieces_[k], values->of_piece[k], u);
+      pieces_[k].at.for_prescribed(
           phase.dofs, [&](const Entry& a, int i, std::size_t s, double share) { F_s[s] += force[i] * a.w * share; });
     }
   }
   // The tangent is unsymmetric.
   void add_following_tangent(const Parts& phase, double t, const double* u, MatrixEntries& K_F) const override {
-    evaluate(t);
-    for (const Piece& piece : pieces_) {
+    const auto values = evaluate(t);
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const Piece& piece = pieces_[k];
       if (!piece.traction->pressure) continue;
-      const double p = piece.value[0];
+      const double p = values->of_piece[k][0];
       piece.at.for_free(phase.dofs, [&](const Entry& b, int j, int column, double share_b) {
         const auto change = area_derivative(piece, u, b, j);
         piece.at.for_free(phase.dofs, [&](const Entry& a, int i, int row, double share_a) {
@@ -111,18 +117,20 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
  private:
   struct Piece {
     const TractionSpec* traction;
-    Point<dim> X;                           // undeformed position [m]
-    mutable std::array<double, dim> value;  // value at the last evaluation: the traction, or the pressure [Pa]
+    Point<dim> X;  // undeformed position [m]
     CarriedPoint<dim> at;
     double area;                     // undeformed area [m²]
     std::array<double, dim> vector;  // n da when the phase begins [m²]
+  };
+  struct Values {
+    double t = std::numeric_limits<double>::quiet_NaN();  // when they hold [s]
+    std::vector<std::array<double, dim>> of_piece;        // the traction, or the pressure, (pieces) [Pa]
   };
 
   void add_piece(const TractionSpec& traction, const Point<dim>& x, double area, const Point<dim>& normal) {
     CarriedPoint<dim> at{};
     at.x = x;
-    Piece& piece =
-        pieces_.emplace_back(Piece{.traction = &traction, .X = x, .value = {}, .at = at, .area = area, .vector = {}});
+    Piece& piece = pieces_.emplace_back(Piece{.traction = &traction, .X = x, .at = at, .area = area, .vector = {}});
     for (std::size_t d = 0; d < dim; ++d) piece.vector[d] = normal[d] * area;
   }
 
@@ -184,48 +192,53 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     return f;
   }
 
-  // Evaluates the values of all pieces at t: a formula of t alone once for all pieces of a traction, and a formula of
-  // the position again only if t has changed and it depends on t.
-  void evaluate(double t) const {
-    if (t == evaluated_at_) return;
-    const bool first = std::isnan(evaluated_at_);
+  // The values of all pieces at t: a formula of t alone is evaluated once for all pieces of a traction, and a formula
+  // of the position again only if t has changed and it depends on t.
+  auto evaluate(double t) const {
+    auto known = values_.borrow();
+    Values& values = *known;
+    if (t == values.t) return known;
+    const bool first = std::isnan(values.t);
+    values.of_piece.resize(pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       const Piece& piece = pieces_[k];
       const auto formulas = piece.traction->formulas();
       const bool same_traction = k > 0 && pieces_[k - 1].traction == piece.traction;
       for (std::size_t i = 0; i < formulas.size(); ++i) {
         if (!first && !formulas[i].uses('t')) continue;
-        piece.value[i] =
-            same_traction && !formulas[i].uses_position() ? pieces_[k - 1].value[i] : formulas[i](piece.X, t);
+        values.of_piece[k][i] =
+            same_traction && !formulas[i].uses_position() ? values.of_piece[k - 1][i] : formulas[i](piece.X, t);
       }
     }
-    evaluated_at_ = t;
+    values.t = t;
+    return known;
   }
   // Checks the formulas of position alone at all pieces; those of t are checked elsewhere, for all times of a run at
   // some positions.
   void check_values() const {
-    evaluate(0);
-    for (const Piece& piece : pieces_) {
+    const auto values = evaluate(0);
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const Piece& piece = pieces_[k];
       const auto formulas = piece.traction->formulas();
       for (std::size_t i = 0; i < formulas.size(); ++i) {
-        if (formulas[i].uses('t') || std::isfinite(piece.value[i])) continue;
+        if (formulas[i].uses('t') || std::isfinite(values->of_piece[k][i])) continue;
         throw_scene_error(
             fmt::format("traction[{}].{}", piece.traction - problem_.tractions.data(),
                         piece.traction->pressure ? "pressure" : "value"),
             fmt::format("the formula is {} at ({:.6g}); expected a finite number along the whole traction",
-                        std::isnan(piece.value[i]) ? "not a number" : "infinite", fmt::join(piece.X, ", ")));
+                        std::isnan(values->of_piece[k][i]) ? "not a number" : "infinite", fmt::join(piece.X, ", ")));
       }
     }
   }
 
-  // The force t A, or −p n da, for which u is needed [N]. evaluate() has to come before.
-  std::array<double, dim> force_of(const Piece& piece, const double* u) const {
+  // The force t A, or −p n da, for which u is needed [N].
+  std::array<double, dim> force_of(const Piece& piece, const std::array<double, dim>& value, const double* u) const {
     std::array<double, dim> force;
     if (piece.traction->pressure) {
       force = deformed_area(piece, u);
-      for (double& along : force) along *= -piece.value[0];
+      for (double& along : force) along *= -value[0];
     } else {
-      for (int i = 0; i < dim; ++i) force[i] = piece.value[i] * piece.area;
+      for (int i = 0; i < dim; ++i) force[i] = value[i] * piece.area;
     }
     return force;
   }
@@ -237,8 +250,8 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
 
   const Problem& problem_;
   std::vector<Piece> pieces_;
-  mutable double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();  // the time of the pieces' values [s]
-  bool has_begun_ = false;                                                  // whether the first phase has begun
+  WorkPool<Values> values_;  // that evaluations have found
+  bool has_begun_ = false;   // whether the first phase has begun
 };
 
 }  // namespace stillpoint

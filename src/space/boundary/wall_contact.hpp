@@ -31,8 +31,8 @@
 #include <string>
 #include <vector>
 
+#include "space/boundary/condition_reports.hpp"
 #include "space/boundary/wall_motion.hpp"
-#include "space/boundary/wall_reaction.hpp"
 
 namespace stillpoint {
 

@@ -25,8 +25,8 @@
 
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
+#include "space/boundary/condition_reports.hpp"
 #include "space/boundary/springs.hpp"
-#include "space/boundary/support_report.hpp"
 
 namespace stillpoint {
 

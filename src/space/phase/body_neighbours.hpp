@@ -9,7 +9,7 @@
 
 #include "scene/body_depth.hpp"
 #include "space/kernels/point_functions.hpp"
-#include "space/points/body_gap.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {

@@ -10,6 +10,7 @@
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/state_archive.hpp>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -18,11 +19,8 @@
 
 #include "base/memory_report.hpp"
 #include "linalg/nodal_layout.hpp"
-#include "space/boundary/load_state.hpp"
-#include "space/boundary/support_report.hpp"
-#include "space/boundary/wall_reaction.hpp"
+#include "space/boundary/condition_reports.hpp"
 #include "space/phase/place_reader.hpp"
-#include "space/points/body_gap.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
@@ -96,6 +94,16 @@ struct FreePart {
   std::size_t point = 0;              // the number of one of its material points
   std::vector<std::size_t> unknowns;  // degrees of freedom that are 1 if the part moves by 1, those of the values
 };
+
+/// The gap between bodies a < b of a scene that share functions of the grid.
+struct BodyGap {
+  std::size_t a = 0, b = 0;
+  double gap = 0;    // the smallest distance [m]; 0 if they touch
+  double cells = 0;  // the same distance in cells
+};
+
+/// The axes along which a body is held.
+using HeldAxes = std::array<bool, 3>;
 
 /// The control of a body's phases: when a phase should end, and how the next one begins.
 class PhaseControl {

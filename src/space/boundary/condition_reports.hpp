@@ -1,4 +1,4 @@
-// Reports of supports.
+// Reports of supports, walls and driven loads.
 #pragma once
 
 #include <array>
@@ -23,6 +23,26 @@ struct WeakSupport {
   std::size_t springs = 0;
   double stiffness = 0;  // at a position [N/m], on a face per area [N/m³]
   double gap = 0;        // the largest |u − u_s| of its springs [m]
+};
+
+/// The force of the body on a rigid wall [N]: along the wall's outward normal, and along the other axes in order, one
+/// in the plane and two in space.
+struct WallReaction {
+  std::string name;
+  int axis = 0;  // axis of the normal
+  double normal = 0;
+  std::array<double, 2> shear{};
+  double power = 0;            // power of the wall on the body [W]
+  double displacement = 0;     // displacement of the wall [m]
+  double furthest_behind = 0;  // largest distance so far behind the prescribed motion [m]
+  double put_back = 0;         // largest distance so far by which a node has been put back onto the wall [m]
+};
+
+/// The state of loads that a displacement drives (load_control.hpp).
+struct LoadState {
+  double factor = 0;        // λ of the reference loads
+  double displacement = 0;  // q, their mean displacement [m]
+  double prescribed = 0;    // the prescribed q(t) [m]
 };
 
 }  // namespace stillpoint
