@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/triangle_solid.hpp"
+#include "geometry/triangle_solid.hpp"
 
 namespace stillpoint::test {
 

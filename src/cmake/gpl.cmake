@@ -16,7 +16,7 @@ endfunction()
 
 # Those of the second kind with what they need of the rest, for a program that tests them beside the first.
 set(STILLPOINT_STAND_INS
-  base/gauss_rule_without_gpl.cpp base/special_functions_without_gpl.cpp base/stop_request.cpp base/work_apart.cpp
+  geometry/gauss_rule_without_gpl.cpp base/special_functions_without_gpl.cpp base/stop_request.cpp base/work_apart.cpp
   linalg/cholesky_without_gpl.cpp linalg/lu_without_gpl.cpp linalg/sparse_cholesky.cpp linalg/sparse_lu.cpp)
 
 if(NOT STILLPOINT_GPL)

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "base/polygon.hpp"
-#include "base/solid.hpp"
+#include "geometry/polygon.hpp"
+#include "geometry/solid.hpp"
 
 namespace stillpoint {
 

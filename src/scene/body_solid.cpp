@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
-#include "base/prism.hpp"
-#include "base/quadric_solid.hpp"
+#include "geometry/prism.hpp"
+#include "geometry/quadric_solid.hpp"
+#include "geometry/stl_file.hpp"
 #include "scene/outline.hpp"
-#include "scene/stl_file.hpp"
 
 namespace stillpoint {
 namespace {
@@ -62,11 +61,6 @@ double share_of_box(const BodySpec& body) {
   double box = 1;
   for (std::size_t d = 0; d < body.min.size(); ++d) box *= body.max[d] - body.min[d];
   return (is_solid(body) ? volume_in(*solid_of(body), box_of(body)) : std::abs(signed_area(outline_of(body)))) / box;
-}
-
-double volume_in(const Solid& solid, const SpaceBox& box) {
-  const SpaceRule rule = solid.rule(box, 0);
-  return std::accumulate(rule.weight.begin(), rule.weight.end(), 0.0);
 }
 
 }  // namespace stillpoint

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/triangle_solid.hpp"
+#include "geometry/triangle_solid.hpp"
 
 namespace stillpoint {
 
@@ -26,8 +26,5 @@ SpaceBox box_of(const BodySpec& body);
 
 /// The share that a body covers of its box, in the plane or in space.
 double share_of_box(const BodySpec& body);
-
-/// [m³]
-double volume_in(const Solid& solid, const SpaceBox& box);
 
 }  // namespace stillpoint

@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
-#include "base/gauss_rule.hpp"
-#include "base/polygon_rule.hpp"
-#include "base/prism.hpp"
+#include "geometry/gauss_rule.hpp"
+#include "geometry/polygon_rule.hpp"
+#include "geometry/prism.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/outline.hpp"
 

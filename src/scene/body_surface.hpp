@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/solid.hpp"
+#include "geometry/solid.hpp"
 
 namespace stillpoint {
 

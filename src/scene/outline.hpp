@@ -3,7 +3,7 @@
 
 #include <stillpoint/problem.hpp>
 
-#include "base/polygon.hpp"
+#include "geometry/polygon.hpp"
 
 namespace stillpoint {
 

@@ -6,13 +6,13 @@
 #include <numbers>
 #include <utility>
 
-#include "base/prism.hpp"
+#include "geometry/point_outline.hpp"
+#include "geometry/prism.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/driven_motion.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/phase_choices.hpp"
 #include "scene/point_file.hpp"
-#include "scene/point_outline.hpp"
 
 namespace stillpoint {
 namespace {

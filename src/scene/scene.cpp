@@ -11,18 +11,6 @@
 #include "scene/own_loads.hpp"
 
 namespace stillpoint {
-namespace {
-
-std::string all_of(const std::vector<Mistake>& problems) {
-  std::string text;
-  for (const Mistake& problem : problems) {
-    const std::string place = to_string(problem.where);
-    text += fmt::format("{}{}{}{}", text.empty() ? "" : "\n", place, place.empty() ? "" : ": ", problem.message);
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string_view to_string(StressState state) {
   switch (state) {
@@ -41,13 +29,6 @@ std::string_view to_string(StressState state) {
   }
   return "";
 }
-
-std::string to_string(const Location& where) {
-  return where.line > 0 ? fmt::format("{}:{}:{}", where.file, where.line, where.column) : where.file;
-}
-
-SceneError::SceneError(std::vector<Mistake> problems)
-    : std::runtime_error(all_of(problems)), problems_(std::move(problems)) {}
 
 Location Scene::location(const std::string& key) const {
   for (std::string around = key; !around.empty();) {

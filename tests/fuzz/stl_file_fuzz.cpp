@@ -1,9 +1,9 @@
 // An STL file gives triangles that enclose a finite volume, or one problem.
 #include <cmath>
 
-#include "base/triangle_solid.hpp"
 #include "fuzz_target.hpp"
-#include "scene/stl_file.hpp"
+#include "geometry/stl_file.hpp"
+#include "geometry/triangle_solid.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

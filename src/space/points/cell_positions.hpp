@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 
 namespace stillpoint {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/polygon.hpp"
-#include "base/polygon_rule.hpp"
+#include "geometry/polygon.hpp"
+#include "geometry/polygon_rule.hpp"
 
 namespace stillpoint {
 

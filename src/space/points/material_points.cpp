@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/polygon.hpp"
 #include "base/stop_request.hpp"
+#include "geometry/polygon.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/point_file.hpp"
 #include "space/points/cell_positions.hpp"

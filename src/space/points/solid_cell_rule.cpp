@@ -7,7 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 #include "space/points/cut_cell_rule.hpp"
 #include "space/points/moment_fit.hpp"
 

@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "base/polygon.hpp"
+#include "geometry/polygon.hpp"
 #include "largest.hpp"
 #include "temporary_folder.hpp"
 

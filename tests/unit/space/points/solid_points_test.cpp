@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "base/polygon.hpp"
-#include "base/quadric_solid.hpp"
+#include "geometry/polygon.hpp"
+#include "geometry/quadric_solid.hpp"
 #include "largest.hpp"
 #include "scene/body_solid.hpp"
 #include "space/points/material_points.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/polygon.hpp"
+#include "geometry/polygon.hpp"
 
 namespace stillpoint {
 

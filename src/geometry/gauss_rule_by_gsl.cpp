@@ -2,7 +2,7 @@
 
 #include <gsl/gsl_integration.h>
 
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 
 namespace stillpoint {
 

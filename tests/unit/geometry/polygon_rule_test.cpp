@@ -1,4 +1,4 @@
-#include "base/polygon_rule.hpp"
+#include "geometry/polygon_rule.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,11 +1,11 @@
-#include "base/prism.hpp"
+#include "geometry/prism.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "base/gauss_rule.hpp"
-#include "base/polygon_rule.hpp"
+#include "geometry/gauss_rule.hpp"
+#include "geometry/polygon_rule.hpp"
 
 namespace stillpoint {
 

@@ -1,10 +1,10 @@
-#include "base/polygon_rule.hpp"
+#include "geometry/polygon_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 
 namespace stillpoint {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "base/polygon.hpp"
-#include "base/solid.hpp"
+#include "geometry/polygon.hpp"
+#include "geometry/solid.hpp"
 
 namespace stillpoint {
 

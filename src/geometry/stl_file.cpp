@@ -1,4 +1,4 @@
-#include "scene/stl_file.hpp"
+#include "geometry/stl_file.hpp"
 
 #include <algorithm>
 #include <bit>

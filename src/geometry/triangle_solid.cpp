@@ -1,4 +1,4 @@
-#include "base/triangle_solid.hpp"
+#include "geometry/triangle_solid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 
 namespace stillpoint {
 namespace {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/solid.hpp"
+#include "geometry/solid.hpp"
 
 namespace stillpoint {
 

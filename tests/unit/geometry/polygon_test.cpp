@@ -1,4 +1,4 @@
-#include "base/polygon.hpp"
+#include "geometry/polygon.hpp"
 
 #include <array>
 #include <cmath>

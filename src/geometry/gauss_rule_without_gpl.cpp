@@ -2,7 +2,7 @@
 // the slopes P_n' lose digits.
 #include <boost/math/special_functions/legendre.hpp>
 
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 
 namespace stillpoint {
 

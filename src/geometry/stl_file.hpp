@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/triangle_solid.hpp"
+#include "geometry/triangle_solid.hpp"
 
 namespace stillpoint {
 

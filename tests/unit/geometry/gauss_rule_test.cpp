@@ -1,4 +1,4 @@
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 
 #include <cmath>
 

@@ -1,11 +1,11 @@
-#include "base/quadric_solid.hpp"
+#include "geometry/quadric_solid.hpp"
 
 #include <cmath>
 #include <cstddef>
 
 #include <Eigen/Dense>
 
-#include "base/gauss_rule.hpp"
+#include "geometry/gauss_rule.hpp"
 
 namespace stillpoint {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "base/prism.hpp"
-#include "base/quadric_solid.hpp"
-#include "base/triangle_solid.hpp"
+#include "geometry/prism.hpp"
+#include "geometry/quadric_solid.hpp"
+#include "geometry/triangle_solid.hpp"
 #include "largest.hpp"
 #include "triangles.hpp"
 

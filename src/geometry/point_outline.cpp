@@ -1,4 +1,4 @@
-#include "scene/point_outline.hpp"
+#include "geometry/point_outline.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "base/solid.hpp"
+#include "geometry/solid.hpp"
 
 namespace stillpoint {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace stillpoint {
@@ -56,5 +57,11 @@ class Solid {
   /// Whether all points of a rule lie inside, with weights > 0.
   virtual bool rules_lie_inside() const { return true; }
 };
+
+/// The volume of the part in a box [m³].
+inline double volume_in(const Solid& solid, const SpaceBox& box) {
+  const SpaceRule rule = solid.rule(box, 0);
+  return std::accumulate(rule.weight.begin(), rule.weight.end(), 0.0);
+}
 
 }  // namespace stillpoint

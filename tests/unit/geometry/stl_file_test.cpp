@@ -1,5 +1,5 @@
 // STL files: both forms, and what is refused with its place.
-#include "scene/stl_file.hpp"
+#include "geometry/stl_file.hpp"
 
 #include <cmath>
 #include <limits>
