@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "scene/body_solid.hpp"
-#include "scene/outline.hpp"
 
 namespace stillpoint {
 
@@ -24,7 +23,7 @@ bool BodyDepth::contains(std::span<const double> X) const {
   return outline_.empty() || stillpoint::contains(outline_, {X[0], X[1]});
 }
 
-// Of another shape than a box the first place outside is looked for in steps, and then between two of them.
+// In a shape other than a box, the first position outside is searched for in steps, and then between two of them.
 std::optional<double> BodyDepth::along(std::span<const double> X, std::size_t axis, bool upwards, double most) const {
   if (!is_known()) return std::nullopt;
   const double to_box = upwards ? body_.max[axis] - X[axis] : X[axis] - body_.min[axis];

@@ -8,7 +8,6 @@
 #include "geometry/prism.hpp"
 #include "geometry/quadric_solid.hpp"
 #include "geometry/stl_file.hpp"
-#include "scene/outline.hpp"
 
 namespace stillpoint {
 namespace {

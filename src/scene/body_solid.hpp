@@ -1,4 +1,4 @@
-// The shape of a body in space that is no box.
+// The shape of a body: its outline in the plane, and its solid in space if it is no box.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -6,20 +6,34 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/polygon.hpp"
 #include "geometry/triangle_solid.hpp"
 
 namespace stillpoint {
 
-/// All of it; the body is what of it lies in the box from body.min to body.max, which for a prism says where it begins
-/// and ends. Throws SceneError if a file of triangles is wrong, std::logic_error for a body that is a box or points.
+/// The corners of a polygon in the plane as they are written; for another body those of its box, counter-clockwise,
+/// which for points from a file is the box around them.
+inline Polygon outline_of(const BodySpec& body) {
+  if (body.polygon.empty())
+    return {
+        {body.min[0], body.min[1]}, {body.max[0], body.min[1]}, {body.max[0], body.max[1]}, {body.min[0], body.max[1]}};
+  Polygon outline;
+  for (const std::vector<double>& corner : body.polygon) outline.push_back({corner[0], corner[1]});
+  return outline;
+}
+
+/// The whole solid of a body that is neither a box nor points. The body is the part in the box from body.min to
+/// body.max; a prism begins and ends there. Throws SceneError if a file of triangles is wrong, std::logic_error for
+/// another body.
 std::shared_ptr<const Solid> solid_of(const BodySpec& body);
 
-/// What the file body.stl encloses: as body.from_stl has it, or read. Without it the problems say what is wrong.
+/// The solid that the surface in the file body.stl encloses, from body.from_stl or read now; null with a problem if the
+/// file is wrong.
 std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Mistake>& problems);
-/// The same. Throws SceneError.
+/// The same; throws SceneError if the file is wrong.
 std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body);
 
-/// Whether it is a body in space that is no box, of which cells may have a part.
+/// True for a body in space that is no box, so that cells may be partly inside it.
 bool is_solid(const BodySpec& body);
 
 SpaceBox box_of(const BodySpec& body);

@@ -11,14 +11,13 @@
 #include "geometry/polygon_rule.hpp"
 #include "geometry/prism.hpp"
 #include "scene/body_solid.hpp"
-#include "scene/outline.hpp"
 
 namespace stillpoint {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kDegree = 3;  // of the rule of a piece along each of its sides
+constexpr int kDegree = 3;  // the degree of the rule of a piece along each of its sides
 constexpr double kQuarter = std::numbers::pi / 2;
 
 Vector3d vector_at(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "scene/outline.hpp"
+#include "scene/body_solid.hpp"
 
 namespace stillpoint {
 namespace {

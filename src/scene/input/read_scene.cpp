@@ -8,8 +8,8 @@
 
 #include "base/text.hpp"
 #include "scene/input/keys.hpp"
+#include "scene/input/scene_check.hpp"
 #include "scene/input/toml_source.hpp"
-#include "scene/input/validation.hpp"
 #include "scene/resolve.hpp"
 
 namespace stillpoint {

@@ -1,4 +1,4 @@
-// What the checks of a scene share: where problems go, and the boxes that positions lie in.
+// The part that all checks of a scene share: reports of what is wrong, and the boxes that positions lie in.
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,51 +17,65 @@
 #include "scene/grid_lines.hpp"
 #include "scene/input/toml_value.hpp"
 #include "scene/resolve.hpp"
+#include "scene/support_kind.hpp"
 
 namespace stillpoint {
+
+/// A box that positions lie in.
+struct NamedBox {
+  std::vector<double> min, max;
+  std::string name;  // "grid", "body", "bodies"
+};
 
 class SceneCheck {
  public:
   SceneCheck(const Scene& scene, Reading& reading, const Catalogue& catalogue)
       : scene_(scene), reading_(reading), catalogue_(catalogue) {}
 
-  const Catalogue& catalogue() const { return catalogue_; }
   const Scene& scene() const { return scene_; }
   const std::vector<Mistake>& problems() const { return reading_.problems; }
+  const Catalogue& catalogue() const { return catalogue_; }
 
   /// Reports a key, or a table, as wrong.
   void add(const std::string& key, const std::string& message) { reading_.problem(scene_.location(key), key, message); }
   /// Reports what is wrong in another file.
   void add(Mistake problem) { reading_.add(std::move(problem)); }
+
+  // The relations between keys are rows: a condition, the key that is wrong under it, and the message.
+  /// Reports the key, written or not, under the condition, which is returned.
+  template <class... Args>
+  bool wrong_if(bool condition, const std::string& key, fmt::format_string<Args...> message, Args&&... args) {
+    if (condition) add(key, fmt::format(message, std::forward<Args>(args)...));
+    return condition;
+  }
+  /// Reports those keys of a table that are written, under the condition.
+  template <class... Args>
+  void refuse_if(bool condition, const std::string& table, std::initializer_list<const char*> keys,
+                 fmt::format_string<const Args&...> message, const Args&... args) {
+    if (!condition) return;
+    for (const char* key : keys)
+      if (const std::string path = fmt::format("{}.{}", table, key); written(path))
+        add(path, fmt::format(message, args...));
+  }
+
   bool written(const std::string& key) const { return scene_.where.contains(key); }
-  /// Not written, or written and in order.
+  /// True if a key is written, even if its value could not be read, or if the problem has its value.
+  bool given(const std::string& key, bool has_value) const { return has_value || written(key); }
+  /// True if a key is not written, or is written and in order.
   bool sound(const std::string& key) const {
     const auto entry = reading_.wrong.lower_bound(key + "[");
     return !reading_.wrong.contains(key) && (entry == reading_.wrong.end() || !entry->starts_with(key + "["));
   }
-  /// Reports each of these keys of a table that is written.
-  void refuse(const std::string& table, std::initializer_list<const char*> keys, const std::string& why) {
-    for (const char* key : keys) {
-      const std::string whole = fmt::format("{}.{}", table, key);
-      if (written(whole)) add(whole, why);
-    }
-  }
 
-  /// A key of a table, and whether the problem has its value; one that was written and could not be read counts too.
+  /// A key of a table, and whether the problem has its value.
   struct Given {
     const char* key;
     bool has_value;
   };
-  bool given(const std::string& key, bool has_value) const { return has_value || written(key); }
-  /// Of two keys of a table exactly one is to be given.
+  /// Exactly one of two keys of a table is to be given.
   void one_of(const std::string& table, const Given& a, const Given& b, const std::string& both,
-              const std::string& neither) {
-    const bool has_a = given(fmt::format("{}.{}", table, a.key), a.has_value);
-    const bool has_b = given(fmt::format("{}.{}", table, b.key), b.has_value);
-    if (has_a && has_b) add(fmt::format("{}.{}", table, b.key), both);
-    if (!has_a && !has_b) add(table, neither);
-  }
-  /// Of the entries of an array of tables no two have the same name; returns all names.
+              const std::string& neither);
+  /// No two entries of an array of tables may have the same name; returns all names.
   template <class Spec>
   std::set<std::string> unique_names(const std::string& table, const std::vector<Spec>& entries) {
     std::set<std::string> names;
@@ -69,17 +84,35 @@ class SceneCheck {
         add(fmt::format("{}[{}].name", table, k), fmt::format("there is a {} {} already", table, in_quotes(name)));
     return names;
   }
+  /// Reports a name that is none of `names`. what: "wall"; heading: "[[wall]]", under which one is described.
+  void add_unknown(const std::string& key, const std::string& what, const std::string& heading, const std::string& name,
+                   const std::vector<std::string>& names);
 
-  /// The key of body k: "body.min", or "body[1].min" if there is an array of them.
-  std::string body_key(std::size_t k, const std::string& key) const;
+  /// True if a list, the value of a key, has two different positions.
+  bool two_positions(const std::string& key, const std::vector<std::vector<double>>& list) {
+    return !wrong_if(list.size() != 2, key, "must be two positions, [from, to], not {}", list.size()) &&
+           !wrong_if(list[0] == list[1], key, "the two positions are the same");
+  }
+
+  /// The table of body k: "body", or "body[1]" if there is an array of them.
+  std::string body_table(std::size_t k) const { return written("body[0]") ? fmt::format("body[{}]", k) : "body"; }
+  std::string body_key(std::size_t k, const std::string& key) const { return body_table(k) + "." + key; }
   /// The key of one coordinate of a position: "grid.max", in more dimensions "grid.max[1]".
-  std::string axis_key(const std::string& key, std::size_t axis) const;
+  std::string axis_key(const std::string& key, std::size_t axis) const {
+    return scene_.dim == 1 ? key : fmt::format("{}[{}]", key, axis);
+  }
 
   /// A cell's length along an axis; 0 if the cells are not known.
   double cell_length(std::size_t axis) const { return known_cell_length(scene_.grid, axis); }
-  /// True if a position lies in a box.
-  bool inside(const std::vector<double>& position, const std::vector<double>& min, const std::vector<double>& max,
-              const std::string& box, const std::string& key);
+  NamedBox grid_box() const { return {scene_.grid.min, scene_.grid.max, "grid"}; }
+  /// True if a position, the value of a key, lies in a box.
+  bool inside(const std::vector<double>& position, const NamedBox& box, const std::string& key);
+  /// True if the ends of a part of a face, the keys from and to of a table, are in order and lie on the face of a box.
+  bool check_interval(const std::string& table, const FaceInterval& part, std::size_t k, const NamedBox& box);
+  /// The key of an end of the part of a face along its axis k: "support[0].from", in space "support[0].from[1]".
+  std::string end_key(const std::string& table, const char* end, std::size_t k) const {
+    return scene_.dim == 2 ? table + end : fmt::format("{}{}[{}]", table, end, k);
+  }
 
  private:
   const Scene& scene_;
@@ -87,33 +120,32 @@ class SceneCheck {
   const Catalogue& catalogue_;
 };
 
-/// The box around all bodies.
-struct BodyBox {
-  std::vector<double> min, max;
-  std::string name;  // "body", or "bodies"
-};
+/// Checks that the parts of a resolved scene fit together; each single value is right, or was left at its default
+/// because it was wrong. files: what is wrong with those that bodies name.
+void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading& reading, const Catalogue& catalogue);
 
-/// True if the grid is a box that can be divided into its cells.
-bool check_grid(SceneCheck& check);
-/// Bodies, their materials and files; the box around them if all of them are in order.
-std::optional<BodyBox> check_bodies(SceneCheck& check, bool grid, const std::vector<FileMistake>& files);
-/// That no two bodies, all of them in order, are in the same place.
+// The parts of validate(). grid: whether the grid is a box that can be divided into its cells; body: the box around all
+// bodies, empty if one of them is not in order.
+std::optional<NamedBox> check_bodies(SceneCheck& check, bool grid, const std::vector<FileMistake>& files);
+/// True if the corners of a body's polygon are those of a simple polygon with an area.
+bool check_corners(SceneCheck& check, std::size_t k);
+/// True if a key says that body k is neither a box nor points from a file.
+bool has_shape_key(const SceneCheck& check, std::size_t k);
+/// True if the shape of body k, cut off where min or max is written, has a volume in the grid. Its box is in order.
+bool check_solid(SceneCheck& check, std::size_t k);
+/// Checks that no two bodies, all of them in order, are in the same position.
 void check_overlaps(SceneCheck& check);
 /// The number of material points if the bodies fill whole cells; 0 if that depends on the placement.
 long known_points(SceneCheck& check);
-/// Supports, walls, loads and initial stress.
 void check_supports_and_walls(SceneCheck& check, bool grid);
-void check_loads(SceneCheck& check, const std::optional<BodyBox>& body);
-/// The exact solution. bodies: whether all of them are in order.
+void check_loads(SceneCheck& check, const std::optional<NamedBox>& body);
 void check_exact(SceneCheck& check, bool bodies);
-/// When phases end, and what scenes of more than one phase can have.
 void check_phases(SceneCheck& check, bool grid);
-/// What is written out.
-void check_output(SceneCheck& check, const std::optional<BodyBox>& body);
+void check_output(SceneCheck& check, const std::optional<NamedBox>& body);
 
-/// What the catalogue says of a material's law; null if the law is not known.
-const LawInfo* law_of(const SceneCheck& check, const MaterialSpec& material);
 /// "linear, quadratic or cubic"
 std::string either(const std::vector<std::string>& words);
+/// "law 'hencky' has no state 'plane-stress'; it has …", if `what` is "law 'hencky'"; empty if it has the state.
+std::string why_no_state(const std::string& what, const std::vector<StressState>& states, StressState state);
 
 }  // namespace stillpoint

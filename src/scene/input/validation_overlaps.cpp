@@ -1,4 +1,4 @@
-// Two bodies cannot be in the same place.
+// The check that no two bodies overlap.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -8,7 +8,6 @@
 
 #include "scene/body_solid.hpp"
 #include "scene/input/scene_check.hpp"
-#include "scene/outline.hpp"
 #include "scene/point_file.hpp"
 
 namespace stillpoint {
@@ -55,7 +54,7 @@ class OverlapCheck {
     return true;
   }
 
-  /// The part of a that lies in b, or of b in a, in words; empty: none.
+  /// The part that a and b have in common, in words; empty if there is none.
   std::string what_overlaps(const BodySpec& a, const BodySpec& b) const {
     if (!a.file.empty() || !b.file.empty()) return points_that_overlap(a, b);
     if (check_.scene().dim != 2) return (a.is_box() && b.is_box()) || solids_meet(a, b) ? "a part" : "";
@@ -66,8 +65,8 @@ class OverlapCheck {
     return area > of_rounding ? fmt::format("an area of {:.4g} m2", area) : "";
   }
 
-  /// Looked for at a lattice of positions in what their boxes have in common, an odd number along each axis, so that
-  /// one lies in the middle.
+  /// True if a position of a lattice in the box that a and b have in common lies in both. The lattice has an odd number
+  /// of positions along each axis, so that one lies in the middle.
   bool solids_meet(const BodySpec& a, const BodySpec& b) const {
     constexpr int n = 21;
     const SpaceBox common = in_common(box_of(a), box_of(b));
@@ -99,7 +98,7 @@ class OverlapCheck {
     return fmt::format("the point at {:.6g}", fmt::join(x, ", "));
   }
 
-  /// By more than rounding.
+  /// True if x lies inside by more than rounding.
   bool is_inside(const BodySpec& shape, const std::vector<double>& x) const {
     for (std::size_t axis = 0; axis < x.size(); ++axis)
       if (x[axis] <= shape.min[axis] + rounding_ || x[axis] >= shape.max[axis] - rounding_) return false;
@@ -109,7 +108,7 @@ class OverlapCheck {
     return contains(outline, {x[0], x[1]}) && distance_to_border(outline, {x[0], x[1]}) > rounding_;
   }
 
-  /// And so is what lies next to it along each axis.
+  /// True if x and its neighbours along each axis, at the distance of rounding, lie inside.
   bool is_inside_solid(const BodySpec& shape, const SpacePoint& x) const {
     std::shared_ptr<const Solid>& solid = solids_[&shape];
     if (!solid) solid = solid_of(shape);

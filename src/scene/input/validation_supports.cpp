@@ -1,4 +1,4 @@
-// What holds and pushes the bodies: supports and walls.
+// Checks of the supports and walls that hold and push the bodies.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,15 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "base/text.hpp"
-#include "scene/input/face_interval_check.hpp"
 #include "scene/input/scene_check.hpp"
-#include "scene/support_kind.hpp"
 
 namespace stillpoint {
 namespace {
 
-/// What stands on a face of the grid.
+/// A support or a wall on a face of the grid.
 struct FaceOwner {
   std::string name;
   Face face;
@@ -36,10 +33,9 @@ void check_faces(SceneCheck& check) {
   const Scene& scene = check.scene();
   std::vector<FaceOwner> owners;
   const auto take = [&](const FaceOwner& owner) {
-    for (const FaceOwner& before : owners)
-      if (before.meets(owner))
-        return check.add(owner.name + ".face", fmt::format("{} stands on this face already", before.name));
-    owners.push_back(owner);
+    const auto before = std::ranges::find_if(owners, [&](const FaceOwner& other) { return other.meets(owner); });
+    if (before == owners.end()) return owners.push_back(owner);
+    check.add(owner.name + ".face", fmt::format("{} stands on this face already", before->name));
   };
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     const SupportSpec& support = scene.supports[k];
@@ -55,36 +51,32 @@ void check_faces(SceneCheck& check) {
       take({wall, scene.walls[k].face, -1, {}});
 }
 
-/// The same of a support, and on nodes if these are what is held.
+/// The held part of a face lies on the face, and ends at nodes if these are what is held.
 void check_part(SceneCheck& check, const std::string& name, const SupportSpec& support, const FaceInterval& part,
                 std::size_t k) {
   const GridSpec& grid = check.scene().grid;
   const std::size_t along = part.along;
-  if (!check_interval(check, name, part, k, grid.min[along], grid.max[along], "grid")) return;
-  if (holds_by_springs(grid, support)) return;
-  for (const char* key : {".from", ".to"}) {
-    const double end = key[1] == 'f' ? part.from : part.to;
-    if (is_on_line(grid, along, end)) continue;
+  if (!check.check_interval(name, part, k, check.grid_box()) || holds_by_springs(grid, support)) return;
+  for (const auto& [key, end] : {std::pair(".from", part.from), {".to", part.to}}) {
     const double cells = (end - grid.min[along]) / grid.cell_length(along);
     const int below = std::clamp(static_cast<int>(std::floor(cells)), 0, grid.cells[along] - 1);
-    check.add(end_key(check, name, key, k),
-              fmt::format("{:g} is no node of the grid, whose nodes are what is held; expected {:g} or {:g}, a "
-                          "quadratic or cubic basis, or a stiffness, by which springs hold any part",
-                          end, line_position(grid, along, below), line_position(grid, along, below + 1)));
+    check.wrong_if(!is_on_line(grid, along, end), check.end_key(name, key, k),
+                   "{:g} is no node of the grid, whose nodes are what is held; expected {:g} or {:g}, a quadratic or "
+                   "cubic basis, or a stiffness, by which springs hold any part",
+                   end, line_position(grid, along, below), line_position(grid, along, below + 1));
   }
 }
 
 /// A motion that varies along a face takes values of its own at the nodes there, or springs.
 void check_varying_motion(SceneCheck& check, const std::string& name, const SupportSpec& support) {
-  const BasisKind basis = check.scene().grid.basis;
+  const GridSpec& grid = check.scene().grid;
   if (!support.face || !support.motion.uses_position() || check.scene().dim == 1) return;
-  if (basis == BasisKind::linear || holds_by_springs(check.scene().grid, support)) return;
-  check.add(name + ".u",
-            fmt::format("varies along the face, where {}; expected a linear basis, or a stiffness, by which springs "
-                        "hold each place",
-                        basis == BasisKind::hermite
-                            ? "a hermite basis has slopes as unknowns besides"
-                            : "the unknowns of a quadratic or cubic basis are no values at positions"));
+  check.wrong_if(grid.basis != BasisKind::linear && !holds_by_springs(grid, support), name + ".u",
+                 "varies along the face, where {}; expected a linear basis, or a stiffness, by which springs hold each "
+                 "place",
+                 grid.basis == BasisKind::hermite
+                     ? "a hermite basis has slopes as unknowns besides"
+                     : "the unknowns of a quadratic or cubic basis are no values at positions");
 }
 
 void check_supports(SceneCheck& check, bool grid) {
@@ -95,16 +87,15 @@ void check_supports(SceneCheck& check, bool grid) {
     const std::string name = fmt::format("support[{}]", k);
     const bool whole_face = check.given(name + ".face", support.face.has_value()) &&
                             !check.given(name + ".component", support.component.is_asked());
-    if (support.component.asked().value_or(0) >= 3 && scene.state != StressState::axisymmetric)
-      check.add(name + ".component", "r and z are the axes of an axisymmetric scene; expected x or y");
+    check.wrong_if(support.component.asked().value_or(0) >= 3 && scene.state != StressState::axisymmetric,
+                   name + ".component", "r and z are the axes of an axisymmetric scene; expected x or y");
     check.one_of(name, {"at", !support.at.empty()}, {"face", support.face.has_value()},
                  "give either at or face, not both", "give at, a position, or face, a side of the grid");
-    if (!whole_face)
-      check.refuse(name, {"kind"},
-                   "goes with a face as a whole; component says what is held otherwise, or at a position");
-    if (!support.face) check.refuse(name, {"from", "to"}, "goes with a face, of which it holds a part");
-    if (scene.dim == 1 && support.face)
-      check.refuse(name, {"stiffness"}, "goes with a position in one dimension: give at in place of face");
+    check.refuse_if(!whole_face, name, {"kind"},
+                    "goes with a face as a whole; component says what is held otherwise, or at a position");
+    check.refuse_if(!support.face, name, {"from", "to"}, "goes with a face, of which it holds a part");
+    check.refuse_if(scene.dim == 1 && support.face, name, {"stiffness"},
+                    "goes with a position in one dimension: give at in place of face");
     if (grid && !scene.grid.cells.empty() && scene.dim > 1 && support.face && support.on_part() &&
         check.sound(name + ".from") && check.sound(name + ".to")) {
       const std::vector<FaceInterval> part = held_part(scene.grid, support);
@@ -112,50 +103,28 @@ void check_supports(SceneCheck& check, bool grid) {
     }
     check_varying_motion(check, name, support);
     if (!grid || support.at.empty()) continue;
-    check.inside(support.at, scene.grid.min, scene.grid.max, "grid", name + ".at");
+    check.inside(support.at, check.grid_box(), name + ".at");
     const auto [owner, is_first] = owners.try_emplace({support.at, support.component}, k);
-    if (!is_first) check.add(name + ".at", fmt::format("support[{}] holds this position already", owner->second));
+    check.wrong_if(!is_first, name + ".at", "support[{}] holds this position already", owner->second);
   }
   check.unique_names("support", scene.supports);
 }
 
 void check_walls(SceneCheck& check) {
   const Scene& scene = check.scene();
-  if (!scene.walls.empty() && scene.mass.kind != MassKind::lumped)
-    check.add("wall[0]", "a wall stops node by node, which needs mass.kind = \"lumped\"");
-  for (std::size_t k = 0; k < scene.walls.size() && scene.dim == 1; ++k)
-    if (scene.walls[k].friction > 0) check.add(fmt::format("wall[{}].friction", k), "there is none in one dimension");
+  check.wrong_if(!scene.walls.empty() && scene.mass.kind != MassKind::lumped, "wall[0]",
+                 "a wall stops node by node, which needs mass.kind = \"lumped\"");
+  for (std::size_t k = 0; k < scene.walls.size(); ++k)
+    check.wrong_if(scene.dim == 1 && scene.walls[k].friction > 0, fmt::format("wall[{}].friction", k),
+                   "there is none in one dimension");
   const std::set<std::string> names = check.unique_names("wall", scene.walls);
   // A wall without a name has been reported, and may be the one that the grid follows.
   if (std::ranges::find(scene.walls, "", &WallSpec::name) != scene.walls.end()) return;
-  const std::string& follow = scene.grid.follow;
-  if (follow.empty() || names.contains(follow)) return;
-  check.add("grid.follow", names.empty()
-                               ? fmt::format("there is no wall {}; describe it in a table [[wall]]", in_quotes(follow))
-                               : unknown_word("there is no wall", follow, {names.begin(), names.end()}));
+  if (const std::string& follow = scene.grid.follow; !follow.empty() && !names.contains(follow))
+    check.add_unknown("grid.follow", "wall", "[[wall]]", follow, {names.begin(), names.end()});
 }
 
 }  // namespace
-
-std::string end_key(const SceneCheck& check, const std::string& name, const char* end, std::size_t k) {
-  return check.scene().dim == 2 ? name + end : fmt::format("{}{}[{}]", name, end, k);
-}
-
-bool check_interval(SceneCheck& check, const std::string& name, const FaceInterval& part, std::size_t k, double min,
-                    double max, const char* box) {
-  bool inside = true;
-  for (const char* key : {".from", ".to"}) {
-    const double end = key[1] == 'f' ? part.from : part.to;
-    if (end >= min && end <= max) continue;
-    check.add(end_key(check, name, key, k),
-              fmt::format("{:g} lies outside the {}, whose face reaches from {:g} to {:g}", end, box, min, max));
-    inside = false;
-  }
-  if (!inside || part.from < part.to) return inside;
-  check.add(end_key(check, name, check.written(name + ".to") ? ".to" : ".from", k),
-            fmt::format("the part from {:g} to {:g} is empty; expected from < to", part.from, part.to));
-  return false;
-}
 
 void check_supports_and_walls(SceneCheck& check, bool grid) {
   check_faces(check);

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/outline.hpp"
+#include "scene/body_solid.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/points/body.hpp"
 
