@@ -2,7 +2,12 @@
 // outside the stated ranges give NaN.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace stillpoint {
 
@@ -37,5 +42,14 @@ double student_quantile(double probability, double degrees_of_freedom);
 /// The zero of f between a < b, at whose ends it has different signs, to rounding: the zero stays bracketed (Brent's
 /// method, or that of Alefeld, Potra and Shi). Throws std::domain_error if the signs do not differ, or f has no value.
 double zero_between(double a, double b, const std::function<double(double)>& f);
+/// The check that precedes the search: the end at which f is zero; empty if f changes its sign in between. Throws
+/// std::domain_error in all other cases.
+inline std::optional<double> zero_at_an_end(double a, double b, double at_a, double at_b) {
+  if (at_a == 0) return a;
+  if (at_b == 0) return b;
+  if (std::isfinite(at_a) && std::isfinite(at_b) && (at_a < 0) != (at_b < 0)) return std::nullopt;
+  throw std::domain_error(
+      fmt::format("there is no zero to be found between {:g} and {:g}, with values {:g} and {:g}", a, b, at_a, at_b));
+}
 
 }  // namespace stillpoint

@@ -13,7 +13,6 @@
 #include <gsl/gsl_sf_lambert.h>
 #include <gsl/gsl_sf_legendre.h>
 
-#include "base/bracket.hpp"
 #include "base/quiet_gsl.hpp"
 #include "base/special_functions.hpp"
 

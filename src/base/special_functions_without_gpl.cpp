@@ -15,7 +15,6 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
-#include "base/bracket.hpp"
 #include "base/special_functions.hpp"
 
 namespace stillpoint {

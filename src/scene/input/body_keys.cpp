@@ -1,10 +1,11 @@
-#include "scene/input/body_keys.hpp"
-
+// The table of the bodies.
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "scene/input/scene_keys.hpp"
 
 namespace stillpoint {
 namespace {

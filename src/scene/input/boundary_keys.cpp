@@ -1,8 +1,9 @@
-#include "scene/input/boundary_keys.hpp"
-
+// The tables of what holds and loads the bodies.
 #include <functional>
 #include <limits>
 #include <vector>
+
+#include "scene/input/scene_keys.hpp"
 
 namespace stillpoint {
 

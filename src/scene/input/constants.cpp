@@ -1,5 +1,4 @@
-#include "scene/input/constants.hpp"
-
+// The constants of a scene: numbers and formulas of each other, in any order.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -10,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "scene/expression_functions.hpp"
+#include "scene/input/scene_keys.hpp"
 #include "scene/input/toml_source.hpp"
 
 namespace stillpoint {
@@ -85,7 +85,7 @@ void resolve_constants(const toml::table& table, Reading& reading) {
     const auto settled = pending.extract(name);
     for (const std::string& other : settled.mapped().needed_by) {
       const auto found = pending.find(other);
-      if (found == pending.end()) continue;  // of the same circle
+      if (found == pending.end()) continue;  // already settled, in the same circle
       found->second.needs.erase(name);
       if (found->second.needs.empty()) ready.push_back(other);
     }

@@ -1,8 +1,8 @@
-#include "scene/input/exact_keys.hpp"
-
+// The tables of [exact]: formulas, or a solution with keys of its own.
 #include <map>
 
 #include "scene/input/choice_keys.hpp"
+#include "scene/input/scene_keys.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,8 +1,8 @@
-#include "scene/input/material_keys.hpp"
-
+// The tables of materials, whose keys are the parameters and choices of their laws.
 #include <map>
 
 #include "scene/input/choice_keys.hpp"
+#include "scene/input/scene_keys.hpp"
 
 namespace stillpoint {
 std::vector<TableInfo> material_tables(const Catalogue& catalogue) {

@@ -1,5 +1,4 @@
-#include "scene/input/method_keys.hpp"
-
+// The tables of how a scene is brought to rest, and of what is written.
 #include <limits>
 #include <string>
 #include <string_view>
@@ -8,11 +7,12 @@
 #include <fmt/format.h>
 
 #include "base/gpl.hpp"
+#include "scene/input/scene_keys.hpp"
 
 namespace stillpoint {
 namespace {
 
-/// What else is to be said of a word that stands in the wrong table.
+/// The hint about a word that stands in the wrong table.
 std::string hint(const auto* row, const char* is, const char* key) {
   return row ? fmt::format("'{}' is {}; write {} = \"{}\"", row->name, is, key, row->name) : "";
 }

@@ -1,14 +1,8 @@
 // The rows of the table of keys. A row's default is that of the member of Scene, if none is told here.
+#include "scene/input/scene_keys.hpp"
+
 #include <algorithm>
 #include <functional>
-
-#include "scene/input/body_keys.hpp"
-#include "scene/input/boundary_keys.hpp"
-#include "scene/input/constants.hpp"
-#include "scene/input/exact_keys.hpp"
-#include "scene/input/key_reader.hpp"
-#include "scene/input/material_keys.hpp"
-#include "scene/input/method_keys.hpp"
 
 namespace stillpoint {
 namespace {
