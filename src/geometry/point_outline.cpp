@@ -19,7 +19,7 @@ namespace {
 using Triangle = std::array<std::size_t, 3>;
 using Loop = std::vector<std::size_t>;  // numbers of points
 
-// What Qhull holds while it works.
+// The state of Qhull while it works.
 class Qhull {
  public:
   Qhull() {
@@ -71,7 +71,7 @@ double radius(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
 
 // Edges of one triangle alone, each from its start to its ends.
 std::multimap<std::size_t, std::size_t> border_edges(const std::vector<Triangle>& triangles) {
-  std::map<std::pair<std::size_t, std::size_t>, bool> edges;  // whether its other side has no triangle
+  std::map<std::pair<std::size_t, std::size_t>, bool> edges;  // an edge, and true if its other side has no triangle
   for (const Triangle& corners : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::pair edge(corners[k], corners[(k + 1) % 3]);
@@ -86,7 +86,7 @@ std::multimap<std::size_t, std::size_t> border_edges(const std::vector<Triangle>
   return border;
 }
 
-// Where loops touch in a point either may go on: both close.
+// If loops touch in a point, either continuation closes both.
 std::vector<Loop> loops_of(std::multimap<std::size_t, std::size_t> border) {
   std::vector<Loop> loops;
   while (!border.empty()) {

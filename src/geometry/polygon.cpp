@@ -21,13 +21,13 @@ namespace {
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
-/// Whether c, which is collinear with a and b, lies between them.
+/// True if c, which is collinear with a and b, lies between them.
 bool between(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return std::min(a[0], b[0]) <= c[0] && c[0] <= std::max(a[0], b[0]) && std::min(a[1], b[1]) <= c[1] &&
          c[1] <= std::max(a[1], b[1]);
 }
 
-/// Whether the segments ab and cd have a point in common.
+/// True if the segments ab and cd have a point in common.
 bool meet(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
   const int abc = sign(turn(a, b, c)), abd = sign(turn(a, b, d));
   const int cda = sign(turn(c, d, a)), cdb = sign(turn(c, d, b));
@@ -36,7 +36,7 @@ bool meet(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const P
          (cdb == 0 && between(c, d, b));
 }
 
-/// Whether the edges ab and bc lie on each other.
+/// True if the edges ab and bc lie on each other.
 bool folds_back(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return turn(a, b, c) == 0 && (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]) <= 0;
 }

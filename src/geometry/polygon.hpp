@@ -24,7 +24,7 @@ double signed_area(const Polygon& polygon);
 /// The centroid of a polygon whose area is not 0.
 PlanePoint centroid(const Polygon& polygon);
 
-/// Whether x is inside. A point on a border that polygons share counts as inside exactly one of them.
+/// True if x is inside. A point on a border that polygons share counts as inside exactly one of them.
 bool contains(const Polygon& polygon, const PlanePoint& x);
 
 /// The part in the unit square [Sutherland and Hodgman 1974]. If that has several components, stretches of the square's
@@ -39,7 +39,7 @@ struct PlaceOnBorder {
   std::size_t edge = 0;  // the edge from corner `edge` to the next
   PlanePoint at{};
 };
-/// The place on the border that is nearest to x.
+/// The position on the border that is nearest to x.
 PlaceOnBorder nearest_on_border(const Polygon& polygon, const PlanePoint& x);
 inline double distance_to_border(const Polygon& polygon, const PlanePoint& x) {
   return nearest_on_border(polygon, x).distance;

@@ -48,13 +48,13 @@ class Solid {
 
   virtual ~Solid() = default;
   virtual SpaceBox bounds() const = 0;
-  /// Whether x is inside; for a position on the surface either answer may be given.
+  /// True if x is inside; for a position on the surface either answer may be given.
   virtual bool contains(const SpacePoint& x) const = 0;
   /// A fast answer on how much of a box is inside: `some` may turn out to be none or all.
   virtual Part part_of(const SpaceBox& box) const = 0;
   /// A quadrature rule over the part in a box, for polynomials of this total degree.
   virtual SpaceRule rule(const SpaceBox& box, int degree) const = 0;
-  /// Whether all points of a rule lie inside, with weights > 0.
+  /// True if all points of a rule lie inside, with weights > 0.
   virtual bool rules_lie_inside() const { return true; }
 };
 

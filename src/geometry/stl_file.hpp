@@ -10,8 +10,8 @@
 
 namespace stillpoint {
 
-/// What is wrong goes to problems, one of a file: of an ASCII file with its line and column. Without one the triangles
-/// are closed, wound one way all over, either way round, and enclose a volume.
+/// The triangles of a file. A fault goes to problems, at most one for a file, with line and column if the file is
+/// ASCII. Without a fault, the triangles are closed, wound one way all over, either way round, and enclose a volume.
 std::vector<Facet> read_stl_file(const std::filesystem::path& file, std::vector<Mistake>& problems);
 
 }  // namespace stillpoint

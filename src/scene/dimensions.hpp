@@ -1,5 +1,5 @@
-// What a number of dimensions means: names, turns, and what is reported. Who wants to know asks for a property here,
-// not for the number.
+// The properties of a number of dimensions: names, turns, and the reported quantities. Other code asks for a property
+// here, not for the number.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ inline constexpr std::array<Turn, 3> turns_in_space{{{0, 1, 2}, {1, 2, 0}, {2, 0
 
 struct DimensionInfo {
   std::string_view axes;        // their names
-  std::span<const Turn> turns;  // of a rigid body: none on a line, in the plane about z alone
+  std::span<const Turn> turns;  // the turns of a rigid body: none on a line, in the plane about z alone
   std::size_t vertical;         // the axis that points upwards
   bool is_section;              // its points show the section of a slope
   bool watches_work;            // its history has the work of the loads beside the kinetic energy
-  int moment_components;        // of a support's reaction, that are reported
+  int moment_components;        // the number of a support's moments of reaction that are reported
 };
 
 inline constexpr std::array<DimensionInfo, 3> dimension_infos{{
@@ -42,10 +42,10 @@ inline constexpr std::array<DimensionInfo, 3> dimension_infos{{
      .moment_components = 3},
 }};
 
-/// Of what is read from a file, whether there is such a number of dimensions.
+/// True if there are problems of this number of dimensions, which may be read from a damaged file.
 constexpr bool is_dimension(int dim) { return dim > 0 && static_cast<std::size_t>(dim) <= dimension_infos.size(); }
 
-/// What a table has for 1, 2 and 3 dimensions.
+/// The entry of a table for 1, 2 or 3 dimensions.
 template <class T>
 constexpr const T& of_dimension(const std::array<T, 3>& table, int dim) {
   return table[static_cast<std::size_t>(dim - 1)];
@@ -81,18 +81,19 @@ inline std::vector<std::string> axis_names(int dim) {
   for (const char axis : dimension_info(dim).axes) names.emplace_back(1, axis);
   return names;
 }
-/// Of the axes that a body can turn about.
+/// The names of the axes that a body can turn about.
 inline std::vector<std::string> turn_names(int dim) {
   std::vector<std::string> names;
   for (const Turn& turn : dimension_info(dim).turns) names.emplace_back(1, "xyz"[turn.about]);
   return names;
 }
-/// Of a Cauchy stress, as laws have it: one, four or six.
+/// The names of the components of a Cauchy stress in the order of the laws: one, four or six.
 inline std::vector<std::string> stress_names(int components) {
   static constexpr std::array all{"xx", "yy", "zz", "xy", "yz", "zx"};
   return {all.begin(), all.begin() + components};
 }
-/// Of a displacement gradient: "xx", "xy", … row by row, and "zz" of one around an axis.
+/// The names of the components of a displacement gradient: "xx", "xy", … row by row, and "zz" if there is an axis of
+/// symmetry.
 inline std::vector<std::string> gradient_names(int dim, int components) {
   std::vector<std::string> names;
   for (const char i : dimension_info(dim).axes) {

@@ -13,7 +13,7 @@ bool any_motion(const Problem& problem, const Test& test) {
          (problem.load && test(problem.load->displacement));
 }
 
-// Whether a motion is another one at the end than a little earlier, anywhere on a diagonal of the grid.
+// True if a motion changes between a little before the end and the end, anywhere on a diagonal of the grid.
 bool moves_at_end(const Problem& problem, const Expression& motion) {
   if (!motion.uses('t')) return false;
   const double end = problem.stop.time;

@@ -5,11 +5,11 @@
 
 namespace stillpoint {
 
-/// Whether a support or a wall moves in time, or a displacement drives loads, and no equilibrium is asked for: what the
-/// scene is about are the forces on the way.
+/// True if a support or a wall moves in time, or a displacement drives loads, and no equilibrium is asked for: the
+/// result is the forces during the motion.
 bool is_driven(const Problem& problem);
 
-/// Whether that goes on up to the end, over more phases than one: material flows as long as the run lasts.
+/// True if that motion goes on up to the end, over more than one phase: the material flows as long as the run lasts.
 bool is_driven_flow(const Problem& problem);
 
 /// The default of damping.alpha.

@@ -24,10 +24,11 @@ namespace {
 constexpr std::string_view kVariables = "xyzt";
 /// muParser's time grows with the square of the length; a formula this long takes it about 5 ms.
 constexpr std::size_t kLongest = 4000;
-/// Of muParser's operators; by its default letters are as well, and it reads on to the end of x+x+x… at each of them.
+/// The characters of muParser's operators. By default they include letters, and at each operator of x+x+x… it would
+/// read on to the end.
 constexpr const char* kOperatorCharacters = "+-*/^?<>=#!$%&|~";
 
-/// What formulas have beyond muParser's own functions: Bessel's of the first kind.
+/// A function that formulas have beyond muParser's own: Bessel's functions of the first kind.
 struct OwnFunction {
   const char* name;
   double (*value)(double);
@@ -206,7 +207,7 @@ struct Compiled {
 
 }  // namespace
 
-/// What a formula is made of, and its compiled form, which is not there before somebody wants a value: a scene may have
+/// The parts of a formula, and its compiled form, which is not there before somebody wants a value: a scene may have
 /// hundreds of thousands of formulas. Copies share both; one thread at a time evaluates.
 struct Expression::Source {
   std::string text, variables;

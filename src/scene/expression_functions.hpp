@@ -1,4 +1,4 @@
-// What the text of a formula holds: the functions and numbers that every one has, and names.
+// The words in the text of a formula: the functions and numbers that every formula has, and names.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@
 namespace stillpoint {
 namespace {
 
-// What ends an operand of a comparison where it stands outside all parentheses.
+// True for a character that ends an operand of a comparison if it stands outside all parentheses.
 bool ends_operand(char letter) { return std::string_view("<>=!&|?:,").find(letter) != std::string_view::npos; }
 
 std::size_t begin_of_operand(std::string_view formula, std::size_t end) {

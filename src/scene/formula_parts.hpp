@@ -1,4 +1,4 @@
-// Where the text of a formula may switch: its comparisons, and what its functions are given.
+// The parts of a formula at which its value may jump or bend: its comparisons, and the arguments of its functions.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@ namespace stillpoint {
 
 /// "a < b" within a formula.
 struct Comparison {
-  std::size_t begin, end;  // of its text
+  std::size_t begin, end;  // the characters of its text, the end not included
   std::string difference;  // "(a)-(b)", which has another sign where the comparison has another value
 };
-/// One inside another's operands counts as well.
+/// All comparisons in a formula, also those inside the operands of others.
 std::vector<Comparison> comparisons_in(std::string_view formula);
 
-/// What stands in each pair of parentheses, and of several arguments also the differences of those next to each other:
-/// a function that bends or jumps does so where one of these vanishes, |x| where x does, max(a, b) where a − b does.
+/// The argument in each pair of parentheses; if there are several arguments, also the differences of neighbours. A
+/// function that bends or jumps does so at a zero of one of these: |x| at a zero of x, max(a, b) at a zero of a − b.
 std::vector<std::string> arguments_in(std::string_view formula);
 
 }  // namespace stillpoint

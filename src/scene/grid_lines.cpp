@@ -10,7 +10,7 @@ namespace {
 
 // How far a position may miss a box along an axis and still be taken to lie in it [m].
 double slack_of(double min, double max, double cell_length) {
-  constexpr double rounding = 1e-12;  // of the box and its distance from the origin
+  constexpr double rounding = 1e-12;  // as a share of the box and its distance from the origin
   return std::max(rounding * std::max({max - min, std::abs(min), std::abs(max)}), 2 * kSliver * cell_length);
 }
 

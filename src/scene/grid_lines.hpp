@@ -9,18 +9,18 @@
 
 namespace stillpoint {
 
-/// A share of a cell that is taken for none.
+/// The share of a cell below which a length counts as 0.
 inline constexpr double kSliver = 1e-6;
 
-/// What is wrong with a grid, if anything is.
+/// A fault of a grid; empty if there is none.
 struct GridFault {
-  std::string key;  // of [grid], "max"; empty: the table as a whole
-  int axis = -1;    // whose entry of the key is wrong; −1: all of them
+  std::string key;  // the key of [grid] that is wrong, "max"; empty: the table as a whole
+  int axis = -1;    // the axis whose entry of the key is wrong; −1: all axes
   std::string message{};
 
   bool empty() const { return message.empty(); }
 };
-/// Why a problem's grid is no box that can be divided into its cells.
+/// The reason why a problem's grid is no box that can be divided into its cells.
 GridFault fault_of_grid(const Problem& problem);
 
 /// A cell's length along an axis; 0 if the cells are not known.

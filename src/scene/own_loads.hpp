@@ -15,12 +15,12 @@ struct OwnLoadRow {
   OwnBodyForce b;
 };
 
-/// That of this name, or null.
+/// The load of this name; null if there is none.
 std::shared_ptr<const OwnLoadRow> own_load(const std::string& name);
-/// What is wrong with a name under which there is none.
+/// The message about a name that no load has.
 std::string unknown_own_load(const std::string& name);
 
-/// Whether the own load of a scene, if it has one, is another one at another t.
+/// True if the scene has an own load that depends on t.
 bool own_load_varies(const Problem& problem);
 
 }  // namespace stillpoint

@@ -7,16 +7,17 @@
 namespace stillpoint {
 namespace {
 
-constexpr double motion_of_what_remembers = 0.1;  // of a cell
+constexpr double motion_with_history = 0.1;  // phase.max_motion of a law with a history, as a share of a cell
 
 bool damps(const Problem& problem, const Catalogue& catalogue) {
   const StrategyInfo* const strategy = catalogue.strategy(problem.damping.strategy);
   return strategy && strategy->damps;
 }
 
-// Bodies whose law remembers nothing take domains where there are some, but where nothing damps: means over domains
-// cost flip some of the motion's energy. What of the points' velocities no function feels, flip keeps until the
-// functions of a later phase do: that shakes a body that overshoots into a shape that no force takes back.
+// Bodies whose law has no history take domains if they can and if the motion is damped: without damping, means over
+// domains would cost flip some of the motion's energy. With damping they take apic: flip keeps the part of the points'
+// velocities that no function of this phase sees until functions of a later phase see it, and that shakes a body that
+// overshoots into a shape that no force takes back.
 void resolve_quadrature(Problem& problem, const Catalogue& catalogue, bool remembers) {
   PhaseSpec& phase = problem.phase;
   const bool rests = damps(problem, catalogue) && problem.grid.basis != BasisKind::hermite && !remembers;
@@ -66,7 +67,7 @@ void resolve_phases(Problem& problem, const Catalogue& catalogue) {
   PhaseSpec& phase = problem.phase;
   const bool remembers = any_remembers(materials_in_use(problem, catalogue), catalogue);
   if (remembers && !problem.solve.is_static()) {
-    phase.max_motion.take(motion_of_what_remembers, "a law remembers");
+    phase.max_motion.take(motion_with_history, "a law remembers");
   } else {
     phase.max_motion.take(PhaseSpec::never);
   }

@@ -1,4 +1,4 @@
-// What a problem that leaves it open takes for its phases.
+// The choices of [phase] that a problem leaves open.
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
@@ -11,11 +11,11 @@ namespace stillpoint {
 
 /// The materials of the bodies, each once; without those whose law is not for this stress state.
 std::vector<const MaterialSpec*> materials_in_use(const Problem& problem, const Catalogue& catalogue);
-/// Whether one of these remembers.
+/// True if the law of one of these materials depends on the history.
 bool any_remembers(const std::vector<const MaterialSpec*>& materials, const Catalogue& catalogue);
-/// Why material points cannot stand for domains side by side; empty: they can.
+/// The reason why material points cannot stand for domains side by side; empty if they can.
 std::string why_no_domains(const Problem& problem);
-/// Makes the open choices of [phase]: whether phases end, and what the points of those that go on take with them.
+/// Makes the open choices of [phase]: the end of a phase, and the quantities that points take into the next.
 void resolve_phases(Problem& problem, const Catalogue& catalogue);
 
 }  // namespace stillpoint

@@ -15,7 +15,8 @@
 namespace stillpoint {
 namespace {
 
-constexpr std::size_t kMostProblems = 20;  // of one file; a table with a wrong separator is wrong in every line
+constexpr std::size_t kMostProblems =
+    20;  // most faults that are listed for one file: a table with a wrong separator is wrong in every line
 constexpr std::size_t kMostPoints = 50'000'000;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // with which some programs begin a file
 
@@ -137,7 +138,7 @@ class Reader {
   }
 
   bool add_coordinate(std::size_t axis, double value, int column) {
-    constexpr double rounding = 1e-12;  // of the box and its distance from the origin
+    constexpr double rounding = 1e-12;  // as a share of the box and its distance from the origin
     const double low = min_[axis], high = max_[axis];
     const double slack =
         std::isfinite(high - low) ? rounding * std::max({high - low, std::abs(low), std::abs(high)}) : 0;
@@ -149,7 +150,7 @@ class Reader {
   const std::filesystem::path& file_;
   const std::vector<double>&min_, &max_;
   std::vector<Mistake>& problems_;
-  std::vector<std::string> names_;     // of the columns: the coordinates, then volume
+  std::vector<std::string> names_;     // the names of the columns: the coordinates, then volume
   std::vector<std::ptrdiff_t> order_;  // which of them each column of the file is
   PointFile points_;
   int line_ = 1;

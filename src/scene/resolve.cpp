@@ -17,7 +17,7 @@
 namespace stillpoint {
 namespace {
 
-constexpr int r = 3;  // the number of a component after x, y, z
+constexpr int r = 3;  // the number of the component r, after x, y, z
 
 void resolve_state(Problem& problem) {
   const auto told = std::ranges::find_if(problem.bodies, [](const BodySpec& body) { return body.state.has_value(); });
@@ -36,8 +36,8 @@ void resolve_component(SupportSpec& support) {
   }
 }
 
-// Points of a file lie where they lie; an axisymmetric body has its volume all the way round. Their outline is for the
-// loads on lines.
+// The outline of the points of a file, which loads on lines need. The volume of a point of an axisymmetric body is that
+// of its whole ring.
 void take_outline(const Problem& problem, BodySpec& body, const PointFile& points) {
   body.outline = {};
   if (problem.dim != 2 ||
@@ -51,7 +51,7 @@ void take_outline(const Problem& problem, BodySpec& body, const PointFile& point
                   .spacing = std::sqrt(*std::ranges::max_element(area))};
 }
 
-// Whether there is enough of a shape in space to make a solid of it.
+// True if the keys of a shape in space suffice to make a solid of it.
 bool has_solid(const BodySpec& body) {
   const bool is_round = body.radius > 0 && body.inner_radius < body.radius;
   switch (body.shape()) {
@@ -174,7 +174,7 @@ class Resolution {
     for (Mistake& mistake : found) mistakes_.push_back({body, key, std::move(mistake)});
   }
 
-  // Where supports, forces and probes are.
+  // Moves supports, forces and probes that miss the grid or a body by a sliver onto its border.
   void resolve_positions() {
     const GridSpec& grid = problem_.grid;
     for (SupportSpec& support : problem_.supports) move_into(support.at, grid.min, grid.max, grid);

@@ -9,10 +9,10 @@
 
 namespace stillpoint {
 
-/// What is wrong with a file that a body names.
+/// A fault of a file that a body names.
 struct FileMistake {
   std::size_t body;
-  std::string key;  // of the body: "stl"
+  std::string key;  // the key of the body that names the file: "stl"
   Mistake mistake;  // where.line 0: with the file as a whole
 };
 

@@ -1,4 +1,4 @@
-// Which supports prescribe unknowns of the grid, and which hold the body by springs.
+// Two kinds of supports: those that prescribe unknowns of the grid, and those that hold the body by springs.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -15,21 +15,21 @@ inline int nearest_line(const GridSpec& grid, std::size_t axis, double x) {
   const double cells = (x - grid.min[axis]) / grid.cell_length(axis);
   return static_cast<int>(std::clamp(std::round(cells), 0.0, static_cast<double>(grid.cells[axis])));
 }
-/// Where a line lies [m].
+/// The position of a line [m].
 inline double line_position(const GridSpec& grid, std::size_t axis, int line) {
   const int cells = grid.cells[axis];
   return line == cells ? grid.max[axis] : grid.min[axis] + (grid.max[axis] - grid.min[axis]) * line / cells;
 }
 inline bool is_on_line(const GridSpec& grid, std::size_t axis, double x) {
-  constexpr double rounding = 1e-12;  // of a cell
+  constexpr double rounding = 1e-12;  // as a share of a cell
   return std::abs(x - line_position(grid, axis, nearest_line(grid, axis, x))) <= rounding * grid.cell_length(axis);
 }
 
-/// Whether the basis has a value of its own at each node; otherwise only at the ends of the grid.
+/// True if the basis has a value of its own at each node; otherwise it has one only at the ends of the grid.
 inline bool has_nodal_values(BasisKind basis) { return basis == BasisKind::linear || basis == BasisKind::hermite; }
 
-/// Whether a support holds by springs: where its scene gives a stiffness, and where the basis has no value of its own,
-/// so that no unknown can be prescribed. The grid is in order.
+/// True if a support holds by springs: if its scene gives a stiffness, or if the basis has no value of its own at the
+/// support, so that no unknown can be prescribed. The grid has to be in order.
 inline bool holds_by_springs(const GridSpec& grid, const SupportSpec& support) {
   if (support.stiffness) return true;
   if (support.face) return support.on_part() && !has_nodal_values(grid.basis);
@@ -41,13 +41,13 @@ inline bool holds_by_springs(const GridSpec& grid, const SupportSpec& support) {
   return false;
 }
 
-/// How far a part of a face reaches along one of its axes [m].
+/// The extent of a part of a face along one of its axes [m].
 struct FaceInterval {
   std::size_t along = 0;  // the axis
   double from = 0, to = 0;
 };
-/// Of the face of a box from min to max: an interval along each axis but the normal's, in order; to the face's ends
-/// where from or to is empty.
+/// The part of the face of a box from min to max: an interval along each axis but the normal's, in the order of the
+/// axes. If from or to is empty, the part reaches to the end of the face.
 inline std::vector<FaceInterval> part_of_face(Face face, const std::vector<double>& from, const std::vector<double>& to,
                                               const std::vector<double>& min, const std::vector<double>& max) {
   std::vector<FaceInterval> part;
@@ -58,7 +58,7 @@ inline std::vector<FaceInterval> part_of_face(Face face, const std::vector<doubl
   }
   return part;
 }
-/// What a support holds of a face of the grid.
+/// The part of a face of the grid that a support holds.
 inline std::vector<FaceInterval> held_part(const GridSpec& grid, const SupportSpec& support) {
   return part_of_face(*support.face, support.from, support.to, grid.min, grid.max);
 }

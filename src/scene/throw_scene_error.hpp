@@ -1,4 +1,4 @@
-// How bad input is reported that only shows after the scene was read: once it is discretised, or in an option.
+// Reports of bad input that shows only after the scene was read: when the scene is discretised, or in an option.
 #pragma once
 
 #include <stillpoint/scene.hpp>
@@ -9,12 +9,12 @@
 
 namespace stillpoint {
 
-/// Throws a SceneError of one key; who has the scene finds where it stands (located()).
+/// Throws a SceneError about one key; located() adds the location of the key in the file.
 [[noreturn]] inline void throw_scene_error(const std::string& key, const std::string& message) {
   throw SceneError({{.where = {.file = key}, .message = message, .key = key}});
 }
 
-/// What make() returns. A SceneError that it throws is told with the places in the scene's file.
+/// Returns what make() returns. A SceneError that it throws gets the locations in the scene's file.
 template <class Make>
 decltype(auto) located(const Scene& scene, const Make& make) {
   try {

@@ -19,9 +19,9 @@
 namespace stillpoint {
 
 template <class T>
-struct Unwrapped {  // T itself, or of what it is an optional, a choice or an array
-  using type = T;   // of one value
-  using value = T;  // of all of them
+struct Unwrapped {  // T itself, or the type inside an optional, a choice or an array
+  using type = T;   // the type of one value
+  using value = T;  // the type of all values together
   static constexpr bool is_optional = false;
   static constexpr int depth = 0;
 };
@@ -41,7 +41,7 @@ struct Unwrapped<std::vector<T>> {
 
 /// An option: its word, by number. A whole number may be written as a word too.
 std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key);
-/// Whether the value of a key that takes a number or a word is the word; a misspelt word is reported, and counts.
+/// True if the value of a key that takes a number or a word is the word; a misspelt word is reported, and counts.
 bool is_word(const Value& value, const KeyInfo& key);
 std::optional<std::string> read_string(const Value& value, const KeyInfo& key);
 /// The entries of an array: as many as there are coordinates, or components of a stress, or any number of them (list).
@@ -135,9 +135,9 @@ Key key_of(std::string_view name, Access access, std::string_view help, const Ke
 struct FoundTable {
   const toml::table& table;
   std::string path;  // "support[0]", "material.sand"
-  std::string name;  // of a named one
+  std::string name;  // the name of a named table, "sand"
 };
-/// Every table that the file has of a kind; what stands there but is none is reported.
+/// Every table of a kind in the file; an entry there that is no table is reported.
 std::vector<FoundTable> find_tables(const TableInfo& info, const toml::table& root, Reading& reading);
 /// Reads the keys of a table into the part of a scene that they are for; an entry that is neither a key nor a table of
 /// it is reported.

@@ -25,7 +25,7 @@ std::string told(const char* kind, const Range& range) {
   return kind;
 }
 
-/// In which scenes there is a key or a word, if not in all: " (dim = 1)".
+/// The dimensions of scenes that have a key or a word, if not all have it: " (dim = 1)".
 std::string told_dims(Dims dims) {
   std::vector<int> in;
   for (int dim = 1; dim <= 3; ++dim)
@@ -33,7 +33,7 @@ std::string told_dims(Dims dims) {
   return dims == kAnyDim ? "" : fmt::format(" (dim = {})", fmt::join(in, " or "));
 }
 
-/// What a key takes: "number > 0 | "critical"".
+/// The values that a key takes: "number > 0 | "critical"".
 std::string told_type(const KeyInfo& key) {
   std::vector<std::string> kinds;
   const bool word_only = key.kind == Kind::text && !key.words.empty();

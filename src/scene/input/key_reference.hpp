@@ -1,4 +1,4 @@
-// What the table of keys tells: a list for the terminal, a reference in Markdown, and a JSON schema for editors.
+// The table of keys in other forms: a list for the terminal, a reference in Markdown, and a JSON schema for editors.
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
@@ -8,7 +8,7 @@
 namespace stillpoint {
 
 std::string key_list(const Catalogue& catalogue);
-/// Ends the head, written by hand, of problems/README.md.
+/// The second half of problems/README.md, after a head that is written by hand.
 std::string key_reference(const Catalogue& catalogue);
 std::string key_schema(const Catalogue& catalogue);
 

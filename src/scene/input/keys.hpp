@@ -26,7 +26,7 @@ struct Word {
 
   std::string_view name;
   Dims dims = kAnyDim;
-  bool has_number = true;  // whether its number may be written in its place; the others stand first
+  bool has_number = true;  // its number may be written in its place; words without a number come last
 };
 
 /// The names of a catalogue's rows.
@@ -41,10 +41,10 @@ enum class Kind { number, whole, formula, text };
 enum class Shape { one, axes, components, list, positions };
 
 struct KeyInfo {
-  Range range{};                 // of a number
-  std::string_view unit{};       // empty: none
-  std::vector<Word> words{};     // of a text all that it may be; of a number what may be written in its place
-  std::string_view variables{};  // of a formula; x stands for all coordinates
+  Range range{};                 // the range of a number
+  std::string_view unit{};       // the unit; empty: none
+  std::vector<Word> words{};     // all values of a text; for a number, words that may be written in its place
+  std::string_view variables{};  // the variables of a formula; x stands for all coordinates
   std::string fallback{};        // the default in words; empty: that of the member of Scene
   bool required = false;
   bool list = false;       // any number of values, not one for each coordinate
@@ -54,7 +54,7 @@ struct KeyInfo {
   bool may_be_empty = false;
   Dims dims = kAnyDim;
   std::string_view listed_by{};  // the command that lists the words, if they are many
-  /// What else is to be said of an unknown word; empty: nothing.
+  /// A hint about an unknown word, in place of the known ones; empty: none.
   std::function<std::string(const std::string& word)> hint{};
   // Set by key():
   std::string_view name{}, help{};

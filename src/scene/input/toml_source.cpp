@@ -29,7 +29,7 @@ std::optional<std::size_t> too_deep_a_key(std::string_view text) {
   return std::nullopt;
 }
 
-/// Whether a text may hold more values than fit into a GB or two once they are parsed: each has one of these characters
+/// True if a text may hold more values than fit into a GB or two once they are parsed: each has one of these characters
 /// before it.
 bool holds_too_many_values(std::string_view text) {
   constexpr std::ptrdiff_t most = 4'000'000;
@@ -50,7 +50,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// What is wrong with a dotted key; empty if nothing is.
+/// The fault of a dotted key; empty if there is none.
 std::string fault_of_key(std::string_view key) {
   if (key.empty()) return "the key before '=' is missing";
   for (std::size_t begin = 0; begin <= key.size();) {
@@ -209,7 +209,7 @@ void apply_override(toml::table& table, const std::string& text, std::vector<Mis
     problems.push_back({where, fault});
     return;
   }
-  // What is not one line of TOML is a string: pi/10 needs no quotes.
+  // A value that is not one line of TOML is a string: pi/10 needs no quotes.
   const std::string value(trimmed(std::string_view(text).substr(equals + 1)));
   std::vector<Mistake> not_toml;
   std::optional<toml::table> over;

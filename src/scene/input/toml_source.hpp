@@ -14,7 +14,7 @@
 
 namespace stillpoint {
 
-/// Where a node or key was written: a location in the file, or the override that wrote it.
+/// The location of a node or key: a location in the file, or the override that wrote it.
 Location location_of(const toml::source_region& region);
 
 /// The text of a file. Empty, with a problem, if there is none to be had.

@@ -12,7 +12,7 @@
 namespace stillpoint {
 namespace {
 
-/// Where in the file character `position` of a string stands; empty if that cannot be told from the string alone.
+/// The location in the file of character `position` of a string; empty if it cannot be told from the string alone.
 std::optional<Location> location_in_string(const toml::value<std::string>& text, int position) {
   const toml::source_region& region = text.source();
   Location where = location_of(region);
@@ -51,8 +51,8 @@ std::optional<Expression> compile(const toml::value<std::string>& text, const Va
 
 void Reading::problem(const Location& where, const std::string& path, const std::string& message) {
   wrong.insert(path);
-  constexpr std::size_t longest = 200;  // of a path with the names of users in it
-  // A program's own problem stands nowhere.
+  constexpr std::size_t longest = 200;  // bytes of a path, which may hold names that users gave
+  // A program's own problem has no location.
   add({where, path.empty() ? message : shortened(path, longest) + ": " + message, where.file.empty() ? path : ""});
 }
 

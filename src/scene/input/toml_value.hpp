@@ -16,7 +16,7 @@
 
 namespace stillpoint {
 
-/// What reading a scene shares: the constants that formulas may use, and the problems found so far.
+/// The state that all readers of a scene share: the constants that formulas may use, and the problems found so far.
 struct Reading {
   int dim = 1;
   Constants constants{};
@@ -30,7 +30,7 @@ struct Reading {
   void add(Mistake problem);
 };
 
-/// More is wrong with a scene than anybody reads, or than it is worth to look for.
+/// Thrown if more is wrong with a scene than anybody reads.
 struct EnoughProblems {};
 
 /// A TOML node, and the dotted key under which it stands ("support[0].at").
@@ -42,7 +42,7 @@ struct Value {
   void problem(const std::string& message) const;
 };
 
-/// Where a number may lie.
+/// The range of a number.
 struct Range {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
