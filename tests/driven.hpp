@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 
 namespace driven {
 

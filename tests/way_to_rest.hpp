@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "simulation/catalogue.hpp"
+#include "plan/catalogue.hpp"
 #include "solvers/statics/static_methods.hpp"
 
 namespace stillpoint::test {

@@ -10,13 +10,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/memory_room.hpp"
 #include "base/text.hpp"
 #include "command/commands.hpp"
+#include "plan/plan.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "simulation/catalogue.hpp"
-#include "simulation/memory_need.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -32,35 +30,33 @@ void print_cut_cells(const QuadratureReport& quadrature) {
   if (!groups.empty()) fmt::print("  cut cells        {}\n", fmt::join(groups, ", "));
 }
 
-void print_memory(const MemoryNeed& need) {
+void print_memory(const Plan& plan) {
   const auto row = [](const std::string& what, double bytes) {
     fmt::print("    {:<28}{:9.3g} MB\n", what, bytes / 1e6);
   };
-  const MemoryRoom room = memory_room();
   fmt::print("  memory, when a run takes most\n");
-  for (const auto& part : need.parts) row(part.what, part.bytes);
-  row("together", need.total());
-  row("there is", room.bytes);
-  fmt::print("      by {}\n", room.set_by);
+  for (const MemoryPart& part : plan.memory) row(part.what, part.bytes);
+  row("together", plan.bytes());
+  row("there is", plan.room.bytes);
+  fmt::print("      by {}\n", plan.room.set_by);
 }
 
 // What the scene leaves open and a rule decides.
-void print_choices(const Scene& scene, bool remembers) {
+void print_choices(const Scene& scene, const Plan& plan) {
   const auto tell = [](const char* key, const std::string& value, const auto& choice) {
     if (!choice.is_asked() && choice.why() != choice.by_default)
       fmt::print("  chosen           {} = {}: {}\n", key, value, choice.why());
   };
   const PhaseSpec& phase = scene.phase;
-  if (phase.ends()) {
+  if (plan.moves_on) {
     tell("phase.max_motion", fmt::format("{:g}", phase.max_motion.value()), phase.max_motion);
     tell("phase.quadrature", phase.quadrature == Quadrature::domains ? "domains" : "points", phase.quadrature);
     tell("phase.transfer", phase.transfer == Transfer::apic ? "apic" : "flip", phase.transfer);
-    if (!remembers)
+    if (!plan.remembers)
       tell("phase.deformation", phase.deformation == DeformationRule::accumulated ? "accumulated" : "positions",
            phase.deformation);
   }
-  const StrategyInfo* const strategy = catalogue().strategy(scene.damping.strategy);
-  if (strategy && strategy->uses("alpha"))
+  if (plan.strategy && plan.strategy->uses("alpha"))
     tell("damping.alpha", fmt::format("{:g}", scene.damping.alpha.value()), scene.damping.alpha);
 }
 
@@ -68,8 +64,8 @@ void print_choices(const Scene& scene, bool remembers) {
 
 int check(const SceneArguments& arguments) {
   const Scene scene = load_scene(arguments.file, arguments.overrides);
-  const MemoryNeed memory = located(scene, [&] { return require_memory(scene); });
-  const Model model = located(scene, [&] { return make_model(scene); });
+  const Plan plan = located(scene, [&] { return require_memory(make_plan(scene)); });
+  const Model model = located(scene, [&] { return make_model(scene, plan); });
   const LagrangianPhase& phase = *model.phase;
 
   fmt::print("{}\n", scene.title.empty() ? scene.name : scene.title);
@@ -86,9 +82,8 @@ int check(const SceneArguments& arguments) {
   fmt::print("  points           {}, mass {:.6g} kg{}\n", phase.points(), phase.info().total_mass,
              degree ? fmt::format("; they integrate polynomials up to degree {}", *degree) : "");
   print_cut_cells(phase.shape().discretisation().quadrature);
-  fmt::print("  phases           {}\n",
-             phase.info().updated_lagrangian ? "several: the points move on" : "one: weights are frozen");
-  print_choices(scene, !phase.info().history_names.empty());
+  fmt::print("  phases           {}\n", plan.moves_on ? "several: the points move on" : "one: weights are frozen");
+  print_choices(scene, plan);
   fmt::print("  unknowns         {} free, {} supported; {} mass\n", phase.size(),
              phase.shape().discretisation().supported_degrees_of_freedom,
              model.multigrid            ? "multigrid"
@@ -98,12 +93,11 @@ int check(const SceneArguments& arguments) {
     fmt::print("  weak support     support[{}]: {} of {:.4g} {}\n", weak.support, counted(weak.springs, "spring"),
                weak.stiffness, scene.supports[weak.support].face ? "N/m3" : "N/m");
   }
-  if (const StaticMethodInfo* method = model.static_method) {
+  if (const StaticMethodInfo* method = plan.static_method) {
     fmt::print("  static solver    {}: {}\n", method->name, method->equation);
   } else {
-    const StrategyInfo& strategy = *catalogue().strategy(scene.damping.strategy);
-    fmt::print("  damping          {}{}: {}\n", strategy.name, model.c ? fmt::format(", c = {:.8g}", *model.c) : "",
-               strategy.equation);
+    fmt::print("  damping          {}{}: {}\n", plan.strategy->name,
+               model.c ? fmt::format(", c = {:.8g}", *model.c) : "", plan.strategy->equation);
   }
   fmt::print("  omega_max        {:.8g} rad/s{}\n", model.omega_max,
              model.tangent_applications > 0
@@ -123,7 +117,7 @@ int check(const SceneArguments& arguments) {
   const double total = phase.shape().discretisation().bytes_per_point();
   fmt::print("    {:<17}{:4.0f}   {:.3g} MB for all points\n", "together", total,
              total * static_cast<double>(phase.points()) / 1e6);
-  print_memory(memory);
+  print_memory(plan);
   return 0;
 }
 

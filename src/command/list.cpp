@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "command/commands.hpp"
+#include "plan/catalogue.hpp"
 #include "scene/input/key_reference.hpp"
-#include "simulation/catalogue.hpp"
 
 namespace stillpoint::command {
 namespace {

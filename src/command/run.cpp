@@ -11,7 +11,7 @@
 #include "command/commands.hpp"
 #include "command/terminal.hpp"
 #include "output/checkpoint_file.hpp"
-#include "simulation/catalogue.hpp"
+#include "plan/catalogue.hpp"
 
 namespace stillpoint::command {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "simulation/giving_way.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "simulation/way_left.hpp"
 
 namespace stillpoint {

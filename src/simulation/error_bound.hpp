@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "simulation/volume_norm.hpp"
+#include "simulation/setup/volume_norm.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {

@@ -12,7 +12,7 @@
 
 #include "base/kept_text.hpp"
 #include "base/text.hpp"
-#include "simulation/catalogue.hpp"
+#include "plan/catalogue.hpp"
 #include "solvers/relaxation/relaxations.hpp"
 #include "system/put_damping.hpp"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/model.hpp"
-#include "simulation/stiffening_step.hpp"
+#include "simulation/setup/model.hpp"
+#include "simulation/setup/stiffening_step.hpp"
 
 namespace stillpoint {
 

@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
+#include "plan/catalogue.hpp"
 #include "scene/driven_motion.hpp"
-#include "simulation/catalogue.hpp"
 
 namespace stillpoint {
 

@@ -16,8 +16,8 @@
 #include "output/probes.hpp"
 #include "output/snapshots.hpp"
 #include "simulation/energy_balance.hpp"
-#include "simulation/model.hpp"
 #include "simulation/phase_motion.hpp"
+#include "simulation/setup/model.hpp"
 
 namespace stillpoint {
 

@@ -1,15 +1,19 @@
 #include <stillpoint/run.hpp>
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include <omp.h>
+
 #include "base/atomic_file.hpp"
 #include "output/folder_lock.hpp"
+#include "output/history.hpp"
 #include "output/report/report_page.hpp"
 #include "output/report/run_report.hpp"
-#include "simulation/stopped_set_up.hpp"
+#include "output/run_folder.hpp"
 
 namespace stillpoint {
 namespace {
@@ -26,6 +30,31 @@ bool is_readable(Simulation& simulation) {
   } catch (const std::logic_error&) {
     return false;
   }
+}
+
+// Returns the summary of a run that had to end before it began, which is not written yet. A history of no rows is
+// written if the run begins anew; a run that is resumed has its own.
+Summary leave_stopped_set_up(const Problem& problem, const SimulationOptions& options, const SetUpStopped& stopped) {
+  const bool resumes = !options.resume.empty();
+  if (options.records && !options.out.empty()) {
+    const auto lock = prepare_folder(options.out, resumes);
+    if (!resumes) History(options.out, {}).finish();
+  }
+  Summary s;
+  s.scene = problem.name;
+  s.title = problem.title;
+  s.status = stopped.status();
+  s.reason = stopped.what();
+  s.exit_status = 3;
+  s.t = resumes ? std::numeric_limits<double>::quiet_NaN() : 0;
+  s.residual = s.kinetic_energy = s.omega_max = std::numeric_limits<double>::quiet_NaN();
+  s.threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  s.wall_s = stopped.wall_s();
+  s.method = problem.solve.method;
+  if (problem.solve.is_static()) return s;
+  s.integrator = problem.integrator.method;
+  s.damping = problem.damping.strategy;
+  return s;
 }
 
 // lock: of the folder, from when the run begins.

@@ -4,8 +4,8 @@
 
 #include <omp.h>
 
+#include "plan/body_size.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "simulation/body_size.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/thread_scope.hpp"
 

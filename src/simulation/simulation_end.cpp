@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 #include "base/stop_request.hpp"
+#include "simulation/advice/notes.hpp"
+#include "simulation/advice/viscosity.hpp"
 #include "simulation/left_in_points.hpp"
-#include "simulation/memory_need.hpp"
-#include "simulation/notes.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/single_phase.hpp"
-#include "simulation/viscosity.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
@@ -48,8 +47,7 @@ Model Simulation::Impl::set_up() {
   const StopScope scope(asks_to_end());
   try {
     heed_stop_request();
-    require_memory(scene_);
-    return make_model(scene_, options_.store);
+    return make_model(scene_, require_memory(make_plan(scene_)), options_.store);
   } catch (const Stopped&) {
     throw SetUpStopped(end_request_.status(), end_request_.reason() + " in the set-up; the run has not begun",
                        wall_.seconds());

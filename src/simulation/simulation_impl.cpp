@@ -10,7 +10,6 @@
 
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
-#include "simulation/multigrid_choice.hpp"
 
 namespace stillpoint {
 namespace {

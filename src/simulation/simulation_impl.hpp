@@ -13,6 +13,8 @@
 
 #include "base/stopwatch.hpp"
 #include "output/folder_lock.hpp"
+#include "plan/matrix_size.hpp"
+#include "simulation/advice/mechanism.hpp"
 #include "simulation/chatter.hpp"
 #include "simulation/creep.hpp"
 #include "simulation/end_request.hpp"
@@ -21,15 +23,13 @@
 #include "simulation/failure.hpp"
 #include "simulation/giving_way.hpp"
 #include "simulation/limit_load.hpp"
-#include "simulation/load_schedule.hpp"
-#include "simulation/matrix_size.hpp"
-#include "simulation/mechanism.hpp"
-#include "simulation/model.hpp"
+#include "simulation/loads/load_schedule.hpp"
 #include "simulation/monitor.hpp"
 #include "simulation/phase_motion.hpp"
 #include "simulation/plastic_path.hpp"
 #include "simulation/rate_share.hpp"
 #include "simulation/recorder.hpp"
+#include "simulation/setup/model.hpp"
 #include "simulation/standstill.hpp"
 #include "simulation/thread_choice.hpp"
 
@@ -81,7 +81,8 @@ class Simulation::Impl {
   Standstill standstill_;
   ThreadChoice thread_choice_;
   LimitLoad limit_load_{scene_.stop.load_growth};
-  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 && has_room_for_factor(scene_)};
+  MechanismWatch mechanism_{scene_.stop.wants_equilibrium() && !model_.omega_1 &&
+                            matrix_size(scene_, body_size(scene_)).factor_fits(memory_room())};
   std::shared_ptr<FolderLock> folder_lock_;  // until the run is over
   std::optional<Recorder> recorder_;
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "output/exact_error.hpp"
+#include "simulation/advice/notes.hpp"
 #include "simulation/left_in_points.hpp"
-#include "simulation/notes.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/single_phase.hpp"
 #include "simulation/support_figures.hpp"

@@ -7,8 +7,8 @@
 
 #include "base/stop_request.hpp"
 #include "scene/longest_cell.hpp"
+#include "simulation/advice/viscosity.hpp"
 #include "simulation/simulation_impl.hpp"
-#include "simulation/viscosity.hpp"
 
 namespace stillpoint {
 

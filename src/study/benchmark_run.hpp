@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "simulation/model.hpp"
-#include "simulation/set_up_store.hpp"
+#include "simulation/setup/model.hpp"
+#include "simulation/setup/set_up_store.hpp"
 #include "study/reference_solution.hpp"
 
 namespace stillpoint {

@@ -14,10 +14,10 @@
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
+#include "plan/body_size.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "simulation/body_size.hpp"
-#include "simulation/multigrid_mass.hpp"
-#include "simulation/set_up_store.hpp"
+#include "simulation/setup/multigrid_mass.hpp"
+#include "simulation/setup/set_up_store.hpp"
 #include "simulation/thread_choice.hpp"
 #include "simulation/thread_scope.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"

@@ -7,8 +7,8 @@
 #include "base/gpl.hpp"
 #include "base/text.hpp"
 #include "linalg/multigrid.hpp"
+#include "plan/catalogue.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "simulation/catalogue.hpp"
 #include "study/setting.hpp"
 
 namespace stillpoint {

@@ -14,7 +14,7 @@
 #include "linalg/sparse_cholesky.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "simulation/load_schedule.hpp"
+#include "simulation/loads/load_schedule.hpp"
 
 namespace stillpoint {
 namespace {

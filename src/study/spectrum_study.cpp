@@ -9,11 +9,11 @@
 
 #include "base/stopwatch.hpp"
 #include "linalg/sparse_cholesky.hpp"
+#include "plan/catalogue.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "simulation/balanced_leapfrog.hpp"
-#include "simulation/catalogue.hpp"
-#include "simulation/model.hpp"
-#include "simulation/multigrid_mass.hpp"
+#include "simulation/setup/balanced_leapfrog.hpp"
+#include "simulation/setup/model.hpp"
+#include "simulation/setup/multigrid_mass.hpp"
 #include "solvers/spectrum/local_damping_gain.hpp"
 
 namespace stillpoint {

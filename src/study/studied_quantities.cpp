@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "simulation/catalogue.hpp"
+#include "plan/catalogue.hpp"
 #include "study/error_sources.hpp"
 #include "study/observed_order.hpp"
 

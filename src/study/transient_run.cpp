@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
-#include "simulation/catalogue.hpp"
+#include "plan/catalogue.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "study/benchmark_run.hpp"
 #include "study/setting.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/set_up_store.hpp"
+#include "simulation/setup/set_up_store.hpp"
 
 namespace stillpoint {
 

@@ -6,7 +6,7 @@
 #include <omp.h>
 
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "output/exact_error.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "statics.hpp"
 
 using namespace stillpoint;

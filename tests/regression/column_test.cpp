@@ -4,7 +4,7 @@
 #include "largest.hpp"
 #include "output/exact_error.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "statics.hpp"
 
 using namespace stillpoint;

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 
 using namespace stillpoint;
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "files.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
 

@@ -20,9 +20,9 @@
 #include <fmt/format.h>
 
 #include "largest.hpp"
+#include "plan/plan.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
-#include "simulation/omega_1_needs.hpp"
+#include "simulation/setup/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "way_to_rest.hpp"
 
@@ -427,7 +427,7 @@ TEST_CASE("a large body in space goes without a factor and says that it has no e
   const Model small = make_model(scene_with(8, {}));
   CHECK(small.omega_1);
   CHECK_FALSE(has_note(small));
-  CHECK(omega_1_needs(scene_with(26, {"stop.distance=1e-3"}), large.phase->size(), false).any());
+  CHECK(make_plan(scene_with(26, {"stop.distance=1e-3"})).omega_1.any());
   const Model in_the_plane = make_model(scenes::load("incompressible", {"grid.cells=[200, 160]", "grid.basis=linear"}));
   CHECK(in_the_plane.phase->size() > 50'000);
   CHECK(in_the_plane.omega_1);

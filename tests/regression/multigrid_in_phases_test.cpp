@@ -9,8 +9,8 @@
 
 #include "linalg/multigrid.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
-#include "simulation/multigrid_mass.hpp"
+#include "simulation/setup/model.hpp"
+#include "simulation/setup/multigrid_mass.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;

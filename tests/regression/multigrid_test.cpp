@@ -15,7 +15,7 @@
 #include "largest.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;

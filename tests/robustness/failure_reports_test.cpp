@@ -6,7 +6,7 @@
 #include "files.hpp"
 #include "free_block.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 
 using namespace stillpoint;
 

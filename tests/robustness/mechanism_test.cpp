@@ -1,10 +1,10 @@
 // Bodies that nothing holds: they are named before a step is taken, with the motion that nothing resists.
-#include "simulation/mechanism.hpp"
+#include "simulation/advice/mechanism.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 
 using namespace stillpoint;
 using Catch::Contains;

@@ -8,9 +8,9 @@
 
 #include "child.hpp"
 #include "files.hpp"
+#include "plan/plan.hpp"
 #include "scenes.hpp"
-#include "simulation/memory_need.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
@@ -25,13 +25,13 @@ TEST_CASE("cells, points, unknowns and bytes a point are known before a body is 
     if (entry.path().extension() != ".toml") continue;
     CAPTURE(entry.path());
     const Scene scene = load_scene(entry.path());
-    const MemoryNeed need = memory_need(scene);
+    const Plan plan = make_plan(scene);
     const auto phase = make_phase(scene);
-    CHECK(need.bytes_per_point == Approx(phase->shape().discretisation().bytes_per_point()).epsilon(0.02));
-    CHECK(need.size.points == Approx(static_cast<double>(phase->points())).epsilon(0.1));
-    CHECK(need.size.cells == Approx(static_cast<double>(phase->shape().discretisation().occupied_cells)).epsilon(0.1));
+    CHECK(plan.bytes_per_point == Approx(phase->shape().discretisation().bytes_per_point()).epsilon(0.02));
+    CHECK(plan.size.points == Approx(static_cast<double>(phase->points())).epsilon(0.1));
+    CHECK(plan.size.cells == Approx(static_cast<double>(phase->shape().discretisation().occupied_cells)).epsilon(0.1));
     const Discretisation of_phase = phase->shape().discretisation();
-    CHECK(need.size.unknowns ==
+    CHECK(plan.size.unknowns ==
           Approx(static_cast<double>(phase->size() + of_phase.supported_degrees_of_freedom)).epsilon(0.15));
   }
 }
@@ -40,9 +40,9 @@ TEST_CASE("formulas that are so many that they need memory are in the table, and
   const auto bytes_of_formulas = [](const char* value, int count) {
     std::string forces = "force=[";
     for (int k = 0; k < count; ++k) forces += fmt::format("{{at=10.0, value='{}'}},", value);
-    const MemoryNeed need = memory_need(scenes::bar({forces + "]"}));
-    const auto found = std::ranges::find(need.parts, "formulas", &MemoryNeed::Part::what);
-    return found == need.parts.end() ? 0 : found->bytes;
+    const Plan plan = make_plan(scenes::bar({forces + "]"}));
+    const auto found = std::ranges::find(plan.memory, "formulas", &MemoryPart::what);
+    return found == plan.memory.end() ? 0 : found->bytes;
   };
   CHECK(bytes_of_formulas("1e-9*sin(t)", 3000) == Approx(3e7).epsilon(0.3));
   CHECK(bytes_of_formulas("1e-9*sin(1)", 3000) == 0);
@@ -91,7 +91,7 @@ TEST_CASE("the memory that a run is said to need is what it takes at its peak, t
     one.set.emplace_back("stop.steps=3");
     CAPTURE(one.scene, one.set);
     const double peak = peak_of(one.scene, one.set) - program;
-    CHECK(memory_need(scenes::load(one.scene, one.set)).total() == Approx(peak).epsilon(0.3));
+    CHECK(make_plan(scenes::load(one.scene, one.set)).bytes() == Approx(peak).epsilon(0.3));
   }
 }
 

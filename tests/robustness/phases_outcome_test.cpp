@@ -11,7 +11,7 @@
 #include "files.hpp"
 #include "free_block.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 
 using namespace stillpoint;
 using stillpoint::testing::free_block;

@@ -7,7 +7,7 @@
 #include "child.hpp"
 #include "files.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "files.hpp"
+#include "plan/catalogue.hpp"
 #include "scene/input/key_reference.hpp"
 #include "scene/input/keys.hpp"
-#include "simulation/catalogue.hpp"
 
 using namespace stillpoint;
 using stillpoint::test::contents;

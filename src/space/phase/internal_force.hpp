@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scene/point_sums.hpp"
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/elastic_cells.hpp"
 #include "space/kernels/nodal_force.hpp"
@@ -52,10 +53,7 @@ class InternalForce {
     laws_.begin_phase();
     laws_.commit_averages(*borrow());
     take_elastic_moments();
-    const bool stiffens = !frame_.remembers && std::ranges::any_of(frame_.body.materials, [](const auto& law) {
-      return law->info().finite_strain;
-    });
-    if (frame_.phase == 0 && stiffens) undeformed_bound_ = bound_at_rest();
+    if (frame_.phase == 0 && !frame_.remembers && some_law_is_finite()) undeformed_bound_ = bound_at_rest();
   }
 
   const PointLaws<B, K>& laws() const { return laws_; }
@@ -194,13 +192,13 @@ class InternalForce {
   double bytes_of_elastic_cells() const { return elastic_cells_.empty() ? 0 : elastic_cells_.bytes(); }
 
  private:
+  bool some_law_is_finite() const {
+    return std::ranges::any_of(frame_.body.materials, [](const auto& law) { return law->info().finite_strain; });
+  }
   // In bilinear or trilinear cells with R(u) = K u, the points are needed only by their moments.
   void take_elastic_moments() {
     if constexpr (has_elastic_cells) {
-      const bool is_linear = !frame_.remembers && std::ranges::none_of(frame_.body.materials, [](const auto& law) {
-        return law->info().finite_strain;
-      });
-      if (!is_linear || frame_.moves_on() || frame_.problem.geostatic) return;
+      if (!moments_stand_in_for_points(frame_.problem, frame_.remembers || some_law_is_finite())) return;
       std::vector<typename ElasticCells<dim>::Moduli> moduli;
       for (std::size_t m = 0; m < frame_.body.materials.size(); ++m) {
         const auto p = static_cast<std::size_t>(frame_.body.points.material_begin[m]);

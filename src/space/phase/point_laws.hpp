@@ -10,6 +10,7 @@
 #include <iterator>
 #include <vector>
 
+#include "scene/point_sums.hpp"
 #include "space/kernels/mean_dilatation.hpp"
 #include "space/kernels/nodal_force.hpp"
 #include "space/kernels/spline_means.hpp"
@@ -39,10 +40,8 @@ class PointLaws {
   PointLaws(const PhaseFrame<B, K>& frame, const NodalForce<B, K>& points, CommittedState& committed)
       : frame_(frame), points_(points), committed_(committed) {}
 
-  bool share_dilatation() const { return dim > 1 && frame_.problem.phase.dilatation != Dilatation::points; }
-  bool share_over_splines() const {
-    return dim > 1 && frame_.problem.phase.dilatation == Dilatation::splines && B::degree > 1;
-  }
+  bool share_dilatation() const { return averages_dilatation(frame_.problem); }
+  bool share_over_splines() const { return means_over_splines(frame_.problem); }
 
   /// Prepares the means of a phase.
   void begin_phase() {

@@ -14,7 +14,7 @@
 
 #include "files.hpp"
 #include "largest.hpp"
-#include "simulation/catalogue.hpp"
+#include "plan/catalogue.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

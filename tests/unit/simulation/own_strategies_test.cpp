@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "simulation/catalogue.hpp"
+#include "plan/catalogue.hpp"
 
 using namespace stillpoint;
 

@@ -11,8 +11,8 @@
 
 #include "free_block.hpp"
 #include "largest.hpp"
+#include "plan/catalogue.hpp"
 #include "scenes.hpp"
-#include "simulation/catalogue.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

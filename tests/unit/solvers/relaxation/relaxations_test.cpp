@@ -19,7 +19,7 @@
 #include "chain.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
 #include "way_to_rest.hpp"

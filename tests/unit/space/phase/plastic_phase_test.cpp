@@ -12,7 +12,7 @@
 #include "files.hpp"
 #include "largest.hpp"
 #include "scenes.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,0 +1,289 @@
+#include "simulation/advice/notes.hpp"
+
+#include <stillpoint/damping.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "plan/catalogue.hpp"
+#include "scene/dimensions.hpp"
+#include "space/grid/basis.hpp"
+
+namespace stillpoint {
+namespace {
+
+// A basis of degree p reaches into a share s of a cell with one function N ~ s^p, N' ~ s^(p−1), that is outside but for
+// that. Its frequency, ω² = ∫N'²/∫N², grows as 1/s; with a lumped mass, ω² = ∫N'²/∫N ~ s^(p−2), as 1/√s for p = 1 and
+// not at all for p > 1. A slope of Hermite's has a lumped mass of its own, and again 1/s.
+bool sliver_shortens_the_step(const Problem& problem, const LagrangianPhase& phase, MassScaling scaling) {
+  if (problem.solve.is_static()) return false;
+  if (!phase.mass().is_lumped()) return true;
+  const bool light_nodes_get_inertia = phase.info().updated_lagrangian || scaling == MassScaling::gershgorin;
+  return !light_nodes_get_inertia &&
+         (problem.grid.basis == BasisKind::linear || problem.grid.basis == BasisKind::hermite);
+}
+
+// The first body whose volumes the scene asks to be fitted, where that differs from equal ones: up to two uniform
+// points along an axis are alike by symmetry.
+std::string body_with_fitted_volumes(const Problem& problem) {
+  for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+    const BodySpec& body = problem.bodies[k];
+    const bool by_symmetry = std::ranges::all_of(body.points_per_cell, [](int along) { return along <= 2; });
+    if (!by_symmetry && body.volumes.asked() == VolumeRule::consistent)
+      return problem.bodies.size() > 1 ? fmt::format("body[{}]", k) : "body";
+  }
+  return "";
+}
+
+// The fewest domains across a body of the plane. Only the mean of the strains in a domain counts: n domains across a
+// body that bends have Σ_p V_p y_p² = (1 − 1/n²) ∫ y² dV.
+double fewest_domains_across(const Problem& problem) {
+  double fewest = std::numeric_limits<double>::infinity();
+  const bool can_bend = !dimension_info(problem.dim).turns.empty();
+  if (!can_bend || problem.phase.quadrature != Quadrature::domains) return fewest;
+  for (const BodySpec& body : problem.bodies) {
+    for (std::size_t d = 0; d < body.points_per_cell.size(); ++d) {
+      fewest = std::min(fewest, (body.max[d] - body.min[d]) / problem.grid.cell_length(d) * body.points_per_cell[d]);
+    }
+  }
+  return fewest;
+}
+
+// The points of a cell, the same number along each axis, that are as many as a polynomial of a total degree has
+// coefficients.
+int fewest_gauss_points(int dim, int degree) {
+  int coefficients = 1;  // (degree + dim) over dim
+  for (int d = 1; d <= dim; ++d) coefficients = coefficients * (degree + d) / d;
+  int along = 1;
+  while (power(along, dim) < coefficients) ++along;
+  return power(along, dim);
+}
+
+// A basis of degree p keeps its order of convergence if the points integrate degree 2p − 2 in each coordinate [Strang
+// and Fix 1973, 4.3]. In a cell that a body's border cuts they integrate a total degree m, and gradients of products
+// of p have the total degree 2p − 1: what is missed of their work with a stress is of order m + 1 − (2p − 1) in h,
+// which is p for m = 3p − 2.
+std::vector<std::string> quadrature_notes(const Problem& problem, const LagrangianPhase& phase, MassScaling scaling) {
+  std::vector<std::string> notes;
+  const QuadratureReport quadrature = phase.shape().discretisation().quadrature;
+  if (quadrature.cells_limited_by_sign > 0) {
+    notes.push_back(fmt::format("in {} cells a fit of higher degree would need a negative volume; they integrate less",
+                                quadrature.cells_limited_by_sign));
+  }
+  if (quadrature.joined > 0) {
+    notes.push_back(fmt::format(
+        "in {} cells that the body hardly reaches the outermost functions follow those further inside, for the "
+        "frequencies' sake",
+        quadrature.joined));
+  }
+  if (quadrature.smallest_share < 0.05 && quadrature.slivers > quadrature.joined &&
+      sliver_shortens_the_step(problem, phase, scaling)) {
+    notes.push_back(
+        fmt::format("the body covers only {:.2g} of some cell's length, which shortens the critical step; expected its "
+                    "faces on grid lines",
+                    quadrature.smallest_share));
+  }
+  if (const std::string body = body_with_fitted_volumes(problem);
+      problem.phase.quadrature == Quadrature::domains && !body.empty()) {
+    notes.push_back(fmt::format(
+        "{}.volumes = \"consistent\" is taken as equal: domains side by side fill their cells by equal volumes; "
+        "phase.quadrature = \"points\" takes fitted ones",
+        body));
+  }
+  if (const double n = fewest_domains_across(problem); n < 9.5) {
+    notes.push_back(fmt::format(
+        "{:.0f} domains lie across the body, of whose strains the means count: it bends by up to {:.1f} % too "
+        "easily; expected more points per cell or smaller cells where it bends",
+        n, 100 / (n * n)));
+  }
+  const int needed = 2 * degree_of(problem.grid.basis) - 2;
+  // Domains integrate what is interpolated over them, wherever their points lie.
+  const bool at_points = problem.phase.quadrature == Quadrature::points;
+  if (at_points && quadrature.degree && *quadrature.degree < needed) {
+    notes.push_back(fmt::format(
+        "the points integrate degree {}, this basis needs {} for its full order: {}", *quadrature.degree, needed,
+        quadrature.equal_volumes ? "take consistent volumes" : "take more points per cell or Gauss points"));
+  }
+  const int needed_at_border = 3 * degree_of(problem.grid.basis) - 2;
+  if (const int below = quadrature.border_cells_below(needed_at_border); below > 0) {
+    const int points = fewest_gauss_points(problem.dim, needed_at_border);
+    const bool equal = std::ranges::any_of(
+        problem.bodies, [](const BodySpec& body) { return body.has_shape() && body.volumes == VolumeRule::equal; });
+    notes.push_back(fmt::format(
+        "in {} of the {} cells that a body's border cuts the points integrate less than degree {}, which this basis "
+        "needs for its full order: take {}body.placement = \"gauss\" with {} points per cell",
+        below, quadrature.border_cells_below(highest_cut_cell_degree + 1), needed_at_border,
+        equal ? "consistent volumes and " : "", points));
+  }
+  return notes;
+}
+
+// A function that a loaded surface has just come into is loaded by its value there, and resisted by its gradient at the
+// nearest point alone: that point's stress takes what makes the two agree. If a point crosses a line of the grid its
+// share of a linear function's gradient changes sign: what an elastic body settles over many phases comes out too large
+// [Steffen, Kirby and Berzins 2008]. In a stiff body that turns without damping the same jumps of the force give energy
+// to what apic's points keep, in the end without bound: twice as much after a turn of hard/spinning_square.toml with E
+// = 1e5.
+std::vector<std::string> phase_notes(const Problem& problem, const LagrangianPhase& phase) {
+  std::vector<std::string> notes;
+  if (!phase.info().updated_lagrangian) return notes;
+  if (!phase.history_dependent() && problem.phase.quadrature == Quadrature::points &&
+      !(problem.tractions.empty() && problem.forces.empty())) {
+    notes.emplace_back(
+        "where a loaded surface comes to cut cells the points next to it take a stress that is off by up to a quarter, "
+        "and an elastic body's displacement by a few per cent: expected boxes of uniform points with "
+        "phase.quadrature = \"domains\", or a single phase");
+  }
+  if (problem.grid.basis != BasisKind::linear) return notes;
+  if (!phase.history_dependent() && problem.phase.quadrature == Quadrature::points) {
+    notes.emplace_back(
+        "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % "
+        "too far; a quadratic basis is within 0.3 %");
+  }
+  if (problem.phase.transfer == Transfer::apic && is_undamped(problem.damping.strategy)) {
+    notes.emplace_back(
+        "apic on a linear basis can gain energy without end where nothing damps; a quadratic basis gains none");
+  }
+  return notes;
+}
+
+std::vector<std::string> support_notes(const Problem& problem) {
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < problem.supports.size(); ++k) {
+    for (std::size_t d = 0; d < problem.supports[k].at.size(); ++d) {
+      const double at = problem.supports[k].at[d];
+      const bool inside = std::ranges::any_of(problem.bodies, [&](const BodySpec& body) {
+        return body.file.empty() ? at >= body.min[d] && at <= body.max[d] : true;
+      });
+      if (inside) continue;
+      notes.push_back(fmt::format(
+          "support[{}] at {:.6g} lies outside the body: it holds the cell that the body shares with it", k, at));
+    }
+  }
+  return notes;
+}
+
+// Local damping takes energy from a mass that moves by its own force alone. M⁻¹ of a consistent mass lets what it does
+// at one node move the others: blocks of quadratic and cubic cells were seen to diverge at 0.74 of the critical step
+// (one-sided, α = 0.8), bars and linear cells at none below it.
+std::vector<std::string> damping_notes(const Problem& problem, const LagrangianPhase& phase) {
+  const StrategyInfo* strategy = catalogue().strategy(problem.damping.strategy);
+  if (!strategy || !strategy->is_local || phase.mass().is_lumped() || problem.dim == 1 ||
+      degree_of(problem.grid.basis) == 1)
+    return {};
+  return {
+      fmt::format("damping.strategy = \"{}\" acts at each node by itself, and a consistent mass couples them: on this "
+                  "basis no step is known to be stable; expected mass.kind = \"lumped\", or viscous damping",
+                  problem.damping.strategy)};
+}
+
+}  // namespace
+
+// ½ Σ_p m_p |x(x_p)|² beside ½ xᵀMx. A lumped mass gives a function that is steep in a sliver more inertia than the
+// material that it moves has; a cubic one or Hermite's also in a corner of the body.
+std::vector<std::string> lowest_mode_notes(const Problem& problem, const LagrangianPhase& phase, ConstVec x,
+                                           double omega_1) {
+  if (!phase.mass().is_lumped() || x.empty()) return {};
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  const std::vector<double> nothing(x.size(), 0.0), mass = phase.fields().point_data().masses;
+  std::vector<double> of_points(dim * phase.points()), of_supports(of_points.size()), Mx(x.size());
+  phase.fields().point_velocity(0, x, of_points);
+  phase.fields().point_velocity(0, nothing, of_supports);
+  double material = 0, nodes = 0;
+  for (std::size_t i = 0; i < of_points.size(); ++i) {
+    const double v = of_points[i] - of_supports[i];
+    material += problem.mass.factor * mass[i / dim] * v * v;
+  }
+  phase.mass().apply(x, Mx);
+  for (std::size_t i = 0; i < x.size(); ++i) nodes += x[i] * Mx[i];
+  constexpr double little = 0.1;
+  if (material > little * nodes) return {};
+  return {fmt::format(
+      "omega_1 = {:.6g} is that of functions which hardly reach the body, with {:.1g} of their kinetic energy in it: "
+      "critical damping is too weak by as much; expected a grid that ends with the body, a finer one, a quadratic "
+      "basis or mass.kind = \"consistent\"",
+      omega_1, material / nodes)};
+}
+
+// A point in the middle of an eight-noded cell is strained by none of its 12 hourglass motions. In the plane, where a
+// cell has two of them, one side that is held rules them out, and one point a cell is a remedy against locking.
+std::optional<std::string> hourglass_note(const Problem& problem) {
+  if (problem.dim != 3 || problem.grid.basis != BasisKind::linear) return std::nullopt;
+  const bool one_a_cell = std::ranges::any_of(problem.bodies, [](const BodySpec& body) {
+    return body.file.empty() && std::ranges::all_of(body.points_per_cell, [](int along) { return along == 1; });
+  });
+  if (!one_a_cell) return std::nullopt;
+  return "one material point a cell lets the cells of a linear basis move in hourglass motions that strain no point: "
+         "an "
+         "answer is the one in which these have no part, and it bends too easily; expected points_per_cell = 8";
+}
+
+std::vector<std::string> accuracy_notes(const Problem& problem, const LagrangianPhase& phase, MassScaling scaling) {
+  std::vector<std::string> notes = quadrature_notes(problem, phase, scaling);
+  std::ranges::move(support_notes(problem), std::back_inserter(notes));
+  std::ranges::move(phase_notes(problem, phase), std::back_inserter(notes));
+  std::ranges::move(damping_notes(problem, phase), std::back_inserter(notes));
+  if (std::optional<std::string> note = locking_note(problem)) notes.push_back(std::move(*note));
+  if (std::optional<std::string> note = slender_cells_note(problem)) notes.push_back(std::move(*note));
+  if (std::optional<std::string> note = hourglass_note(problem)) notes.push_back(std::move(*note));
+  return notes;
+}
+
+// The slowest mode dies out like e^{−s t},  s² − c s + ω₁² = 0.
+std::optional<std::string> slow_damping_note(const Problem& problem, double c, double omega_1, double step) {
+  if (!problem.stop.wants_equilibrium() || !(c > 0) || !(omega_1 > 0) || !(step > 0)) return std::nullopt;
+  const double half = c / 2;
+  const double slowest =
+      half <= omega_1 ? half : omega_1 / half * omega_1 / (1 + std::sqrt((1 - omega_1 / half) * (1 + omega_1 / half)));
+  constexpr double usual = 1e-6;  // if only the distance is asked for
+  const double time = -std::log(problem.stop.residual > 0 ? std::min(problem.stop.residual, 0.5) : usual) / slowest;
+  const double steps = time / step;
+  std::string limit;
+  if (problem.stop.time > 0 && time > problem.stop.time)
+    limit = fmt::format("stop.time is {:.6g} s", problem.stop.time);
+  if (problem.stop.steps > 0 && steps > static_cast<double>(problem.stop.steps))
+    limit = fmt::format("stop.steps is {}", problem.stop.steps);
+  if (limit.empty()) return std::nullopt;
+  return fmt::format(
+      "damping.c = {:.4g} is {:.2g} times the critical damping: the body would come to rest in {:.2g} s or {:.2g} "
+      "steps, "
+      "and {}; expected damping.c = \"critical\"",
+      c, half / omega_1, time, steps, limit);
+}
+
+// Positions keep what a phase moved a point by to their own rounding; strains are carried on by themselves.
+std::optional<std::string> lost_motion_note(const LagrangianPhase& phase, double t, ConstVec u, long phases) {
+  if (phases < 2) return std::nullopt;
+  constexpr double digits = 1e6;  // that a displacement should have at least
+  const auto largest = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(x));
+    return most;
+  };
+  std::vector<double> moved(static_cast<std::size_t>(phase.dim()) * phase.points()),
+      stress(static_cast<std::size_t>(phase.info().stress_components) * phase.points());
+  phase.fields().point_field(PointQuantity::displacement, t, u, moved);
+  const double most = largest(moved);
+  const double rounding = std::numeric_limits<double>::epsilon() * largest(phase.fields().point_data().positions);
+  if (!(most < digits * rounding)) return std::nullopt;
+  phase.fields().point_stress(t, u, stress);
+  if (largest(stress) == 0) return std::nullopt;  // nothing acts
+  return fmt::format(
+      "the points moved by {:.2g} m at most, and their positions are rounded to {:.1g} m from phase to phase: the "
+      "displacements are not resolved; expected larger loads or a single phase",
+      most, rounding);
+}
+
+std::optional<std::string> distance_note(RunStatus status, std::optional<double> distance) {
+  constexpr double large = 0.01;
+  if (status != RunStatus::equilibrium || !distance || *distance <= large) return std::nullopt;
+  return fmt::format("the displacement may be off by {:.2g} of itself, by the lowest frequency: expected stop.distance",
+                     *distance);
+}
+
+}  // namespace stillpoint
