@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "simulation/parts.hpp"
 #include "simulation/setup/model.hpp"
 
 namespace driven {
@@ -24,8 +25,8 @@ class Motion {
   }
 
   double t() const { return simulation_.t(); }
-  const stillpoint::Model& model() const { return simulation_.model(); }
-  stillpoint::LagrangianPhase& phase() { return simulation_.phase(); }
+  const stillpoint::Model& model() const { return simulation_.parts().model; }
+  stillpoint::LagrangianPhase& phase() { return simulation_.parts().phase; }
   stillpoint::RelaxationSystem& relaxation() { return simulation_.system(); }
   stillpoint::ConstVec u() const { return simulation_.u(); }
   stillpoint::ConstVec v() const { return simulation_.v(); }

@@ -23,10 +23,9 @@
 
 namespace stillpoint {
 
-class LagrangianPhase;
-class Integrator;
-class SetUpStore;
-struct Model;
+class Integrator;        // <stillpoint/integrator.hpp>
+class SetUpStore;        // opaque: for the library's own studies
+struct SimulationParts;  // opaque: for the library's own studies, tests and Python module
 
 /// The progress of a simulation at work.
 struct Progress {
@@ -43,9 +42,9 @@ struct SimulationOptions {
   /// A checkpoint of the same scene to resume from, with the files in `out`; empty: from the start.
   std::filesystem::path resume{};
   int threads = 0;  // 0: as many as OpenMP would take, or one where that is quicker
-  /// Whether steps end at the times of rows and snapshots, which are then recorded.
+  /// True: steps end at the times of rows and snapshots, which are recorded.
   bool records = true;
-  /// Whether the scene's stop tests end the simulation; otherwise only a failure does.
+  /// True: the scene's stop tests end the simulation; otherwise only a failure does.
   bool stops = true;
   /// Asked after every step, and often while no step is taken: in the set-up, within Newton's method and in the tests
   /// at the end. True ends the run in good order.
@@ -59,7 +58,7 @@ struct SimulationOptions {
   /// Called before a phase ends (false) and when the next has begun (true); the Simulation shows that state.
   std::function<void(bool begun)> at_phase_change{};
   /// A store of what simulations of one body share, if they differ only in damping, integrator and solver; it must
-  /// outlive them (simulation/set_up_store.hpp). Null: each makes its own.
+  /// outlive them. Null: each makes its own.
   SetUpStore* store = nullptr;
 };
 
@@ -127,15 +126,13 @@ class Simulation {
   /// The results up to now; complete once done().
   Summary summary();
 
-  /// The parts of the simulation, for programs that inspect them.
-  const Model& model() const;
-  LagrangianPhase& phase();
-  const LagrangianPhase& phase() const;
+  /// The parts of the simulation, for programs that inspect them; each is valid until the phase changes.
   RelaxationSystem& system();
   const Integrator& integrator() const;
+  SimulationParts parts() const;
   /// The bound on the error ‖u − u*‖/‖u‖ at present, after residual(); empty if there is none.
   std::optional<double> distance();
-  /// Whether the loads have reached their final values.
+  /// True if the loads have reached their final values.
   bool loads_settled() const;
 
  private:

@@ -11,9 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* of_the_end[] = {"summary.json", "report.html"};
-constexpr const char* gone_on_from[] = {
-    "history.csv", "fields.h5", "fields.xdmf", "checkpoint.h5", "checkpoint-previous.h5", "unstable_mode.csv"};
+constexpr const char* of_the_end[] = {"summary.json", "report.html", "unstable_mode.csv"};
+constexpr const char* gone_on_from[] = {"history.csv", "fields.h5", "fields.xdmf", "checkpoint.h5",
+                                        "checkpoint-previous.h5"};
 constexpr const char* frames_folder = "fields.partial";
 
 void require_file(const fs::path& path) {

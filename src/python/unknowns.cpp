@@ -7,6 +7,7 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint::python {
@@ -50,7 +51,7 @@ Array Unknowns::v() {
 }
 
 TrialState& Unknowns::trial(Simulation& now) {
-  if (!trial_ || phase_ != now.phases()) trial_ = now.phase().make_trial();
+  if (!trial_ || phase_ != now.phases()) trial_ = now.parts().phase.make_trial();
   phase_ = now.phases();
   return *trial_;
 }
@@ -65,7 +66,7 @@ Array Unknowns::evaluate(const py::object& u, const py::object& t, const Functio
   const ConstVec values = vector_of(given, n, "u");
   Array result(static_cast<py::ssize_t>(n));
   const Vec out(result.mutable_data(), n);
-  simulation().without_gil([&](Simulation& still) { function(still.phase(), at, values, out); });
+  simulation().without_gil([&](Simulation& still) { function(still.parts().phase, at, values, out); });
   return result;
 }
 
@@ -83,7 +84,7 @@ Array Unknowns::internal_force(const py::object& u, const py::object& t) {
 }
 
 Array Unknowns::residual(const py::object& u, const py::object& t) {
-  if (simulation().at_rest().phase().contact())
+  if (simulation().at_rest().parts().phase.contact())
     throw std::invalid_argument("walls touch the body: what they press with is no function of u alone");
   Array Q = external_force(u, t);
   const Array R = internal_force(u, t);
@@ -106,7 +107,7 @@ Array Unknowns::mass_solve(const Array& b) {
 }
 
 std::vector<std::string> Points::names() {
-  std::vector<std::string> all = simulation().at_rest().phase().info().history_names;
+  std::vector<std::string> all = simulation().at_rest().parts().phase.info().history_names;
   for (const auto& [name, field] : constant_fields) all.push_back(name);
   for (const auto& [name, field] : computed_fields) all.push_back(name);
   std::ranges::sort(all);
@@ -116,9 +117,9 @@ std::vector<std::string> Points::names() {
 Array Points::field(const std::string& name) {
   Simulation& now = simulation().at_rest();
   if (const auto constant = constant_fields.find(name); constant != constant_fields.end())
-    return array_of_points(now.phase().fields().point_data().*constant->second, now.points());
+    return array_of_points(now.parts().phase.fields().point_data().*constant->second, now.points());
   const auto computed = computed_fields.find(name);
-  const bool is_remembered = std::ranges::count(now.phase().info().history_names, name) > 0;
+  const bool is_remembered = std::ranges::count(now.parts().phase.info().history_names, name) > 0;
   if (computed == computed_fields.end() && !is_remembered)
     throw py::attribute_error(
         fmt::format("the points have no field '{}'; expected {}", name, fmt::join(names(), ", ")));

@@ -1,4 +1,4 @@
-// Whether a quasi-static answer depends on speed: the kinetic energy beside the work that was done on the body.
+// The kinetic energy beside the work that was done on the body: it tells if a quasi-static answer depends on speed.
 #pragma once
 
 #include <stillpoint/relaxation_system.hpp>
@@ -12,9 +12,9 @@
 namespace stillpoint {
 
 /// W = ∫ F · du + ∫ R_s · du_s + work of the moving walls, by the trapezoidal rule from row to row and phase to phase,
-/// R_s the reactions of the supports s. What is done on the free unknowns and stored as strain: without damping, and if
-/// the mass is lumped, W = kinetic energy + strain energy. A support that is displaced from the start did half of
-/// R_s · u_s to get there. In one dimension nothing is watched.
+/// R_s the reactions of the supports s. It is the work that is done on the free unknowns and stored as strain: without
+/// damping, and if the mass is lumped, W = kinetic energy + strain energy. A support that is displaced from the start
+/// did half of R_s · u_s to get there. In one dimension nothing is watched.
 class EnergyBalance {
  public:
   explicit EnergyBalance(const LagrangianPhase& phase)
@@ -22,11 +22,11 @@ class EnergyBalance {
 
   bool watches() const { return watches_; }
   std::vector<std::string> columns() const;  // "inertia.<figure>"
-  /// In the order of columns(), for the kinetic energy of now [J]; NaN for its ratio to no work.
+  /// The figures in the order of columns(), for the present kinetic energy [J]; its ratio to no work is NaN.
   std::vector<double> values(double kinetic_energy) const;
   double external_work() const { return work_; }  // [J]
 
-  /// To (t, u), where the system was evaluated last; u: (n).
+  /// Goes on to (t, u), at which the system was evaluated last; u: (n).
   void advance(double t, const RelaxationSystem& system, ConstVec u);
   /// A phase has begun at t, with u = 0, and was evaluated.
   void begin_phase(double t, const RelaxationSystem& system);
@@ -36,9 +36,10 @@ class EnergyBalance {
  private:
   double wall_power(double t) const;
 
-  struct Forces {                            // and the displacements of where they act, since the phase began
-    std::vector<double> F, u;                // of the free unknowns
-    std::vector<double> reactions, support;  // of the supports
+  /// Forces, and the displacements along which they do work, since the phase began.
+  struct Forces {
+    std::vector<double> F, u;                // free unknowns
+    std::vector<double> reactions, support;  // supports
   };
   void remember(ConstVec F, ConstVec u, ConstVec reactions, ConstVec support);
 

@@ -24,8 +24,8 @@ std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const V
   size_ = by_strain_ ? strain_norm(relaxation, u) : relaxation.mass_norm(V, u);
   largest_ = std::max(largest_, std::min(size_, most_));
   const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
-  constexpr double next_to_nothing = 0.01;
-  beside_largest_ = beside(size_ > next_to_nothing * largest_ ? size_ : largest_);
+  constexpr double negligible = 0.01;  // share of the largest ‖u‖_V so far
+  beside_largest_ = beside(size_ > negligible * largest_ ? size_ : largest_);
   return beside(size_);
 }
 
@@ -48,9 +48,9 @@ void ErrorBound::loads_have_settled(double kinetic_energy) {
 }
 
 bool ErrorBound::refresh(double t, ConstVec u, double residual) {
-  constexpr double much_nearer = 0.25;
-  if (!omega_1_ || by_strain_ || !phase_.info().nonlinear || !(residual < much_nearer * refreshed_at_)) return false;
-  // What is consistent with the body at u, yielding included.
+  constexpr double reduction = 0.25;  // of the residual, after which the tangent is looked at again
+  if (!omega_1_ || by_strain_ || !phase_.info().nonlinear || !(residual < reduction * refreshed_at_)) return false;
+  // The consistent tangent is that of the body at u, yielding included.
   const SparseMatrix K = phase_.tangents().matrix(Tangent::consistent, t, u), K_transposed = K.transpose();
   const auto frequency = [&, symmetric = SparseMatrix(0.5 * (K + K_transposed))](const Mass& mass) {
     const FrequencyEstimate lowest = lowest_frequency(symmetric, mass);

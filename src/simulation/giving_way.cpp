@@ -29,13 +29,13 @@ double GivingWay::plastic_strain() const {
 }
 
 std::vector<std::size_t> GivingWay::sliding_walls(double t) const {
-  constexpr double nearly = 0.95;  // of |T|, as a node here and there may stick for a moment
+  constexpr double sliding_share = 0.95;  // of the largest |T|, as a node here and there may stick for a moment
   std::vector<std::size_t> sliding;
   if (!has_friction_) return sliding;
   const std::vector<WallReaction> walls = phase_.supports().wall_reactions(t);
   for (std::size_t k = 0; k < std::min(walls.size(), friction_.size()); ++k) {
     const double T = std::hypot(walls[k].shear[0], walls[k].shear[1]), N = std::abs(walls[k].normal);
-    if (friction_[k] > 0 && std::isfinite(friction_[k]) && N > 0 && T >= nearly * friction_[k] * N)
+    if (friction_[k] > 0 && std::isfinite(friction_[k]) && N > 0 && T >= sliding_share * friction_[k] * N)
       sliding.push_back(k);
   }
   return sliding;

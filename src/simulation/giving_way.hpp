@@ -1,4 +1,4 @@
-// Whether a body gives way: points that yield, and walls whose friction is used up.
+// A body gives way if points yield, or if the friction of a wall is used up.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -12,21 +12,22 @@ namespace stillpoint {
 
 class GivingWay {
  public:
-  /// The phase, the first or any, outlives it.
+  /// The phase, which may be any of the run, outlives this object.
   GivingWay(const Problem& problem, const LagrangianPhase& phase);
 
-  /// Whether anything can: a law that remembers its path, or a wall with a friction that has an end.
+  /// True if the body can give way: a law remembers its path, or a wall has a friction with an end.
   bool is_possible() const { return remembers_ || has_friction_; }
-  /// Whether there is a plastic strain to tell by, or friction; otherwise a law remembers what nobody here knows.
+  /// True if it shows that a body gives way, by a plastic strain or by friction; otherwise a law remembers something
+  /// that is not known here.
   bool shows() const { return yields_ || has_friction_ || !remembers_; }
-  /// Σ_p V_p γᵖ_p, with the volumes of the start; it only grows [m³]. 0 where laws have none.
+  /// Σ_p V_p γᵖ_p, with the volumes of the start; it only grows [m³]. 0 if laws have no plastic strain.
   double plastic_strain() const;
-  /// The walls along which the body slides at t: of the last evaluation, |T| = friction |N|.
+  /// The walls along which the body slides at t: those with |T| = friction |N| in the last evaluation.
   std::vector<std::size_t> sliding_walls(double t) const;
 
  private:
   const LagrangianPhase& phase_;
-  std::vector<double> friction_;  // of each wall
+  std::vector<double> friction_;  // the friction of each wall
   bool remembers_, yields_, has_friction_;
   std::vector<double> volumes_;  // (P) [m³]
 };

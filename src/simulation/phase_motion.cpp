@@ -7,11 +7,12 @@
 namespace stillpoint {
 namespace {
 
-// A damping leaves the steps to the integrator; a relaxation takes the place of leapfrog's, a static solver of any.
+// A damping leaves the steps to the integrator; a relaxation replaces the step of leapfrog, and a static solver that of
+// any integrator.
 std::unique_ptr<Integrator> make_stepper(const Model& model, const Problem& problem, RelaxationSystem& system) {
   if (model.static_method) {
-    constexpr double tight = 1e-10;  // if only the distance is asked for
-    const double residual = problem.stop.residual > 0 ? problem.stop.residual : tight;
+    constexpr double default_residual = 1e-10;  // if only the distance is asked for
+    const double residual = problem.stop.residual > 0 ? problem.stop.residual : default_residual;
     return make_static_method({.name = model.static_method->name,
                                .max_step = model.integrator.max_step,
                                .tolerance = residual,

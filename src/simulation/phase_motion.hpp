@@ -23,27 +23,27 @@ class PhaseMotion {
   /// Velocities, whichever y has; until the next call.
   ConstVec v() const;
 
-  /// After an accepted step to t: laws remember, contacts open and close, the step follows the stiffness. With a static
-  /// solver laws remember the end only.
+  /// Accepts a step to t: laws remember, contacts open and close, the step follows the stiffness. With a static solver
+  /// laws remember the end only.
   void accept(double t);
-  /// When the phase is over.
+  /// Ends the phase: with a static solver laws remember now.
   void finish(double t);
   /// Saves it, or restores one that begins at the (t, u, v) of then.
   void archive(const StateArchive& state);
-  /// After residual().
+  /// Power and kinetic energy of the state that residual() was called for last.
   RelaxationSystem::Motion motion();
   /// ‖F − R‖/‖F‖ at t.
   double residual(double t) {
     return integrator->force_is_current() ? system.last_residual() : system.residual(t, u());
   }
-  /// The same, at less cost where the integrator has it; the system knows no more than that then.
+  /// The same, at less cost if the integrator knows it; the system is not evaluated then.
   double known_residual(double t) {
     const auto unbalanced = integrator->unbalanced_force();
     return unbalanced ? system.relative_to_loads(*unbalanced) : residual(t);
   }
 
   RelaxationSystem system;
-  std::shared_ptr<Vector> shared_y;  // with whoever looks at it for longer than this object lives
+  std::shared_ptr<Vector> shared_y;  // shared with whoever looks at it for longer than this object lives
   Vector& y;                         // [u; v], or [u; p] if the system keeps momentum
   Vector u_vector, v_vector;         // its halves, in place
   std::unique_ptr<Integrator> integrator;
@@ -51,7 +51,7 @@ class PhaseMotion {
  private:
   void follow_stiffness(double t);
 
-  mutable std::vector<double> velocity_;  // M⁻¹p, if asked for
+  mutable std::vector<double> velocity_;  // M⁻¹p, if it is asked for
   std::optional<StiffeningStep> stiffening_;
 };
 

@@ -13,8 +13,8 @@ namespace stillpoint {
 namespace {
 
 // Time between rows: as asked; otherwise 200 rows to the end time or 20 to a period, and a whole number of steps so
-// that landing on a row costs none. Of steps that follow the stiffness there is no whole number: to land on a row every
-// few steps would shorten them, by half where a row was a step.
+// that landing on a row costs none. Steps that follow the stiffness have no whole number: to land on a row every few
+// steps would shorten them, by half if each row was a step.
 double output_interval(const Problem& problem, const Model& model) {
   if (problem.output.every > 0) return problem.output.every;
   const double period = model.omega_1 ? 2 * std::numbers::pi / *model.omega_1 : model.dwell;
@@ -23,9 +23,10 @@ double output_interval(const Problem& problem, const Model& model) {
   return std::max(1.0, std::round(wanted / step)) * step;
 }
 
-// The forces of (t, u), if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
-void evaluate_at(double t, PhaseMotion& motion) {
-  if (!motion.integrator->force_is_current()) motion.system.residual(t, motion.u());
+// Evaluates the forces at (t, u), if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
+void evaluate_now(RunState& run) {
+  PhaseMotion& motion = *run.motion;
+  if (!motion.integrator->force_is_current()) motion.system.residual(run.t, motion.u());
 }
 
 // A folder that cannot be written is bad input: nothing has run yet.
@@ -40,17 +41,17 @@ auto open_output(const std::filesystem::path& out, const Open& open) {
 
 }  // namespace
 
-Recorder::Recorder(const Problem& problem, const Model& model, const std::filesystem::path& folder, bool has_distance,
-                   bool resumed)
-    : problem_(problem),
-      phase_(*model.phase),
-      has_distance_(has_distance),
-      probes_(problem, *model.phase),
-      energy_balance_(*model.phase),
-      history_(open_output(folder, [&] { return History(folder, columns(), resumed); })),
-      snapshots_(open_output(folder, [&] { return Snapshots(problem, *model.phase, folder, resumed); })),
-      interval_(output_interval(problem, model)),
-      lands_on_rows_(problem.output.every > 0 || !model.initial_stiffening) {}
+Recorder::Recorder(RunState& run, bool resumed)
+    : problem_(run.scene),
+      phase_(*run.model.phase),
+      options_(run.options),
+      has_distance_(run.measured.has_distance()),
+      probes_(problem_, phase_),
+      energy_balance_(phase_),
+      history_(open_output(options_.out, [&] { return History(options_.out, columns(), resumed); })),
+      snapshots_(open_output(options_.out, [&] { return Snapshots(problem_, phase_, options_.out, resumed); })),
+      interval_(output_interval(problem_, run.model)),
+      lands_on_rows_(problem_.output.every > 0 || !run.model.initial_stiffening) {}
 
 std::vector<std::string> Recorder::columns() const {
   std::vector<std::string> all = probes_.columns();
@@ -71,8 +72,16 @@ double Recorder::next_time() const {
   return lands_on_rows_ ? std::min(next_row_time(), snapshots_.next_time()) : snapshots_.next_time();
 }
 
-void Recorder::add_row(const Row& row, PhaseMotion& motion) {
-  const double t = row.figures.t;
+void Recorder::sample(RunState& run, bool last) {
+  if ((last && run.t != last_row_) || run.t >= next_row_time()) add_row(run);
+  snapshots_.sample(run.t, run.motion->u(), run.motion->v());
+}
+
+void Recorder::add_row(RunState& run) {
+  const double t = run.t;
+  PhaseMotion& motion = *run.motion;
+  const Measurements::Figures& measured = run.measured.all();
+  const HistoryRow row{t, run.steps(), run.evaluations(), measured.residual, measured.kinetic_energy};
   energy_balance_.advance(t, motion.system, motion.u());
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   std::ranges::copy(reaction_values(problem_, phase_, t, motion), std::back_inserter(values));
@@ -80,10 +89,10 @@ void Recorder::add_row(const Row& row, PhaseMotion& motion) {
     values.insert(values.end(), {load->factor, load->displacement});
     if (!(load->factor <= largest_factor_)) largest_factor_ = load->factor;
   }
-  std::ranges::copy(energy_balance_.values(row.figures.kinetic_energy), std::back_inserter(values));
-  if (has_distance_) values.push_back(row.distance.value_or(std::numeric_limits<double>::quiet_NaN()));
-  history_.add(row.figures, values);
-  if (told_) tell(row.figures, values);
+  std::ranges::copy(energy_balance_.values(row.kinetic_energy), std::back_inserter(values));
+  if (has_distance_) values.push_back(run.measured.distance().value_or(std::numeric_limits<double>::quiet_NaN()));
+  history_.add(row, values);
+  if (options_.at_row) tell(row, values);
   last_row_ = t;
   while (static_cast<double>(rows_) * interval_ <= t) ++rows_;
 }
@@ -94,20 +103,20 @@ void Recorder::tell(const HistoryRow& figures, const std::vector<double>& others
   std::vector<double> row = {figures.t, static_cast<double>(figures.steps),
                              static_cast<double>(figures.rhs_evaluations), figures.residual, figures.kinetic_energy};
   row.insert(row.end(), others.begin(), others.end());
-  told_(names, row);
+  options_.at_row(names, row);
 }
 
-void Recorder::end_phase(double t, PhaseMotion& motion) {
-  probes_.end_phase(t, motion.u(), motion.v());
+void Recorder::end_phase(RunState& run) {
+  probes_.end_phase(run.t, run.motion->u(), run.motion->v());
   if (!energy_balance_.watches()) return;
-  evaluate_at(t, motion);
-  energy_balance_.advance(t, motion.system, motion.u());
+  evaluate_now(run);
+  energy_balance_.advance(run.t, run.motion->system, run.motion->u());
 }
-void Recorder::begin_phase(double t, PhaseMotion& motion) {
-  probes_.begin_phase(t, motion.u(), motion.v());
+void Recorder::begin_phase(RunState& run) {
+  probes_.begin_phase(run.t, run.motion->u(), run.motion->v());
   if (!energy_balance_.watches()) return;
-  evaluate_at(t, motion);
-  energy_balance_.begin_phase(t, motion.system);
+  evaluate_now(run);
+  energy_balance_.begin_phase(run.t, run.motion->system);
 }
 
 void Recorder::archive(const StateArchive& state) {
@@ -126,13 +135,16 @@ void Recorder::finish(double t, const PhaseMotion* motion) {
   snapshots_.finish();
 }
 
-void Recorder::fill(Summary& s, double t, PhaseMotion& motion) {
+void Recorder::fill(Summary& s, RunState& run) {
+  const double t = run.t;
+  const PhaseMotion& motion = *run.motion;
   if (energy_balance_.watches()) s.external_work = energy_balance_.external_work();
   s.snapshots = snapshots_.taken();
   if (const auto load = phase_.supports().load_state(t, motion.u()))
     s.load = LoadFigures{.factor = load->factor,
                          .largest_factor = std::max(largest_factor_, load->factor),
-                         .displacement = load->displacement};
+                         .displacement = load->displacement,
+                         .growth = run.load_growth};
   const std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   s.probe_positions = probes_.positions();
   std::ranges::copy(probes_.notes(), std::back_inserter(s.notes));

@@ -14,12 +14,13 @@
 #include "output/report/report_page.hpp"
 #include "output/report/run_report.hpp"
 #include "output/run_folder.hpp"
+#include "simulation/parts.hpp"
 
 namespace stillpoint {
 namespace {
 
 BodyMoment now(const Simulation& simulation) {
-  return moment_of(simulation.phase(), simulation.t(), simulation.u(), simulation.v());
+  return moment_of(simulation.parts().phase, simulation.t(), simulation.u(), simulation.v());
 }
 
 // Between two phases of which the second could not begin there is no body to look at.

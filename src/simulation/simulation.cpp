@@ -6,6 +6,7 @@
 
 #include "plan/body_size.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "simulation/parts.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/thread_scope.hpp"
 
@@ -27,24 +28,24 @@ RunStatus Simulation::step(double t_stop) {
 }
 
 RunStatus Simulation::run_until(double t) {
-  while (!done() && impl_->t_ < t) step(t);
-  return impl_->status_;
+  while (!done() && impl_->run_.t < t) step(t);
+  return impl_->verdict_.status;
 }
 
 bool Simulation::done() const { return impl_->done(); }
-RunStatus Simulation::status() const { return impl_->status_; }
-const std::string& Simulation::reason() const { return impl_->reason_; }
-double Simulation::t() const { return impl_->t_; }
-ConstVec Simulation::u() const { return impl_->motion_->u(); }
-ConstVec Simulation::v() const { return impl_->motion_->v(); }
-std::shared_ptr<const Vector> Simulation::state() const { return impl_->motion_->shared_y; }
-long Simulation::steps() const { return impl_->steps(); }
-long Simulation::evaluations() const { return impl_->evaluations(); }
-int Simulation::phases() const { return impl_->phases_; }
-std::size_t Simulation::points() const { return impl_->model_.phase->points(); }
+RunStatus Simulation::status() const { return impl_->verdict_.status; }
+const std::string& Simulation::reason() const { return impl_->verdict_.reason; }
+double Simulation::t() const { return impl_->run_.t; }
+ConstVec Simulation::u() const { return impl_->run_.motion->u(); }
+ConstVec Simulation::v() const { return impl_->run_.motion->v(); }
+std::shared_ptr<const Vector> Simulation::state() const { return impl_->run_.motion->shared_y; }
+long Simulation::steps() const { return impl_->run_.steps(); }
+long Simulation::evaluations() const { return impl_->run_.evaluations(); }
+int Simulation::phases() const { return impl_->run_.phases; }
+std::size_t Simulation::points() const { return impl_->run_.model.phase->points(); }
 double Simulation::residual() {
   const ThreadScope threads(impl_->thread_choice_.threads());
-  return impl_->residual();
+  return impl_->run_.measured.residual();
 }
 ConstVec Simulation::field(std::string_view name) { return impl_->field(name); }
 void Simulation::save(const std::filesystem::path& checkpoint) { impl_->save(checkpoint); }
@@ -52,15 +53,14 @@ Summary Simulation::summary() {
   const ThreadScope threads(impl_->thread_choice_.threads());
   return impl_->summary();
 }
-const Model& Simulation::model() const { return impl_->model_; }
-LagrangianPhase& Simulation::phase() { return *impl_->model_.phase; }
-const LagrangianPhase& Simulation::phase() const { return *impl_->model_.phase; }
-RelaxationSystem& Simulation::system() { return impl_->motion_->system; }
-const Integrator& Simulation::integrator() const { return *impl_->motion_->integrator; }
+RelaxationSystem& Simulation::system() { return impl_->run_.motion->system; }
+const Integrator& Simulation::integrator() const { return *impl_->run_.motion->integrator; }
+SimulationParts Simulation::parts() const { return {*impl_->run_.model.phase, impl_->run_.model}; }
 std::optional<double> Simulation::distance() {
   const ThreadScope threads(impl_->thread_choice_.threads());
-  return impl_->distance();
+  impl_->run_.measured.all();
+  return impl_->run_.measured.distance();
 }
-bool Simulation::loads_settled() const { return impl_->loads_settled(); }
+bool Simulation::loads_settled() const { return impl_->run_.loads_settled(); }
 
 }  // namespace stillpoint

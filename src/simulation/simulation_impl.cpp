@@ -1,3 +1,4 @@
+// The loop: a step, what watches it, what is recorded of it, and the change of phase that it calls for.
 #include "simulation/simulation_impl.hpp"
 
 #include <algorithm>
@@ -8,207 +9,230 @@
 
 #include <fmt/format.h>
 
+#include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
 
 namespace stillpoint {
 namespace {
 
-MonitorOptions monitor_options(const Scene& scene, const Model& model) {
-  return {.residual = scene.stop.residual,
-          .distance = model.distance_goal,
-          .distance_is_asked = scene.stop.distance > 0,
-          .kinetic_energy = scene.stop.kinetic_energy,
-          .dwell = model.dwell,
-          .must_last = model.equilibrium_must_last,
-          .end_time = model.t > 0 ? 0 : scene.stop.time,  // a static solver that begins there has no time
-          .steps = scene.stop.steps,
-          .begin = model.t};
-}
-
-RunStatus status_of(StepReport::Status status) {
-  switch (status) {
-    case StepReport::Status::ok:
-      return RunStatus::running;
-    case StepReport::Status::failed:
-      return RunStatus::failed;
-    default:
-      return RunStatus::diverged;
-  }
+// Newton's method does not do the same in one step as in the next, so that their times cannot be compared.
+int threads_asked_for(const RunState& run, int all) {
+  const bool is_newton = run.model.static_method && run.model.static_method->is_newton;
+  return is_newton && run.options.threads == 0 ? all : run.options.threads;
 }
 
 }  // namespace
 
 Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
-    : scene_(std::move(scene)),
-      options_(std::move(options)),
-      end_request_(scene_.stop.wall_time, options_.interrupted),
-      model_(set_up()),
-      monitor_(monitor_options(scene_, model_)),
-      error_bound_(*model_.phase, model_.omega_1, model_.volume_norm),
-      schedule_(scene_, *model_.phase, scene_.stop.time),
-      plastic_path_(scene_, model_),
-      rate_share_(scene_, *model_.phase),
-      giving_way_(scene_, *model_.phase),
-      creep_(scene_, model_, giving_way_),
-      standstill_(model_.integrator.max_step),
-      // What Newton's method does in one step and in the next are not the same.
-      thread_choice_(
-          model_.static_method && model_.static_method->is_newton && options_.threads == 0 ? threads : options_.threads,
-          threads),
-      t_(model_.t) {
-  const bool resumes = !options_.resume.empty();
-  if (options_.records && !options_.out.empty()) folder_lock_ = prepare_folder(options_.out, resumes);
-  if (options_.records) recorder_.emplace(scene_, model_, options_.out, has_distance(), resumes);
-  if (recorder_) recorder_->tell_rows(options_.at_row);
+    : run_(std::move(scene), std::move(options)),
+      thread_choice_(threads_asked_for(run_, threads), threads),
+      watchers_(make_watchers(run_)) {
+  const SimulationOptions& asked = run_.options;
+  const bool resumes = !asked.resume.empty();
+  if (asked.records && !asked.out.empty()) folder_lock_ = prepare_folder(asked.out, resumes);
+  if (asked.records) recorder_.emplace(run_, resumes);
   if (resumes) {
-    resume(options_.resume);
+    resume(asked.resume);
   } else {
-    begin_phase(model_.u, model_.v);
+    run_.begin_phase(run_.model.u, run_.model.v);
   }
 }
 
-// What a phase begins with, the first like any other: the step that follows the stiffness is asked here.
-void Simulation::Impl::begin_phase(ConstVec u0, ConstVec v0) { motion_.emplace(model_, scene_, vectors_, t_, u0, v0); }
+// Another simulation may take up the phase from the store. What looks at the phase goes first.
+Simulation::Impl::~Impl() {
+  if (!run_.options.store) return;
+  recorder_.reset();
+  watchers_.clear();
+  run_.motion.reset();
+  run_.options.store->give_back(run_.model.mass, std::move(run_.model.phase));
+}
 
 RunStatus Simulation::Impl::step(double t_stop) {
-  if (done()) return status_;
+  if (done()) return verdict_.status;
   const Stopwatch watch;
   if (!std::exchange(started_, true)) {
-    motion_->accept(t_);
-    if (plastic_path_.due(t_)) watch_plastic_path();
-    if (creep_.due(t_)) watch_creep();
-    sample(true);
+    run_.motion->accept(run_.t);
+    observe();
+    record(true);
     if (leaves_checkpoints()) leave_checkpoint();
   }
   try {
     take_step(t_stop);
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error(failure(now(), "no memory is left for what a step takes"));
+    throw std::runtime_error(run_.failed("no memory is left for what a step takes").reason);
   }
   const double seconds = watch.seconds();
-  stepping_s_ += seconds;
+  run_.stepping_s += seconds;
   thread_choice_.observe(seconds);
   if (done()) finish();
-  return status_;
+  return verdict_.status;
 }
 
 void Simulation::Impl::take_step(double t_stop) {
   const double landing = landing_time(t_stop);
-  const std::optional<StepReport> taken = try_step(landing);
-  if (!taken) return;
-  const StepReport& report = *taken;
-  t_ = report.t;
-  if (report.status != StepReport::Status::ok) {
-    if (report.status == StepReport::Status::inadmissible && (try_next_phase() || done())) return;
-    status_ = status_of(report.status);
-    reason_ = failure_of_step(scene_, *model_.phase, now(), report);
-    sample(true);  // the last good state
-    return;
-  }
-  step_ = report.h;
-  standstill_.observe(step_, t_ >= landing);
-  measured_ = has_residual_ = false;
-  motion_->accept(t_);
-  if (plastic_path_.due(t_)) watch_plastic_path();
-  if (rate_share_.due(steps())) rate_share_.sample(t_, steps(), *motion_);
-  if (creep_.due(t_)) watch_creep();
-  if (options_.stops && !done()) watch();
-  sample(done());
+  const std::optional<StepReport> report = try_step(landing);
+  if (!report) return;
+  run_.t = report->t;
+  if (report->status != StepReport::Status::ok) return give_up(*report);
+  run_.step = report->h;
+  run_.is_cut = run_.t >= landing;
+  run_.measured.discard();
+  run_.motion->accept(run_.t);
+  run_.progress = run_.model.phase->control().progress(run_.t, run_.motion->u());
+  observe();
+  if (run_.options.stops) judge();
+  record(done());
   report_progress();
-  if (const double share = done() ? 0 : model_.phase->control().progress(t_, motion_->u()); share >= 1) {
-    const double residual = watches_chatter() ? motion_->residual(t_) : 0;
-    next_phase();
-    if (!done() && watches_chatter()) watch_chatter(share, residual);
-  }
-  if (done()) return;
-  const bool ends = is_to_end();
-  if (leaves_checkpoints() && (checkpoint_is_due() || ends)) leave_checkpoint();
-  if (ends) sample(true);
+  if (!done() && run_.progress >= 1) next_phase();
+  if (!done()) end_if_asked();
 }
 
-// Where a step has to land. Without records to land on and an end: so far away that steps are what the method takes by
-// itself.
+// The time that a step must not pass. Without records to land on, and without an end, it is so far away that the method
+// takes the steps that it would take by itself.
 double Simulation::Impl::landing_time(double t_stop) const {
-  const double horizon = 1e9 * model_.integrator.max_step;
-  double landing = std::min(t_stop, std::max({horizon, 2 * t_, model_.dwell}));
+  const double horizon = 1e9 * run_.model.integrator.max_step;
+  double landing = std::min(t_stop, std::max({horizon, 2 * run_.t, run_.model.dwell}));
   if (recorder_) landing = std::min(landing, recorder_->next_time());
-  if (options_.stops && scene_.stop.time > 0) landing = std::min(landing, scene_.stop.time);
+  if (run_.options.stops && run_.scene.stop.time > 0) landing = std::min(landing, run_.scene.stop.time);
   return landing;
 }
 
-void Simulation::Impl::next_phase() {
-  motion_->finish(t_);
-  if (recorder_) recorder_->end_phase(t_, *motion_);
-  if (plastic_path_.watches()) {
-    measure();
-    plastic_path_.end_phase(t_, motion_->system, motion_->u_vector);
-  }
-  tell_phase_change(false);
+// A step of a static solver may take long: it is broken off on request, at the last equilibrium on its way. Empty: so
+// it was.
+std::optional<StepReport> Simulation::Impl::try_step(double landing) {
+  const StopScope scope(run_.model.static_method ? run_.asks_to_end() : nullptr);
   try {
-    const std::vector<double> v0 = model_.phase->control().begin_next(t_, motion_->u(), velocity_to_carry());
-    follow_multigrid(scene_, model_);
-    earlier_steps_ = steps();
-    earlier_evaluations_ = evaluations();
-    earlier_rejected_ += motion_->integrator->rejected_steps();
-    model_.relaxing.from = motion_->integrator->carried_over();
-    motion_.reset();
-    begin_phase(std::vector<double>(v0.size(), 0.0), v0);
-    std::ranges::move(model_.body_notes.later(scene_, *model_.phase), std::back_inserter(model_.notes));
-    if (recorder_) recorder_->begin_phase(t_, *motion_);
-    ++phases_;
-    tell_phase_change(true);
+    return run_.motion->integrator->step(landing);
+  } catch (const Stopped&) {
+    end_as_asked("the step was not finished");
+    run_.measured.discard();
+    record(true);
+    if (leaves_checkpoints()) leave_checkpoint();
+    return std::nullopt;
+  }
+}
+
+// A cell that is about to turn inside out is good again in the next phase. Otherwise the last good state is recorded.
+void Simulation::Impl::give_up(const StepReport& report) {
+  const bool may_go_on = report.status == StepReport::Status::inadmissible &&
+                         run_.model.phase->info().updated_lagrangian && run_.motion->integrator->steps() > 0;
+  if (may_go_on) return next_phase();
+  verdict_ = failure_of_step(run_.scene, *run_.model.phase, run_.moment(), report);
+  record(true);
+}
+
+void Simulation::Impl::observe() {
+  for (const Watched& watched : watchers_) watched.watcher->observe(run_);
+}
+
+void Simulation::Impl::judge() {
+  const StopScope scope(run_.asks_to_end());
+  try {
+    for (const Watched& watched : watchers_) {
+      verdict_ = watched.watcher->judge(run_);
+      if (done()) return;
+    }
+  } catch (const Stopped&) {
+    end_as_asked("the step was finished");
+    if (leaves_checkpoints()) leave_checkpoint();
+  }
+}
+
+void Simulation::Impl::record(bool last) {
+  if (recorder_) recorder_->sample(run_, last);
+}
+
+void Simulation::Impl::next_phase() {
+  const auto tell = [this](bool begun) {
+    if (run_.options.at_phase_change) run_.options.at_phase_change(begun);
+  };
+  run_.motion->finish(run_.t);
+  if (recorder_) recorder_->end_phase(run_);
+  for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/false);
+  tell(false);
+  try {
+    // A fictitious inertia has no velocity that a phase could hand on: the next one begins at rest.
+    const std::vector<double> rest(run_.model.multigrid ? run_.model.phase->size() : 0, 0.0);
+    const ConstVec v = run_.model.multigrid ? ConstVec(rest) : run_.motion->v();
+    const std::vector<double> v0 = run_.model.phase->control().begin_next(run_.t, run_.motion->u(), v);
+    follow_multigrid(run_.scene, run_.model);
+    run_.begin_next_phase(v0);
+    std::ranges::move(run_.model.body_notes.later(run_.scene, *run_.model.phase), std::back_inserter(run_.model.notes));
+    if (recorder_) recorder_->begin_phase(run_);
+    ++run_.phases;
+    tell(true);
   } catch (const PointLost& lost) {
-    status_ = RunStatus::failed;
-    reason_ = failure(now(), lost.what());
-    if (const std::string slides = creep_.description(t_, motion_->u()); !slides.empty()) reason_ += "; " + slides;
-  } catch (const SceneError& error) {  // no bad input: that was looked at before the run
-    status_ = RunStatus::failed;
-    reason_ = failure(
-        now(), fmt::format("phase {} cannot begin at t = {:.6g}: {}", phases_ + 1, t_, scene_.located(error).what()));
+    verdict_ = run_.failed(lost.what());
+    for (const Watched& watched : watchers_) watched.watcher->explain(run_, verdict_);
+  } catch (const SceneError& error) {  // it is no bad input, which was looked at before the run
+    verdict_ = run_.failed(fmt::format("phase {} cannot begin at t = {:.6g}: {}", run_.phases + 1, run_.t,
+                                       run_.scene.located(error).what()));
     is_readable_ = false;
   }
-}
-
-// Of a fictitious inertia there is none: the next phase begins at rest.
-ConstVec Simulation::Impl::velocity_to_carry() {
-  if (!model_.multigrid) return motion_->v();
-  field_.assign(model_.phase->size(), 0.0);
-  return field_;
-}
-
-// A cell that is about to turn inside out is good again in the next phase.
-bool Simulation::Impl::try_next_phase() {
-  if (!model_.phase->info().updated_lagrangian || motion_->integrator->steps() == 0) return false;
-  next_phase();
-  return !done();
-}
-
-void Simulation::Impl::tell_phase_change(bool begun) const {
-  if (options_.at_phase_change) options_.at_phase_change(begun);
-}
-
-ConstVec Simulation::Impl::field(std::string_view name) {
-  if (!is_readable_) throw std::logic_error("there are no fields between two phases: " + reason_);
-  field_ = name == "position" ? current_positions(*model_.phase, t_, motion_->u())
-                              : point_field(*model_.phase, std::string(name), t_, motion_->u(), motion_->v());
-  return field_;
-}
-
-void Simulation::Impl::sample(bool last) {
-  if (!recorder_) return;
-  recorder_->sample(t_, *motion_, last, [&]() -> Recorder::Row {
-    measure();
-    return {{t_, steps(), evaluations(), residual_, kinetic_energy_}, distance_beside_creep()};
-  });
+  for (auto watched = watchers_.begin(); watched != watchers_.end() && !done(); ++watched) {
+    verdict_ = watched->watcher->begin_phase(run_);
+    if (done()) record(true);
+  }
 }
 
 void Simulation::Impl::report_progress() {
   constexpr double seconds_between = 0.2;
-  if (!options_.progress || wall_.seconds() < next_progress_) return;
-  next_progress_ = wall_.seconds() + seconds_between;
-  options_.progress(
-      {t_, scene_.stop.time, steps(), residual_, scene_.stop.residual, wall_.seconds(), monitor_.waits_for()});
+  const SimulationOptions& asked = run_.options;
+  if (!asked.progress || run_.wall.seconds() < next_progress_s_) return;
+  next_progress_s_ = run_.wall.seconds() + seconds_between;
+  const StopSpec& stop = run_.scene.stop;
+  asked.progress({run_.t, stop.time, run_.steps(), run_.measured.last().residual, stop.residual, run_.wall.seconds(),
+                  run_.waits_for});
+}
+
+// --- the end ---
+
+void Simulation::Impl::end_if_asked() {
+  const bool ends = run_.options.stops && run_.end_request.asked();
+  if (ends) end_as_asked("the step was finished");
+  if (leaves_checkpoints() && (checkpoint_is_due() || ends)) leave_checkpoint();
+  if (ends) record(true);
+}
+
+void Simulation::Impl::end_as_asked(const std::string& where) { verdict_ = run_.end_request.verdict(where); }
+
+void Simulation::Impl::finish() {
+  if (is_readable_) {
+    run_.motion->finish(run_.t);
+    for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/true);
+    explain_limit();
+  }
+  confirm_equilibrium();
+  if (recorder_) recorder_->finish(run_.t, is_readable_ ? &*run_.motion : nullptr);
+  folder_lock_.reset();
+}
+
+// A limit that comes before equilibrium says no more than that it is reached.
+void Simulation::Impl::explain_limit() {
+  const RunStatus status = verdict_.status;
+  const bool is_limit =
+      status == RunStatus::end_time || status == RunStatus::step_limit || status == RunStatus::time_limit;
+  if (!is_limit || exit_status() == 0) return;
+  for (const Watched& watched : watchers_) watched.watcher->explain(run_, verdict_);
+}
+
+void Simulation::Impl::confirm_equilibrium() {
+  if (verdict_.status != RunStatus::equilibrium) return;
+  for (const Watched& watched : watchers_) {
+    if (verdict_.status == RunStatus::equilibrium) watched.watcher->confirm(run_, verdict_);
+  }
+  const bool was_asked_to_end = verdict_.status == run_.end_request.status();
+  if (was_asked_to_end && leaves_checkpoints()) leave_checkpoint();
+}
+
+ConstVec Simulation::Impl::field(std::string_view name) {
+  if (!is_readable_) throw std::logic_error("there are no fields between two phases: " + verdict_.reason);
+  const LagrangianPhase& phase = *run_.model.phase;
+  const PhaseMotion& motion = *run_.motion;
+  field_ = name == "position" ? current_positions(phase, run_.t, motion.u())
+                              : point_field(phase, std::string(name), run_.t, motion.u(), motion.v());
+  return field_;
 }
 
 }  // namespace stillpoint

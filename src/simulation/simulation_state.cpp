@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/checksum.hpp"
 #include "output/checkpoint_file.hpp"
 #include "simulation/simulation_impl.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a checkpoint is of.
+// The version and the scene that a checkpoint belongs to.
 struct Origin {
   std::string version = STILLPOINT_VERSION, file, text;
   std::vector<std::string> overrides;
@@ -27,8 +26,8 @@ struct Origin {
     state("scene", text);
     std::size_t count = overrides.size();
     state("overrides", count);
-    constexpr std::size_t most = 100'000;  // more than a command line has
-    if (count > most) throw StateError(fmt::format("it has {} settings: it was altered", count));
+    constexpr std::size_t largest_count = 100'000;  // more than a command line has
+    if (count > largest_count) throw StateError(fmt::format("it has {} settings: it was altered", count));
     overrides.resize(count);
     for (std::size_t k = 0; k < count; ++k) state(fmt::format("override_{}", k), overrides[k]);
   }
@@ -56,15 +55,6 @@ void require_same(const Origin& saved, const Origin& now) {
   throw StateError(fmt::format("it is of the scene {}, expected one {}", told(saved), told(now)));
 }
 
-// Of the body as it was placed, which a file of points may have changed since.
-std::int64_t checksum_of_body(const LagrangianPhase& phase) {
-  const PointData points = phase.fields().point_data();
-  std::uint64_t sum = 0;
-  for (const auto* values : {&points.initial_positions, &points.masses})
-    sum = checksum(sum, values->data(), values->size() * sizeof(double));
-  return static_cast<std::int64_t>(sum);
-}
-
 template <class Restore>
 auto restoring(const fs::path& checkpoint, const Restore& restore) {
   try {
@@ -85,94 +75,49 @@ Scene load_scene_of(const fs::path& checkpoint) {
 
 void Simulation::Impl::save(const fs::path& to) {
   SavedState state;
-  origin_of(scene_).archive(StateArchive::saving(state).part("origin"));
+  origin_of(run_.scene).archive(StateArchive::saving(state).part("origin"));
   archive(StateArchive::saving(state));
   write_checkpoint(to, state);
 }
 
 void Simulation::Impl::resume(const fs::path& from) {
   restoring(from, [this](const SavedState& saved) {
-    require_same(origin_of(saved), origin_of(scene_));
+    require_same(origin_of(saved), origin_of(run_.scene));
     archive(StateArchive::restoring(saved));
-    if (std::min({steps(), evaluations(), earlier_rejected_}) < 0) throw StateError("its counts are negative");
+    if (std::min({run_.steps(), run_.evaluations(), run_.earlier_rejected}) < 0)
+      throw StateError("its counts are negative");
   });
-  last_checkpoint_ = steps();
-  next_checkpoint_s_ = wall_.seconds() + scene_.checkpoint.every;
+  last_checkpoint_ = run_.steps();
+  next_checkpoint_s_ = run_.wall.seconds() + run_.scene.checkpoint.every;
 }
 
 void Simulation::Impl::archive(const StateArchive& state) {
-  std::int64_t body = checksum_of_body(*model_.phase);
-  const std::int64_t placed = body;
-  state("body", body);
-  if (body != placed) throw StateError("it is of another body: its material points were placed elsewhere");
-
-  state("t", t_);
-  state("step", step_);
-  state("phases", phases_);
-  state("steps_before", earlier_steps_);
-  state("evaluations_before", earlier_evaluations_);
-  state("rejected_before", earlier_rejected_);
+  run_.archive(state);
   state("started", started_);
-  double wall_s = earlier_wall_s_ + wall_.seconds();
-  state("wall_s", wall_s);
-  if (state.restores()) earlier_wall_s_ = wall_s;
-  state("stepping_s", stepping_s_);
-
-  state("carried_last_step", model_.relaxing.from.last_step);
-  state("carried_rate", model_.relaxing.from.rate);
-  state("carried_step_share", model_.relaxing.from.step_share);
-  model_.phase->control().archive(state.part("phase"));
-  archive_motion(state.part("motion"));
-
-  state("measured", measured_);
-  state("residual", residual_);
-  state("kinetic_energy", kinetic_energy_);
-  state("work_scale", work_scale_);
-  state("power", power_);
-  state("distance", distance_);
-  monitor_.archive(state.part("monitor"));
-  error_bound_.archive(state.part("error_bound"));
-  chatter_.archive(state.part("chatter"), model_.phase->points() * static_cast<std::size_t>(model_.phase->dim()));
-  plastic_path_.archive(state.part("plastic_path"));
-  rate_share_.archive(state.part("rate_share"));
-  creep_.archive(state.part("creep"));
-  standstill_.archive(state.part("standstill"));
-  mechanism_.archive(state.part("mechanism"));
-  limit_load_.archive(state.part("limit_load"));
+  for (const auto& [name, watcher] : watchers_) watcher->archive(state.part(name), run_);
   if (recorder_) recorder_->archive(state.part("records"));
 }
 
-// A motion is made at the state that it is to have, since no other may be one that can be evaluated.
-void Simulation::Impl::archive_motion(const StateArchive& state) {
-  if (state.restores()) {
-    std::vector<double> y(2 * model_.phase->size());
-    state("y", Vec(y));
-    motion_.reset();
-    if (phases_ > 1) follow_multigrid(scene_, model_);
-    motion_.emplace(model_, scene_, vectors_, t_, first_half(ConstVec(y)), second_half(ConstVec(y)));
-  }
-  motion_->archive(state);
-}
-
-// --- when one is left ---
+// --- when a checkpoint is left ---
 
 // A method that begins anew when it is restored does so at fixed steps without that as well, and is saved there: with
 // checkpoints a run has the same bits whether it was resumed or not.
 bool Simulation::Impl::checkpoint_is_due() {
-  const CheckpointSpec& when = scene_.checkpoint;
-  if (model_.method.begins_anew && !model_.static_method) {
-    constexpr long usual = 1000;
-    if (steps() % (when.every_steps > 0 ? when.every_steps : usual) != 0) return false;
-    motion_->integrator->velocity_changed();
+  const CheckpointSpec& when = run_.scene.checkpoint;
+  const long steps = run_.steps();
+  if (run_.model.method.begins_anew && !run_.model.static_method) {
+    constexpr long default_interval = 1000;  // [steps]
+    if (steps % (when.every_steps > 0 ? when.every_steps : default_interval) != 0) return false;
+    run_.motion->integrator->velocity_changed();
   }
-  return (when.every_steps > 0 && steps() - last_checkpoint_ >= when.every_steps) ||
-         (when.every > 0 && wall_.seconds() >= next_checkpoint_s_);
+  return (when.every_steps > 0 && steps - last_checkpoint_ >= when.every_steps) ||
+         (when.every > 0 && run_.wall.seconds() >= next_checkpoint_s_);
 }
 
 void Simulation::Impl::leave_checkpoint() {
-  last_checkpoint_ = steps();
-  next_checkpoint_s_ = wall_.seconds() + scene_.checkpoint.every;
-  save(options_.out / "checkpoint.h5");
+  last_checkpoint_ = run_.steps();
+  next_checkpoint_s_ = run_.wall.seconds() + run_.scene.checkpoint.every;
+  save(run_.options.out / "checkpoint.h5");
 }
 
 }  // namespace stillpoint

@@ -1,4 +1,4 @@
-// What the supports of a scene bear, and how far those that hold by springs give way.
+// The reactions of the supports of a scene, and how far those that hold by springs give way.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -15,7 +15,7 @@ namespace stillpoint {
 /// Columns of history.csv: "<support>.reaction_x", "<support>.reaction_y" of each named support, in space
 /// "<support>.moment_x" to z too; in one dimension "<support>.reaction".
 std::vector<std::string> reaction_columns(const Problem& problem);
-/// In the order of the columns, at (t, u), where the system was evaluated last [N], [N m].
+/// The values of these columns at (t, u), at which the system was evaluated last [N], [N m].
 std::vector<double> reaction_values(const Problem& problem, const LagrangianPhase& phase, double t,
                                     PhaseMotion& motion);
 /// Reactions and weak supports at (t, u), which is evaluated if there are any, with a note on what gives way too far.

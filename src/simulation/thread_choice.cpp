@@ -15,7 +15,8 @@ namespace {
 
 constexpr int turns = 4;
 
-// Of a loop over a vector that stays in the cache, many times over: longer than a program is let run at a time.
+// The time of a loop over a vector that stays in the cache. It is repeated for longer than a program is let run at
+// once.
 double seconds_of_loops(std::vector<double>& x, int threads, double at_least) {
   const ThreadScope scope(threads);
   const Stopwatch watch;
@@ -45,7 +46,7 @@ void ThreadChoice::observe(double seconds) {
     if (in_trial_ < trial_s) return;
     in_trial_ = 0;
     ++trial_;
-    // Where a first look says enough, no time is lost with a second.
+    // If a first look says enough, no time is lost with a second.
     const bool hopeless = trial_ == 2 && timings_[1].mean() > 2 * timings_[0].mean();
     if (trial_ == turns || hopeless) end_trial();
     return;

@@ -1,4 +1,4 @@
-// How many threads a run works with: one, or all that it may have, whichever is quicker. Results do not depend on it.
+// The number of threads of a run: one, or all that it may have, whichever is quicker. Results do not depend on it.
 #pragma once
 
 #include <array>
@@ -9,22 +9,22 @@ namespace stillpoint {
 /// a loss where another program keeps a core busy, since every loop waits for the thread that is not let run.
 class ThreadChoice {
  public:
-  static constexpr double trial_s = 0.005;    // that each is tried for, twice
-  static constexpr double watch_s = 0.025;    // after which all of them are compared with one
+  static constexpr double trial_s = 0.005;    // length of a trial of one number, made twice
+  static constexpr double watch_s = 0.025;    // time after which all threads are compared with one
   static constexpr double shortest_s = 0.5;   // from trial to trial; twice as long after each that changes nothing,
   static constexpr double longest_s = 8;      // up to this
-  static constexpr double least_gain = 0.95;  // of the time of one thread: otherwise one it is
+  static constexpr double least_gain = 0.95;  // largest share of the time of one thread that all threads may take
 
-  /// asked: for good; 0: chosen between one and all.
+  /// asked: the number for the whole run; 0: it is chosen between one and all.
   ThreadChoice(int asked, int all) : all_(asked > 0 ? asked : all), chooses_(asked == 0 && all > 1) {
     if (!chooses_) best_ = all_;
   }
 
-  /// For the next step.
+  /// The number for the next step.
   int threads() const;
-  /// That most steps were taken with.
+  /// The number that most steps were taken with.
   int usual() const { return !chooses_ || steps_[1] > steps_[0] ? all_ : 1; }
-  /// After each step: how long it took [s].
+  /// Takes the time of each step [s].
   void observe(double seconds);
 
  private:
@@ -41,15 +41,15 @@ class ThreadChoice {
   int best_ = 1;
   int trial_ = 0;                                   // 0 … 3: one, all, one, all; 4: no trial
   double in_trial_ = 0;                             // [s]
-  std::array<Timing, 2> timings_;                   // of the trial: one, all
+  std::array<Timing, 2> timings_;                   // in the trial with one thread, and with all
   Timing since_;                                    // since the last look
   double of_one_ = 0;                               // seconds a step of one thread, at the last trial
   double until_trial_ = 0, interval_ = shortest_s;  // [s]
-  std::array<long, 2> steps_{};                     // taken with one, with all
+  std::array<long, 2> steps_{};                     // taken with one thread, and with all
 };
 
-/// For what comes before the steps, of a body of so many points: all threads, or one where they are busy elsewhere,
-/// which loops of a few milliseconds tell; these pay for large bodies alone. asked: as above.
+/// The number for the set-up of a body of so many points: all threads, or one if they are busy elsewhere, which loops
+/// of a few milliseconds tell; these loops pay for large bodies alone. asked: as above.
 int threads_to_begin_with(int asked, double points);
 
 }  // namespace stillpoint

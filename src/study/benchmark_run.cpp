@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "simulation/parts.hpp"
 #include "simulation/thread_scope.hpp"
 
 namespace stillpoint {
@@ -88,9 +89,9 @@ class Benchmark {
         simulation_(free_running(scene, limits.threads, store)),
         set_up_s_(wall_.seconds()),
         tracker_(limits.goal) {
-    fill_set_up(simulation_.model(), set_up_s_, run_);
-    run_.estimating = simulation_.model().tangent_applications;
-    run_.memory_bytes = memory_of(simulation_.phase());
+    fill_set_up(simulation_.parts().model, set_up_s_, run_);
+    run_.estimating = simulation_.parts().model.tangent_applications;
+    run_.memory_bytes = memory_of(simulation_.parts().phase);
   }
 
   double run() {

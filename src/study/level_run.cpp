@@ -12,6 +12,7 @@
 #include "base/stopwatch.hpp"
 #include "output/exact_error.hpp"
 #include "output/point_fields.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
@@ -36,7 +37,7 @@ double exact_value(const ExactSolution* exact, const LagrangianPhase& phase, con
 
 // Reads fields at the places in a single phase only: shape functions belong to positions at the beginning of a phase.
 void read_at_places(Simulation& simulation, const CommonPlaces& places, LevelRun& run) {
-  const LagrangianPhase& phase = simulation.phase();
+  const LagrangianPhase& phase = simulation.parts().phase;
   if (phase.info().updated_lagrangian) return;
   const auto reader = phase.fields().read_places(simulation.t(), simulation.u(), simulation.v());
   FieldsAtPlaces fields = read_at(places, *reader, static_cast<std::size_t>(phase.info().stress_components));
@@ -48,7 +49,7 @@ void read_at_places(Simulation& simulation, const CommonPlaces& places, LevelRun
 void read_end(const Scene& scene, Simulation& simulation, const Summary& s, const CommonPlaces* places, LevelRun& run) {
   if (s.error) {
     run.norms = {{"u_l2", s.error->u_rel_l2}, {"u_max", s.error->u_rel_max}};
-    const EnergyError energy = energy_error(scene, simulation.phase(), s.t, simulation.u());
+    const EnergyError energy = energy_error(scene, simulation.parts().phase, s.t, simulation.u());
     if (energy.relative) run.norms.emplace_back("u_energy", *energy.relative);
     run.no_energy = energy.why_not;
     if (s.error->stress_rel_l2) run.norms.emplace_back("stress_l2", *s.error->stress_rel_l2);
@@ -61,7 +62,7 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
       run.probe_errors.push_back(
           at == s.probe_positions.end()
               ? not_known
-              : std::abs(value - exact_value(exact.get(), simulation.phase(), field, at->second, s.t)));
+              : std::abs(value - exact_value(exact.get(), simulation.parts().phase, field, at->second, s.t)));
     }
   }
   if (places) return read_at_places(simulation, *places, run);
@@ -71,7 +72,7 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
   };
   run.u = copy("u");
   run.stress = copy("stress");
-  run.volume = simulation.phase().fields().point_data().volumes;
+  run.volume = simulation.parts().phase.fields().point_data().volumes;
 }
 
 // The relative error from other sources than the level: rounding, amplified in an equilibrium by its condition number

@@ -8,6 +8,7 @@
 
 #include "base/stopwatch.hpp"
 #include "plan/catalogue.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "study/benchmark_run.hpp"
 #include "study/setting.hpp"
@@ -28,7 +29,7 @@ Ended follow(Scene scene, int threads, SetUpStore& store, const std::function<bo
   const Stopwatch watch;
   Simulation simulation(scene, {.threads = threads, .interrupted = interrupted, .store = &store});
   ComparedRun set_up;
-  fill_set_up(simulation.model(), watch.seconds(), set_up);
+  fill_set_up(simulation.parts().model, watch.seconds(), set_up);
   simulation.run();
   const ConstVec u = simulation.field("u");
   return {simulation.summary(), std::move(set_up), {u.begin(), u.end()}};

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "simulation/setup/model.hpp"
 
 using namespace stillpoint;
@@ -59,7 +60,7 @@ TEST_CASE("leapfrog and symplectic Euler diverge just beyond the critical step u
 
 TEST_CASE("Jameson's method diverges with local damping at the step that is stable without any", "[stability]") {
   const Scene scene = scenes::load("hard/light_nodes", {"integrator.method=erk:jameson-5-2", "damping.c=0"});
-  const double step = Simulation(scene, {.records = false}).model().critical_step.value();
+  const double step = Simulation(scene, {.records = false}).parts().model.critical_step.value();
   for (const std::string damping : {"cundall", "one-sided"}) {
     const Way way{"erk:jameson-5-2", damping};
     CHECK(outcome(way, {"integrator.step=" + std::to_string(step), beyond().back()}) == RunStatus::diverged);

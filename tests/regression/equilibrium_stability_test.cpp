@@ -1,5 +1,5 @@
 // An equilibrium that the least disturbance ends is none to be reported as such.
-#include "simulation/equilibrium_stability.hpp"
+#include "simulation/watch/equilibrium_stability.hpp"
 
 #include <cmath>
 #include <fstream>

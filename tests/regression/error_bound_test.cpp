@@ -22,6 +22,7 @@
 #include "largest.hpp"
 #include "plan/plan.hpp"
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "simulation/setup/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "way_to_rest.hpp"
@@ -57,7 +58,7 @@ Values equilibrium_of(const Scene& scene) {
 
 /// What errors of a run are measured with.
 const Mass& measure_of(const Simulation& simulation) {
-  const Model& model = simulation.model();
+  const Model& model = simulation.parts().model;
   return model.volume_norm ? model.volume_norm->V : model.phase->mass();
 }
 
@@ -206,7 +207,7 @@ TEST_CASE("an equilibrium is as near at the points of a light block as the dista
       REQUIRE(simulation.run() == RunStatus::equilibrium);
       Values difference(rest.size());
       for (std::size_t i = 0; i < rest.size(); ++i) difference[i] = simulation.u()[i] - rest[i];
-      const double error = at_points(simulation.phase(), difference) / at_points(simulation.phase(), rest);
+      const double error = at_points(simulation.parts().phase, difference) / at_points(simulation.parts().phase, rest);
       CAPTURE(kind, strategy, error, simulation.distance().value());
       CHECK(error <= 2 * simulation.distance().value());  // a consistent or lumped V is no sum over the points
       CHECK(error <= 2e-3);
@@ -215,10 +216,10 @@ TEST_CASE("an equilibrium is as near at the points of a light block as the dista
 }
 
 TEST_CASE("the volume measures displacements only where masses do not", "[error bound]") {
-  CHECK_FALSE(Simulation(with(linear[1], "viscous")).model().volume_norm);
-  CHECK_FALSE(Simulation(with(linear[4], "auto")).model().volume_norm);
-  CHECK_FALSE(Simulation(with(linear[3], "viscous")).model().volume_norm);  // stiff, not heavy
-  CHECK(Simulation(with({"hard/light_block"}, "viscous")).model().volume_norm);
+  CHECK_FALSE(Simulation(with(linear[1], "viscous")).parts().model.volume_norm);
+  CHECK_FALSE(Simulation(with(linear[4], "auto")).parts().model.volume_norm);
+  CHECK_FALSE(Simulation(with(linear[3], "viscous")).parts().model.volume_norm);  // stiff, not heavy
+  CHECK(Simulation(with({"hard/light_block"}, "viscous")).parts().model.volume_norm);
 }
 
 // --- nonlinear: an estimate, by the tangent at the end ---------------------------------------------
@@ -387,8 +388,8 @@ TEST_CASE("a large body learns omega_1 from the steps of auto or cg, and its dis
     const Values rest = equilibrium_of(scene);
     scene.solve.method = method;  // which a file with [damping] may not say
     Simulation simulation(scene, {.records = false});
-    REQUIRE_FALSE(simulation.model().omega_1);  // it has more than 20 000 unknowns
-    const Mass& M = simulation.model().phase->mass();
+    REQUIRE_FALSE(simulation.parts().model.omega_1);  // it has more than 20 000 unknowns
+    const Mass& M = simulation.parts().model.phase->mass();
     const double scale = mass_norm(M, rest);
     Smallest least;
     long unknown = 0;

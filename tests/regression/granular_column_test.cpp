@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
@@ -14,7 +15,8 @@ TEST_CASE("a round column of sand runs out by 1.24 of its radius within 30 %") {
   Simulation simulation(scenes::load("granular_column", {"output.stages=[]"}));
   REQUIRE(simulation.run() == RunStatus::end_time);
   const ConstVec x = simulation.field("position");
-  const std::vector<double> volume = simulation.phase().fields().point_data().masses;  // undeformed: the density is 1
+  const std::vector<double> volume =
+      simulation.parts().phase.fields().point_data().masses;  // undeformed: the density is 1
   // The heap's depth in rings, a cell wide; it ends where it is a grain deep.
   constexpr double width = 0.1, grain = 0.02;
   std::vector<double> depth(36);

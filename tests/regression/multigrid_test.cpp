@@ -15,6 +15,7 @@
 #include "largest.hpp"
 #include "linalg/sparse_cholesky.hpp"
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "simulation/setup/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
@@ -48,7 +49,7 @@ std::vector<double> equilibrium(const LagrangianPhase& phase) {
 
 /// ‖u − u*‖_K/‖u‖_K
 double true_distance(const Simulation& simulation) {
-  const LagrangianPhase& phase = simulation.phase();
+  const LagrangianPhase& phase = simulation.parts().phase;
   const ConstVec u = simulation.u();
   std::vector<double> e = equilibrium(phase), Ke(e.size()), Ku(e.size());
   for (std::size_t i = 0; i < e.size(); ++i) e[i] -= u[i];
@@ -75,7 +76,7 @@ TEST_CASE(
     Simulation simulation = run("incompressible", block(cells, {"damping.strategy=" + strategy}));
     CHECK(simulation.evaluations() <= most);
     CHECK(simulation.residual() <= 1e-6);
-    const std::vector<double> u = equilibrium(simulation.phase());
+    const std::vector<double> u = equilibrium(simulation.parts().phase);
     CHECK(largest_difference(simulation.u(), u) < 1e-5 * largest_magnitude(u));
   }
 }
@@ -103,7 +104,7 @@ TEST_CASE(
   simulation.run();
   CHECK(simulation.status() == RunStatus::equilibrium);
   CHECK(simulation.evaluations() <= 40);
-  const std::vector<double> u = equilibrium(simulation.phase());
+  const std::vector<double> u = equilibrium(simulation.parts().phase);
   CHECK(largest_difference(simulation.u(), u) < 1e-5 * largest_magnitude(u));
 }
 
@@ -178,7 +179,7 @@ TEST_CASE("quadratic and cubic functions come to rest by a multigrid mass as lin
   CAPTURE(basis);
   Simulation simulation = run("incompressible", block(48, {"grid.basis=" + basis, "damping.strategy=auto"}));
   CHECK(simulation.evaluations() <= 40);
-  const std::vector<double> u = equilibrium(simulation.phase());
+  const std::vector<double> u = equilibrium(simulation.parts().phase);
   CHECK(largest_difference(simulation.u(), u) < 1e-4 * largest_magnitude(u));
 }
 
@@ -238,7 +239,7 @@ TEST_CASE("what finds rest by a motion does so with a multigrid mass in a few do
     const Simulation simulation =
         run("incompressible", block(cells, {"damping.strategy=" + strategy, "integrator.method=" + method}));
     CHECK(simulation.evaluations() <= most);
-    const std::vector<double> u = equilibrium(simulation.phase());
+    const std::vector<double> u = equilibrium(simulation.parts().phase);
     CHECK(largest_difference(simulation.u(), u) < 1e-5 * largest_magnitude(u));
   }
 }
@@ -291,7 +292,7 @@ TEST_CASE("cells that the border cuts to a billionth of them take no more than 4
                                                   "body.max=[" + border + "," + border + "]", "mass.kind=multigrid",
                                                   "damping.strategy=" + strategy, "stop.residual=1e-6", "probe=[]"});
     CHECK(cut.evaluations() <= 40);
-    const std::vector<double> u = equilibrium(cut.phase());
+    const std::vector<double> u = equilibrium(cut.parts().phase);
     CHECK(largest_difference(cut.u(), u) < 1e-5 * largest_magnitude(u));
   }
 }

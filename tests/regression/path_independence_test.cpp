@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "temporary_folder.hpp"
 
@@ -84,7 +85,7 @@ struct Settled {
 Settled settled(double s0, int cells, const std::vector<std::string>& more = {}) {
   Simulation simulation(column(s0, cells, more), {.records = false});
   while (!simulation.done()) simulation.run_until(simulation.t() + 1);
-  const LagrangianPhase& phase = simulation.phase();
+  const LagrangianPhase& phase = simulation.parts().phase;
   const std::vector<double> X = phase.fields().point_data().initial_positions;
   std::vector<double> u(phase.points()), stress(phase.points());
   phase.fields().point_displacement(simulation.t(), simulation.u(), u);

@@ -12,6 +12,7 @@
 
 #include "largest.hpp"
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
@@ -68,7 +69,7 @@ Turn spin(const std::string& basis, const std::string& transfer) {
   Turn result;
   for (int k = 1; k <= looks; ++k) {
     simulation.run_until(turn * k / looks);
-    const State now = state_of(simulation.phase(), simulation.t(), simulation.u(), simulation.v());
+    const State now = state_of(simulation.parts().phase, simulation.t(), simulation.u(), simulation.v());
     result.kept = now.energy / energy_at_start;
     result.most = std::max(result.most, result.kept);
     result.trace += now.trace / looks;
@@ -89,7 +90,7 @@ double static_trace_in_the_middle() {
                            "damping={strategy='viscous', c='critical'}", "stop={residual=1e-10}"});
   Simulation simulation(scene, {.threads = 1, .records = false});
   REQUIRE(simulation.run() == RunStatus::equilibrium);
-  return state_of(simulation.phase(), simulation.t(), simulation.u(), simulation.v()).trace_in_the_middle;
+  return state_of(simulation.parts().phase, simulation.t(), simulation.u(), simulation.v()).trace_in_the_middle;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "files.hpp"
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "statics.hpp"
 #include "temporary_folder.hpp"
@@ -70,7 +71,7 @@ TEST_CASE("a pin in mid-face holds a stretched block against rigid motion and le
                                            at)});
     Simulation simulation(scene);
     REQUIRE(simulation.run() == RunStatus::equilibrium);
-    const std::vector<double> x = simulation.phase().fields().positions();
+    const std::vector<double> x = simulation.parts().phase.fields().positions();
     const ConstVec u = simulation.field("u");
     double error = 0;
     for (std::size_t p = 0; p < simulation.points(); ++p) {

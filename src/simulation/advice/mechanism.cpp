@@ -18,16 +18,16 @@
 namespace stillpoint {
 namespace {
 
-constexpr double negligible = 1e-6;  // of the largest, beside a rounding
-constexpr double alike = 1e-3;  // the same motion, but for what a factor of a nearly singular matrix leaves of others
+constexpr double negligible = 1e-6;  // relative to the largest value, and above its rounding
+constexpr double alike = 1e-3;       // difference of one motion from another that a nearly singular factor may leave
 
 /// A motion x at the points.
 struct PointMotion {
   std::size_t dim;
-  std::vector<double> position;      // that its law goes by, (P × dim) [m]
-  std::vector<double> displacement;  // likewise, the longest of length 1
-  double largest = 0;                // of x itself
-  std::size_t furthest = 0;          // the point that moves so far
+  std::vector<double> position;      // the positions that laws go by, (P × dim) [m]
+  std::vector<double> displacement;  // the displacements, the longest of length 1, (P × dim)
+  double largest = 0;                // the length of the longest one before that
+  std::size_t furthest = 0;          // the point that has it
 
   double length(std::size_t p) const {
     double square = 0;
@@ -64,7 +64,7 @@ struct RigidMotion {
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
 };
 
-// By least squares; none if the points move otherwise.
+// The rigid motion by least squares; empty if the points move otherwise.
 std::optional<RigidMotion> fit_rigid_motion(const PointMotion& motion) {
   const std::size_t dim = motion.dim, points = motion.position.size() / dim;
   const auto rows = static_cast<Eigen::Index>(dim * points), translations = static_cast<Eigen::Index>(dim);
@@ -127,7 +127,7 @@ std::string furthest_point(const LagrangianPhase& phase, const PointMotion& moti
   return said;
 }
 
-// Whether x changes no displacement gradient: then it strains nothing at any amplitude, whatever the law.
+// True if x changes no displacement gradient: then it strains nothing at any amplitude, whatever the law.
 bool strains_nothing(const LagrangianPhase& phase, double t, ConstVec x, const PointMotion& motion) {
   const std::vector<double> gradient = change_of(phase, PointQuantity::strain, t, x);
   double largest = 0;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <stillpoint/problem.hpp>
-#include <stillpoint/state_archive.hpp>
 
 #include <optional>
 #include <string>
@@ -13,13 +12,13 @@
 namespace stillpoint {
 
 struct Mechanism {
-  bool is_rigid = false;    // whether the body moves as a whole, so that a support is missing
+  bool is_rigid = false;    // true if the body moves as a whole, so that a support is missing
   std::string description;  // the motion, in words
 };
 
-/// Of the loads that act at t on u; empty: every motion that they drive is resisted, or it cannot be said: in many
-/// phases a motion that strains nothing now does so later, a body that turns by a finite angle may come to rest where
-/// it hangs, and what touches it may hold it. Factorises a matrix of the size of K.
+/// The mechanism that the loads at (t, u) drive. Empty: every motion that they drive is resisted, or this cannot be
+/// said: in many phases a motion that strains nothing now does so later, a body that turns by a finite angle may come
+/// to rest hanging, and what touches it may hold it. Factorises a matrix of the size of K.
 std::optional<Mechanism> find_mechanism(const LagrangianPhase& phase, double t, ConstVec u);
 
 /// "the body is not held: nothing resists a motion in which …; its loads drive it …; expected …"
@@ -27,24 +26,5 @@ std::string to_string(const Mechanism& mechanism);
 
 /// Throws SceneError if the scene asks for equilibrium and there is a mechanism under its last loads. u: at the start.
 void refuse_mechanism(const Problem& problem, const LagrangianPhase& phase, ConstVec u);
-
-/// For bodies so large that nobody has looked at their K before the run: looks once, if the run has gone on for long.
-class MechanismWatch {
- public:
-  explicit MechanismWatch(bool looks) : looks_(looks) {}
-  /// After so many evaluations, under the loads of the end.
-  std::optional<Mechanism> look(const LagrangianPhase& phase, double t, ConstVec u, long evaluations) {
-    constexpr long patience = 1000;
-    if (!looks_ || evaluations < patience) return std::nullopt;
-    auto found = find_mechanism(phase, t, u);
-    looks_ = false;
-    return found;
-  }
-
-  void archive(const StateArchive& state) { state("looks", looks_); }
-
- private:
-  bool looks_;
-};
 
 }  // namespace stillpoint

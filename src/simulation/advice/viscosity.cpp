@@ -18,7 +18,7 @@ std::vector<std::string> viscous_materials(const Problem& problem) {
 
 std::string fluidity_of(const std::string& material) { return fmt::format("material.{}.fluidity", material); }
 
-// Under a strain that is held f falls as e^{−t/τ},  τ = 1/(β (G + K η η̄)) ≤ 1/(β G).
+// If the strain is held f falls as e^{−t/τ},  τ = 1/(β (G + K η η̄)) ≤ 1/(β G).
 double longest_time_constant(const MaterialSpec& material) {
   const double G = material.parameters.at("E") / (2 * (1 + material.parameters.at("nu")));
   return 1 / (material.parameters.at("fluidity") * G);

@@ -11,15 +11,16 @@
 
 namespace stillpoint {
 
-/// The yield function over the strength that equilibrium takes. Of what is left of it a share of this size would still
-/// come off the stresses.
+/// The largest yield function over the strength that equilibrium takes: a share of this size would still come off the
+/// stresses.
 inline constexpr double largest_over_stress = 1e-3;
 
-/// Where the body creeps, and by how much it is beyond its strength; empty: it does not. A pass over all points.
+/// "it creeps: at …", and by how much the body is beyond its strength; empty: it does not creep. A pass over all
+/// points.
 std::string creep(const Problem& problem, const LagrangianPhase& phase);
 
-/// What a user should know of viscous materials before a run: that a static solver has none, or that their flow takes
-/// longer than the run may. step: [s].
+/// Notes on viscous materials that a user should know before a run: a static solver has no viscosity, or their flow
+/// takes longer than the run may. step: [s].
 std::vector<std::string> viscosity_notes(const Problem& problem, double step);
 
 }  // namespace stillpoint

@@ -34,11 +34,10 @@ std::vector<double> along(const std::array<double, 2>& from, const std::array<do
 struct Sampling {
   int fewest, per_cell;
 };
-// By the number of these axes: about fewest_of_all together, and along a line more if its cells are many.
+// The sampling by the number of these axes: about fewest_of_all together, and more along a line of many cells.
 constexpr std::array<Sampling, 3> samplings{{{1, 0}, {fewest_of_all, 8}, {32, 0}}};
 
-// Over a part of a face, which lies at `face` of the axis across it: the middles of equal parts, by the first axis
-// first.
+// The middles of equal parts of a part of a face, which lies at `face` of the axis across it, by the first axis first.
 std::vector<double> over(const std::vector<FaceInterval>& part, double face, const GridSpec& grid) {
   const Sampling& sampling = samplings[part.size()];
   std::vector<std::vector<double>> positions = {std::vector<double>(part.size() + 1, face)};

@@ -21,9 +21,9 @@ namespace {
 
 constexpr std::size_t moments_of_a_course = 8;
 using Moments = std::array<double, moments_of_a_course>;
-using Course = std::array<std::uint64_t, moments_of_a_course>;  // the bits of a formula's values there
+using Course = std::array<std::uint64_t, moments_of_a_course>;  // the bits of a formula's values at these moments
 
-/// Some up to the end; if that is open, of all orders of magnitude.
+/// Some moments up to the end; if that is open, they are of all orders of magnitude.
 Moments some_moments(double end) {
   constexpr double golden = 0.6180339887498949;  // its multiples fill an interval without a period
   Moments moments;
@@ -34,24 +34,24 @@ Moments some_moments(double end) {
   return moments;
 }
 
-/// Of the positions, (points × dim), some at which the formula has a course in time of its own: those that differ in
-/// some moments, or 32 of them.
-std::vector<ConstVec> where_it_differs(const Expression& formula, ConstVec positions, std::size_t dim, double end) {
-  constexpr std::size_t most_looked_at = 100'000, most = 32;
+/// Positions out of (points × dim) at which the formula has different courses in time: one for each course, but no more
+/// than 32.
+std::vector<ConstVec> positions_of_courses(const Expression& formula, ConstVec positions, std::size_t dim, double end) {
+  constexpr std::size_t largest_sample = 100'000, largest_choice = 32;  // [points]
   const Moments moments = some_moments(end);
   const std::size_t points = positions.size() / dim;
   std::set<Course> seen;
   std::vector<ConstVec> found;
-  for (std::size_t p = 0; p < points; p += (points + most_looked_at - 1) / most_looked_at) {
+  for (std::size_t p = 0; p < points; p += (points + largest_sample - 1) / largest_sample) {
     const ConstVec x = positions.subspan(dim * p, dim);
     Course course;
     std::ranges::transform(moments, course.begin(),
                            [&](double t) { return std::bit_cast<std::uint64_t>(formula(x, t)); });
     if (seen.insert(course).second) found.push_back(x);
   }
-  if (found.size() <= most) return found;
+  if (found.size() <= largest_choice) return found;
   std::vector<ConstVec> some;
-  for (std::size_t k = 0; k < most; ++k) some.push_back(found[k * (found.size() - 1) / (most - 1)]);
+  for (std::size_t k = 0; k < largest_choice; ++k) some.push_back(found[k * (found.size() - 1) / (largest_choice - 1)]);
   return some;
 }
 
@@ -69,7 +69,7 @@ std::vector<double> total_load_at(const SemiDiscrete& system, double t) {
 LoadSchedule::LoadSchedule(const Problem& problem, const LagrangianPhase& phase, double end) {
   own_ = own_load(problem.own_load);
   if (own_) look_at_own(problem, phase, end);
-  // All that vary are looked at closely, unless there are more than a thousand.
+  // All formulas that vary are looked at closely, unless there are more than a thousand.
   long varying = 0;
   problem.for_each_formula([&](const std::string&, const Expression& formula) { varying += formula.uses('t'); });
   const int share = static_cast<int>(std::max(1L, varying / 1000));
@@ -79,12 +79,12 @@ LoadSchedule::LoadSchedule(const Problem& problem, const LagrangianPhase& phase,
     if (!formula.uses('t')) return;
     if (!formula.uses_position()) return look_at(key, formula, {}, moments, end);
     const std::vector<double> positions = formula_positions(problem, phase, key);
-    for (const ConstVec x : where_it_differs(formula, positions, dim, end))
+    for (const ConstVec x : positions_of_courses(formula, positions, dim, end))
       look_at(key, formula, x, moments_at_a_point, end);
   });
 }
 
-// A program says itself when its load has settled, and is taken at its word where that can be.
+// A program says itself when its load has settled. It is taken at its word, but for a few moments afterwards.
 void LoadSchedule::look_at_own(const Problem& problem, const LagrangianPhase& phase, double end) {
   const double settles_at = own_->about.settles_at;
   is_open_ = !(end > 0) && std::isinf(settles_at);
@@ -107,7 +107,7 @@ std::string LoadSchedule::own_load_goes_on(double t) const {
   own_->b(t, dim_, x_, b);
   double change = 0, size = 0;
   for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!std::isfinite(b[i]) || !std::isfinite(b_settled_[i])) return "";  // which the step tells
+    if (!std::isfinite(b[i]) || !std::isfinite(b_settled_[i])) return "";  // the step reports this
     change = std::max(change, std::abs(b[i] - b_settled_[i]));
     size = std::max({size, std::abs(b[i]), std::abs(b_settled_[i])});
   }
@@ -137,9 +137,9 @@ void LoadSchedule::look_at(const std::string& key, const Expression& formula, Co
   }
   const auto [least, most] = std::ranges::minmax(values);
   const double magnitude = std::max(std::abs(least), std::abs(most));
-  const double same = 1e-9 * (most - least) + 1e-14 * magnitude;  // of a change that counts, and of rounding
+  const double same = 1e-9 * (most - least) + 1e-14 * magnitude;  // a change that does not count, and rounding
   settled_from_ = std::max(settled_from_, unresolved_until(formula, x, times, same));
-  std::size_t last = times.size() - 1;  // from here on it is what it will be at the end
+  std::size_t last = times.size() - 1;  // the first moment from which on the formula is what it will be at the end
   while (last > 0 && std::abs(values[last - 1] - values.back()) <= same) --last;
   if (last == 0) return;
   double before = times[last - 1], from = times[last];

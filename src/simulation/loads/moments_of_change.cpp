@@ -13,7 +13,7 @@ namespace {
 
 constexpr double golden = 0.6180339887498949;  // its multiples fill an interval without a period
 
-// Parts that depend on t; one that is no formula by itself is none.
+// A part of the formula, if it depends on t and is a formula by itself.
 std::optional<Expression> part_of(const Expression& formula, const std::string& text) {
   try {
     Expression part = formula.with_text(text);
@@ -46,7 +46,7 @@ std::vector<double> raster(int moments, double end) {
   return times;
 }
 
-/// Where a part vanishes, and where it comes nearest to that.
+/// The moments at which a part vanishes, or comes nearest to that.
 class Zeros {
  public:
   Zeros(const Expression& part, ConstVec x, std::vector<double>& found)
@@ -105,10 +105,10 @@ class Zeros {
   const Expression& part_;
   ConstVec x_;
   std::vector<double>& found_;
-  std::size_t most_;  // of all parts so far
+  std::size_t most_;  // the largest number of moments to be found, those of the parts before included
 };
 
-// With the middles between found moments and what is next to them.
+// All times in order, with the middles between the moments found and their neighbours.
 std::vector<double> merged(std::vector<double> times, std::vector<double> found) {
   std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -128,9 +128,9 @@ std::vector<double> merged(std::vector<double> times, std::vector<double> found)
   return all;
 }
 
-// Whether it goes up and down from one moment to the next.
+// True if the part goes up and down from one moment to the next.
 bool is_unresolved(const Expression& part, ConstVec x, ConstVec times) {
-  constexpr double often = 0.3;
+  constexpr double largest_share = 0.3;  // share of the moments at which it turns
   double turns = 0, last = 0, before = part(x, times.front());
   for (const double t : times) {
     const double now = part(x, t), change = now - before;
@@ -138,7 +138,7 @@ bool is_unresolved(const Expression& part, ConstVec x, ConstVec times) {
     if (change != 0) last = change;
     before = now;
   }
-  return turns > often * static_cast<double>(times.size());
+  return turns > largest_share * static_cast<double>(times.size());
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ std::vector<double> moments_of_change(const Expression& formula, ConstVec x, int
   constexpr int fewest = 100, of_parts = 10;
   const std::vector<double> coarse = raster(std::max(std::min(fewest, moments), moments / of_parts), end);
   std::vector<double> found;
-  // What one part tells may be where another one has to be looked at.
+  // A moment that one part tells may be one at which another part has to be looked at.
   for (int round = 0; round < 2 && !parts.empty(); ++round) {
     const std::vector<double> times = merged(coarse, found);
     found.clear();
@@ -160,7 +160,7 @@ std::vector<double> moments_of_change(const Expression& formula, ConstVec x, int
 
 std::optional<double> open_end(const Expression& formula, ConstVec x) {
   constexpr int decades = 21, a_decade = 40;
-  constexpr double far = 1e-3;  // of the last moment: what bends later may as well go on for ever
+  constexpr double latest_share = 1e-3;  // share of the last moment: what bends later may as well go on for ever
   std::vector<double> times{0};
   for (int k = 0; k <= decades * a_decade; ++k) times.push_back(std::pow(10.0, -9 + k / double{a_decade}));
   std::vector<double> found;
@@ -171,7 +171,7 @@ std::optional<double> open_end(const Expression& formula, ConstVec x) {
   if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) return std::nullopt;
   std::size_t last = times.size() - 1;
   while (last > 0 && values[last - 1] == values.back()) --last;
-  if (times[last] > far * times.back()) return std::nullopt;
+  if (times[last] > latest_share * times.back()) return std::nullopt;
   return 2 * times[last];
 }
 

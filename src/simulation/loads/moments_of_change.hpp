@@ -9,18 +9,18 @@
 
 namespace stillpoint {
 
-/// Of the formula at x from 0 to end [s]: `moments` evenly spaced ones, as many off that raster, whose period a formula
-/// may have, and those at which one of its comparisons switches or one of its functions may bend, with what lies
-/// between any two of these. In order; 0 and end are among them.
+/// Moments from 0 to end [s], in order, at which the formula at x is to be looked at: `moments` evenly spaced ones, as
+/// many off that raster, since a formula may have its period, and those at which one of its comparisons switches or one
+/// of its functions may bend, with what lies between any two of these. 0 and end are among them.
 std::vector<double> moments_of_change(const Expression& formula, ConstVec x, int moments, double end);
 
 /// The first moment from which on the formula does not depend on a comparison that switches more often than `times`,
 /// those of moments_of_change(), can tell; 0 if it has none, end if it depends on it to the end.
 double unresolved_until(const Expression& formula, ConstVec x, ConstVec times, double same);
 
-/// Where nothing says how long a run lasts: a time [s] after which the formula at x stays what it is, twice the last at
-/// which it changes of moments from 1e-9 to 1e12 s, each 6 % after the last, and of those at which its comparisons
-/// switch or its functions bend. Nothing if it goes on, or is not a finite number.
+/// A time [s] after which the formula at x stays what it is, if nothing says how long a run lasts: twice the last
+/// moment at which it changes. It is looked at from 1e-9 to 1e12 s, at moments each 6 % after the last, and at those at
+/// which its comparisons switch or its functions bend. Empty if it goes on to change, or is not a finite number.
 std::optional<double> open_end(const Expression& formula, ConstVec x);
 
 }  // namespace stillpoint

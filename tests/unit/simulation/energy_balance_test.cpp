@@ -7,6 +7,7 @@
 
 #include "files.hpp"
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "temporary_folder.hpp"
 
@@ -22,7 +23,7 @@ double strain_energy(Simulation& simulation) {
     return std::vector<double>(field.begin(), field.end());
   };
   const std::vector<double> H = copy("strain"), s = copy("stress"),
-                            V = simulation.phase().fields().point_data().volumes;
+                            V = simulation.parts().phase.fields().point_data().volumes;
   double energy = 0;
   for (std::size_t p = 0; p < V.size(); ++p) {  // xx, xy, yx, yy of ∂u/∂x; xx, yy, zz, xy of σ
     const double *h = &H[4 * p], *of = &s[4 * p];

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 
 using namespace stillpoint;
 
@@ -23,7 +24,7 @@ struct Arrival {
 // The definition, step by step: from where on the error stays at the goal for a tenth of the way again.
 Arrival arrival(const Scene& scene, const ReferenceSolution& exact, double goal) {
   Simulation simulation(scene, {.threads = 1, .records = false, .stops = false});
-  const int estimating = simulation.model().tangent_applications;
+  const int estimating = simulation.parts().model.tangent_applications;
   Arrival found;
   while (true) {
     REQUIRE(simulation.step() == RunStatus::running);

@@ -8,6 +8,7 @@
 
 #include "free_block.hpp"
 #include "largest.hpp"
+#include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
@@ -25,7 +26,7 @@ Simulation advanced(const Scene& scene, double t_end, int threads = 1) {
 
 std::vector<double> stress(const Simulation& simulation) {
   std::vector<double> values(4 * simulation.points());
-  simulation.phase().fields().point_stress(simulation.t(), simulation.u(), values);
+  simulation.parts().phase.fields().point_stress(simulation.t(), simulation.u(), values);
   return values;
 }
 

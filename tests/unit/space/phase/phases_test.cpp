@@ -15,6 +15,7 @@
 #include "free_block.hpp"
 #include "largest.hpp"
 #include "scenes.hpp"
+#include "simulation/parts.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/points/point_order.hpp"
@@ -104,7 +105,7 @@ TEST_CASE("linear momentum goes over from each phase to the next, whatever the b
           before = now;
         });
         CHECK(changes >= 6);
-        const TransferErrors errors = simulation.phase().control().transfer_errors();
+        const TransferErrors errors = simulation.parts().phase.control().transfer_errors();
         CHECK(errors.mass < 1e-14);
         CHECK(errors.momentum < 1e-12);
         CHECK(errors.added_mass < 0.15);
@@ -267,8 +268,8 @@ TEST_CASE("the followed wall stays on the last grid line from phase to phase") {
       free_block({"wall=[{name='gate', face='right', motion='0.5*t'}]", "grid.follow=gate", "initial.v=[0.5, 0]"});
   const int cells = make_phase(scene)->shape().discretisation().grid_cells.at(0);
   Simulation simulation = advanced(scene, 0.9);
-  CHECK(simulation.phase().shape().discretisation().grid_cells.at(0) == cells + 2);  // 0.45 m are 1.8 cells
-  CHECK(simulation.phase().shape().discretisation().grid_cells.at(1) == 4);
+  CHECK(simulation.parts().phase.shape().discretisation().grid_cells.at(0) == cells + 2);  // 0.45 m are 1.8 cells
+  CHECK(simulation.parts().phase.shape().discretisation().grid_cells.at(1) == 4);
 }
 
 TEST_CASE("sorting keeps points by material and cell, and their numbers with them") {

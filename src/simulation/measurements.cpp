@@ -1,0 +1,67 @@
+#include "simulation/measurements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulation/run_state.hpp"
+
+namespace stillpoint {
+
+const Measurements::Figures& Measurements::all() {
+  if (std::exchange(is_measured_, true)) return figures_;
+  PhaseMotion& motion = *run_.motion;
+  figures_.residual = motion.residual(run_.t);
+  if (const auto omega_1 = run_.model.learns_omega_1 ? motion.integrator->lowest_frequency() : std::nullopt)
+    error_bound_.learn(*omega_1);
+  figures_.distance = measured_distance();
+  figures_.work_scale = motion.system.work_scale(motion.u_vector);
+  const RelaxationSystem::Motion measured = motion.motion();
+  figures_.power = measured.power;
+  figures_.kinetic_energy = measured.kinetic_energy;
+  if (run_.schedule.settled_for_good(run_.t)) error_bound_.loads_have_settled(figures_.kinetic_energy);
+  return figures_;
+}
+
+double Measurements::residual() {
+  if (!is_measured_ && !std::exchange(has_residual_, true)) figures_.residual = run_.motion->residual(run_.t);
+  return figures_.residual;
+}
+
+bool Measurements::has_distance() const {
+  const Model& model = run_.model;
+  return model.learns_omega_1 || (model.omega_1 && !model.phase->info().updated_lagrangian);
+}
+
+std::optional<double> Measurements::distance() const {
+  const std::optional<double>& way = creeping.way_left;
+  if (!way || !figures_.distance || *way <= creeping.allowed) return figures_.distance;
+  return std::isfinite(*way) ? std::optional(std::max(*figures_.distance, *way)) : std::nullopt;
+}
+
+std::optional<double> Measurements::distance_to_go() const {
+  return run_.scene.stop.distance > 0 ? figures_.distance : error_bound_.beside_largest();
+}
+
+void Measurements::refresh_distance() {
+  if (!error_bound_.refresh(run_.t, run_.motion->u(), figures_.residual)) return;
+  run_.motion->system.residual(run_.t, run_.motion->u());
+  figures_.distance = measured_distance();
+}
+
+std::optional<double> Measurements::measured_distance() {
+  PhaseMotion& motion = *run_.motion;
+  return error_bound_.distance(motion.system, motion.u_vector, motion.integrator->acceleration());
+}
+
+void Measurements::archive(const StateArchive& state) {
+  state("measured", is_measured_);
+  state("residual", figures_.residual);
+  state("kinetic_energy", figures_.kinetic_energy);
+  state("work_scale", figures_.work_scale);
+  state("power", figures_.power);
+  state("distance", figures_.distance);
+  error_bound_.archive(state.part("error_bound"));
+}
+
+}  // namespace stillpoint

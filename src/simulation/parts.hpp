@@ -1,0 +1,16 @@
+// The parts of a simulation whose types are not installed: for the library's own studies, tests and Python module.
+#pragma once
+
+#include <stillpoint/simulation.hpp>
+
+namespace stillpoint {
+
+class LagrangianPhase;
+struct Model;
+
+struct SimulationParts {
+  LagrangianPhase& phase;
+  const Model& model;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,103 @@
+#include "simulation/run_state.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/checksum.hpp"
+#include "base/stop_request.hpp"
+#include "simulation/memory_need.hpp"
+#include "simulation/multigrid_choice.hpp"
+
+namespace stillpoint {
+namespace {
+
+// The checksum of the body as it was placed; a file of points may have changed since.
+std::int64_t checksum_of_body(const LagrangianPhase& phase) {
+  const PointData points = phase.fields().point_data();
+  std::uint64_t sum = 0;
+  for (const auto* values : {&points.initial_positions, &points.masses})
+    sum = checksum(sum, values->data(), values->size() * sizeof(double));
+  return static_cast<std::int64_t>(sum);
+}
+
+}  // namespace
+
+RunState::RunState(Scene of, SimulationOptions with)
+    : scene(std::move(of)),
+      options(std::move(with)),
+      end_request(scene.stop.wall_time, options.interrupted),
+      model(set_up()),
+      schedule(scene, *model.phase, scene.stop.time),
+      giving_way(scene, *model.phase),
+      measured(*this, model),
+      t(model.t) {}
+
+Model RunState::set_up() {
+  const StopScope scope(asks_to_end());
+  try {
+    heed_stop_request();
+    return make_model(scene, require_memory(make_plan(scene)), options.store);
+  } catch (const Stopped&) {
+    throw SetUpStopped(end_request.status(), end_request.reason() + " in the set-up; the run has not begun",
+                       wall.seconds());
+  }
+}
+
+void RunState::begin_next_phase(ConstVec v0) {
+  earlier_steps = steps();
+  earlier_evaluations = evaluations();
+  earlier_rejected = rejected_steps();
+  model.relaxing.from = motion->integrator->carried_over();
+  motion.reset();
+  begin_phase(std::vector<double>(v0.size(), 0.0), v0);
+}
+
+bool RunState::loads_settled() const {
+  const Contact* const contact = model.phase->contact();
+  return schedule.settled(t) && (!contact || contact->is_settled());
+}
+
+std::function<bool()> RunState::asks_to_end() {
+  if (!options.stops) return {};
+  return [this] { return end_request.asked(); };
+}
+
+void RunState::archive(const StateArchive& state) {
+  std::int64_t body = checksum_of_body(*model.phase);
+  const std::int64_t placed = body;
+  state("body", body);
+  if (body != placed) throw StateError("it is of another body: its material points were placed elsewhere");
+
+  state("t", t);
+  state("step", step);
+  state("phases", phases);
+  state("steps_before", earlier_steps);
+  state("evaluations_before", earlier_evaluations);
+  state("rejected_before", earlier_rejected);
+  double before_s = wall_s();
+  state("wall_s", before_s);
+  if (state.restores()) earlier_wall_s = before_s;
+  state("stepping_s", stepping_s);
+
+  state("carried_last_step", model.relaxing.from.last_step);
+  state("carried_rate", model.relaxing.from.rate);
+  state("carried_step_share", model.relaxing.from.step_share);
+  model.phase->control().archive(state.part("phase"));
+  archive_motion(state.part("motion"));
+  measured.archive(state);
+}
+
+// A motion is made at the state that it is to have, since no other may be one that can be evaluated.
+void RunState::archive_motion(const StateArchive& state) {
+  if (state.restores()) {
+    std::vector<double> y(2 * model.phase->size());
+    state("y", Vec(y));
+    motion.reset();
+    if (phases > 1) follow_multigrid(scene, model);
+    begin_phase(first_half(ConstVec(y)), second_half(ConstVec(y)));
+  }
+  motion->archive(state);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,72 @@
+// The state of a run: the model, the motion through the present phase, and what has been counted and measured so far.
+// The loop advances it; watchers and records read it.
+#pragma once
+
+#include <stillpoint/simulation.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/stopwatch.hpp"
+#include "simulation/end_request.hpp"
+#include "simulation/giving_way.hpp"
+#include "simulation/loads/load_schedule.hpp"
+#include "simulation/measurements.hpp"
+#include "simulation/model.hpp"
+#include "simulation/phase_motion.hpp"
+#include "simulation/verdict.hpp"
+
+namespace stillpoint {
+
+struct RunState {
+  /// Sets the scene up; there is no motion yet. Throws as the constructor of Simulation does.
+  RunState(Scene scene, SimulationOptions options);
+  RunState(const RunState&) = delete;
+  RunState& operator=(const RunState&) = delete;
+
+  /// Begins the first phase, or the next one at rest in its own unknowns; v0: (n) [m/s].
+  void begin_phase(ConstVec u0, ConstVec v0) { motion.emplace(model, scene, vectors, t, u0, v0); }
+  void begin_next_phase(ConstVec v0);
+
+  long steps() const { return earlier_steps + motion->integrator->steps(); }
+  long evaluations() const { return earlier_evaluations + motion->system.evaluations(); }
+  long rejected_steps() const { return earlier_rejected + motion->integrator->rejected_steps(); }
+  Moment moment() const { return {t, steps(), phases}; }
+  double wall_s() const { return earlier_wall_s + wall.seconds(); }
+  /// True if all that acts on the body is what it will be at the end, walls that are still on their way included.
+  bool loads_settled() const;
+  /// The question whether the run is to end, as a function; empty if the run heeds no such request.
+  std::function<bool()> asks_to_end();
+  /// The verdict that the run has failed now.
+  Verdict failed(const std::string& what) const { return failure(moment(), what); }
+
+  void archive(const StateArchive& state);
+
+  Scene scene;
+  SimulationOptions options;
+  EndRequest end_request;
+  Stopwatch wall;
+  VectorSpace vectors;
+  Model model;
+  LoadSchedule schedule;
+  GivingWay giving_way;
+  Measurements measured;
+  std::optional<PhaseMotion> motion;  // through the present phase
+
+  double t, step = 0;   // [s]
+  bool is_cut = true;   // whether the last step is as short as it is to end at a time that was asked for
+  double progress = 0;  // of the phase towards its end, which comes at 1
+  int phases = 1;
+  long earlier_steps = 0, earlier_evaluations = 0, earlier_rejected = 0;  // in the phases before
+  double stepping_s = 0, earlier_wall_s = 0;  // wall time of all steps, and of the runs that this one resumes [s]
+
+  std::string waits_for;              // the condition beside the residual that equilibrium waits for; empty: none
+  std::optional<double> load_growth;  // the growth of driven loads, as LimitLoad measures it
+
+ private:
+  Model set_up();
+  void archive_motion(const StateArchive& state);
+};
+
+}  // namespace stillpoint

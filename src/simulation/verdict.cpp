@@ -1,0 +1,93 @@
+#include "simulation/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/own_loads.hpp"
+#include "simulation/loads/formula_positions.hpp"
+#include "system/largest_at.hpp"
+
+namespace stillpoint {
+namespace {
+
+// "body_force.value is not a number at t = 0.3 at material point 12 at (0.5, 0.25)"; empty: all formulas have values.
+std::string formula_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
+  const auto dim = static_cast<std::size_t>(phase.dim());
+  std::string said;
+  problem.for_each_formula([&](const std::string& key, const Expression& formula) {
+    if (!said.empty()) return;
+    const bool somewhere = formula.uses_position();
+    const std::vector<double> positions = somewhere ? formula_positions(problem, phase, key) : std::vector<double>();
+    const std::size_t count = somewhere ? positions.size() / dim : 1;
+    for (std::size_t p = 0; p < count && said.empty(); ++p) {
+      const ConstVec x = somewhere ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
+      for (const double at : {t, t + step / 2, t + step}) {
+        const double value = formula(x, at);
+        if (std::isfinite(value) || !said.empty()) continue;
+        said = fmt::format("{} is {} at t = {:.6g}", key, std::isnan(value) ? "not a number" : "infinite", at);
+        if (x.empty()) continue;
+        said += !key.starts_with("body_force") ? fmt::format(" at ({:.6g})", fmt::join(x, ", "))
+                                               : " at " + to_string(phase.diagnosis().of_point(p));
+      }
+    }
+  });
+  return said;
+}
+
+// "body_force.own is not a number at t = 0.3 at material point …"; empty: it has values.
+std::string own_load_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
+  const auto own = own_load(problem.own_load);
+  if (!own) return "";
+  const std::vector<double> x = phase.fields().positions();
+  std::vector<double> b(x.size());
+  for (const double at : {t, t + step / 2, t + step}) {
+    own->b(at, problem.dim, x, b);
+    const auto wrong = std::ranges::find_if_not(b, [](double value) { return std::isfinite(value); });
+    if (wrong == b.end()) continue;
+    return fmt::format(
+        "body_force.own is {} at t = {:.6g} at {}", std::isnan(*wrong) ? "not a number" : "infinite", at,
+        to_string(phase.diagnosis().of_point(static_cast<std::size_t>(wrong - b.begin()) / problem.dim)));
+  }
+  return "";
+}
+
+}  // namespace
+
+Verdict failure(const Moment& moment, const std::string& what) {
+  return {RunStatus::failed,
+          fmt::format("at t = {:.6g} s, after {} steps, in phase {}: {}", moment.t, moment.steps, moment.phase, what)};
+}
+
+Verdict failure_of_step(const Problem& problem, const LagrangianPhase& phase, const Moment& moment,
+                        const StepReport& report) {
+  std::string load = formula_without_value(problem, phase, moment.t, report.h);
+  if (load.empty()) load = own_load_without_value(problem, phase, moment.t, report.h);
+  Verdict verdict = failure(moment, load.empty() ? report.message : load + "; expected a finite number at any time");
+  if (report.status != StepReport::Status::failed) verdict.status = RunStatus::diverged;
+  return verdict;
+}
+
+std::string most_stressed(const LagrangianPhase& phase, double t, ConstVec u) {
+  const auto components = static_cast<std::size_t>(phase.info().stress_components);
+  std::vector<double> stress(components * phase.points());
+  phase.fields().point_stress(t, u, stress);
+  const std::size_t largest = largest_entry(stress);
+  return fmt::format("{} is stressed most, by {:.3g} Pa", to_string(phase.diagnosis().of_point(largest / components)),
+                     std::abs(stress[largest]));
+}
+
+std::string furthest_from_rest(PhaseMotion& motion, double t) {
+  const ConstVec v = motion.v();
+  motion.residual(t);
+  std::vector<double> Q(v.size());
+  motion.system.last_out_of_balance(t, Q);
+  const SemiDiscrete& system = motion.system.system();
+  std::string said = "the out-of-balance force is largest at " + largest_at(system, Q);
+  const double fastest = v.empty() ? 0 : std::abs(v[largest_entry(v)]);
+  if (fastest > 0) said += fmt::format("; fastest, {:.3g} m/s, is {}", fastest, largest_at(system, v));
+  return said;
+}
+
+}  // namespace stillpoint

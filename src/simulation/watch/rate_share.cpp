@@ -1,0 +1,90 @@
+#include "simulation/watch/rate_share.hpp"
+
+#include <stillpoint/damping.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/parallel_loop.hpp"
+#include "plan/catalogue.hpp"
+#include "scene/driven_motion.hpp"
+
+namespace stillpoint {
+namespace {
+
+// A note on the share; empty: there is nothing to say.
+std::string note_on_rate_share(std::optional<double> share, const Problem& problem) {
+  constexpr double negligible = 0.05;
+  if (!(share.value_or(0) > negligible) || is_undamped(problem.damping.strategy)) return "";
+  const StrategyInfo* strategy = catalogue().strategy(problem.damping.strategy);
+  const std::string less = strategy && strategy->is_local
+                               ? fmt::format(", or less than damping.alpha = {:g}", problem.damping.alpha)
+                           : strategy && strategy->takes("c") ? ", or a smaller damping.c"
+                                                              : "";
+  return fmt::format(
+      "damping and inertia took {:.2g} % of the work of what drives the body: reactions and driven loads may be off by "
+      "as much on average; expected a slower motion{}",
+      100 * *share, less);
+}
+
+}  // namespace
+
+RateShare::RateShare(const Problem& problem, const LagrangianPhase& phase)
+    : phase_(phase), watches_(is_driven(problem)) {}
+
+// Reactions shake about their mean, so that signs are taken off strokes of many samples.
+void RateShare::sample(double t, long steps, PhaseMotion& motion) {
+  constexpr long longest_interval = 64, samples_a_stroke = 64;
+  next_ = steps + std::clamp(steps / longest_interval, 1L, longest_interval);
+  const ConstVec v = motion.v();
+  if (!motion.integrator->force_is_current()) motion.system.residual(t, motion.u());
+  Q_.resize(v.size());
+  motion.system.last_out_of_balance(t, Q_);
+  const double power = sum_over(v.size(), [Q = Q_.data(), v = v.data()](std::size_t i) { return Q[i] * v[i]; });
+  const ConstVec F = motion.system.last_external_force();
+  const double loads = sum_over(v.size(), [F = F.data(), v = v.data()](std::size_t i) { return F[i] * v[i]; });
+  unbalanced_ += 0.5 * (power_ + power) * (t - t_);
+  of_loads_ += 0.5 * (load_power_ + loads) * (t - t_);
+  of_stroke_ += work_of_driving(t, motion.system);
+  if (++samples_ % samples_a_stroke == 0) {
+    driving_ += std::abs(of_stroke_) + std::abs(of_loads_);
+    of_stroke_ = of_loads_ = 0;
+  }
+  power_ = power;
+  load_power_ = loads;
+  t_ = t;
+}
+
+// The work since the last sample. Displacements of supports are known at any time, whenever the phase began.
+double RateShare::work_of_driving(double t, const RelaxationSystem& system) const {
+  const ConstVec reactions = system.last_reactions();
+  const std::vector<double> now = phase_.supports().support_displacements(t),
+                            before = phase_.supports().support_displacements(t_);
+  double work = 0;
+  for (std::size_t s = 0; s < std::min(reactions.size(), now.size()); ++s) work += reactions[s] * (now[s] - before[s]);
+  for (const WallReaction& wall : phase_.supports().wall_reactions(t)) work += wall.power * (t - t_);
+  return work;
+}
+
+// There is no share if nothing is driven, or what drives did no work.
+void RateShare::fill(Summary& summary, const RunState& run) {
+  const double driving = driving_ + std::abs(of_stroke_) + std::abs(of_loads_);
+  if (watches_ && driving > 0) summary.rate_share = std::abs(unbalanced_) / driving;
+  add_note(summary, note_on_rate_share(summary.rate_share, run.scene));
+}
+
+void RateShare::archive(const StateArchive& state, RunState&) {
+  state("next", next_);
+  state("samples", samples_);
+  state("t", t_);
+  state("power", power_);
+  state("unbalanced", unbalanced_);
+  state("driving", driving_);
+  state("of_stroke", of_stroke_);
+  state("load_power", load_power_);
+  state("of_loads", of_loads_);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,64 @@
+#include "simulation/watch/single_phase.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace stillpoint {
+namespace {
+
+// Beyond this strain a run of one phase ends in no equilibrium: the material has gone nearly as far as its own size,
+// which twice the load that it bears takes it to.
+constexpr double largest_single_phase_strain = 0.9;
+
+struct SinglePhaseStrain {
+  double strain = 0;      // the largest component of ∂u/∂x at the points
+  std::size_t point = 0;  // the point that has this strain
+};
+
+// The strain at (t, u); empty if the points move on, or nothing remembers its path.
+std::optional<SinglePhaseStrain> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u) {
+  if (phase.info().updated_lagrangian || !phase.history_dependent()) return std::nullopt;
+  const auto components = static_cast<std::size_t>(phase.info().gradient_components);
+  std::vector<double> gradient(components * phase.points());
+  phase.fields().point_strain(t, u, gradient);
+  SinglePhaseStrain most;
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    if (std::abs(gradient[k]) > most.strain) most = {std::abs(gradient[k]), k / components};
+  return most;
+}
+
+// A note on the strain; empty: there is nothing to say.
+std::string note_on_single_phase(std::optional<double> strain) {
+  constexpr double negligible = 0.1;
+  if (!(strain.value_or(0) > negligible)) return "";
+  return fmt::format(
+      "a material that yields is strained by {:.0f} % in a single phase: the grid of the start, squeezed so far, bears "
+      "loads that the material may not; expected a smaller load, or phases that end (phase.max_motion = 0.1)",
+      100 * *strain);
+}
+
+}  // namespace
+
+void SinglePhase::confirm(RunState& run, Verdict& verdict) {
+  const LagrangianPhase& phase = *run.model.phase;
+  const auto most = strain_in_single_phase(phase, run.t, run.motion->u());
+  const std::string said = most ? note_on_single_phase(most->strain) : "";
+  if (said.empty()) return;
+  if (most->strain <= largest_single_phase_strain) {
+    verdict.reason += "; but " + said;
+    return;
+  }
+  verdict = {RunStatus::step_limit, fmt::format("no equilibrium: {}; {} is strained most; it ended with {}", said,
+                                                to_string(phase.diagnosis().of_point(most->point)), verdict.reason)};
+}
+
+void SinglePhase::fill_state(Summary& summary, RunState& run) {
+  if (const auto most = strain_in_single_phase(*run.model.phase, run.t, run.motion->u()))
+    summary.single_phase_strain = most->strain;
+  add_note(summary, note_on_single_phase(summary.single_phase_strain));
+}
+
+}  // namespace stillpoint
