@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "simulation/error_bound.hpp"
-#include "simulation/model.hpp"
+#include "simulation/setup/model.hpp"
 
 namespace stillpoint {
 

@@ -6,8 +6,7 @@
 
 #include "base/checksum.hpp"
 #include "base/stop_request.hpp"
-#include "simulation/memory_need.hpp"
-#include "simulation/multigrid_choice.hpp"
+#include "simulation/setup/model.hpp"
 
 namespace stillpoint {
 namespace {

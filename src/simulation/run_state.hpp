@@ -13,8 +13,8 @@
 #include "simulation/giving_way.hpp"
 #include "simulation/loads/load_schedule.hpp"
 #include "simulation/measurements.hpp"
-#include "simulation/model.hpp"
 #include "simulation/phase_motion.hpp"
+#include "simulation/setup/model.hpp"
 #include "simulation/verdict.hpp"
 
 namespace stillpoint {

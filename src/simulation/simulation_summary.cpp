@@ -6,9 +6,9 @@
 #include "base/stop_request.hpp"
 #include "output/exact_error.hpp"
 #include "simulation/advice/notes.hpp"
-#include "simulation/left_in_points.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/support_figures.hpp"
+#include "simulation/watch/left_in_points.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {

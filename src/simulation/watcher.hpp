@@ -1,5 +1,6 @@
-// A watcher looks at a run after its steps, and says when it is over. The loop asks all watchers in the order of one list,
-// and knows none of them by name: a watcher is a file of simulation/watch/ and a row of simulation/watch/watchers.cpp.
+// A watcher looks at a run after its steps, and says when it is over. The loop asks all watchers in the order of one
+// list, and knows none of them by name: a watcher is a file of simulation/watch/ and a row of
+// simulation/watch/watchers.cpp.
 #pragma once
 
 #include <stillpoint/state_archive.hpp>

@@ -11,7 +11,7 @@
 #include "linalg/sparse_lu.hpp"
 #include "output/point_fields.hpp"
 #include "scene/dimensions.hpp"
-#include "simulation/notes.hpp"
+#include "simulation/advice/notes.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/spectrum/lowest_mode.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "simulation/notes.hpp"
+#include "simulation/advice/notes.hpp"
 
 namespace stillpoint {
 namespace {
