@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -55,6 +56,12 @@ class StateArchive {
     } else {
       all(name, value);
     }
+  }
+  /// Does so with several values, each after its name.
+  template <class T, class... Others>
+  requires(sizeof...(Others) > 0) void operator()(std::string_view name, T& value, Others&&... others) const {
+    (*this)(name, value);
+    (*this)(std::forward<Others>(others)...);
   }
   /// Saves or restores an array of fixed size.
   void operator()(std::string_view name, Vec values) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "scene/dimensions.hpp"
@@ -69,6 +70,16 @@ std::vector<double> change_of(const LagrangianPhase& phase, PointQuantity quanti
   phase.fields().point_field(quantity, t, nothing, rest);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= rest[i];
   return values;
+}
+
+std::vector<double> lengths_of(ConstVec vectors, std::size_t dim) {
+  std::vector<double> lengths(vectors.size() / dim);
+  for (std::size_t p = 0; p < lengths.size(); ++p) {
+    double square = 0;
+    for (const double x : vectors.subspan(dim * p, dim)) square += x * x;
+    lengths[p] = std::sqrt(square);
+  }
+  return lengths;
 }
 
 PointFieldComponent find_point_field(const LagrangianPhase& phase, const std::string& field) {

@@ -22,6 +22,9 @@ std::vector<double> current_positions(const LagrangianPhase& phase, double t, Co
 /// The change of a quantity at the points by a motion x, (n), alone, without that by supports: (P × components).
 std::vector<double> change_of(const LagrangianPhase& phase, PointQuantity quantity, double t, ConstVec x);
 
+/// The lengths of vectors that follow each other, (P × dim).
+std::vector<double> lengths_of(ConstVec vectors, std::size_t dim);
+
 /// A field component as a probe names it, "u" in one dimension, "stress.xy" in the plane.
 struct PointFieldComponent {
   std::string name;

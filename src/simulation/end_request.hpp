@@ -30,7 +30,6 @@ class EndRequest {
   }
   /// time_limit or interrupted; running if nothing has asked for the end.
   RunStatus status() const { return request_.status; }
-  /// The same in words.
   const std::string& reason() const { return request_.reason; }
   /// The verdict on a run that heeds the request; `where`: how far it had come.
   Verdict verdict(const std::string& where) const { return {request_.status, request_.reason + "; " + where}; }

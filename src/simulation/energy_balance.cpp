@@ -13,6 +13,8 @@ double work_between(ConstVec f0, ConstVec f1, ConstVec u0, ConstVec u1) {
   return sum_over(u1.size(), [=](std::size_t i) { return 0.5 * (f0[i] + f1[i]) * (u1[i] - u0[i]); });
 }
 
+std::vector<double> copy_of(ConstVec values) { return {values.begin(), values.end()}; }
+
 }  // namespace
 
 std::vector<std::string> EnergyBalance::columns() const {
@@ -30,35 +32,25 @@ void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u
   if (!watches_) return;
   const ConstVec F = system.last_external_force(), reactions = system.last_reactions();
   const std::vector<double> support = phase_.supports().support_displacements(t);
-  if (last_.u.empty()) {  // the start of the run: nothing has moved yet but supports, from where nothing is deformed
-    remember(F, u, std::vector<double>(reactions.size(), 0.0), std::vector<double>(support.size(), 0.0));
-  }
+  if (last_.u.empty())  // the start of the run: nothing has moved yet but supports, from where nothing is deformed
+    last_ = {copy_of(F), copy_of(u), std::vector(reactions.size(), 0.0), std::vector(support.size(), 0.0)};
   work_ += work_between(last_.F, F, last_.u, u);
   work_ += work_between(last_.reactions, reactions, last_.support, support);
   const double power = wall_power(t);
   work_ += 0.5 * (power_ + power) * (t - t_);
-  remember(F, u, reactions, support);
+  last_ = {copy_of(F), copy_of(u), copy_of(reactions), support};
   power_ = power;
   t_ = t;
 }
 
 void EnergyBalance::begin_phase(double t, const RelaxationSystem& system) {
   if (!watches_) return;
-  remember(system.last_external_force(), std::vector<double>(system.size(), 0.0), system.last_reactions(),
-           phase_.supports().support_displacements(t));
-}
-
-void EnergyBalance::remember(ConstVec F, ConstVec u, ConstVec reactions, ConstVec support) {
-  last_.F.assign(F.begin(), F.end());
-  last_.u.assign(u.begin(), u.end());
-  last_.reactions.assign(reactions.begin(), reactions.end());
-  last_.support.assign(support.begin(), support.end());
+  last_ = {copy_of(system.last_external_force()), std::vector(system.size(), 0.0), copy_of(system.last_reactions()),
+           phase_.supports().support_displacements(t)};
 }
 
 void EnergyBalance::archive(const StateArchive& state) {
-  state("work", work_);
-  state("t", t_);
-  state("power", power_);
+  state("work", work_, "t", t_, "power", power_);
   state.none_or(phase_.size(), "u", last_.u);
   const std::size_t n = last_.u.size(), supports = n > 0 ? phase_.supports().support_displacements(t_).size() : 0;
   last_.F.resize(n);

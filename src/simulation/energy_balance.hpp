@@ -41,7 +41,6 @@ class EnergyBalance {
     std::vector<double> F, u;                // free unknowns
     std::vector<double> reactions, support;  // supports
   };
-  void remember(ConstVec F, ConstVec u, ConstVec reactions, ConstVec support);
 
   const LagrangianPhase& phase_;
   bool watches_;

@@ -23,11 +23,9 @@ class ErrorBound {
 
   /// Takes an ω₁ that shows on the way, if none was known at the beginning and V = M; the lowest so far counts.
   void learn(double omega_1) { omega_1_ = std::min(omega_1, omega_1_.value_or(omega_1)); }
-  /// The distance of u, (n), at which the system was evaluated last. acceleration: M⁻¹Q of u, or empty if that is not
-  /// known.
+  /// The distance of u, (n), where the system was evaluated last. acceleration: its M⁻¹Q; empty: it is not known.
   std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u, ConstVec acceleration = {});
-  /// The last distance, but relative to the largest ‖u‖_V so far if that is a hundred times as large, as in a body that
-  /// is unloaded to nothing.
+  /// The last distance, but relative to the largest ‖u‖_V so far if that is a hundred times as large: after unloading.
   std::optional<double> beside_largest() const { return beside_largest_; }
   /// From now on the loads stay what they are, so that a linear body gets no energy beyond what it has: if ‖u‖_V still
   /// becomes larger than that allows, as with a step that is not stable, it is no measure. To be called after
@@ -39,11 +37,8 @@ class ErrorBound {
 
   void archive(const StateArchive& state) {
     state("omega_1", omega_1_);
-    state("beside_largest", beside_largest_);
-    state("energy_error", energy_error_);
-    state("size", size_);
-    state("largest", largest_);
-    state("most", most_);
+    state("beside_largest", beside_largest_, "energy_error", energy_error_, "size", size_, "largest", largest_, "most",
+          most_);
     if (volume_) state("omega_of_volume", volume_->omega_1);
     state("refreshed_at", refreshed_at_);
   }

@@ -6,16 +6,10 @@
 #include "base/parallel_loop.hpp"
 
 namespace stillpoint {
-namespace {
-
-constexpr const char* plastic_strain_name = "plastic_strain";
-
-}  // namespace
 
 GivingWay::GivingWay(const Problem& problem, const LagrangianPhase& phase) : phase_(phase) {
-  const std::vector<std::string>& remembered = phase.info().history_names;
   remembers_ = phase.history_dependent();
-  yields_ = std::ranges::find(remembered, plastic_strain_name) != remembered.end();
+  yields_ = std::ranges::count(phase.info().history_names, plastic_strain_name) > 0;
   for (const WallSpec& wall : problem.walls) friction_.push_back(wall.friction);
   has_friction_ = std::ranges::any_of(friction_, [](double mu) { return mu > 0 && std::isfinite(mu); });
   if (yields_) volumes_ = phase.fields().point_data().volumes;

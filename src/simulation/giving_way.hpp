@@ -10,6 +10,8 @@
 
 namespace stillpoint {
 
+inline constexpr const char* plastic_strain_name = "plastic_strain";  // in the history of a law
+
 class GivingWay {
  public:
   /// The phase, which may be any of the run, outlives this object.
@@ -17,6 +19,10 @@ class GivingWay {
 
   /// True if the body can give way: a law remembers its path, or a wall has a friction with an end.
   bool is_possible() const { return remembers_ || has_friction_; }
+  /// True if a law has a plastic strain.
+  bool yields() const { return yields_; }
+  /// V_p at the start, (P) [m³]; empty if no law has a plastic strain.
+  const std::vector<double>& volumes() const { return volumes_; }
   /// True if it shows that a body gives way, by a plastic strain or by friction; otherwise a law remembers something
   /// that is not known here.
   bool shows() const { return yields_ || has_friction_ || !remembers_; }
@@ -29,7 +35,7 @@ class GivingWay {
   const LagrangianPhase& phase_;
   std::vector<double> friction_;  // the friction of each wall
   bool remembers_, yields_, has_friction_;
-  std::vector<double> volumes_;  // (P) [m³]
+  std::vector<double> volumes_;
 };
 
 }  // namespace stillpoint

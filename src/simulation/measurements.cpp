@@ -14,7 +14,7 @@ const Measurements::Figures& Measurements::all() {
   figures_.residual = motion.residual(run_.t);
   if (const auto omega_1 = run_.model.learns_omega_1 ? motion.integrator->lowest_frequency() : std::nullopt)
     error_bound_.learn(*omega_1);
-  figures_.distance = measured_distance();
+  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.integrator->acceleration());
   figures_.work_scale = motion.system.work_scale(motion.u_vector);
   const RelaxationSystem::Motion measured = motion.motion();
   figures_.power = measured.power;
@@ -44,23 +44,15 @@ std::optional<double> Measurements::distance_to_go() const {
 }
 
 void Measurements::refresh_distance() {
-  if (!error_bound_.refresh(run_.t, run_.motion->u(), figures_.residual)) return;
-  run_.motion->system.residual(run_.t, run_.motion->u());
-  figures_.distance = measured_distance();
-}
-
-std::optional<double> Measurements::measured_distance() {
   PhaseMotion& motion = *run_.motion;
-  return error_bound_.distance(motion.system, motion.u_vector, motion.integrator->acceleration());
+  if (!error_bound_.refresh(run_.t, motion.u(), figures_.residual)) return;
+  motion.system.residual(run_.t, motion.u());
+  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.integrator->acceleration());
 }
 
 void Measurements::archive(const StateArchive& state) {
-  state("measured", is_measured_);
-  state("residual", figures_.residual);
-  state("kinetic_energy", figures_.kinetic_energy);
-  state("work_scale", figures_.work_scale);
-  state("power", figures_.power);
-  state("distance", figures_.distance);
+  state("measured", is_measured_, "residual", figures_.residual, "kinetic_energy", figures_.kinetic_energy,
+        "work_scale", figures_.work_scale, "power", figures_.power, "distance", figures_.distance);
   error_bound_.archive(state.part("error_bound"));
 }
 

@@ -57,8 +57,6 @@ class Measurements {
   Creeping creeping;  // set by the watcher of creep
 
  private:
-  std::optional<double> measured_distance();
-
   RunState& run_;
   ErrorBound error_bound_;
   Figures figures_;

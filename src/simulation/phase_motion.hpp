@@ -32,6 +32,10 @@ class PhaseMotion {
   void archive(const StateArchive& state);
   /// Power and kinetic energy of the state that residual() was called for last.
   RelaxationSystem::Motion motion();
+  /// Evaluates the system at t, if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
+  void evaluate(double t) {
+    if (!integrator->force_is_current()) system.residual(t, u());
+  }
   /// ‖F − R‖/‖F‖ at t.
   double residual(double t) {
     return integrator->force_is_current() ? system.last_residual() : system.residual(t, u());

@@ -23,12 +23,6 @@ double output_interval(const Problem& problem, const Model& model) {
   return std::max(1.0, std::round(wanted / step)) * step;
 }
 
-// Evaluates the forces at (t, u), if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
-void evaluate_now(RunState& run) {
-  PhaseMotion& motion = *run.motion;
-  if (!motion.integrator->force_is_current()) motion.system.residual(run.t, motion.u());
-}
-
 // A folder that cannot be written is bad input: nothing has run yet.
 template <class Open>
 auto open_output(const std::filesystem::path& out, const Open& open) {
@@ -98,8 +92,8 @@ void Recorder::add_row(RunState& run) {
 }
 
 void Recorder::tell(const HistoryRow& figures, const std::vector<double>& others) const {
-  std::vector<std::string> names = {"t", "steps", "rhs_evaluations", "residual", "kinetic_energy"};
-  std::ranges::copy(columns(), std::back_inserter(names));
+  std::vector<std::string> names = columns();
+  names.insert(names.begin(), {"t", "steps", "rhs_evaluations", "residual", "kinetic_energy"});
   std::vector<double> row = {figures.t, static_cast<double>(figures.steps),
                              static_cast<double>(figures.rhs_evaluations), figures.residual, figures.kinetic_energy};
   row.insert(row.end(), others.begin(), others.end());
@@ -109,20 +103,18 @@ void Recorder::tell(const HistoryRow& figures, const std::vector<double>& others
 void Recorder::end_phase(RunState& run) {
   probes_.end_phase(run.t, run.motion->u(), run.motion->v());
   if (!energy_balance_.watches()) return;
-  evaluate_now(run);
+  run.motion->evaluate(run.t);
   energy_balance_.advance(run.t, run.motion->system, run.motion->u());
 }
 void Recorder::begin_phase(RunState& run) {
   probes_.begin_phase(run.t, run.motion->u(), run.motion->v());
   if (!energy_balance_.watches()) return;
-  evaluate_now(run);
+  run.motion->evaluate(run.t);
   energy_balance_.begin_phase(run.t, run.motion->system);
 }
 
 void Recorder::archive(const StateArchive& state) {
-  state("rows", rows_);
-  state("last_row", last_row_);
-  state("largest_factor", largest_factor_);
+  state("rows", rows_, "last_row", last_row_, "largest_factor", largest_factor_);
   probes_.archive(state.part("probes"));
   energy_balance_.archive(state.part("energy"));
   history_.archive(state.part("history"));

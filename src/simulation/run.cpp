@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include <omp.h>
@@ -21,16 +20,6 @@ namespace {
 
 BodyMoment now(const Simulation& simulation) {
   return moment_of(simulation.parts().phase, simulation.t(), simulation.u(), simulation.v());
-}
-
-// Between two phases of which the second could not begin there is no body to look at.
-bool is_readable(Simulation& simulation) {
-  try {
-    simulation.field("u");
-    return true;
-  } catch (const std::logic_error&) {
-    return false;
-  }
 }
 
 // Returns the summary of a run that had to end before it began, which is not written yet. A history of no rows is
@@ -58,7 +47,7 @@ Summary leave_stopped_set_up(const Problem& problem, const SimulationOptions& op
   return s;
 }
 
-// lock: of the folder, from when the run begins.
+// lock: it locks the folder from when the run begins.
 Summary simulate(const Scene& scene, const SimulationOptions& options, RunReport& report,
                  std::shared_ptr<FolderLock>& lock) {
   try {
@@ -66,7 +55,7 @@ Summary simulate(const Scene& scene, const SimulationOptions& options, RunReport
     if (!options.out.empty()) lock = lock_folder(options.out);
     if (report.looks_at_body()) report.begin(now(simulation));
     simulation.run();
-    if (report.looks_at_body() && is_readable(simulation)) report.end(now(simulation));
+    if (report.looks_at_body() && simulation.parts().is_readable) report.end(now(simulation));
     return simulation.summary();
   } catch (const SetUpStopped& stopped) {
     return leave_stopped_set_up(scene, options, stopped);

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/checksum.hpp"
 #include "base/stop_request.hpp"
 #include "simulation/setup/model.hpp"
@@ -57,6 +59,10 @@ bool RunState::loads_settled() const {
   return schedule.settled(t) && (!contact || contact->is_settled());
 }
 
+Verdict RunState::failed(const std::string& what) const {
+  return {RunStatus::failed, fmt::format("at t = {:.6g} s, after {} steps, in phase {}: {}", t, steps(), phases, what)};
+}
+
 std::function<bool()> RunState::asks_to_end() {
   if (!options.stops) return {};
   return [this] { return end_request.asked(); };
@@ -68,35 +74,26 @@ void RunState::archive(const StateArchive& state) {
   state("body", body);
   if (body != placed) throw StateError("it is of another body: its material points were placed elsewhere");
 
-  state("t", t);
-  state("step", step);
-  state("phases", phases);
-  state("steps_before", earlier_steps);
-  state("evaluations_before", earlier_evaluations);
-  state("rejected_before", earlier_rejected);
+  state("t", t, "step", step, "phases", phases, "steps_before", earlier_steps, "evaluations_before",
+        earlier_evaluations, "rejected_before", earlier_rejected);
   double before_s = wall_s();
   state("wall_s", before_s);
   if (state.restores()) earlier_wall_s = before_s;
   state("stepping_s", stepping_s);
 
-  state("carried_last_step", model.relaxing.from.last_step);
-  state("carried_rate", model.relaxing.from.rate);
-  state("carried_step_share", model.relaxing.from.step_share);
+  state("carried_last_step", model.relaxing.from.last_step, "carried_rate", model.relaxing.from.rate,
+        "carried_step_share", model.relaxing.from.step_share);
   model.phase->control().archive(state.part("phase"));
-  archive_motion(state.part("motion"));
-  measured.archive(state);
-}
-
-// A motion is made at the state that it is to have, since no other may be one that can be evaluated.
-void RunState::archive_motion(const StateArchive& state) {
-  if (state.restores()) {
+  const StateArchive moving = state.part("motion");
+  if (state.restores()) {  // the motion is made at the state that it is to have: another may not be one to evaluate
     std::vector<double> y(2 * model.phase->size());
-    state("y", Vec(y));
+    moving("y", Vec(y));
     motion.reset();
     if (phases > 1) follow_multigrid(scene, model);
     begin_phase(first_half(ConstVec(y)), second_half(ConstVec(y)));
   }
-  motion->archive(state);
+  motion->archive(moving);
+  measured.archive(state);
 }
 
 }  // namespace stillpoint

@@ -22,8 +22,6 @@ namespace stillpoint {
 struct RunState {
   /// Sets the scene up; there is no motion yet. Throws as the constructor of Simulation does.
   RunState(Scene scene, SimulationOptions options);
-  RunState(const RunState&) = delete;
-  RunState& operator=(const RunState&) = delete;
 
   /// Begins the first phase, or the next one at rest in its own unknowns; v0: (n) [m/s].
   void begin_phase(ConstVec u0, ConstVec v0) { motion.emplace(model, scene, vectors, t, u0, v0); }
@@ -32,14 +30,13 @@ struct RunState {
   long steps() const { return earlier_steps + motion->integrator->steps(); }
   long evaluations() const { return earlier_evaluations + motion->system.evaluations(); }
   long rejected_steps() const { return earlier_rejected + motion->integrator->rejected_steps(); }
-  Moment moment() const { return {t, steps(), phases}; }
   double wall_s() const { return earlier_wall_s + wall.seconds(); }
   /// True if all that acts on the body is what it will be at the end, walls that are still on their way included.
   bool loads_settled() const;
   /// The question whether the run is to end, as a function; empty if the run heeds no such request.
   std::function<bool()> asks_to_end();
-  /// The verdict that the run has failed now.
-  Verdict failed(const std::string& what) const { return failure(moment(), what); }
+  /// The verdict that the run has failed now: "at t = 0.31 s, after 120 steps, in phase 3: " and what happened.
+  Verdict failed(const std::string& what) const;
 
   void archive(const StateArchive& state);
 
@@ -66,7 +63,6 @@ struct RunState {
 
  private:
   Model set_up();
-  void archive_motion(const StateArchive& state);
 };
 
 }  // namespace stillpoint

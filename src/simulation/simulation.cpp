@@ -8,7 +8,6 @@
 #include "scene/throw_scene_error.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/simulation_impl.hpp"
-#include "simulation/thread_scope.hpp"
 
 namespace stillpoint {
 Simulation::Simulation(Scene scene, SimulationOptions options) {
@@ -55,7 +54,7 @@ Summary Simulation::summary() {
 }
 RelaxationSystem& Simulation::system() { return impl_->run_.motion->system; }
 const Integrator& Simulation::integrator() const { return *impl_->run_.motion->integrator; }
-SimulationParts Simulation::parts() const { return {*impl_->run_.model.phase, impl_->run_.model}; }
+SimulationParts Simulation::parts() const { return {*impl_->run_.model.phase, impl_->run_.model, impl_->is_readable_}; }
 std::optional<double> Simulation::distance() {
   const ThreadScope threads(impl_->thread_choice_.threads());
   impl_->run_.measured.all();

@@ -118,7 +118,9 @@ void Simulation::Impl::give_up(const StepReport& report) {
   const bool may_go_on = report.status == StepReport::Status::inadmissible &&
                          run_.model.phase->info().updated_lagrangian && run_.motion->integrator->steps() > 0;
   if (may_go_on) return next_phase();
-  verdict_ = failure_of_step(run_.scene, *run_.model.phase, run_.moment(), report);
+  const std::string load = load_without_value(run_.scene, *run_.model.phase, run_.t, report.h);
+  verdict_ = run_.failed(load.empty() ? report.message : load + "; expected a finite number at any time");
+  if (report.status != StepReport::Status::failed) verdict_.status = RunStatus::diverged;
   record(true);
 }
 
@@ -139,18 +141,12 @@ void Simulation::Impl::judge() {
   }
 }
 
-void Simulation::Impl::record(bool last) {
-  if (recorder_) recorder_->sample(run_, last);
-}
-
 void Simulation::Impl::next_phase() {
-  const auto tell = [this](bool begun) {
-    if (run_.options.at_phase_change) run_.options.at_phase_change(begun);
-  };
+  const auto& tell = run_.options.at_phase_change;
   run_.motion->finish(run_.t);
   if (recorder_) recorder_->end_phase(run_);
   for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/false);
-  tell(false);
+  if (tell) tell(false);
   try {
     // A fictitious inertia has no velocity that a phase could hand on: the next one begins at rest.
     const std::vector<double> rest(run_.model.multigrid ? run_.model.phase->size() : 0, 0.0);
@@ -161,7 +157,7 @@ void Simulation::Impl::next_phase() {
     std::ranges::move(run_.model.body_notes.later(run_.scene, *run_.model.phase), std::back_inserter(run_.model.notes));
     if (recorder_) recorder_->begin_phase(run_);
     ++run_.phases;
-    tell(true);
+    if (tell) tell(true);
   } catch (const PointLost& lost) {
     verdict_ = run_.failed(lost.what());
     for (const Watched& watched : watchers_) watched.watcher->explain(run_, verdict_);
@@ -186,8 +182,6 @@ void Simulation::Impl::report_progress() {
                   run_.waits_for});
 }
 
-// --- the end ---
-
 void Simulation::Impl::end_if_asked() {
   const bool ends = run_.options.stops && run_.end_request.asked();
   if (ends) end_as_asked("the step was finished");
@@ -195,35 +189,22 @@ void Simulation::Impl::end_if_asked() {
   if (ends) record(true);
 }
 
-void Simulation::Impl::end_as_asked(const std::string& where) { verdict_ = run_.end_request.verdict(where); }
-
 void Simulation::Impl::finish() {
   if (is_readable_) {
     run_.motion->finish(run_.t);
     for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/true);
-    explain_limit();
   }
-  confirm_equilibrium();
-  if (recorder_) recorder_->finish(run_.t, is_readable_ ? &*run_.motion : nullptr);
-  folder_lock_.reset();
-}
-
-// A limit that comes before equilibrium says no more than that it is reached.
-void Simulation::Impl::explain_limit() {
-  const RunStatus status = verdict_.status;
+  const RunStatus reached = verdict_.status;
   const bool is_limit =
-      status == RunStatus::end_time || status == RunStatus::step_limit || status == RunStatus::time_limit;
-  if (!is_limit || exit_status() == 0) return;
-  for (const Watched& watched : watchers_) watched.watcher->explain(run_, verdict_);
-}
-
-void Simulation::Impl::confirm_equilibrium() {
-  if (verdict_.status != RunStatus::equilibrium) return;
+      reached == RunStatus::end_time || reached == RunStatus::step_limit || reached == RunStatus::time_limit;
   for (const Watched& watched : watchers_) {
+    if (is_limit && exit_status() != 0) watched.watcher->explain(run_, verdict_);
     if (verdict_.status == RunStatus::equilibrium) watched.watcher->confirm(run_, verdict_);
   }
-  const bool was_asked_to_end = verdict_.status == run_.end_request.status();
+  const bool was_asked_to_end = verdict_.status != reached && verdict_.status == run_.end_request.status();
   if (was_asked_to_end && leaves_checkpoints()) leave_checkpoint();
+  if (recorder_) recorder_->finish(run_.t, is_readable_ ? &*run_.motion : nullptr);
+  folder_lock_.reset();
 }
 
 ConstVec Simulation::Impl::field(std::string_view name) {

@@ -22,8 +22,6 @@ class Simulation::Impl {
   /// threads: the number of threads that there are.
   Impl(Scene scene, SimulationOptions options, int threads);
   ~Impl();
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
 
   RunStatus step(double t_stop);
   bool done() const { return verdict_.ends(); }
@@ -34,6 +32,7 @@ class Simulation::Impl {
   RunState run_;
   Verdict verdict_;
   ThreadChoice thread_choice_;
+  bool is_readable_ = true;  // false if the points are between two phases, because the second could not begin
 
  private:
   void take_step(double t_stop);
@@ -43,14 +42,14 @@ class Simulation::Impl {
   void observe();
   void judge();
   void next_phase();
-  void record(bool last);
+  void record(bool last) {
+    if (recorder_) recorder_->sample(run_, last);
+  }
   void report_progress();
   void end_if_asked();
 
-  void end_as_asked(const std::string& where);
+  void end_as_asked(const std::string& where) { verdict_ = run_.end_request.verdict(where); }
   void finish();
-  void explain_limit();
-  void confirm_equilibrium();
 
   bool leaves_checkpoints() const { return recorder_ && !run_.options.out.empty() && run_.scene.checkpoint.wanted(); }
   bool checkpoint_is_due();
@@ -59,15 +58,12 @@ class Simulation::Impl {
   void resume(const std::filesystem::path& from);
 
   int exit_status() const;
-  void fill_model(Summary& s) const;
-  void fill_effort(Summary& s) const;
   void fill_state(Summary& s);
 
   std::vector<Watched> watchers_;
   std::shared_ptr<FolderLock> folder_lock_;  // until the run is over
   std::optional<Recorder> recorder_;
   bool started_ = false;
-  bool is_readable_ = true;  // false if the points are between two phases, because the second could not begin
   double next_progress_s_ = 0, next_checkpoint_s_ = 0;  // on the clock of the run [s]
   long last_checkpoint_ = 0;                            // [steps]
   std::vector<double> field_;

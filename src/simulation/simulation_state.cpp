@@ -21,9 +21,7 @@ struct Origin {
   std::vector<std::string> overrides;
 
   void archive(const StateArchive& state) {
-    state("version", version);
-    state("file", file);
-    state("scene", text);
+    state("version", version, "file", file, "scene", text);
     std::size_t count = overrides.size();
     state("overrides", count);
     constexpr std::size_t largest_count = 100'000;  // more than a command line has

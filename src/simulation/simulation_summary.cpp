@@ -1,7 +1,5 @@
 // The figures of a simulation, at any moment and at its end.
 #include <limits>
-#include <optional>
-#include <string>
 
 #include "base/stop_request.hpp"
 #include "output/exact_error.hpp"
@@ -36,19 +34,12 @@ bool is_bound(const RunState& run) {
 
 int Simulation::Impl::exit_status() const {
   const StopSpec& stop = run_.scene.stop;
-  switch (verdict_.status) {
-    case RunStatus::equilibrium:
-    case RunStatus::limit_load:
-    case RunStatus::stop_test:
-      return 0;
-    case RunStatus::end_time:
-      return stop.wants_equilibrium() || stop.load_growth > 0 ? 3 : 0;
-    case RunStatus::diverged:
-    case RunStatus::failed:
-      return 4;
-    default:
-      return 3;
-  }
+  const RunStatus status = verdict_.status;
+  if (status == RunStatus::diverged || status == RunStatus::failed) return 4;
+  const bool only_time_was_asked = !stop.wants_equilibrium() && !(stop.load_growth > 0);
+  const bool as_asked = status == RunStatus::equilibrium || status == RunStatus::limit_load ||
+                        status == RunStatus::stop_test || (status == RunStatus::end_time && only_time_was_asked);
+  return as_asked ? 0 : 3;
 }
 
 Summary Simulation::Impl::summary() {
@@ -59,15 +50,6 @@ Summary Simulation::Impl::summary() {
   s.reason = verdict_.reason;
   s.exit_status = exit_status();
   s.notes = run_.model.notes;
-  fill_model(s);
-  fill_effort(s);
-  for (const Watched& watched : watchers_) watched.watcher->fill(s, run_);
-  s.residual = s.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
-  if (is_readable_) fill_state(s);
-  return s;
-}
-
-void Simulation::Impl::fill_model(Summary& s) const {
   const Model& model = run_.model;
   s.points = model.phase->points();
   s.dofs = model.phase->size();
@@ -77,12 +59,10 @@ void Simulation::Impl::fill_model(Summary& s) const {
   s.c = model.c ? model.c : run_.motion->integrator->damping_rate();
   s.critical_step = model.critical_step;
   s.method = run_.scene.solve.method;
-  if (model.static_method) return;
-  s.integrator = model.method.name;
-  s.damping = run_.scene.damping.strategy;
-}
-
-void Simulation::Impl::fill_effort(Summary& s) const {
+  if (!model.static_method) {
+    s.integrator = model.method.name;
+    s.damping = run_.scene.damping.strategy;
+  }
   s.t = run_.t;
   s.dt = run_.step;
   s.steps = run_.steps();
@@ -93,6 +73,10 @@ void Simulation::Impl::fill_effort(Summary& s) const {
   s.wall_s = run_.wall_s();
   if (s.steps > 0)
     s.ns_per_point_step = 1e9 * run_.stepping_s / (static_cast<double>(s.steps) * static_cast<double>(s.points));
+  for (const Watched& watched : watchers_) watched.watcher->fill(s, run_);
+  s.residual = s.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
+  if (is_readable_) fill_state(s);
+  return s;
 }
 
 void Simulation::Impl::fill_state(Summary& s) {

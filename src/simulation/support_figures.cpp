@@ -1,12 +1,12 @@
 #include "simulation/support_figures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "output/point_fields.hpp"
 #include "scene/dimensions.hpp"
 
 namespace stillpoint {
@@ -23,18 +23,14 @@ double largest_displacement(const LagrangianPhase& phase, double t, ConstVec u) 
   std::vector<double> of_points(dim * phase.points());
   phase.fields().point_displacement(t, u, of_points);
   double largest = 0;
-  for (std::size_t p = 0; p < phase.points(); ++p) {
-    double square = 0;
-    for (std::size_t i = 0; i < dim; ++i) square += of_points[dim * p + i] * of_points[dim * p + i];
-    largest = std::max(largest, std::sqrt(square));
-  }
+  for (const double length : lengths_of(of_points, dim)) largest = std::max(largest, length);
   return largest;
 }
 
 // A stiffness that the scene gives is meant to give way.
 std::string note_on_gap(const SupportGap& weak, const SupportSpec& support) {
-  constexpr double small = 0.01;
-  if (support.stiffness || !(weak.share > small)) return "";
+  constexpr double negligible_share = 0.01;
+  if (support.stiffness || !(weak.share > negligible_share)) return "";
   const std::string name =
       support.name.empty() ? weak.support : fmt::format("{} {}", weak.support, in_quotes(support.name));
   return fmt::format(

@@ -8,7 +8,6 @@
 
 #include "base/parallel_loop.hpp"
 #include "base/stopwatch.hpp"
-#include "simulation/thread_scope.hpp"
 
 namespace stillpoint {
 namespace {
@@ -61,10 +60,7 @@ void ThreadChoice::observe(double seconds) {
     }
     since_ = {};
   }
-  if (until_trial_ <= 0) begin_trial();
-}
-
-void ThreadChoice::begin_trial() {
+  if (until_trial_ > 0) return;
   trial_ = 0;
   timings_ = {};
 }

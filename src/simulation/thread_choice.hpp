@@ -3,7 +3,24 @@
 
 #include <array>
 
+#include <omp.h>
+
 namespace stillpoint {
+
+/// While it lives, loops take `threads` threads; afterwards as many as before.
+class ThreadScope {
+ public:
+  /// 0: as many as OpenMP would take.
+  explicit ThreadScope(int threads) : before_(omp_get_max_threads()) {
+    if (threads > 0) omp_set_num_threads(threads);
+  }
+  ~ThreadScope() { omp_set_num_threads(before_); }
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+ private:
+  int before_;
+};
 
 /// Tries both at the start and now and then, a few milliseconds each: a second thread is no gain in a small scene, and
 /// a loss where another program keeps a core busy, since every loop waits for the thread that is not let run.
@@ -33,7 +50,6 @@ class ThreadChoice {
     long steps = 0;
     double mean() const { return seconds / static_cast<double>(steps); }
   };
-  void begin_trial();
   void end_trial();
 
   int all_;

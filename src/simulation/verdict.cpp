@@ -1,6 +1,7 @@
 #include "simulation/verdict.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,63 +11,41 @@
 #include "system/largest_at.hpp"
 
 namespace stillpoint {
-namespace {
 
-// "body_force.value is not a number at t = 0.3 at material point 12 at (0.5, 0.25)"; empty: all formulas have values.
-std::string formula_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
+std::string load_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
   const auto dim = static_cast<std::size_t>(phase.dim());
+  const std::array times{t, t + step / 2, t + step};
+  const auto at_point = [&](std::size_t p) { return " at " + to_string(phase.diagnosis().of_point(p)); };
+  const auto fault = [](const std::string& key, double value, double at) {
+    return fmt::format("{} is {} at t = {:.6g}", key, std::isnan(value) ? "not a number" : "infinite", at);
+  };
   std::string said;
   problem.for_each_formula([&](const std::string& key, const Expression& formula) {
-    if (!said.empty()) return;
-    const bool somewhere = formula.uses_position();
+    const bool somewhere = said.empty() && formula.uses_position();
     const std::vector<double> positions = somewhere ? formula_positions(problem, phase, key) : std::vector<double>();
     const std::size_t count = somewhere ? positions.size() / dim : 1;
     for (std::size_t p = 0; p < count && said.empty(); ++p) {
       const ConstVec x = somewhere ? ConstVec(positions).subspan(dim * p, dim) : ConstVec();
-      for (const double at : {t, t + step / 2, t + step}) {
+      for (const double at : times) {
         const double value = formula(x, at);
         if (std::isfinite(value) || !said.empty()) continue;
-        said = fmt::format("{} is {} at t = {:.6g}", key, std::isnan(value) ? "not a number" : "infinite", at);
-        if (x.empty()) continue;
-        said += !key.starts_with("body_force") ? fmt::format(" at ({:.6g})", fmt::join(x, ", "))
-                                               : " at " + to_string(phase.diagnosis().of_point(p));
+        said = fault(key, value, at);
+        if (!x.empty())
+          said += key.starts_with("body_force") ? at_point(p) : fmt::format(" at ({:.6g})", fmt::join(x, ", "));
       }
     }
   });
-  return said;
-}
-
-// "body_force.own is not a number at t = 0.3 at material point …"; empty: it has values.
-std::string own_load_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step) {
   const auto own = own_load(problem.own_load);
-  if (!own) return "";
+  if (!own || !said.empty()) return said;
   const std::vector<double> x = phase.fields().positions();
   std::vector<double> b(x.size());
-  for (const double at : {t, t + step / 2, t + step}) {
+  for (const double at : times) {
     own->b(at, problem.dim, x, b);
     const auto wrong = std::ranges::find_if_not(b, [](double value) { return std::isfinite(value); });
-    if (wrong == b.end()) continue;
-    return fmt::format(
-        "body_force.own is {} at t = {:.6g} at {}", std::isnan(*wrong) ? "not a number" : "infinite", at,
-        to_string(phase.diagnosis().of_point(static_cast<std::size_t>(wrong - b.begin()) / problem.dim)));
+    if (wrong != b.end())
+      return fault("body_force.own", *wrong, at) + at_point(static_cast<std::size_t>(wrong - b.begin()) / dim);
   }
   return "";
-}
-
-}  // namespace
-
-Verdict failure(const Moment& moment, const std::string& what) {
-  return {RunStatus::failed,
-          fmt::format("at t = {:.6g} s, after {} steps, in phase {}: {}", moment.t, moment.steps, moment.phase, what)};
-}
-
-Verdict failure_of_step(const Problem& problem, const LagrangianPhase& phase, const Moment& moment,
-                        const StepReport& report) {
-  std::string load = formula_without_value(problem, phase, moment.t, report.h);
-  if (load.empty()) load = own_load_without_value(problem, phase, moment.t, report.h);
-  Verdict verdict = failure(moment, load.empty() ? report.message : load + "; expected a finite number at any time");
-  if (report.status != StepReport::Status::failed) verdict.status = RunStatus::diverged;
-  return verdict;
 }
 
 std::string most_stressed(const LagrangianPhase& phase, double t, ConstVec u) {

@@ -1,4 +1,4 @@
-// How a run ends: its status, and the reason in words. If it went wrong, the reason says when and where that was.
+// How a run ends: its status and the reason in words, and what a reason says of a run that goes wrong.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -19,20 +19,9 @@ struct Verdict {
   bool ends() const { return status != RunStatus::running; }
 };
 
-/// A moment of a run.
-struct Moment {
-  double t = 0;  // [s]
-  long steps = 0;
-  int phase = 1;
-};
-
-/// The run has failed at that moment: "at t = 0.31 s, after 120 steps, in phase 3: " and what happened.
-Verdict failure(const Moment& moment, const std::string& what);
-
-/// The same for a step that was given up, whose report tells failure from divergence. If a formula of the scene has no
-/// finite value within that step, this is what happened.
-Verdict failure_of_step(const Problem& problem, const LagrangianPhase& phase, const Moment& moment,
-                        const StepReport& report);
+/// A formula or a load of the program's own that is no finite number in the step from t to t + step [s],
+/// "body_force.value is not a number at t = 0.3 at material point 12 at (0.5, 0.25)"; empty: all have values.
+std::string load_without_value(const Problem& problem, const LagrangianPhase& phase, double t, double step);
 
 /// "material point 12 at (0.5, 0.25) in cell (3, 1) is stressed most, by 3e+08 Pa" at (t, u).
 std::string most_stressed(const LagrangianPhase& phase, double t, ConstVec u);

@@ -17,9 +17,6 @@ namespace stillpoint {
 
 class Watcher {
  public:
-  Watcher() = default;
-  Watcher(const Watcher&) = delete;
-  Watcher& operator=(const Watcher&) = delete;
   virtual ~Watcher() = default;
 
   /// At the beginning and after each accepted step: takes a sample, if one is due.

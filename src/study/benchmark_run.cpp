@@ -11,7 +11,7 @@
 
 #include "base/stopwatch.hpp"
 #include "simulation/parts.hpp"
-#include "simulation/thread_scope.hpp"
+#include "simulation/thread_choice.hpp"
 
 namespace stillpoint {
 namespace {

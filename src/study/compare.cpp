@@ -19,7 +19,6 @@
 #include "simulation/setup/multigrid_mass.hpp"
 #include "simulation/setup/set_up_store.hpp"
 #include "simulation/thread_choice.hpp"
-#include "simulation/thread_scope.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/statics/static_methods.hpp"
 #include "space/phase/lagrangian_phase.hpp"

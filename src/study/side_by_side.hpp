@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "simulation/thread_scope.hpp"
+#include "simulation/thread_choice.hpp"
 
 namespace stillpoint {
 

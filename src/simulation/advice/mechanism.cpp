@@ -1,7 +1,6 @@
 #include "simulation/advice/mechanism.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -28,22 +27,15 @@ struct PointMotion {
   std::vector<double> displacement;  // the displacements, the longest of length 1, (P × dim)
   double largest = 0;                // the length of the longest one before that
   std::size_t furthest = 0;          // the point that has it
-
-  double length(std::size_t p) const {
-    double square = 0;
-    for (std::size_t i = 0; i < dim; ++i) square += displacement[dim * p + i] * displacement[dim * p + i];
-    return std::sqrt(square);
-  }
 };
 
 PointMotion motion_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVec x) {
   PointMotion motion{.dim = static_cast<std::size_t>(phase.dim()),
                      .position = phase.info().nonlinear ? current_positions(phase, t, u) : phase.fields().positions(),
                      .displacement = change_of(phase, PointQuantity::displacement, t, x)};
-  for (std::size_t p = 1; p < phase.points(); ++p) {
-    if (motion.length(p) > motion.length(motion.furthest)) motion.furthest = p;
-  }
-  motion.largest = motion.length(motion.furthest);
+  const std::vector<double> lengths = lengths_of(motion.displacement, motion.dim);
+  motion.furthest = static_cast<std::size_t>(std::ranges::max_element(lengths) - lengths.begin());
+  motion.largest = lengths[motion.furthest];
   if (motion.largest > 0) {
     for (double& d : motion.displacement) d /= motion.largest;
   }
@@ -117,8 +109,8 @@ std::string rigid_motion(const PointMotion& motion) {
 }
 
 std::string furthest_point(const LagrangianPhase& phase, const PointMotion& motion) {
-  std::size_t as_well = 0;
-  for (std::size_t p = 0; p < phase.points(); ++p) as_well += p != motion.furthest && motion.length(p) >= 0.5;
+  const auto is_far = [](double length) { return length >= 0.5; };
+  const auto as_well = std::ranges::count_if(lengths_of(motion.displacement, motion.dim), is_far) - 1;
   const auto first = motion.displacement.begin() + static_cast<std::ptrdiff_t>(motion.dim * motion.furthest);
   std::string said =
       fmt::format("{} moves furthest, along ({:.3g})", to_string(phase.diagnosis().of_point(motion.furthest)),

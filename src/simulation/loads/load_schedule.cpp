@@ -111,8 +111,8 @@ std::string LoadSchedule::own_load_goes_on(double t) const {
     change = std::max(change, std::abs(b[i] - b_settled_[i]));
     size = std::max({size, std::abs(b[i]), std::abs(b_settled_[i])});
   }
-  constexpr double same = 1e-9;
-  if (change <= same * size) return "";
+  constexpr double tolerance = 1e-9;  // relative
+  if (change <= tolerance * size) return "";
   return fmt::format(
       "the load '{0}' is said to settle at t = {1:.6g}, and is another one at t = {2:.6g}, by up to {3:.3g} m/s2; "
       "expected settles_at = the time from which on it stays, or infinity",

@@ -1,4 +1,4 @@
-// The loads and moving supports of a body over time: when have they come to their final values?
+// The time from which on the loads and moving supports of a body have their final values.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -36,7 +36,6 @@ class LoadSchedule {
 
  private:
   void look_at(const std::string& key, const Expression& formula, ConstVec x, int moments, double end);
-
   void look_at_own(const Problem& problem, const LagrangianPhase& phase, double end);
 
   std::shared_ptr<const OwnLoadRow> own_;  // null: there is none

@@ -24,10 +24,10 @@ std::optional<Expression> part_of(const Expression& formula, const std::string& 
 }
 
 std::vector<Expression> switching_parts(const Expression& formula) {
-  constexpr std::size_t most = 48;
+  constexpr std::size_t largest_count = 48;
   std::vector<Expression> parts;
   const auto add = [&](const std::string& text) {
-    if (parts.size() >= most) return;
+    if (parts.size() >= largest_count) return;
     if (auto part = part_of(formula, text)) parts.push_back(std::move(*part));
   };
   for (const Comparison& comparison : comparisons_in(formula.text())) add(comparison.difference);
@@ -110,8 +110,11 @@ class Zeros {
 
 // All times in order, with the middles between the moments found and their neighbours.
 std::vector<double> merged(std::vector<double> times, std::vector<double> found) {
-  std::ranges::sort(found);
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  const auto sort = [](std::vector<double>& values) {
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  sort(found);
   std::vector<double> all = std::move(times);
   all.insert(all.end(), found.begin(), found.end());
   std::ranges::sort(all);
@@ -123,8 +126,7 @@ std::vector<double> merged(std::vector<double> times, std::vector<double> found)
     if (after != all.end()) middles.push_back((*after + moment) / 2);
   }
   all.insert(all.end(), middles.begin(), middles.end());
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort(all);
   return all;
 }
 

@@ -49,10 +49,8 @@ class StiffeningStep {
   }
 
   void archive(const StateArchive& state) {
-    state("notches", notches_);
-    state("looks_since_shorter", looks_since_shorter_);
-    state("way", way_);
-    state("steps_until_look", steps_until_look_);
+    state("notches", notches_, "looks_since_shorter", looks_since_shorter_, "way", way_, "steps_until_look",
+          steps_until_look_);
   }
 
  private:

@@ -58,8 +58,7 @@ std::optional<std::string> Chatter::take(const LagrangianPhase& phase, double wa
 
 void Chatter::archive(const StateArchive& state, RunState& run) {
   const LagrangianPhase& phase = *run.model.phase;
-  state("way", way_);
-  state("residual", residual_);
+  state("way", way_, "residual", residual_);
   state.none_or(phase.points() * static_cast<std::size_t>(phase.dim()), "position", position_);
   state("phases", phases_);
 }

@@ -33,6 +33,7 @@ double longest_period(const Model& model) {
 Creep::Creep(const RunState& run)
     : problem_(run.scene),
       phase_(*run.model.phase),
+      dim_(static_cast<std::size_t>(phase_.dim())),
       giving_way_(run.giving_way),
       way_left_(problem_.stop.distance > 0 ? problem_.stop.distance.value() : default_way_left) {
   const StopSpec& stop = problem_.stop;
@@ -83,10 +84,9 @@ void Creep::sample(double t, ConstVec u, bool settled) {
     return;
   }
   last_t_ = t;
-  const auto dim = static_cast<std::size_t>(phase_.dim());
-  std::vector<double> of_points(dim * phase_.points());
+  std::vector<double> of_points(dim_ * phase_.points());
   phase_.fields().point_displacement(t, u, of_points);
-  for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_points[dim * stride_ * (k / dim) + k % dim];
+  for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_points[dim_ * stride_ * (k / dim_) + k % dim_];
   sum_t_ += t;
   ++samples_;
   slid_ = slid_ || !giving_way_.sliding_walls(t).empty();
@@ -94,8 +94,7 @@ void Creep::sample(double t, ConstVec u, bool settled) {
 }
 
 void Creep::begin_block(double t) {
-  const auto dim = static_cast<std::size_t>(phase_.dim());
-  sum_.assign(dim * ((phase_.points() + stride_ - 1) / stride_), 0.0);
+  sum_.assign(dim_ * ((phase_.points() + stride_ - 1) / stride_), 0.0);
   samples_ = sum_t_ = 0;
   block_end_ = t + period_;
   slid_ = false;
@@ -103,7 +102,7 @@ void Creep::begin_block(double t) {
 
 void Creep::close_block() {
   for (double& value : sum_) value /= samples_;
-  way_left_.add(sum_t_ / samples_, static_cast<std::size_t>(phase_.dim()), sum_);
+  way_left_.add(sum_t_ / samples_, dim_, sum_);
   const double now = giving_way_.plastic_strain();
   const bool gives = now > plastic_strain_ || slid_ || !giving_way_.shows();
   plastic_strain_ = std::max(plastic_strain_, now);
@@ -122,13 +121,12 @@ bool Creep::loads_have_changed(double t) const {
   if (problem_.stop.time > 0 || !loads_vary(problem_)) return false;
   constexpr std::size_t positions = 8;
   constexpr double tolerance = 1e-9;  // relative
-  const auto dim = static_cast<std::size_t>(phase_.dim());
   const std::vector<double> x = phase_.fields().point_data().initial_positions;
   bool changed = false;
   problem_.for_each_formula([&](const std::string&, const Expression& formula) {
     if (changed || !formula.uses('t')) return;
     for (std::size_t k = 0; k < positions && !changed; ++k) {
-      const ConstVec at = ConstVec(x).subspan(dim * (k * (phase_.points() - 1) / (positions - 1)), dim);
+      const ConstVec at = ConstVec(x).subspan(dim_ * (k * (phase_.points() - 1) / (positions - 1)), dim_);
       const double before = formula(at, last_t_), now = formula(at, t);
       changed = !(std::abs(now - before) <= tolerance * std::max(std::abs(now), std::abs(before)));
     }
@@ -145,26 +143,20 @@ bool Creep::slides_away() const {
 // "it slides: …", at (t, u), if the body has given way until now, in a motion whose way left is not known; else empty.
 std::string Creep::description(double t, ConstVec u) const {
   if (!watches_ || !gives_ || !(way_left_.exponent() <= 1)) return "";
-  const auto dim = static_cast<std::size_t>(phase_.dim());
   const std::vector<double> v = way_left_.velocities(), x = current_positions(phase_, t, u);
-  const std::size_t points = v.size() / dim;
+  const std::size_t points = v.size() / dim_;
   if (points == 0) return "";
-  std::vector<double> speed(points);
-  for (std::size_t k = 0; k < points; ++k) {
-    double square = 0;
-    for (std::size_t i = 0; i < dim; ++i) square += v[dim * k + i] * v[dim * k + i];
-    speed[k] = std::sqrt(square);
-  }
+  const std::vector<double> speed = lengths_of(v, dim_);
   const auto fastest = static_cast<std::size_t>(std::ranges::max_element(speed) - speed.begin());
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> low(dim, infinity), high(dim, -infinity);
+  std::vector<double> low(dim_, infinity), high(dim_, -infinity);
   std::size_t moving = 0;
   for (std::size_t k = 0; k < points; ++k) {
     if (speed[k] < speed[fastest] / 2) continue;
     ++moving;
-    for (std::size_t i = 0; i < dim; ++i) {
-      low[i] = std::min(low[i], x[dim * stride_ * k + i]);
-      high[i] = std::max(high[i], x[dim * stride_ * k + i]);
+    for (std::size_t i = 0; i < dim_; ++i) {
+      low[i] = std::min(low[i], x[dim_ * stride_ * k + i]);
+      high[i] = std::max(high[i], x[dim_ * stride_ * k + i]);
     }
   }
   std::string walls;
@@ -186,24 +178,13 @@ std::string Creep::description(double t, ConstVec u) const {
 void Creep::archive(const StateArchive& state, RunState& run) {
   if (!watches_) return;
   way_left_.archive(state.part("way_left"));
-  state("period", period_);
-  state("sum", sum_);
-  const auto dim = static_cast<std::size_t>(phase_.dim());
-  const std::size_t expected = dim * ((phase_.points() + stride_ - 1) / stride_);
+  state("period", period_, "sum", sum_);
+  const std::size_t expected = dim_ * ((phase_.points() + stride_ - 1) / stride_);
   for (const std::size_t size : {sum_.size(), way_left_.size_of_block()})
     if (size != 0 && size != expected) throw StateError("the creep is that of another number of points");
-  state("samples", samples_);
-  state("sum_t", sum_t_);
-  state("block_end", block_end_);
-  state("next", next_);
-  state("last_t", last_t_);
-  state("plastic_strain", plastic_strain_);
-  state("begun", begun_);
-  state("has_given", has_given_);
-  state("gives", gives_);
-  state("slid", slid_);
-  state("steady_since", steady_since_);
-  state("begun_at", begun_at_);
+  state("samples", samples_, "sum_t", sum_t_, "block_end", block_end_, "next", next_, "last_t", last_t_,
+        "plastic_strain", plastic_strain_, "begun", begun_, "has_given", has_given_, "gives", gives_, "slid", slid_,
+        "steady_since", steady_since_, "begun_at", begun_at_);
   publish(run);
 }
 

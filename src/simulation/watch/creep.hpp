@@ -1,5 +1,5 @@
-// Creep: a body that yields, or slides on a wall, may be on its way for long with next to nothing out of balance. Is it
-// on its way to rest, and how far would it still go?
+// Creep: a body that yields, or slides on a wall, moves on for long with next to nothing out of balance. This tells if
+// it is on its way to rest, and how far it would still go.
 #pragma once
 
 #include <algorithm>
@@ -37,6 +37,7 @@ class Creep : public Watcher {
 
   const Problem& problem_;
   const LagrangianPhase& phase_;
+  std::size_t dim_;
   const GivingWay& giving_way_;
   WayLeft way_left_;
   bool watches_, may_slide_away_;

@@ -1,6 +1,7 @@
 #include "simulation/watch/equilibrium_stability.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/SparseCore>
@@ -117,20 +118,6 @@ bool has_too_few_points(const LagrangianPhase& phase) {
   return phase.points() * strains < phase.size();
 }
 
-std::string to_string(EquilibriumStability::Kind kind) {
-  switch (kind) {
-    case EquilibriumStability::Kind::not_tested:
-      return "";
-    case EquilibriumStability::Kind::stable:
-      return "stable";
-    case EquilibriumStability::Kind::neutral:
-      return "neutral";
-    case EquilibriumStability::Kind::unstable:
-      return "unstable";
-  }
-  return "";
-}
-
 // unstable_mode.csv: position and mode of each point.
 void write_mode(const EquilibriumStability& stability, const LagrangianPhase& phase, double t, ConstVec u,
                 const std::filesystem::path& folder) {
@@ -222,7 +209,8 @@ void StabilityTest::confirm(RunState& run, Verdict& verdict) {
 }
 
 void StabilityTest::fill_state(Summary& summary, RunState&) {
-  summary.stability = to_string(stability_.kind);
+  static constexpr std::array names{"", "stable", "neutral", "unstable"};  // in the order of the kinds
+  summary.stability = names[static_cast<std::size_t>(stability_.kind)];
   if (stability_.kind == EquilibriumStability::Kind::unstable)
     summary.unstable_omega_squared = stability_.omega_squared;
 }

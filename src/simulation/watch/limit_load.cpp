@@ -118,9 +118,8 @@ void LimitLoad::halve() {
 
 // dλ/dq by least squares.
 std::optional<double> LimitLoad::measured_growth() const {
-  const std::size_t count = q_.size() / 5;
   if (q_.size() < fewest_pieces) return {};
-  const std::size_t first = q_.size() - count;
+  const std::size_t first = first_of_last_fifth(), count = q_.size() - first;
   const LineFit line = fit_line({&q_[first], count}, {&factor_[first], count});
   const double middle = (q_[first] + q_.back()) / 2;
   const double growth = line.slope * (middle - first_q_) / (line.at_zero + line.slope * middle - first_factor_);
@@ -152,30 +151,16 @@ std::string LimitLoad::description() const {
   return fmt::format("{}, but {}", growth, fmt::join(missing, "; "));
 }
 
-void LimitLoad::archive(const StateArchive& state, RunState& run) {
-  state("first_q", first_q_);
-  state("first_factor", first_factor_);
-  state("flat_since", flat_since_);
-  state("q", q_);
-  state("factor", factor_);
+void LimitLoad::archive(const StateArchive& state) {
+  state("first_q", first_q_, "first_factor", first_factor_, "flat_since", flat_since_, "q", q_, "factor", factor_);
   if (q_.size() != factor_.size() || q_.size() > most_pieces) throw StateError("'factor' is not that of each 'q'");
   state.none_or(q_.size(), "kinetic_energy", kinetic_energy_);
   state.none_or(q_.size(), "giving", giving_);
   kinetic_energy_.resize(q_.size());
   giving_.resize(q_.size());
-  state("last_q", last_q_);
-  state("last_force", last_force_);
-  state("work", work_);
-  state("residual", residual_);
-  state("plastic_strain", plastic_strain_);
-  state("reached", reached_);
-  state("piece", piece_);
-  state("sum_q", sum_q_);
-  state("sum_factor", sum_factor_);
-  state("steps", steps_);
-  state("end", end_);
-  state("growth", growth_);
-  run.load_growth = growth_;
+  state("last_q", last_q_, "last_force", last_force_, "work", work_, "residual", residual_, "plastic_strain",
+        plastic_strain_, "reached", reached_, "piece", piece_, "sum_q", sum_q_, "sum_factor", sum_factor_, "steps",
+        steps_, "end", end_, "growth", growth_);
 }
 
 }  // namespace stillpoint

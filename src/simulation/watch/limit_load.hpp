@@ -45,7 +45,11 @@ class LimitLoad : public Watcher {
 
   Verdict judge(RunState& run) override;
   void explain(RunState& run, Verdict& verdict) override;
-  void archive(const StateArchive& state, RunState& run) override;
+  void archive(const StateArchive& state, RunState& run) override {
+    archive(state);
+    run.load_growth = growth_;
+  }
+  void archive(const StateArchive& state);
 
   /// A step; force: λP [N]. Whether a piece of q(t) is over, so that reached() is to be asked.
   bool take(const LoadState& load, double force);

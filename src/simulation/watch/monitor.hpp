@@ -1,12 +1,12 @@
-// The test for equilibrium: at rest and in balance for a whole period. It also knows the limits of time and steps.
+// The stopping tests that a scene or a program asks for: equilibrium, which is rest and balance for a whole period, the
+// limits of time and steps, and options.stop_test.
 #pragma once
-
-#include <stillpoint/state_archive.hpp>
-#include <stillpoint/summary.hpp>
 
 #include <algorithm>
 #include <optional>
 #include <string>
+
+#include "simulation/watch/creep.hpp"
 
 namespace stillpoint {
 
@@ -16,18 +16,22 @@ struct MonitorOptions {
   bool distance_is_asked = true;  // whether a distance that is not known counts as far
   double kinetic_energy = 0;      // share of the largest kinetic energy so far; 0: only the others count
   double dwell = 0;               // all held for this long [s]: a kinetic energy alone is small at every turning point
-  /// True if balance has to last. If the residual bounds the error at every moment the dwell only says how often to
-  /// test.
+  /// True if balance has to last. Otherwise the residual bounds the error, and the dwell says how often to test.
   bool must_last = true;
   double end_time = 0;  // [s]; 0: none
   long steps = 0;       // 0: no limit
   double begin = 0;     // the time at which the run begins [s]
 };
 
-class Monitor {
+class Monitor : public Watcher {
  public:
   explicit Monitor(const MonitorOptions& options)
       : options_(options), shortest_dwell_(options.dwell), next_check_(options.dwell / checks_a_dwell) {}
+  /// creep outlives this object, and learns from it the period that shows on the way.
+  Monitor(const RunState& run, Creep& creep);
+
+  Verdict judge(RunState& run) override;
+  void archive(const StateArchive& state, RunState& run) override;
 
   /// The dwell from now on, at t [s], if a period of the slowest motion shows on the way. One that is longer than half
   /// of the run so far has not been seen yet, and may be noise: the dwell is no longer than that, nor is the next test
@@ -54,24 +58,19 @@ class Monitor {
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps);
 
-  /// The condition beside the residual that the last observe() missed, such as "kinetic energy 0.2 > 0.01 of its peak";
-  /// empty: none.
+  /// The condition beside the residual that the last observe() missed, "kinetic energy 0.2 > 0.01 …"; empty: none.
   const std::string& waits_for() const { return waits_for_; }
   /// The inequality that ended the run.
   const std::string& reason() const { return reason_; }
-  double peak_kinetic_energy() const { return peak_kinetic_energy_; }
-  void archive(const StateArchive& state) {
-    state("dwell", options_.dwell);
-    state("next_check", next_check_);
-    state("balanced_since", balanced_since_);
-    state("peak_kinetic_energy", peak_kinetic_energy_);
-  }
 
  private:
   static constexpr int checks_a_dwell = 16;
 
+  Verdict test_equilibrium(RunState& run);
+  void follow_period(const RunState& run);
   std::string missing(bool settled, bool near, std::optional<double> distance, bool creeps) const;
 
+  Creep* creep_ = nullptr;  // null: nobody learns the period
   MonitorOptions options_;
   double shortest_dwell_;
   double next_check_;

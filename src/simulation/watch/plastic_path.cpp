@@ -14,8 +14,6 @@
 namespace stillpoint {
 namespace {
 
-constexpr const char* plastic = "plastic_strain";
-
 // The share of the time between two samples in which the power is negative, if it changes linearly.
 double share_below_zero(double before, double after) {
   if (before >= 0 && after >= 0) return 0;
@@ -59,25 +57,23 @@ std::string note_on_unbalanced_work(std::optional<double> unbalanced_work, const
 
 }  // namespace
 
-PlasticPath::PlasticPath(const Problem& problem, const Model& model) : model_(model) {
-  const std::vector<std::string>& remembered = model.phase->info().history_names;
-  const bool yields = std::ranges::find(remembered, plastic) != remembered.end();
-  watches_ = yields && problem.stop.wants_equilibrium();
+PlasticPath::PlasticPath(const RunState& run)
+    : model_(run.model),
+      giving_way_(run.giving_way),
+      watches_(giving_way_.yields() && run.scene.stop.wants_equilibrium()) {
   if (!watches_) return;
-  volumes_ = model.phase->fields().point_data().volumes;
-  of_points_.resize(volumes_.size());
   constexpr double samples_a_period = 32, periods_of_the_shortest = 100;  // the latter if the longest is not known
   const double period =
-      2 * std::numbers::pi * (model.omega_1 ? 1 / *model.omega_1 : periods_of_the_shortest / model.omega_max);
-  interval_ = model.static_method ? std::numeric_limits<double>::infinity() : period / samples_a_period;
-  next_ = model.t;
+      2 * std::numbers::pi * (model_.omega_1 ? 1 / *model_.omega_1 : periods_of_the_shortest / model_.omega_max);
+  interval_ = model_.static_method ? std::numeric_limits<double>::infinity() : period / samples_a_period;
+  next_ = model_.t;
 }
 
 void PlasticPath::sample(RunState& run) {
   if (!run.options.stops) return;
   const double residual = run.measured.all().residual, power = run.measured.all().power;
   RelaxationSystem& system = run.motion->system;
-  const double now = total_plastic_strain(), imbalance = residual * across_loads(run.t, system);
+  const double now = giving_way_.plastic_strain(), imbalance = residual * across_loads(run.t, system);
   if (!std::exchange(begun_, true)) {
     first_ = now;
   } else {
@@ -120,23 +116,15 @@ std::optional<double> PlasticPath::unbalanced_work(double t, ConstVec u) const {
   return unbalanced_ / (last_ - first_) * plastic_work(t, u) / work_;
 }
 
-const std::vector<double>& PlasticPath::plastic_strain() const {
-  model_.phase->fields().point_history(plastic, of_points_);
-  return of_points_;
-}
-
-double PlasticPath::total_plastic_strain() const {
-  const std::vector<double>& strain = plastic_strain();
-  return sum_over(volumes_.size(), [&](std::size_t p) { return volumes_[p] * strain[p]; });
-}
-
 double PlasticPath::plastic_work(double t, ConstVec u) const {
-  const auto n = static_cast<std::size_t>(model_.phase->info().stress_components);
-  std::vector<double> stress(n * volumes_.size());
-  model_.phase->fields().point_stress(t, u, stress);
-  const std::vector<double>& strain = plastic_strain();
-  return sum_over(volumes_.size(), [&](std::size_t p) {
-    return strain[p] > 0 ? volumes_[p] * strain[p] * root_J2(ConstVec(stress).subspan(n * p, n)) : 0.0;
+  const LagrangianPhase& phase = *model_.phase;
+  const auto n = static_cast<std::size_t>(phase.info().stress_components);
+  const std::vector<double>& volumes = giving_way_.volumes();
+  std::vector<double> stress(n * volumes.size()), strain(volumes.size());
+  phase.fields().point_stress(t, u, stress);
+  phase.fields().point_history(plastic_strain_name, strain);
+  return sum_over(volumes.size(), [&](std::size_t p) {
+    return strain[p] > 0 ? volumes[p] * strain[p] * root_J2(ConstVec(stress).subspan(n * p, n)) : 0.0;
   });
 }
 
@@ -165,16 +153,8 @@ double PlasticPath::work(double t, RelaxationSystem& system, const Vector& u) co
 }
 
 void PlasticPath::archive(const StateArchive& state, RunState&) {
-  state("next", next_);
-  state("imbalance", imbalance_);
-  state("power", power_);
-  state("first", first_);
-  state("last", last_);
-  state("against", against_);
-  state("unbalanced", unbalanced_);
-  state("earlier_work", earlier_work_);
-  state("work", work_);
-  state("begun", begun_);
+  state("next", next_, "imbalance", imbalance_, "power", power_, "first", first_, "last", last_, "against", against_,
+        "unbalanced", unbalanced_, "earlier_work", earlier_work_, "work", work_, "begun", begun_);
 }
 
 }  // namespace stillpoint

@@ -1,4 +1,5 @@
-// Plastic flow may depend on the way to rest: did the body yield along the way on which a slowly growing load takes it?
+// Plastic flow depends on the way to rest: this tells if a body yielded along the way on which a slowly growing load
+// takes it.
 //
 // A motion is a slow path itself, that of the load R(t) which its internal forces bear. If R keeps the direction of the
 // loads F and grows, a ramp of them does the same, however fast it was. So two figures tell how far a motion was from
@@ -27,8 +28,8 @@ namespace stillpoint {
 
 class PlasticPath : public Watcher {
  public:
-  /// Watches if anything can yield here, and equilibrium is asked for. The model outlives this object.
-  PlasticPath(const Problem& problem, const Model& model);
+  /// Watches if anything can yield here, and equilibrium is asked for. The run outlives this object.
+  explicit PlasticPath(const RunState& run);
 
   /// Takes 32 samples in a period of the body. With a static solver, which yields all at once, it takes one at the
   /// beginning and one at the end.
@@ -44,23 +45,20 @@ class PlasticPath : public Watcher {
   void sample(RunState& run);
   std::optional<double> overshoot() const;
   std::optional<double> unbalanced_work(double t, ConstVec u) const;
-  const std::vector<double>& plastic_strain() const;
-  double total_plastic_strain() const;
   double plastic_work(double t, ConstVec u) const;
   double across_loads(double t, const RelaxationSystem& system);
   double work(double t, RelaxationSystem& system, const Vector& u) const;
 
   const Model& model_;
-  bool watches_ = false;
+  const GivingWay& giving_way_;
+  bool watches_;
   double interval_ = 0, next_ = 0;       // time between samples, and that of the next one [s]
   double imbalance_ = 0, power_ = 0;     // r and Q·v at the last sample
   double first_ = 0, last_ = 0;          // κ at the first and at the last sample [m³]
   double against_ = 0, unbalanced_ = 0;  // ∫_{Q·v<0} dκ, ∫ r dκ [m³]
   double earlier_work_ = 0, work_ = 0;   // W of the phases before, the largest W so far [J]
   bool begun_ = false;
-  std::vector<double> Q_;                  // (n) [N]
-  std::vector<double> volumes_;            // V_p at the start, (P) [m³]
-  mutable std::vector<double> of_points_;  // γᵖ, (P)
+  std::vector<double> Q_;  // (n) [N]
 };
 
 }  // namespace stillpoint

@@ -31,15 +31,14 @@ std::string note_on_rate_share(std::optional<double> share, const Problem& probl
 
 }  // namespace
 
-RateShare::RateShare(const Problem& problem, const LagrangianPhase& phase)
-    : phase_(phase), watches_(is_driven(problem)) {}
+RateShare::RateShare(const RunState& run) : phase_(*run.model.phase), watches_(is_driven(run.scene)) {}
 
 // Reactions shake about their mean, so that signs are taken off strokes of many samples.
 void RateShare::sample(double t, long steps, PhaseMotion& motion) {
   constexpr long longest_interval = 64, samples_a_stroke = 64;
   next_ = steps + std::clamp(steps / longest_interval, 1L, longest_interval);
   const ConstVec v = motion.v();
-  if (!motion.integrator->force_is_current()) motion.system.residual(t, motion.u());
+  motion.evaluate(t);
   Q_.resize(v.size());
   motion.system.last_out_of_balance(t, Q_);
   const double power = sum_over(v.size(), [Q = Q_.data(), v = v.data()](std::size_t i) { return Q[i] * v[i]; });
@@ -76,15 +75,8 @@ void RateShare::fill(Summary& summary, const RunState& run) {
 }
 
 void RateShare::archive(const StateArchive& state, RunState&) {
-  state("next", next_);
-  state("samples", samples_);
-  state("t", t_);
-  state("power", power_);
-  state("unbalanced", unbalanced_);
-  state("driving", driving_);
-  state("of_stroke", of_stroke_);
-  state("load_power", load_power_);
-  state("of_loads", of_loads_);
+  state("next", next_, "samples", samples_, "t", t_, "power", power_, "unbalanced", unbalanced_, "driving", driving_,
+        "of_stroke", of_stroke_, "load_power", load_power_, "of_loads", of_loads_);
 }
 
 }  // namespace stillpoint

@@ -20,8 +20,8 @@ namespace stillpoint {
 
 class RateShare : public Watcher {
  public:
-  /// Watches if something drives the body. The phase outlives this object.
-  RateShare(const Problem& problem, const LagrangianPhase& phase);
+  /// Watches if something drives the body. The run outlives this object.
+  explicit RateShare(const RunState& run);
 
   /// Takes a sample at each step at first, at every 64th later.
   void observe(RunState& run) override {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -103,15 +102,12 @@ std::vector<double> WayLeft::velocities() const {
 }
 
 void WayLeft::archive(const StateArchive& state) {
-  state("begun", begun_);
-  state("dim", dim_);
-  state("count", count_);
-  state("next_kept", next_kept_);
+  state("begun", begun_, "dim", dim_, "count", count_, "next_kept", next_kept_);
   for (auto& [name, blocks] : {std::pair("last", &last_), std::pair("kept", &kept_)}) {
     std::size_t size = blocks->size();
     state(fmt::format("{}_blocks", name), size);
-    constexpr std::size_t most = 100;
-    if (size > most) throw StateError(fmt::format("it has {} blocks of creep: it was altered", size));
+    constexpr std::size_t largest_count = 100;
+    if (size > largest_count) throw StateError(fmt::format("it has {} blocks of creep: it was altered", size));
     blocks->resize(size);
     for (std::size_t k = 0; k < size; ++k) {
       state(fmt::format("{}_{}_t", name, k), (*blocks)[k].t);
@@ -121,11 +117,7 @@ void WayLeft::archive(const StateArchive& state) {
   for (const std::deque<Block>* blocks : {&last_, &kept_})
     for (const Block& block : *blocks)
       if (block.x.size() != size_of_block()) throw StateError("blocks of creep are of different sizes: it was altered");
-  state("relative", relative_);
-  state("exponent", exponent_);
-  state("span", span_);
-  state("way", way_);
-  state("half_way_t", half_way_t_);
+  state("relative", relative_, "exponent", exponent_, "span", span_, "way", way_, "half_way_t", half_way_t_);
 }
 
 }  // namespace stillpoint

@@ -36,8 +36,7 @@ class WayLeft {
   /// Relative to the largest displacement; infinite before there are three blocks, and of a motion that goes on.
   double relative() const { return relative_; }
   double small() const { return small_; }
-  /// The exponent q of a motion that goes on, which is 0 if its velocity is constant. Infinite for any other motion,
-  /// and before it is known.
+  /// The exponent q of a motion that goes on, 0 if its velocity is constant; infinite for others, and if not known yet.
   double exponent() const { return exponent_; }
   /// The span over which that was looked at [s], and the largest way of a point in it [m].
   double span() const { return span_; }
