@@ -51,7 +51,9 @@ struct CubeOfCells {
   MaterialPoints<3> points;
   PointWeights<B, Kinematics::space> weights;
   DegreesOfFreedom dofs;
+  CornerSum corner_sum;
   NodalForce<B, Kinematics::space> force;
+  typename NodalForce<B, Kinematics::space>::Work work;
 
   explicit CubeOfCells(int n)
       : grid{{Axis::uniform(0, 1, n), Axis::uniform(0, 1, n), Axis::uniform(0, 1, n)}},
@@ -59,7 +61,11 @@ struct CubeOfCells {
             grid, [](int) { return 8; }, [](int q, int axis) { return (q >> axis & 1) != 0 ? 0.75 : 0.25; })),
         dofs(std::vector<char>(static_cast<std::size_t>(Basis::count(grid)), 1), 3, {}) {
     weights.rebuild(grid, points);
-    force.rebuild(points, weights, static_cast<std::size_t>(Basis::count(grid)));
+    std::vector<int> function_of_corner;
+    for (std::size_t k = 0; k < points.cells(); ++k)
+      for (int a = 0; a < Basis::per_cell; ++a) function_of_corner.push_back(weights.function(k, a));
+    corner_sum.rebuild(function_of_corner, static_cast<std::size_t>(Basis::count(grid)));
+    force.rebuild(points, weights, corner_sum);
   }
 };
 

@@ -118,7 +118,7 @@ TEST_CASE("a block of points under one stress pushes on its border alone, with t
   };
   const std::vector<double> u(cube.dofs.size(), 0.0);
   std::vector<double> R(cube.dofs.size());
-  REQUIRE(cube.force.evaluate<false>(u.data(), nullptr, answer, cube.dofs, R, {}));
+  REQUIRE(cube.force.evaluate<false>(u.data(), nullptr, answer, cube.dofs, R, {}, cube.work));
   for (int face = 0; face < 3; ++face) {
     double sum = 0;
     for (const int function : test::CubeOfCells<>::Basis::face_functions(cube.grid, face, true))
@@ -151,8 +151,8 @@ TEST_CASE("forces of trilinear cells are the same bits for 1, 2 and 3 threads") 
   std::vector<std::vector<double>> R(3, std::vector<double>(cube.dofs.size()));
   for (int threads = 1; threads <= 3; ++threads) {
     omp_set_num_threads(threads);
-    REQUIRE(
-        cube.force.evaluate<false>(u.data(), nullptr, answer, cube.dofs, R[static_cast<std::size_t>(threads - 1)], {}));
+    REQUIRE(cube.force.evaluate<false>(u.data(), nullptr, answer, cube.dofs, R[static_cast<std::size_t>(threads - 1)],
+                                       {}, cube.work));
   }
   omp_set_num_threads(threads_before);
   CHECK(largest_magnitude(R[0]) > 1e-3);
