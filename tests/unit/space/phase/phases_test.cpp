@@ -38,7 +38,7 @@ Simulation advanced(const Scene& scene, double t_end,
                     const std::function<void(const Moment&, bool after)>& at_change = {}) {
   const Simulation* self = nullptr;
   const auto tell = [&](bool after) {
-    if (at_change) at_change({self->t(), self->phase(), self->u(), self->v()}, after);
+    if (at_change) at_change({self->t(), self->parts().phase, self->u(), self->v()}, after);
   };
   Simulation simulation(scene, {.records = false, .stops = false, .at_phase_change = tell});
   self = &simulation;
