@@ -5,8 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "scene/dimensions.hpp"
 #include "scene/own_loads.hpp"
 

@@ -1,6 +1,5 @@
 // The order of all checks of a scene, and those of its grid, mass, integrator, damping, solver and stop.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 // Checks of the loads on the bodies, and of the stress that they begin with.
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include <fmt/format.h>
 
