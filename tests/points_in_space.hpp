@@ -43,6 +43,18 @@ MaterialPoints<3> points_in_cells(const Grid<3>& grid, const Count& count, const
   return points;
 }
 
+/// The sums over the corners of the occupied cells; functions: their number in the grid.
+template <AxisBasis B, Kinematics K>
+CornerSum corners_of(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
+                     std::size_t functions) {
+  std::vector<int> function_of_corner;
+  for (std::size_t k = 0; k < points.cells(); ++k)
+    for (int a = 0; a < weights.functions_of_cell(); ++a) function_of_corner.push_back(weights.function(k, a));
+  CornerSum corners;
+  corners.rebuild(function_of_corner, functions);
+  return corners;
+}
+
 /// Of one material on a grid of n × n × n cells, eight points in each, nothing held.
 template <AxisBasis B = BSpline<1>>
 struct CubeOfCells {
@@ -61,10 +73,7 @@ struct CubeOfCells {
             grid, [](int) { return 8; }, [](int q, int axis) { return (q >> axis & 1) != 0 ? 0.75 : 0.25; })),
         dofs(std::vector<char>(static_cast<std::size_t>(Basis::count(grid)), 1), 3, {}) {
     weights.rebuild(grid, points);
-    std::vector<int> function_of_corner;
-    for (std::size_t k = 0; k < points.cells(); ++k)
-      for (int a = 0; a < Basis::per_cell; ++a) function_of_corner.push_back(weights.function(k, a));
-    corner_sum.rebuild(function_of_corner, static_cast<std::size_t>(Basis::count(grid)));
+    corner_sum = corners_of(points, weights, static_cast<std::size_t>(Basis::count(grid)));
     force.rebuild(points, weights, corner_sum);
   }
 };

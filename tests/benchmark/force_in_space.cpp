@@ -44,9 +44,9 @@ void force_in_space(benchmark::State& state) {
   bool good = true;
   for (auto _ : state) {
     if (material->info().history_dependent)
-      good = cube.force.template evaluate<true>(u.data(), before.data(), answer, cube.dofs, R, {}) && good;
+      good = cube.force.template evaluate<true>(u.data(), before.data(), answer, cube.dofs, R, {}, cube.work) && good;
     else
-      good = cube.force.template evaluate<false>(u.data(), nullptr, answer, cube.dofs, R, {}) && good;
+      good = cube.force.template evaluate<false>(u.data(), nullptr, answer, cube.dofs, R, {}, cube.work) && good;
   }
   if (!good) state.SkipWithError("a force is not finite");
   state.SetLabel(laws[state.range(0)]);

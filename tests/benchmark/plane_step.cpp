@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "points_in_space.hpp"
 #include "scenes.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/nodal_force.hpp"
@@ -129,7 +130,8 @@ struct Parts {
     omp_set_num_threads(1);
     weights.rebuild(grid, body.points);
     const auto functions = static_cast<std::size_t>(TensorBasis<B, 2>::count(grid));
-    force.rebuild(body.points, weights, functions);
+    corner_sum = test::corners_of(body.points, weights, functions);
+    force.rebuild(body.points, weights, corner_sum);
     dofs.emplace(std::vector<char>(functions, 1), 2, std::vector<int>{});
     u.resize(2 * functions);
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-6 * std::sin(static_cast<double>(i));
@@ -139,7 +141,9 @@ struct Parts {
   Grid<2> grid;
   Body<K> body;
   PointWeights<B, K> weights;
+  CornerSum corner_sum;
   NodalForce<B, K> force;
+  typename NodalForce<B, K>::Work work;
   std::optional<DegreesOfFreedom> dofs;
   std::vector<double> u, R;
 };
@@ -154,7 +158,7 @@ void gather_and_scatter(benchmark::State& state, int basis) {
     return 0.0;
   };
   for (auto _ : state) {
-    parts.force.template evaluate<true>(parts.u.data(), before.data(), copy, *parts.dofs, parts.R, {});
+    parts.force.template evaluate<true>(parts.u.data(), before.data(), copy, *parts.dofs, parts.R, {}, parts.work);
     benchmark::DoNotOptimize(parts.R.data());
   }
   count_points(state, parts.body.points.size(), bases[basis]);

@@ -28,8 +28,8 @@ std::vector<double> random_state(std::size_t n, double scale, unsigned seed) {
 // Everything that a solver asks of a phase in one state.
 struct Evaluation {
   bool good = false;
-  std::vector<double> F, R, K_du, reactions, stress;
-  SparseMatrix K;
+  std::vector<double> F, R, K_du, reactions{}, stress{};
+  SparseMatrix K{};
 };
 
 Evaluation evaluate(const LagrangianPhase& phase, double t, const std::vector<double>& u) {
