@@ -6,7 +6,6 @@
 #include "simulation/advice/notes.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/support_figures.hpp"
-#include "simulation/watch/left_in_points.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {
