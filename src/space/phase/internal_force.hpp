@@ -79,11 +79,15 @@ class InternalForce {
   WorkPool<TrialArrays>::Loan borrow_trial() const {
     auto arrays = trials_.borrow();
     arrays->u.assign(committed_.u.size(), 0);
-    arrays->history.resize(frame_.body.materials.size());
-    for (std::size_t m = 0; m < arrays->history.size(); ++m)
-      arrays->history[m].resize(frame_.body.materials[m]->info().history_size);
+    size_histories(*arrays);
     if (laws_.share_dilatation() && frame_.remembers) arrays->averages.resize(frame_.body.points.size());
     return arrays;
+  }
+  /// Histories of each material that the trials of a phase that has ended need no more.
+  std::vector<std::vector<double>>& unused_histories() {
+    TrialArrays& dead = trials_.first();
+    size_histories(dead);
+    return dead.history;
   }
 
   // --- R(u) and its commit ---------------------------------------------------------------------------
@@ -192,6 +196,11 @@ class InternalForce {
   double bytes_of_elastic_cells() const { return elastic_cells_.empty() ? 0 : elastic_cells_.bytes(); }
 
  private:
+  void size_histories(TrialArrays& arrays) const {
+    arrays.history.resize(frame_.body.materials.size());
+    for (std::size_t m = 0; m < arrays.history.size(); ++m)
+      arrays.history[m].resize(frame_.body.materials[m]->info().history_size);
+  }
   bool some_law_is_finite() const {
     return std::ranges::any_of(frame_.body.materials, [](const auto& law) { return law->info().finite_strain; });
   }

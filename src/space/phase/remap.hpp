@@ -34,7 +34,7 @@ class Remap {
 
  public:
   /// The arguments must outlive this object.
-  Remap(PhaseFrame<B, K>& frame, const InternalForce<B, K>& force, const PhaseInertia<B, K>& inertia,
+  Remap(PhaseFrame<B, K>& frame, InternalForce<B, K>& force, const PhaseInertia<B, K>& inertia,
         Conditions<K>& conditions)
       : frame_(frame),
         force_(force),
@@ -238,14 +238,13 @@ class Remap {
     } else {
       order_.sort_by_cells(points_, frame_.grid);
     }
-    const auto spare = force_.borrow_trial();
-    for (std::size_t m = 0; m < frame_.body.materials.size(); ++m)
-      frame_.body.materials[m]->reorder(order_.order(), spare->history[m]);
+    std::vector<std::vector<double>>& unused = force_.unused_histories();
+    for (std::size_t m = 0; m < unused.size(); ++m) frame_.body.materials[m]->reorder(order_.order(), unused[m]);
   }
 
   PhaseFrame<B, K>& frame_;
   MaterialPoints<dim>& points_ = frame_.body.points;
-  const InternalForce<B, K>& force_;
+  InternalForce<B, K>& force_;
   const PhaseInertia<B, K>& inertia_;
   Conditions<K>& conditions_;
   VelocityTransfer<B, K> transfer_;

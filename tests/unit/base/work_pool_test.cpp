@@ -25,6 +25,7 @@ TEST_CASE("work arrays are lent to one borrower at a time, and lent again when a
     CHECK(other->size() == 3);
     CHECK(third->empty());
   }
+  CHECK(pool->first().data() == first);
   const auto outlives = pool->borrow();
   pool.reset();
   outlives->push_back(4);
