@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/SparseCore>
+
 namespace stillpoint {
 
 ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1, std::optional<VolumeNorm> volume)
@@ -52,7 +54,8 @@ bool ErrorBound::refresh(double t, ConstVec u, double residual) {
   if (!omega_1_ || by_strain_ || !phase_.info().nonlinear || !(residual < reduction * refreshed_at_)) return false;
   // The consistent tangent is that of the body at u, yielding included.
   const SparseMatrix K = phase_.tangents().matrix(Tangent::consistent, t, u), K_transposed = K.transpose();
-  const auto frequency = [&, symmetric = SparseMatrix(0.5 * (K + K_transposed))](const Mass& mass) {
+  const SparseMatrix symmetric = 0.5 * (K + K_transposed);
+  const auto frequency = [&](const Mass& mass) {
     const FrequencyEstimate lowest = lowest_frequency(symmetric, mass);
     return lowest.converged ? std::optional(lowest.omega) : std::nullopt;
   };

@@ -23,7 +23,8 @@ namespace {
 // The expected size of the motion, so that tolerances need no number from the user: the largest displacement of a
 // material point under the loads of any time, u = K⁻¹ Q(t), or under the initial values.
 double displacement_scale(const SetUpState& set_up) {
-  const auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  const Model& model = set_up.model;
   const LagrangianPhase& phase = *model.phase;
   double scale = 0;
   std::vector<double> at_points(phase.points() * static_cast<std::size_t>(phase.dim()));
@@ -49,7 +50,9 @@ double displacement_scale(const SetUpState& set_up) {
 }
 
 void set_tolerances(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  SetUp& parts = set_up.parts;
+  Model& model = set_up.model;
   const IntegratorSpec& spec = problem.integrator;
   model.integrator.rtol = spec.rtol;
   if (!spec.rtol) return;
@@ -80,14 +83,17 @@ double step_fraction(const SetUpState& set_up) {
 
 // Leapfrog is balanced, see balanced_leapfrog.hpp, if a narrow spectrum allows it and no key asks for another damping.
 bool is_balanced_leapfrog(const SetUpState& set_up) {
-  const auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  const Plan& plan = set_up.plan;
+  const Model& model = set_up.model;
   const DampingTreatment treatment = problem.integrator.treatment;
   return plan.multigrid && model.omega_1 && model.c && !problem.damping.c && model.method.hosts_relaxations &&
          (treatment == DampingTreatment::automatic || treatment == DampingTreatment::averaged);
 }
 
 void choose_step(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Model& model = set_up.model;
   const IntegratorSpec& spec = problem.integrator;
   const bool adaptive = spec.rtol.has_value();
   if (model.method.amplification) {
@@ -129,7 +135,9 @@ void choose_step(SetUpState& set_up) {
 
 // Sets the damping, and what the integrator or the relaxation that steps it is made of.
 void choose_strategy(SetUpState& set_up, bool takes_c) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  Model& model = set_up.model;
   if (takes_c) model.c = problem.damping.c ? *problem.damping.c : 2 * *model.omega_1;
   if (is_balanced_leapfrog(set_up)) {
     const double longest = problem.integrator.step_fraction * 2 / model.omega_max;
@@ -155,7 +163,9 @@ void choose_strategy(SetUpState& set_up, bool takes_c) {
 }  // namespace
 
 void choose_damping_and_step(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  Model& model = set_up.model;
   const bool takes_c = !plan.static_method && plan.strategy->uses("c");
   choose_strategy(set_up, takes_c);
   if (!plan.static_method) set_tolerances(set_up);

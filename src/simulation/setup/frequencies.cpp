@@ -63,13 +63,18 @@ void refuse_missing_omega_1(const SetUpState& set_up, const std::string& why) {
 }  // namespace
 
 void find_omega_max(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  Plan& plan = set_up.plan;
+  SetUp& parts = set_up.parts;
+  Model& model = set_up.model;
   if (plan.chooses_mass || plan.multigrid) return;
   model.omega_max = parts.shared("omega_max", model.mass, [&] { return highest_frequency(*model.phase, model.u); });
 }
 
 void find_omega_1(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  SetUp& parts = set_up.parts;
+  Model& model = set_up.model;
   if (plan.multigrid) return;
   if (!plan.omega_1.any()) {
     const bool has_bound = plan.steps_tell_omega_1 || plan.chooses_mass;

@@ -48,7 +48,10 @@ void note_incompressible(SetUpState& set_up) {
 }
 
 void make_multigrid_as_planned(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  SetUp& parts = set_up.parts;
+  Model& model = set_up.model;
   const bool is_asked = problem.mass.kind == MassKind::multigrid;
   if (!plan.multigrid || (!is_asked && !model.phase->shape().free_parts().empty())) return;
   if (is_asked) refuse_law_with_history(plan), refuse_phases(problem, plan);
@@ -87,7 +90,10 @@ double quick_omega_max(SetUpState& set_up, const MassSpec& mass, const Lagrangia
 // of how it is spread: the ratio of κ is that of ω_max². Gershgorin's bound needs a lumped mass, which auto takes if
 // the problem leaves the kind open.
 void choose_scaled_mass(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  SetUp& parts = set_up.parts;
+  Model& model = set_up.model;
   model.omega_max = quick_omega_max(set_up, problem.mass, *model.phase);
   if (!plan.equilibrium_only) {
     set_up.note(
@@ -114,7 +120,9 @@ void choose_scaled_mass(SetUpState& set_up) {
 }  // namespace
 
 void choose_mass(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  Model& model = set_up.model;
   make_multigrid_as_planned(set_up);
   if (plan.chooses_mass && !model.multigrid) choose_scaled_mass(set_up);
   Estimates found = plan.estimates;

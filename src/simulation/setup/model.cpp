@@ -31,7 +31,10 @@ void check_initial_state(const LagrangianPhase& phase, ConstVec u) {
 }
 
 void make_first_phase(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  SetUp& parts = set_up.parts;
+  Model& model = set_up.model;
   model.static_method = plan.static_method;
   model.relaxation = plan.relaxation;
   model.method = find_method(problem.integrator.method, problem.integrator.treatment);
@@ -40,7 +43,9 @@ void make_first_phase(SetUpState& set_up) {
 }
 
 void begin_at_initial_state(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  Model& model = set_up.model;
   model.u = model.phase->initial_displacement(0);
   check_probes(problem, *model.phase);
   check_initial_state(*model.phase, model.u);
@@ -49,7 +54,8 @@ void begin_at_initial_state(SetUpState& set_up) {
 }
 
 void begin_motion(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Model& model = set_up.model;
   choose_mass(set_up);
   set_up.note(model.body_notes.at_start(problem, *model.phase));
   set_up.note(accuracy_notes(problem, *model.phase, model.mass.scaling));
@@ -70,7 +76,10 @@ std::optional<VolumeNorm> volume_norm(Problem problem, const LagrangianPhase& ph
 }
 
 void choose_norm_of_errors(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  SetUp& parts = set_up.parts;
+  Model& model = set_up.model;
   const bool wants_equilibrium = problem.stop.wants_equilibrium();
   model.learns_omega_1 = !model.omega_1 && plan.steps_tell_omega_1;
   if (problem.stop.distance > 0 && !model.omega_1 && !model.learns_omega_1) {
@@ -123,7 +132,9 @@ bool residual_bounds_error(const SetUpState& set_up) {
 }
 
 void choose_way_to_rest(SetUpState& set_up) {
-  auto& [problem, plan, parts, model] = set_up;
+  const Problem& problem = set_up.problem;
+  Plan& plan = set_up.plan;
+  Model& model = set_up.model;
   model.dwell = dwell_of(set_up);
   model.distance_goal = distance_goal_of(set_up);
   model.equilibrium_must_last = !plan.static_method && !residual_bounds_error(set_up);

@@ -62,8 +62,8 @@ Verdict Monitor::test_equilibrium(RunState& run) {
   const double distance = run.measured.distance_to_go().value_or(std::numeric_limits<double>::infinity());
   if (may_be_over && distance <= run.model.distance_goal) run.measured.refresh_distance();
   const RunStatus status =
-      observe(run.t, measured.residual, measured.kinetic_energy, measured.work_scale, run.loads_settled(),
-              run.measured.distance_to_go(), !run.motion->integrator->static_iteration());
+      check_balance(run.t, measured.residual, measured.kinetic_energy, measured.work_scale, run.loads_settled(),
+                    run.measured.distance_to_go(), !run.motion->integrator->static_iteration());
   if (status == RunStatus::diverged) return {status, run.failed(reason_).reason};
   if (status == RunStatus::equilibrium && !creep(run.scene, *run.model.phase).empty()) return {};
   return {status, reason_};
@@ -82,8 +82,8 @@ void Monitor::follow_period(const RunState& run) {
   creep_->set_period(period, run.t);
 }
 
-RunStatus Monitor::observe(double t, double residual, double kinetic_energy, double work_scale, bool settled,
-                           std::optional<double> distance, bool moves) {
+RunStatus Monitor::check_balance(double t, double residual, double kinetic_energy, double work_scale, bool settled,
+                                 std::optional<double> distance, bool moves) {
   next_check_ = t + options_.dwell / checks_a_dwell;
   peak_kinetic_energy_ = std::max(peak_kinetic_energy_, kinetic_energy);
   if (!std::isfinite(residual) || !std::isfinite(kinetic_energy)) {

@@ -40,25 +40,26 @@ class Monitor : public Watcher {
     constexpr double longest_share = 0.5;
     options_.dwell = std::min(dwell, std::max(shortest_dwell_, longest_share * (t - options_.begin)));
   }
-  /// The way that a body which yields or slides would still go, relative to its displacement, for the next observe(),
-  /// and how much that may be. Empty: nothing yields or slides; infinite: the way is not known.
+  /// The way that a body which yields or slides would still go, relative to its displacement, for the next
+  /// check_balance(), and how much that may be. Empty: nothing yields or slides; infinite: the way is not known.
   void set_way_left(std::optional<double> way, double allowed) {
     way_left_ = way;
     allowed_way_ = allowed;
   }
-  /// True if observe() wants residual and kinetic energy at t; in between, asking costs nothing.
+  /// True if check_balance() wants residual and kinetic energy at t; in between, asking costs nothing.
   bool due(double t) const { return t >= next_check_; }
   /// Residual, kinetic energy [J] and a scale of the work done [J] at t [s]. A kinetic energy that is rounding beside
   /// the work counts as rest, also in a body that never moved.
   /// settled: whether the loads are what they will be at the end; before, balance is none.
   /// distance: if there is a test of it; unknown counts as far. moves: false of an iterate without a motion, whose
   /// balance need not last.
-  RunStatus observe(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true,
-                    std::optional<double> distance = std::nullopt, bool moves = true);
+  RunStatus check_balance(double t, double residual, double kinetic_energy, double work_scale = 0, bool settled = true,
+                          std::optional<double> distance = std::nullopt, bool moves = true);
   /// The limits that do not need the state; call after every step.
   RunStatus check_limits(double t, long steps);
 
-  /// The condition beside the residual that the last observe() missed, "kinetic energy 0.2 > 0.01 …"; empty: none.
+  /// The condition beside the residual that the last check_balance() missed, "kinetic energy 0.2 > 0.01 …"; empty:
+  /// none.
   const std::string& waits_for() const { return waits_for_; }
   /// The inequality that ended the run.
   const std::string& reason() const { return reason_; }

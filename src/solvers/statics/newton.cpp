@@ -21,7 +21,6 @@ class Newton {
  public:
   Newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options)
       : system_(system),
-        t_(t),
         u_(u),
         options_(options),
         balance_(system, t, VectorSpace()),
@@ -169,7 +168,6 @@ class Newton {
 
   const Stopwatch watch_;
   SemiDiscrete& system_;
-  double t_;
   Vec u_;
   const NewtonOptions& options_;
   StaticBalance balance_;
