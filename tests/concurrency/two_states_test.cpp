@@ -3,27 +3,19 @@
 
 #include <limits>
 #include <memory>
-#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "random_values.hpp"
 #include "scenes.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 
 namespace {
-
-std::vector<double> random_state(std::size_t n, double scale, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-scale, scale);
-  std::vector<double> u(n);
-  for (double& value : u) value = uniform(random);
-  return u;
-}
 
 // Everything that a solver asks of a phase in one state.
 struct Evaluation {
@@ -68,7 +60,7 @@ TEST_CASE("two threads evaluate two states of one phase with the bits of a singl
     std::vector<std::vector<double>> u;
     std::vector<Evaluation> alone;
     for (unsigned k = 0; k < 2; ++k) {
-      u.push_back(random_state(phase->size(), 1e-4, k));
+      u.push_back(test::random_values(phase->size(), 1e-4, k));
       alone.push_back(evaluate(*phase, times[k], u[k]));
       REQUIRE(alone[k].good);
     }
@@ -92,7 +84,7 @@ TEST_CASE("a state that cannot be evaluated leaves nothing behind for the next o
     INFO("dilatation = " << dilatation);
     const auto phase = make_phase(scenes::load("cylinder", {"grid.cells=[8,8]", "material.steel.law=neo-hookean",
                                                             "grid.basis=quadratic", "phase.dilatation=" + dilatation}));
-    const auto u = random_state(phase->size(), 1e-4, 1);
+    const auto u = test::random_values(phase->size(), 1e-4, 1);
     const Evaluation before = evaluate(*phase, 0, u);
     REQUIRE(before.good);
     std::vector<double> R(phase->size());

@@ -37,6 +37,7 @@ void make_first_phase(SetUpState& set_up) {
   Model& model = set_up.model;
   model.static_method = plan.static_method;
   model.relaxation = plan.relaxation;
+  model.factor_fits = plan.stiffness.factor_fits(plan.room);
   model.method = find_method(problem.integrator.method, problem.integrator.treatment);
   model.phase = parts.phase(problem);
   model.mass = problem.mass;

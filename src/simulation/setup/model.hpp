@@ -39,6 +39,7 @@ struct Model {
   // The way to rest:
   const StaticMethodInfo* static_method = nullptr;  // as planned
   const RelaxationInfo* relaxation = nullptr;       // as planned
+  bool factor_fits = false;                         // whether the machine has room for a factor of K, as planned
   std::optional<double> c;                          // the factor of viscous and identity damping
   std::unique_ptr<Damping> damping;
   Method method;

@@ -2,7 +2,6 @@
 // run has gone on for long.
 #pragma once
 
-#include "plan/matrix_size.hpp"
 #include "simulation/advice/mechanism.hpp"
 #include "simulation/watcher.hpp"
 
@@ -11,8 +10,7 @@ namespace stillpoint {
 class MechanismWatch : public Watcher {
  public:
   explicit MechanismWatch(const RunState& run)
-      : looks_(run.scene.stop.wants_equilibrium() && !run.model.omega_1 &&
-               matrix_size(run.scene, body_size(run.scene)).factor_fits(memory_room())) {}
+      : looks_(run.scene.stop.wants_equilibrium() && !run.model.omega_1 && run.model.factor_fits) {}
 
   Verdict judge(RunState& run) override {
     constexpr long patience = 1000;  // [evaluations]

@@ -8,6 +8,7 @@
 
 #include "largest.hpp"
 #include "points_in_space.hpp"
+#include "random_values.hpp"
 
 using namespace stillpoint;
 
@@ -15,14 +16,6 @@ namespace {
 
 constexpr Kinematics K = Kinematics::space;
 using Block = PointBlock<K>;
-
-std::vector<double> random_vector(std::size_t n, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  std::vector<double> u(n);
-  for (double& value : u) value = uniform(random);
-  return u;
-}
 
 /// Uneven sides; from no point to eleven in a cell, anywhere in it.
 template <AxisBasis B>
@@ -40,8 +33,8 @@ struct Scattered {
     points = test::points_in_cells(
         grid, [](int cell) { return cell % 12; }, [&](int, int) { return uniform(random); });
     weights.rebuild(grid, points);
-    u = random_vector(3 * static_cast<std::size_t>(Basis::count(grid)), 1);
-    before = random_vector(u.size(), 2);
+    u = test::random_values(3 * static_cast<std::size_t>(Basis::count(grid)), 1, 1);
+    before = test::random_values(u.size(), 1, 2);
   }
   auto values(std::size_t k, std::size_t p) const {
     return Basis::evaluate(grid, weights.cell_at(k), points.position(p));
@@ -94,7 +87,7 @@ TEMPLATE_TEST_CASE("scattering in space gives each function the stresses of the 
   Block block;
   for (std::size_t k = 0; k < s.points.cells(); ++k) {
     block.first = s.points.begin(k);
-    const auto P = random_vector(9 * (s.points.end(k) - s.points.begin(k)), static_cast<unsigned>(k));
+    const auto P = test::random_values(9 * (s.points.end(k) - s.points.begin(k)), 1, static_cast<unsigned>(k));
     for (std::size_t i = 0; i < P.size(); ++i) block.VP[i % 9][i / 9] = P[i];
     std::array<double, 3 * functions> corner, expected{};
     for (std::size_t p = s.points.begin(k); p < s.points.end(k); ++p) {
@@ -146,7 +139,7 @@ TEST_CASE("forces of trilinear cells are the same bits for 1, 2 and 3 threads") 
       bad += block.store_stress(q, cube.points.volume[block.first + q], block.H_at(q));
     return bad;
   };
-  const auto u = random_vector(cube.dofs.size(), 4);
+  const auto u = test::random_values(cube.dofs.size(), 1, 4);
   const int threads_before = omp_get_max_threads();
   std::vector<std::vector<double>> R(3, std::vector<double>(cube.dofs.size()));
   for (int threads = 1; threads <= 3; ++threads) {

@@ -1,11 +1,11 @@
 // Forces of linear elastic cells from moments of their points, against the stiffness matrix that the points assemble.
-#include <random>
 
 #include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 #include <omp.h>
 
 #include "largest.hpp"
+#include "random_values.hpp"
 #include "scenes.hpp"
 #include "statics.hpp"
 
@@ -13,18 +13,10 @@ using namespace stillpoint;
 
 namespace {
 
-std::vector<double> random_vector(std::size_t n) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  std::vector<double> u(n);
-  for (double& value : u) value = uniform(random);
-  return u;
-}
-
 void check_force(const std::string& scene, const std::vector<std::string>& set) {
   const auto phase = make_phase(scenes::load(scene, set));
   CAPTURE(scene, set);
-  const std::vector<double> u = random_vector(phase->size());
+  const std::vector<double> u = test::random_values(phase->size(), 1, 7);
   const SparseMatrix K = phase->tangents().matrix(Tangent::elastic, 0, u);
   const Eigen::VectorXd expected = K * Eigen::Map<const Eigen::VectorXd>(u.data(), K.cols());
   const std::vector<double> Ku(expected.begin(), expected.end()), R = statics::internal_force(*phase, u);
@@ -70,7 +62,7 @@ TEST_CASE("forces of linear elastic cells are the same bits for 1 and 2 threads"
       CAPTURE(scene, dilatation);
       const auto phase = make_phase(scenes::load(scene, {"grid.basis=linear", dilatation, cells}));
       REQUIRE(phase->points() > 8192);  // fewer are left to one thread
-      const std::vector<double> u = random_vector(phase->size());
+      const std::vector<double> u = test::random_values(phase->size(), 1, 7);
       const int before = omp_get_max_threads();
       omp_set_num_threads(1);
       const std::vector<double> one = statics::internal_force(*phase, u);

@@ -1,25 +1,16 @@
 // K = ∂R/∂u of whole phases, against central differences of the internal force.
 #include <stillpoint/stillpoint.hpp>
 
-#include <random>
-
 #include <catch2/catch.hpp>
 
 #include "largest.hpp"
+#include "random_values.hpp"
 #include "scenes.hpp"
 #include "statics.hpp"
 
 using namespace stillpoint;
 
 namespace {
-
-std::vector<double> random_vector(std::size_t n, double scale, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-scale, scale);
-  std::vector<double> u(n);
-  for (double& value : u) value = uniform(random);
-  return u;
-}
 
 /// (f(u + d du) − f(u − d du))/(2 d)
 template <class Force>
@@ -56,7 +47,7 @@ std::unique_ptr<LagrangianPhase> column(const std::string& material, const std::
 void check_tangent(const LagrangianPhase& phase, bool plastic, double size = 0.03) {
   const std::size_t n = phase.size();
   const double t = 0.03;
-  const auto u = random_vector(n, size, 2), du = random_vector(n, 1, 3);
+  const auto u = test::random_values(n, size, 2), du = test::random_values(n, 1, 3);
   const auto R = [&](ConstVec at) { return statics::internal_force(phase, at, t); };
   const auto differences = difference(R, u, du, 1e-8);
   const SparseMatrix K = phase.tangents().matrix(Tangent::consistent, t, u);
@@ -89,7 +80,7 @@ TEST_CASE("the tangent of every law is the derivative of the internal force, app
         for (const std::string dilatation : {"points", "cells", "splines"}) {
           CAPTURE(material, state, basis, dilatation);
           const auto phase = column(material, state, basis, dilatation);
-          statics::commit(*phase, random_vector(phase->size(), 0.02, 1), 0.01);
+          statics::commit(*phase, test::random_values(phase->size(), 0.02, 1), 0.01);
           check_tangent(*phase, material.find("drucker") != std::string::npos);
         }
       }
@@ -112,7 +103,7 @@ TEST_CASE("the tangent is the derivative of the internal force where functions i
 
 TEST_CASE("yielding leaves omega_max and the critical step where they were") {
   const auto phase = column("{law='drucker-prager', E=1e7, nu=0.3, rho=2000, phi=30, c=1e4}", "plane-strain", "linear");
-  const std::vector<double> at_rest(phase->size(), 0.0), u = random_vector(phase->size(), 1e-3, 1);
+  const std::vector<double> at_rest(phase->size(), 0.0), u = test::random_values(phase->size(), 1e-3, 1);
   const auto yields =
       (phase->tangents().matrix(Tangent::consistent, 0, u) - phase->tangents().matrix(Tangent::elastic, 0, u)).norm();
   CHECK(yields > 0.1 * phase->tangents().matrix(Tangent::elastic, 0, u).norm());
@@ -129,7 +120,7 @@ TEST_CASE("the tangent of a pressure that follows the surface is the derivative 
     const auto phase = make_phase(scenes::load("block", {"body.state=" + state,
                                                          "traction=[{face='top', pressure=0.3}, {face='right', "
                                                          "pressure=0.1}]"}));
-    const auto u = random_vector(phase->size(), 0.02, 1), du = random_vector(phase->size(), 1, 2);
+    const auto u = test::random_values(phase->size(), 0.02, 1), du = test::random_values(phase->size(), 1, 2);
     const auto F = [&](ConstVec at) {
       std::vector<double> force(phase->size(), 0.0);
       phase->external_force(0, at, force);

@@ -1,27 +1,19 @@
 #include <stillpoint/relaxation_system.hpp>
 
 #include <cmath>
-#include <random>
 
 #include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 #include <omp.h>
 
 #include "allocation_count.hpp"
+#include "random_values.hpp"
 #include "scenes.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 
 namespace {
-
-std::vector<double> random_state(std::size_t n, double scale, unsigned seed = 1) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-scale, scale);
-  std::vector<double> u(n);
-  for (double& value : u) value = uniform(random);
-  return u;
-}
 
 const std::vector<std::string> bases{"linear", "quadratic", "cubic", "hermite"};
 
@@ -36,10 +28,10 @@ Scene bar_with(const std::string& basis, const std::string& law, const std::stri
 TEST_CASE("the internal force is repeatable to the bit") {
   for (const std::string& basis : bases) {
     const auto phase = make_phase(bar_with(basis, "neo-hookean"));
-    const auto u = random_state(phase->size(), 0.1);
+    const auto u = test::random_values(phase->size(), 0.1);
     std::vector<double> first(phase->size()), second(phase->size()), other(phase->size());
     REQUIRE(phase->internal_force(0, u, first, *phase->make_trial()));
-    phase->internal_force(0, random_state(phase->size(), 0.1, 2), other, *phase->make_trial());
+    phase->internal_force(0, test::random_values(phase->size(), 0.1, 2), other, *phase->make_trial());
     REQUIRE(phase->internal_force(0, u, second, *phase->make_trial()));
     CHECK(first == second);
     CHECK(first != other);
@@ -51,7 +43,7 @@ TEST_CASE("the tangent is the derivative of the internal force, applied and asse
     for (const std::string law : {"linear-elastic", "neo-hookean"}) {
       const auto phase = make_phase(bar_with(basis, law));
       const std::size_t n = phase->size();
-      const auto u = random_state(n, 0.1), du = random_state(n, 1, 5);
+      const auto u = test::random_values(n, 0.1), du = test::random_values(n, 1, 5);
       std::vector<double> applied(n), above(n), below(n), shifted(u);
       phase->tangents().apply(Tangent::consistent, 0, u, du, applied);
       constexpr double d = 1e-6;
@@ -179,7 +171,7 @@ TEST_CASE("initial values of a polynomial that the basis holds are reproduced at
 TEST_CASE("forces are the same bits for 1 and 2 threads") {
   const auto phase =
       make_phase(scenes::bar({"grid.cells=20000", "body.points_per_cell=3", "material.bar.law=neo-hookean"}));
-  const auto u = random_state(phase->size(), 1e-5);
+  const auto u = test::random_values(phase->size(), 1e-5);
   std::vector<double> one(phase->size()), two(phase->size());
   const int before = omp_get_max_threads();
   omp_set_num_threads(1);
@@ -211,7 +203,7 @@ TEST_CASE("the right-hand side of a scene allocates nothing after its first eval
           make_phase(scenes::bar({std::string("mass.kind=") + mass, std::string("material.bar.law=") + law}));
       const auto damping = make_damping("identity", 0.45, 0);
       RelaxationSystem system(*phase, *damping);
-      const auto y = random_state(2 * phase->size(), 0.01);
+      const auto y = test::random_values(2 * phase->size(), 0.01);
       std::vector<double> ydot(y.size());
       REQUIRE(system(0, y, ydot));
       const long before = test::allocation_count();

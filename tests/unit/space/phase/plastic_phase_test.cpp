@@ -1,7 +1,6 @@
 // Trial and commit of a phase whose points remember, and the same bits for any number of threads.
 #include <stillpoint/stillpoint.hpp>
 
-#include <random>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "allocation_count.hpp"
 #include "files.hpp"
 #include "largest.hpp"
+#include "random_values.hpp"
 #include "scenes.hpp"
 #include "simulation/setup/model.hpp"
 #include "statics.hpp"
@@ -29,14 +29,6 @@ Scene slope(const std::string& cells = "20,11", std::vector<std::string> overrid
 }
 
 /// Displacements that make some points yield: strains of up to 1e-3 and more.
-std::vector<double> random_displacement(std::size_t n, double scale, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-scale, scale);
-  std::vector<double> u(n);
-  for (double& value : u) value = uniform(random);
-  return u;
-}
-
 std::vector<double> force(const LagrangianPhase& phase, double t, const std::vector<double>& u) {
   std::vector<double> R(phase.size());
   REQUIRE(phase.internal_force(t, u, R, *phase.make_trial()));
@@ -57,7 +49,7 @@ std::vector<double> state(const LagrangianPhase& phase) {
 TEST_CASE("a trial of plastic points is repeatable to the bit and leaves what was committed alone") {
   const auto phase = make_phase(slope());
   const std::size_t n = phase->size();
-  const auto small = random_displacement(n, 1e-4, 1), large = random_displacement(n, 1e-2, 2);
+  const auto small = test::random_values(n, 1e-4, 1), large = test::random_values(n, 1e-2, 2);
   const auto at_start = state(*phase);
   const auto first = force(*phase, 0.01, small);
   const auto elsewhere = force(*phase, 0.02, large);
@@ -73,7 +65,7 @@ TEST_CASE("a trial of plastic points is repeatable to the bit and leaves what wa
             [](double strain) { return strain > 0; }) > 10);
   const auto second = force(*phase, 0.02, large);
   CHECK(second != elsewhere);  // the path counts
-  force(*phase, 0.03, random_displacement(n, 5e-3, 3));
+  force(*phase, 0.03, test::random_values(n, 5e-3, 3));
   CHECK(force(*phase, 0.02, large) == second);
   CHECK(state(*phase) == committed);
   // Where it was committed, nothing has moved since: the stress is the committed one.
@@ -86,12 +78,12 @@ TEST_CASE("what is committed is the trial's last evaluation, whichever trial it 
   const auto trial = again->make_trial();
   std::vector<double> R(again->size());
   for (unsigned step = 1; step <= 3; ++step) {
-    const auto u = random_displacement(anew->size(), 1e-3 * step, step);
+    const auto u = test::random_values(anew->size(), 1e-3 * step, step);
     const double t = 0.01 * step;
     statics::commit(*anew, u, t);
-    REQUIRE(again->internal_force(t, random_displacement(anew->size(), 1e-3, 7), R, *trial));
+    REQUIRE(again->internal_force(t, test::random_values(anew->size(), 1e-3, 7), R, *trial));
     REQUIRE(again->internal_force(t, u, R, *trial));
-    force(*again, t, random_displacement(anew->size(), 1e-3, 8));  // in another trial
+    force(*again, t, test::random_values(anew->size(), 1e-3, 8));  // in another trial
     again->commit(*trial);
     CHECK(state(*anew) == state(*again));
     CHECK(force(*anew, t + 0.01, u) == force(*again, t + 0.01, u));
@@ -138,7 +130,7 @@ TEST_CASE("a phase begins with the forces that its laws answer to no increment, 
   const auto phase = make_phase(slope("20,11", overrides));
   const double t = 0.01;
   phase->initial_velocity(0);
-  const auto u = random_displacement(phase->size(), 2e-3, 1);
+  const auto u = test::random_values(phase->size(), 2e-3, 1);
   statics::commit(*phase, u, t);
   phase->control().begin_next(t, u, std::vector<double>(phase->size(), 0.0));
 
@@ -153,7 +145,7 @@ TEST_CASE("a phase begins with the forces that its laws answer to no increment, 
 TEST_CASE("the right-hand side of a plastic scene with walls and local damping allocates nothing") {
   const Model model = make_model(slope());
   RelaxationSystem system(*model.phase, *model.damping);
-  std::vector<double> y = random_displacement(2 * model.phase->size(), 1e-4, 1), ydot(y.size());
+  std::vector<double> y = test::random_values(2 * model.phase->size(), 1e-4, 1), ydot(y.size());
   REQUIRE(system(0, y, ydot));
   const long before = test::allocation_count();
   const bool admissible = system(0.001, y, ydot);
@@ -172,8 +164,8 @@ TEST_CASE("plastic forces and what they commit are the same bits for 1 and 2 thr
     omp_set_num_threads(threads);
     const auto phase = make_phase(slope("70,33"));
     REQUIRE(phase->points() > 8192);  // fewer are left to one thread
-    statics::commit(*phase, random_displacement(phase->size(), 1e-4, 1), 0.01);
-    forces[threads - 1] = force(*phase, 0.02, random_displacement(phase->size(), 1e-3, 2));
+    statics::commit(*phase, test::random_values(phase->size(), 1e-4, 1), 0.01);
+    forces[threads - 1] = force(*phase, 0.02, test::random_values(phase->size(), 1e-3, 2));
     states[threads - 1] = state(*phase);
   }
   omp_set_num_threads(before);
