@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <concepts>
 #include <functional>
-#include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include "scene/point_sums.hpp"

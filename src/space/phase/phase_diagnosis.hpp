@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,7 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
 
   std::string refusal(TrialState& trial) const override {
     const auto& of_phase = dynamic_cast<PhaseTrial&>(trial);
+    if (of_phase.phase != frame_.phase) throw std::logic_error("a trial state that was made for another phase");
     return trial.too_far ? refusal_of_motion(frame_.unknowns.free_values(of_phase.arrays->u))
                          : refusal_at_points(of_phase);
   }
