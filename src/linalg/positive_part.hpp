@@ -2,26 +2,13 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
-
-#include <Eigen/Eigenvalues>
 
 namespace stillpoint {
 
-/// Replaces A by Σ max(λ, 0) v vᵀ over the eigenpairs of A's symmetric part; A: (N × N) by rows, finite.
+/// Replaces A by Σ max(λ, 0) v vᵀ over the eigenpairs of A's symmetric part; A: (N × N) by rows, finite. N is the number
+/// of components of a displacement gradient: 1, 4, 5 or 9.
 template <std::size_t N2>
-void take_positive_part(std::array<double, N2>& A) {
-  constexpr int n = [] {
-    int root = 0;
-    while (root * root < static_cast<int>(N2)) ++root;
-    return root;
-  }();
-  static_assert(static_cast<std::size_t>(n) * n == N2, "a square matrix");
-  using Matrix = Eigen::Matrix<double, n, n>;
-  Eigen::Map<Matrix> of_A(A.data());
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (of_A + of_A.transpose()));
-  of_A = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
-}
+void take_positive_part(std::array<double, N2>& A);
 
 }  // namespace stillpoint

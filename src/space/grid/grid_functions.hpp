@@ -35,9 +35,12 @@ class GridFunctions {
   int per_axis() const { return per_axis_; }
   /// The window of the basis, see AxisBasis.
   int window() const { return window_; }
+  int degree() const { return degree_; }
   bool partition_of_unity() const { return partition_of_unity_; }
 
   virtual int count() const = 0;
+  /// The number of functions along an axis.
+  virtual int count_along(int axis) const = 0;
   virtual Values evaluate(const Cell& cell, const Point<Dim>& x) const = 0;
   /// The centre of a function along an axis [m].
   virtual double centre(int function, int axis) const = 0;
@@ -56,16 +59,17 @@ class GridFunctions {
 
  protected:
   /// The grid must outlive this object.
-  GridFunctions(const Grid<Dim>& grid, int per_axis, int window, bool partition_of_unity)
+  GridFunctions(const Grid<Dim>& grid, int per_axis, int window, int degree, bool partition_of_unity)
       : grid_(grid),
         per_axis_(per_axis),
         per_cell_(power(per_axis, Dim)),
         window_(window),
+        degree_(degree),
         partition_of_unity_(partition_of_unity) {}
 
  private:
   const Grid<Dim>& grid_;
-  int per_axis_, per_cell_, window_;
+  int per_axis_, per_cell_, window_, degree_;
   bool partition_of_unity_;
 };
 
@@ -78,9 +82,10 @@ class FunctionsOfBasis final : public GridFunctions<Dim> {
 
  public:
   explicit FunctionsOfBasis(const Grid<Dim>& grid)
-      : GridFunctions<Dim>(grid, B::per_cell, B::window, B::partition_of_unity) {}
+      : GridFunctions<Dim>(grid, B::per_cell, B::window, B::degree, B::partition_of_unity) {}
 
   int count() const override { return Basis::count(this->grid()); }
+  int count_along(int axis) const override { return B::count(this->grid().axes[axis]); }
   Values evaluate(const Cell& cell, const Point<Dim>& x) const override {
     const auto of_cell = Basis::evaluate(this->grid(), cell, x);
     const auto offset = Basis::offsets(this->grid());

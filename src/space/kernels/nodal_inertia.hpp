@@ -15,15 +15,13 @@
 // With scaling by Gershgorin, every node has the same bound instead: M_i = G_i/Ω², whose sum is the body's mass.
 #pragma once
 
+#include <stillpoint/problem.hpp>
 #include <stillpoint/state_archive.hpp>
 
-#include <algorithm>
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "space/grid/extrapolation.hpp"
-#include "space/kernels/extended_sums.hpp"
 
 namespace stillpoint {
 
@@ -46,37 +44,16 @@ Point<Dim> deviation(const std::vector<double>& x, const AddedInertia& added) {
   return d;
 }
 
-template <AxisBasis B, Kinematics K>
+template <int Dim>
 class NodalInertia {
-  static constexpr int dim = dimensions(K);
-
  public:
-  NodalInertia(const MassSpec& spec, bool updated_lagrangian) : spec_(spec), updated_lagrangian_(updated_lagrangian) {}
+  /// functions: must outlive this object.
+  NodalInertia(const MassSpec& spec, bool updated_lagrangian, const GridFunctions<Dim>& functions)
+      : spec_(spec), updated_lagrangian_(updated_lagrangian), functions_(functions) {}
 
   /// Sets the inertia of a phase. mass, G: m_i [kg] and the stiffness bound [N/m], (functions). is_free: whether
   /// neither support nor wall holds a function, (functions).
-  void begin_phase(const Grid<dim>& grid, std::vector<double> mass, const std::vector<double>& G,
-                   const std::vector<char>& is_free) {
-    mass_ = std::move(mass);
-    inertia_ = mass_;
-    added_.clear();
-    const bool gershgorin = spec_.scaling == MassScaling::gershgorin;
-    const double all_mass = sum_over(mass_.size(), [&](std::size_t f) { return mass_[f]; });
-    if (!(omega_squared_ > 0)) {
-      omega_squared_ = sum_over(G.size(), [&](std::size_t f) { return G[f]; }) / all_mass;
-    }
-    if (gershgorin) {
-      std::ranges::transform(G, inertia_.begin(), [&](double bound) { return bound / omega_squared_; });
-    } else {
-      find_light(grid, G, is_free);
-    }
-    double added = 0;
-    for (std::size_t f = 0; gershgorin && f < mass_.size(); ++f) added += std::max(0.0, inertia_[f] - mass_[f]);
-    for (const AddedInertia& one : added_) added += one.inertia;
-    largest_added_share_ = std::max(largest_added_share_, added / all_mass);
-    for (double& inertia : inertia_) inertia *= spec_.factor;
-    for (AddedInertia& one : added_) one.inertia *= spec_.factor;
-  }
+  void begin_phase(std::vector<double> mass, const std::vector<double>& G, const std::vector<char>& is_free);
 
   const std::vector<double>& mass() const { return mass_; }        // m_i, (functions) [kg]
   const std::vector<double>& inertia() const { return inertia_; }  // inertia against all motion, (functions) [kg]
@@ -87,40 +64,11 @@ class NodalInertia {
   void archive(const StateArchive& state) { state("added_mass", largest_added_share_); }
 
  private:
-  // Finds light nodes; in a single phase only those with next to no mass: points on a grid line reach the nodes across
-  // a cell by their gradients alone.
-  void find_light(const Grid<dim>& grid, const std::vector<double>& G, const std::vector<char>& is_free) {
-    constexpr double most = 1.2;       // a tenth above the highest frequency: within the margin of the step
-    constexpr double massless = 1e-9;  // share of G/Ω²
-    std::vector<double> share(mass_.size());
-    for (std::size_t f = 0; f < mass_.size(); ++f) {
-      const double needed = G[f] / (most * omega_squared_);
-      const double enough = updated_lagrangian_ ? needed : massless * needed;
-      if (is_free[f] && needed > 0) share[f] = mass_[f] / enough;
-      if (mass_[f] < enough) added_.push_back({.function = static_cast<int>(f), .inertia = needed - mass_[f]});
-    }
-    if constexpr (B::partition_of_unity) {
-      const Extrapolator<B, dim> extrapolate(grid, share);
-      for (AddedInertia& one : added_) {
-        if (!is_free[static_cast<std::size_t>(one.function)]) continue;
-        one.relative_to = extrapolate(one.function).value_or(Extrapolation{});
-      }
-      // Without neighbours, as at a single point, the function nearest to the point moves with it.
-      constexpr double most_of_it = 0.5;
-      std::erase_if(added_, [&](const AddedInertia& one) {
-        return one.relative_to.functions == 0 && share[static_cast<std::size_t>(one.function)] > most_of_it;
-      });
-      // A function with less is extrapolated from the point's next best function, and that from it: the point still
-      // falls freely.
-      for (AddedInertia& one : added_) {
-        if (one.relative_to.functions > 0 || !is_free[static_cast<std::size_t>(one.function)]) continue;
-        one.relative_to = extrapolate.from_next_best(one.function).value_or(Extrapolation{});
-      }
-    }
-  }
+  void find_light(const std::vector<double>& G, const std::vector<char>& is_free);
 
   MassSpec spec_;
   bool updated_lagrangian_;
+  const GridFunctions<Dim>& functions_;
   std::vector<double> mass_, inertia_;
   std::vector<AddedInertia> added_;
   double omega_squared_ = 0;  // Ω², kept from the first phase [1/s²]

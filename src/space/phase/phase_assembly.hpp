@@ -95,14 +95,14 @@ struct PhaseAssembly {
       return held.is_prescribed(unknown) || held.is_guided(unknown);
     };
     // A function may follow others only if each of its held components is held in them too.
-    const auto may_follow = [&](int function, const auto& sources) {
+    const auto may_follow = [&](int function, const std::vector<ExtendedFunctions::Source>& sources) {
       return std::ranges::all_of(sources, [&](const ExtendedFunctions::Source& source) {
         bool may = reached[static_cast<std::size_t>(source.function)] != 0;
         for (int i = 0; i < dim; ++i) may = may && (!is_held(function, i) || is_held(source.function, i));
         return may;
       });
     };
-    const SliverExtension<B, dim> extension(frame.grid, cut, may_follow);
+    const SliverExtension<typename BasisOfOneCell<B>::type, dim> extension(frame.grid, cut, may_follow);
     frame.body.quadrature.slivers = extension.slivers();
     if (frame.moves_on()) return;
     frame.extension = extension.functions();

@@ -25,13 +25,13 @@ class PhaseInertia {
  public:
   /// frame: must outlive this object.
   explicit PhaseInertia(const PhaseFrame<B, K>& frame)
-      : frame_(frame), of_functions_(frame.problem.mass, frame.moves_on()) {}
+      : frame_(frame), of_functions_(frame.problem.mass, frame.moves_on(), frame.functions) {}
 
   /// Makes the mass of a phase that begins. Throws SceneError if it is not positive definite.
   void begin_phase() {
     std::vector<double> m = frame_.totals.mass();
     give_mass_to_sources<B>(frame_.grid, frame_.extension, m);
-    of_functions_.begin_phase(frame_.grid, std::move(m), frame_.bound_of_functions(), frame_.unknowns.untouched());
+    of_functions_.begin_phase(std::move(m), frame_.bound_of_functions(), frame_.unknowns.untouched());
     const Problem& problem = frame_.problem;
     const bool is_consistent = problem.mass.kind == MassKind::consistent;
     const bool projects = !problem.initial_u.empty() || !problem.initial_v.empty();
@@ -53,7 +53,7 @@ class PhaseInertia {
 
   const Mass& mass() const { return *mass_; }
   /// The inertia of the grid's functions, and m_i, (functions) [kg].
-  const NodalInertia<B, K>& of_functions() const { return of_functions_; }
+  const NodalInertia<dim>& of_functions() const { return of_functions_; }
   const std::vector<double>& node_mass() const { return of_functions_.mass(); }
   /// What the boundary conditions use of the phase.
   PhaseParts<dim> parts() const {
@@ -150,7 +150,7 @@ class PhaseInertia {
   }
 
   const PhaseFrame<B, K>& frame_;
-  NodalInertia<B, K> of_functions_;
+  NodalInertia<dim> of_functions_;
   std::optional<SplitMatrix> consistent_;  // M as assembled, if projections or moving supports need it
   std::optional<Mass> mass_;
 };
