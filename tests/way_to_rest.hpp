@@ -23,8 +23,8 @@ inline std::string override_of(const std::string& name) {
 }
 
 /// What steps the system on that way to rest, with options.max_step.
-inline std::unique_ptr<Integrator> stepper_of(const std::string& name, IntegratorOptions options,
-                                              RelaxationSystem& system, RelaxationOptions relaxing = {}) {
+inline std::unique_ptr<Stepper> stepper_of(const std::string& name, IntegratorOptions options, RelaxationSystem& system,
+                                           RelaxationOptions relaxing = {}) {
   if (catalogue().static_method(name)) {
     return make_static_method({.name = name, .max_step = options.max_step, .tolerance = 1e-12}, system);
   }

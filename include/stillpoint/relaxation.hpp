@@ -46,6 +46,6 @@ const RelaxationInfo* find_relaxation(std::string_view name);
 
 /// Makes a relaxation. Throws std::invalid_argument for an unknown name, and for options that the relaxation cannot
 /// work with. The system's damping must add no force; the system must outlive the relaxation.
-std::unique_ptr<Integrator> make_relaxation(const RelaxationOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_relaxation(const RelaxationOptions& options, RelaxationSystem& system);
 
 }  // namespace stillpoint

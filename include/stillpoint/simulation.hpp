@@ -23,7 +23,7 @@
 
 namespace stillpoint {
 
-class Integrator;        // <stillpoint/integrator.hpp>
+class Stepper;           // <stillpoint/stepper.hpp>
 class SetUpStore;        // opaque: for the library's own studies
 struct SimulationParts;  // opaque: for the library's own studies, tests and Python module
 
@@ -128,7 +128,7 @@ class Simulation {
 
   /// The parts of the simulation, for programs that inspect them; each is valid until the phase changes.
   RelaxationSystem& system();
-  const Integrator& integrator() const;
+  const Stepper& stepper() const;
   SimulationParts parts() const;
   /// The bound on the error ‖u − u*‖/‖u‖ at present, after residual(); empty if there is none.
   std::optional<double> distance();

@@ -12,9 +12,9 @@ const Measurements::Figures& Measurements::all() {
   if (std::exchange(is_measured_, true)) return figures_;
   PhaseMotion& motion = *run_.motion;
   figures_.residual = motion.residual(run_.t);
-  if (const auto omega_1 = run_.model.learns_omega_1 ? motion.integrator->lowest_frequency() : std::nullopt)
+  if (const auto omega_1 = run_.model.learns_omega_1 ? motion.stepper->lowest_frequency() : std::nullopt)
     error_bound_.learn(*omega_1);
-  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.integrator->acceleration());
+  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.stepper->known().acceleration);
   figures_.work_scale = motion.system.work_scale(motion.u_vector);
   const RelaxationSystem::Motion measured = motion.motion();
   figures_.power = measured.power;
@@ -47,7 +47,7 @@ void Measurements::refresh_distance() {
   PhaseMotion& motion = *run_.motion;
   if (!error_bound_.refresh(run_.t, motion.u(), figures_.residual)) return;
   motion.system.residual(run_.t, motion.u());
-  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.integrator->acceleration());
+  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.stepper->known().acceleration);
 }
 
 void Measurements::archive(const StateArchive& state) {

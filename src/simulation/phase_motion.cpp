@@ -9,7 +9,7 @@ namespace {
 
 // A damping leaves the steps to the integrator; a relaxation replaces the step of leapfrog, and a static solver that of
 // any integrator.
-std::unique_ptr<Integrator> make_stepper(const Model& model, const Problem& problem, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_stepper(const Model& model, const Problem& problem, RelaxationSystem& system) {
   if (model.static_method) {
     constexpr double default_residual = 1e-10;  // if only the distance is asked for
     const double residual = problem.stop.residual > 0 ? problem.stop.residual : default_residual;
@@ -32,10 +32,10 @@ PhaseMotion::PhaseMotion(Model& model, const Problem& problem, const VectorSpace
       y(*shared_y),
       u_vector(vectors.view(first_half(y.span()))),
       v_vector(vectors.view(second_half(y.span()))),
-      integrator(make_stepper(model, problem, system)) {
+      stepper(make_stepper(model, problem, system)) {
   std::ranges::copy(u0, first_half(y.span()).begin());
   std::ranges::copy(v0, second_half(y.span()).begin());
-  integrator->start(t, y);
+  stepper->start(t, y);
   if (!model.initial_stiffening) return;
   stiffening_.emplace(*model.phase, model.phase->size(), model.integrator.max_step, *model.initial_stiffening);
   follow_stiffness(t);
@@ -44,44 +44,31 @@ PhaseMotion::PhaseMotion(Model& model, const Problem& problem, const VectorSpace
 ConstVec PhaseMotion::v() const {
   const ConstVec second = second_half(y.span());
   if (!system.keeps_momentum()) return second;
-  if (const ConstVec known = integrator->velocity(); !known.empty()) return known;
+  if (const ConstVec known = stepper->known().velocity; !known.empty()) return known;
   velocity_.assign(second.size(), 0.0);
-  if (!integrator->static_iteration()) system.mass().solve(second, velocity_);
+  if (stepper->moves()) system.mass().solve(second, velocity_);
   return velocity_;
 }
 
 RelaxationSystem::Motion PhaseMotion::motion() {
-  if (integrator->static_iteration()) return {.power = 0, .kinetic_energy = 0};
-  return system.motion(v_vector, integrator->velocity());
+  if (!stepper->moves()) return {.power = 0, .kinetic_energy = 0};
+  return system.motion(v_vector, stepper->known().velocity);
 }
 
 void PhaseMotion::accept(double t) {
-  if (integrator->static_iteration()) return;
-  switch (system.accept(t, y.span(), integrator->force_is_current())) {
-    case ContactChange::nothing:
-      break;
-    case ContactChange::velocity:
-      integrator->velocity_changed();
-      break;
-    case ContactChange::displacement:
-      integrator->displacement_changed();
-  }
-  follow_stiffness(t);
-}
-
-void PhaseMotion::finish(double t) {
-  if (integrator->static_iteration()) system.accept(t, y.span(), true);
+  stepper->accept(t);
+  if (stepper->moves()) follow_stiffness(t);
 }
 
 void PhaseMotion::archive(const StateArchive& state) {
   state("y", y.span());
-  integrator->archive(state.part("integrator"));
+  stepper->archive(state.part("integrator"));
   system.archive(state.part("system"));
   if (stiffening_) stiffening_->archive(state.part("stiffening"));
 }
 
 void PhaseMotion::follow_stiffness(double t) {
-  if (stiffening_) integrator->set_max_step(stiffening_->longest(t, u(), v()));
+  if (stiffening_) stepper->set_max_step(stiffening_->longest(t, u(), v()));
 }
 
 }  // namespace stillpoint

@@ -23,26 +23,21 @@ class PhaseMotion {
   /// Velocities, whichever y has; until the next call.
   ConstVec v() const;
 
-  /// Accepts a step to t: laws remember, contacts open and close, the step follows the stiffness. With a static solver
-  /// laws remember the end only.
+  /// Accepts a step to t; a step that has to be stable follows the stiffness.
   void accept(double t);
-  /// Ends the phase: with a static solver laws remember now.
-  void finish(double t);
   /// Saves it, or restores one that begins at the (t, u, v) of then.
   void archive(const StateArchive& state);
   /// Power and kinetic energy of the state that residual() was called for last.
   RelaxationSystem::Motion motion();
   /// Evaluates the system at t, if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
   void evaluate(double t) {
-    if (!integrator->force_is_current()) system.residual(t, u());
+    if (!stepper->known().force) system.residual(t, u());
   }
   /// ‖F − R‖/‖F‖ at t.
-  double residual(double t) {
-    return integrator->force_is_current() ? system.last_residual() : system.residual(t, u());
-  }
-  /// The same, at less cost if the integrator knows it; the system is not evaluated then.
+  double residual(double t) { return stepper->known().force ? system.last_residual() : system.residual(t, u()); }
+  /// The same, at less cost if the stepper knows it; the system is not evaluated then.
   double known_residual(double t) {
-    const auto unbalanced = integrator->unbalanced_force();
+    const auto unbalanced = stepper->known().unbalanced_force;
     return unbalanced ? system.relative_to_loads(*unbalanced) : residual(t);
   }
 
@@ -50,7 +45,7 @@ class PhaseMotion {
   std::shared_ptr<Vector> shared_y;  // shared with whoever looks at it for longer than this object lives
   Vector& y;                         // [u; v], or [u; p] if the system keeps momentum
   Vector u_vector, v_vector;         // its halves, in place
-  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<Stepper> stepper;
 
  private:
   void follow_stiffness(double t);

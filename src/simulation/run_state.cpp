@@ -49,7 +49,7 @@ void RunState::begin_next_phase(ConstVec v0) {
   earlier_steps = steps();
   earlier_evaluations = evaluations();
   earlier_rejected = rejected_steps();
-  model.relaxing.from = motion->integrator->carried_over();
+  model.relaxing.from = motion->stepper->carried_over();
   motion.reset();
   begin_phase(std::vector<double>(v0.size(), 0.0), v0);
 }

@@ -27,9 +27,9 @@ struct RunState {
   void begin_phase(ConstVec u0, ConstVec v0) { motion.emplace(model, scene, vectors, t, u0, v0); }
   void begin_next_phase(ConstVec v0);
 
-  long steps() const { return earlier_steps + motion->integrator->steps(); }
+  long steps() const { return earlier_steps + motion->stepper->steps(); }
   long evaluations() const { return earlier_evaluations + motion->system.evaluations(); }
-  long rejected_steps() const { return earlier_rejected + motion->integrator->rejected_steps(); }
+  long rejected_steps() const { return earlier_rejected + motion->stepper->rejected_steps(); }
   double wall_s() const { return earlier_wall_s + wall.seconds(); }
   /// True if all that acts on the body is what it will be at the end, walls that are still on their way included.
   bool loads_settled() const;

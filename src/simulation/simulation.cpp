@@ -53,7 +53,7 @@ Summary Simulation::summary() {
   return impl_->summary();
 }
 RelaxationSystem& Simulation::system() { return impl_->run_.motion->system; }
-const Integrator& Simulation::integrator() const { return *impl_->run_.motion->integrator; }
+const Stepper& Simulation::stepper() const { return *impl_->run_.motion->stepper; }
 SimulationParts Simulation::parts() const { return {*impl_->run_.model.phase, impl_->run_.model, impl_->is_readable_}; }
 std::optional<double> Simulation::distance() {
   const ThreadScope threads(impl_->thread_choice_.threads());

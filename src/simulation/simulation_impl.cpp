@@ -103,7 +103,7 @@ double Simulation::Impl::landing_time(double t_stop) const {
 std::optional<StepReport> Simulation::Impl::try_step(double landing) {
   const StopScope scope(run_.model.static_method ? run_.asks_to_end() : nullptr);
   try {
-    return run_.motion->integrator->step(landing);
+    return run_.motion->stepper->step(landing);
   } catch (const Stopped&) {
     end_as_asked("the step was not finished");
     run_.measured.discard();
@@ -116,7 +116,7 @@ std::optional<StepReport> Simulation::Impl::try_step(double landing) {
 // A cell that is about to turn inside out is good again in the next phase. Otherwise the last good state is recorded.
 void Simulation::Impl::give_up(const StepReport& report) {
   const bool may_go_on = report.status == StepReport::Status::inadmissible &&
-                         run_.model.phase->info().updated_lagrangian && run_.motion->integrator->steps() > 0;
+                         run_.model.phase->info().updated_lagrangian && run_.motion->stepper->steps() > 0;
   if (may_go_on) return next_phase();
   const std::string load = load_without_value(run_.scene, *run_.model.phase, run_.t, report.h);
   verdict_ = run_.failed(load.empty() ? report.message : load + "; expected a finite number at any time");
@@ -143,7 +143,7 @@ void Simulation::Impl::judge() {
 
 void Simulation::Impl::next_phase() {
   const auto& tell = run_.options.at_phase_change;
-  run_.motion->finish(run_.t);
+  run_.motion->stepper->finish(run_.t);
   if (recorder_) recorder_->end_phase(run_);
   for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/false);
   if (tell) tell(false);
@@ -191,7 +191,7 @@ void Simulation::Impl::end_if_asked() {
 
 void Simulation::Impl::finish() {
   if (is_readable_) {
-    run_.motion->finish(run_.t);
+    run_.motion->stepper->finish(run_.t);
     for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/true);
   }
   const RunStatus reached = verdict_.status;

@@ -106,7 +106,7 @@ bool Simulation::Impl::checkpoint_is_due() {
   if (run_.model.method.begins_anew && !run_.model.static_method) {
     constexpr long default_interval = 1000;  // [steps]
     if (steps % (when.every_steps > 0 ? when.every_steps : default_interval) != 0) return false;
-    run_.motion->integrator->velocity_changed();
+    run_.motion->stepper->start(run_.t, run_.motion->y);
   }
   return (when.every_steps > 0 && steps - last_checkpoint_ >= when.every_steps) ||
          (when.every > 0 && run_.wall.seconds() >= next_checkpoint_s_);

@@ -55,7 +55,7 @@ Summary Simulation::Impl::summary() {
   s.bytes_per_point = model.phase->shape().discretisation().bytes_per_point();
   s.omega_1 = model.omega_1;
   s.omega_max = model.omega_max;
-  s.c = model.c ? model.c : run_.motion->integrator->damping_rate();
+  s.c = model.c ? model.c : run_.motion->stepper->damping_rate();
   s.critical_step = model.critical_step;
   s.method = run_.scene.solve.method;
   if (!model.static_method) {

@@ -29,7 +29,7 @@ MonitorOptions monitor_options(const StopSpec& stop, const Model& model) {
 // An iterate is no motion, whose residual may be small for a moment only: it is looked at as soon as it may be the
 // answer.
 bool is_balanced_iterate(RunState& run) {
-  if (!run.motion->integrator->static_iteration()) return false;
+  if (run.motion->stepper->moves()) return false;
   return run.scene.stop.residual <= 0 || run.motion->known_residual(run.t) <= run.scene.stop.residual;
 }
 
@@ -63,7 +63,7 @@ Verdict Monitor::test_equilibrium(RunState& run) {
   if (may_be_over && distance <= run.model.distance_goal) run.measured.refresh_distance();
   const RunStatus status =
       check_balance(run.t, measured.residual, measured.kinetic_energy, measured.work_scale, run.loads_settled(),
-                    run.measured.distance_to_go(), !run.motion->integrator->static_iteration());
+                    run.measured.distance_to_go(), run.motion->stepper->moves());
   if (status == RunStatus::diverged) return {status, run.failed(reason_).reason};
   if (status == RunStatus::equilibrium && !creep(run.scene, *run.model.phase).empty()) return {};
   return {status, reason_};
@@ -73,9 +73,8 @@ Verdict Monitor::test_equilibrium(RunState& run) {
 // that damping is noise.
 void Monitor::follow_period(const RunState& run) {
   constexpr double rest = 1e-12;  // share of the largest kinetic energy so far: velocities to six digits
-  const Integrator& integrator = *run.motion->integrator;
-  if (run.model.omega_1 || integrator.static_iteration()) return;
-  const auto c = integrator.damping_rate();
+  if (run.model.omega_1) return;
+  const auto c = run.motion->stepper->damping_rate();
   if (!c || !(*c > 0) || !(run.measured.last().kinetic_energy > rest * peak_kinetic_energy_)) return;
   const double period = 4 * std::numbers::pi / *c;
   set_dwell(run.scene.stop.dwell * period, run.t);

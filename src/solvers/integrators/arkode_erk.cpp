@@ -2,7 +2,7 @@
 //
 //   - a table with c_s = 1 that is not first-same-as-last is integrated wrongly: post_process() below makes it right
 //   - a fixed step has error weights of DBL_MIN, so that norms run on denormals: constant weights of 1
-//   - a fixed step never reports trouble: SteppingIntegrator looks at every new state
+//   - a fixed step never reports trouble: TrialStepper looks at every new state
 //   - a trial that cannot be evaluated is fatal: reset to the last good state, and the caller tries a smaller step
 //   - an exception cannot cross C: it is kept and thrown again on this side
 //
@@ -25,7 +25,7 @@
 #include "linalg/sundials.hpp"
 #include "solvers/integrators/arkode_tables.hpp"
 #include "solvers/integrators/integrator_families.hpp"
-#include "solvers/integrators/stepping_integrator.hpp"
+#include "solvers/integrators/march.hpp"
 
 namespace stillpoint {
 namespace {
@@ -37,10 +37,10 @@ bool is_mistaken_for_fsal(const ButcherTable& table) {
   return ark::reuses_last_stage_wrongly && std::abs(table.c.back() - 1) < 1e-10 && !first_same_as_last(table);
 }
 
-class Erk final : public SteppingIntegrator {
+class Erk final : public March {
  public:
   Erk(const IntegratorOptions& options, RelaxationSystem& system)
-      : SteppingIntegrator(options, system),
+      : March(options, system),
         table_(erk_table(options.method)),
         kinetic_(options.halts_at_energy_peaks),
         Q_(system.vectors().make(kinetic_ ? system.size() : 0)),
@@ -240,7 +240,7 @@ std::vector<Method> erk_methods() {
   return methods;
 }
 
-std::unique_ptr<Integrator> make_erk(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_erk(const IntegratorOptions& options, RelaxationSystem& system) {
   return std::make_unique<Erk>(options, system);
 }
 

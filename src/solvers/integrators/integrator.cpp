@@ -41,7 +41,7 @@ std::vector<Method> only_symplectic_euler() { return {symplectic_euler_method(Da
 struct Family {
   std::string_view begin;
   std::vector<Method> (*methods)();
-  std::unique_ptr<Integrator> (*make)(const IntegratorOptions&, RelaxationSystem&);
+  std::unique_ptr<Stepper> (*make)(const IntegratorOptions&, RelaxationSystem&);
 };
 
 constexpr Family families[] = {{"leapfrog", only_leapfrog, make_leapfrog},
@@ -83,7 +83,7 @@ double critical_step(const Method& method, const Damping& damping, const DampedS
                   switched_stability_limit(method.oscillator_step, damping) / spectrum.omega_max);
 }
 
-std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_integrator(const IntegratorOptions& options, RelaxationSystem& system) {
   const Method method = find_method(options.method, options.treatment);
   validate(options, method);
   require(method.remembers_force || !system.damping().uses_last_force(),

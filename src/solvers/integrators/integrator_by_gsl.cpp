@@ -13,13 +13,13 @@
 
 #include "base/quiet_gsl.hpp"
 #include "solvers/integrators/integrator_families.hpp"
-#include "solvers/integrators/stepping_integrator.hpp"
+#include "solvers/integrators/march.hpp"
 #include "solvers/spectrum/two_by_two.hpp"
 
 namespace stillpoint {
 namespace {
 
-using Stepper = std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)>;
+using GslStep = std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)>;
 using Driver = std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)>;
 
 struct StepperInfo {
@@ -48,7 +48,7 @@ const gsl_odeiv2_step_type* stepper_named(const std::string& name) {
   throw std::invalid_argument("there is no method '" + name + "'");
 }
 
-Stepper make_stepper(const gsl_odeiv2_step_type* type, std::size_t size) {
+GslStep make_stepper(const gsl_odeiv2_step_type* type, std::size_t size) {
   return {gsl_odeiv2_step_alloc(type, size), gsl_odeiv2_step_free};
 }
 
@@ -72,7 +72,7 @@ struct Oscillator {
 
 // Takes one step of length h from y, in place, as the fixed-step integrator below takes it.
 void apply_once(const gsl_odeiv2_step_type* type, Oscillator& oscillator, double h, std::array<double, 2>& y) {
-  const Stepper stepper = make_stepper(type, 2);
+  const GslStep stepper = make_stepper(type, 2);
   const gsl_odeiv2_system system = {Oscillator::right_hand_side, nullptr, 2, &oscillator};
   std::array<double, 2> error{}, ydot_in{}, ydot_out{};
   Oscillator::right_hand_side(0, y.data(), ydot_in.data(), &oscillator);
@@ -102,10 +102,10 @@ AmplificationRadius amplification_of(const gsl_odeiv2_step_type* type) {
 
 // --- the integrator ---
 
-class Gsl final : public SteppingIntegrator {
+class Gsl final : public March {
  public:
   Gsl(const IntegratorOptions& options, RelaxationSystem& system)
-      : SteppingIntegrator(options, system),
+      : March(options, system),
         type_(stepper_named(options.method)),
         size_(2 * system.size()),
         equations_{right_hand_side, nullptr, size_, this},
@@ -189,7 +189,7 @@ class Gsl final : public SteppingIntegrator {
     if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
   }
 
-  // y' = f(t, y) for C. GSL gives a step up at once on GSL_EBADFUNC; SteppingIntegrator tries a smaller one.
+  // y' = f(t, y) for C. GSL gives a step up at once on GSL_EBADFUNC; TrialStepper tries a smaller one.
   static int right_hand_side(double t, const double y[], double ydot[], void* self) noexcept {
     auto& gsl = *static_cast<Gsl*>(self);
     try {
@@ -204,7 +204,7 @@ class Gsl final : public SteppingIntegrator {
   std::size_t size_;  // 2n
   gsl_odeiv2_system equations_;
   std::vector<double> ydot_, next_ydot_, error_;    // (2n), fixed steps: f at the state and at the trial
-  Stepper stepper_{nullptr, gsl_odeiv2_step_free};  // fixed steps
+  GslStep stepper_{nullptr, gsl_odeiv2_step_free};  // fixed steps
   Driver driver_{nullptr, gsl_odeiv2_driver_free};  // adaptive steps; holds stepper, control and evolution together
   double suggested_h_ = 0;                          // adaptive steps [s]
   bool admissible_ = true;
@@ -237,7 +237,7 @@ std::vector<Method> gsl_methods() {
   return methods;
 }
 
-std::unique_ptr<Integrator> make_gsl(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_gsl(const IntegratorOptions& options, RelaxationSystem& system) {
   return std::make_unique<Gsl>(options, system);
 }
 

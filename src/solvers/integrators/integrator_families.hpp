@@ -13,16 +13,16 @@ namespace stillpoint {
 /// The two schemes of our own, which cost one force evaluation a step.
 Method leapfrog_method(DampingTreatment treatment);
 Method symplectic_euler_method(DampingTreatment treatment);
-std::unique_ptr<Integrator> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system);
-std::unique_ptr<Integrator> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system);
 
 /// SUNDIALS' ARKODE (ERKStep): erk:<table> for every explicit table of the installed one, and for three of our own.
 std::vector<Method> erk_methods();
-std::unique_ptr<Integrator> make_erk(const IntegratorOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_erk(const IntegratorOptions& options, RelaxationSystem& system);
 
 /// GSL's steppers, a second opinion: gsl:rk2, rk4, rkf45, rkck, rk8pd with fixed or adaptive steps, and gsl:msadams,
 /// adaptive only.
 std::vector<Method> gsl_methods();
-std::unique_ptr<Integrator> make_gsl(const IntegratorOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_gsl(const IntegratorOptions& options, RelaxationSystem& system);
 
 }  // namespace stillpoint

@@ -7,7 +7,7 @@ namespace stillpoint {
 
 std::vector<Method> gsl_methods() { return {}; }
 
-std::unique_ptr<Integrator> make_gsl(const IntegratorOptions& options, RelaxationSystem& /*system*/) {
+std::unique_ptr<Stepper> make_gsl(const IntegratorOptions& options, RelaxationSystem& /*system*/) {
   throw std::logic_error("there is no method '" + options.method + "'");
 }
 

@@ -21,7 +21,7 @@
 #include "solvers/integrators/damped_acceleration.hpp"
 #include "solvers/integrators/integrator_families.hpp"
 #include "solvers/integrators/kick_drift.hpp"
-#include "solvers/integrators/stepping_integrator.hpp"
+#include "solvers/integrators/march.hpp"
 
 namespace stillpoint {
 namespace {
@@ -32,10 +32,10 @@ DampingTreatment treatment_of_leapfrog(DampingTreatment treatment) {
   throw std::invalid_argument("leapfrog treats damping 'averaged' or 'lagged'");
 }
 
-class Leapfrog final : public SteppingIntegrator {
+class Leapfrog final : public March {
  public:
   Leapfrog(const IntegratorOptions& options, RelaxationSystem& system)
-      : SteppingIntegrator(options, system),
+      : March(options, system),
         kick_drift_(system),
         initial_acceleration_(DampingTreatment::lagged, system.damping().linear(), kick_drift_.mass_of_kick()),
         acceleration_(treatment_of_leapfrog(options.treatment), system.damping().linear(), kick_drift_.mass_of_kick()),
@@ -43,7 +43,7 @@ class Leapfrog final : public SteppingIntegrator {
         next_a_(system.vectors().make(system.size())) {}
 
   // A step ends with the force at its end, unless the step was refused.
-  bool force_is_current() const override { return force_is_current_; }
+  Known known() const override { return {.force = force_is_current_}; }
 
  private:
   // M a_0 = Q_0 + D(v_0, Q_0) − C v_0
@@ -114,7 +114,7 @@ Method leapfrog_method(DampingTreatment treatment) {
   return method;
 }
 
-std::unique_ptr<Integrator> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_leapfrog(const IntegratorOptions& options, RelaxationSystem& system) {
   return std::make_unique<Leapfrog>(options, system);
 }
 

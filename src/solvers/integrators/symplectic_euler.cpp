@@ -12,7 +12,7 @@
 #include "solvers/integrators/damped_acceleration.hpp"
 #include "solvers/integrators/integrator_families.hpp"
 #include "solvers/integrators/kick_drift.hpp"
-#include "solvers/integrators/stepping_integrator.hpp"
+#include "solvers/integrators/march.hpp"
 
 namespace stillpoint {
 namespace {
@@ -23,10 +23,10 @@ DampingTreatment treatment_of_symplectic_euler(DampingTreatment treatment) {
   throw std::invalid_argument("symplectic-euler treats damping 'implicit', 'lagged' or 'exact'");
 }
 
-class SymplecticEuler final : public SteppingIntegrator {
+class SymplecticEuler final : public March {
  public:
   SymplecticEuler(const IntegratorOptions& options, RelaxationSystem& system)
-      : SteppingIntegrator(options, system),
+      : March(options, system),
         kick_drift_(system),
         acceleration_(treatment_of_symplectic_euler(options.treatment), system.damping().linear(),
                       kick_drift_.mass_of_kick()),
@@ -35,7 +35,7 @@ class SymplecticEuler final : public SteppingIntegrator {
         a_(system.vectors().make(system.size())) {}
 
   // A step ends with the force at its end, unless the step was refused.
-  bool force_is_current() const override { return force_is_current_; }
+  Known known() const override { return {.force = force_is_current_}; }
 
  private:
   void begin(double t, const Vector& y) override {
@@ -96,7 +96,7 @@ Method symplectic_euler_method(DampingTreatment treatment) {
   return method;
 }
 
-std::unique_ptr<Integrator> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_symplectic_euler(const IntegratorOptions& options, RelaxationSystem& system) {
   return std::make_unique<SymplecticEuler>(options, system);
 }
 

@@ -21,9 +21,8 @@ class Adaptive final : public StaggeredIteration {
   Adaptive(const RelaxationOptions& options, RelaxationSystem& system)
       : StaggeredIteration(options, system), quotient_(options.quotient), c_(options.from.rate.value_or(0)) {}
 
-  std::optional<double> damping_rate() const override { return c_; }
-
  private:
+  std::optional<double> rate() const override { return c_; }
   void propose(double h, Vec u_new, Vec v_new) override {
     const double k = kick(h);
     kick_and_drift(leapfrog(std::min(c_, 2 / k), k), k, h, u_new, v_new);
@@ -46,7 +45,7 @@ class Adaptive final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_adaptive(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_adaptive(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Adaptive>(options, system);
 }
 

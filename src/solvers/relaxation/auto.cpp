@@ -48,19 +48,20 @@ class Auto final : public StaggeredIteration {
     if (may_descend_) descent_.emplace(system.vectors(), system.mass(), options.linear);
   }
 
-  std::optional<double> damping_rate() const override { return descends_ ? std::nullopt : std::optional(c_); }
-  bool static_iteration() const override { return descends_; }
+  bool moves() const override { return !descends_; }
   std::optional<double> lowest_frequency() const override {
     const std::optional<double> squared = descends_ ? descent_->lowest() : std::nullopt;
     return squared ? std::optional(std::sqrt(*squared)) : std::nullopt;
   }
-  // Known only for a lumped mass: with another one Q contains the inertia of moving supports.
-  std::optional<double> unbalanced_force() const override {
-    if (!descends_ || !force_is_current() || !mass_is_lumped_) return std::nullopt;
-    return descent_->unbalanced_force();
+  // ‖F − R‖ is known only for a lumped mass: with another one Q contains the inertia of moving supports.
+  Known known() const override {
+    Known known = StaggeredIteration::known();
+    if (descends_ && known.force && mass_is_lumped_) known.unbalanced_force = descent_->unbalanced_force();
+    return known;
   }
 
  private:
+  std::optional<double> rate() const override { return descends_ ? std::nullopt : std::optional(c_); }
   double step_share() const override { return share_; }
   bool keeps_v() const override { return descends_; }  // the descent stays at rest
   // Finite forces everywhere give a finite acceleration.
@@ -240,7 +241,7 @@ class Auto final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_auto(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_auto(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Auto>(options, system);
 }
 

@@ -62,7 +62,7 @@ class Chebyshev final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_chebyshev(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_chebyshev(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Chebyshev>(options, system);
 }
 

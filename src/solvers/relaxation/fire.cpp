@@ -90,11 +90,11 @@ class Fire final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_fire(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_fire(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Fire>(options, system, FireConstants{.theta = 0.1, .steps_downhill = 5, .goes_back = false});
 }
 
-std::unique_ptr<Integrator> make_fire2(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_fire2(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Fire>(options, system, FireConstants{.theta = 0.25, .steps_downhill = 20, .goes_back = true});
 }
 

@@ -62,7 +62,7 @@ class Kinetic final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_kinetic(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_kinetic(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Kinetic>(options, system);
 }
 

@@ -62,7 +62,7 @@ class Nesterov final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_nesterov(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_nesterov(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Nesterov>(options, system);
 }
 

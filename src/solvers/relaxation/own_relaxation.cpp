@@ -64,8 +64,8 @@ class OwnIteration final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_own_relaxation(const RelaxationOptions& options, RelaxationSystem& system,
-                                                const MakeOwnRelaxation& make) {
+std::unique_ptr<Stepper> make_own_relaxation(const RelaxationOptions& options, RelaxationSystem& system,
+                                             const MakeOwnRelaxation& make) {
   return std::make_unique<OwnIteration>(options, system, make);
 }
 

@@ -26,9 +26,8 @@ class Papadrakakis final : public StaggeredIteration {
   Papadrakakis(const RelaxationOptions& options, RelaxationSystem& system)
       : StaggeredIteration(options, system), rate_(options.from.rate) {}
 
-  std::optional<double> damping_rate() const override { return rate_; }
-
  private:
+  std::optional<double> rate() const override { return rate_; }
   // Kicks are full ones also from rest, so that β and γ are those of the formula above.
   void propose(double h, Vec u_new, Vec v_new) override {
     now_ = leapfrog(std::min(rate_.value_or(2 / h), 2 / h), h);
@@ -70,7 +69,7 @@ class Papadrakakis final : public StaggeredIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_papadrakakis(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_papadrakakis(const RelaxationOptions& options, RelaxationSystem& system) {
   return std::make_unique<Papadrakakis>(options, system);
 }
 

@@ -15,7 +15,7 @@
 namespace stillpoint {
 namespace {
 
-using Make = std::function<std::unique_ptr<Integrator>(const RelaxationOptions&, RelaxationSystem&)>;
+using Make = std::function<std::unique_ptr<Stepper>(const RelaxationOptions&, RelaxationSystem&)>;
 
 struct Row {
   RelaxationInfo info;
@@ -124,7 +124,7 @@ const RelaxationInfo* find_relaxation(std::string_view name) {
   return found == relaxations().end() ? nullptr : &*found;
 }
 
-std::unique_ptr<Integrator> make_relaxation(const RelaxationOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_relaxation(const RelaxationOptions& options, RelaxationSystem& system) {
   if (!(options.max_step > 0) || !std::isfinite(options.max_step)) {
     throw std::invalid_argument(fmt::format("a relaxation's max_step must be > 0, found {}", options.max_step));
   }

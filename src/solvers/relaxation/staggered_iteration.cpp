@@ -8,7 +8,7 @@
 namespace stillpoint {
 
 StaggeredIteration::StaggeredIteration(const RelaxationOptions& options, RelaxationSystem& system)
-    : SteppingIntegrator({.max_step = options.max_step}, system),
+    : March({.max_step = options.max_step}, system),
       relaxation_(options),
       Q_(system.vectors().make(system.size())),
       a_(system.vectors().make(system.size())),
@@ -16,6 +16,13 @@ StaggeredIteration::StaggeredIteration(const RelaxationOptions& options, Relaxat
       next_a_(system.vectors().make(system.size())),
       Mx_(system.vectors().make(system.size())),
       work_(system.vectors().make(system.size())) {}
+
+Known StaggeredIteration::known() const {
+  Known known{.force = force_is_current_};
+  if (p_) known.velocity = v_->span();
+  if (p_ && force_is_current_) known.acceleration = a_.span();
+  return known;
+}
 
 void StaggeredIteration::begin(double t, const Vector& /*y*/) {
   u_.emplace(system().vectors().view(first_half(state().span())));
@@ -54,8 +61,7 @@ void StaggeredIteration::remember_loads() {
   F_.assign(F.begin(), F.end());
 }
 
-SteppingIntegrator::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/, double h, double /*t_stop*/,
-                                                        Vector& trial) {
+TrialStepper::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/, double h, double /*t_stop*/, Vector& trial) {
   if (!admissible_) return {.status = StepReport::Status::inadmissible};
   const Vec u_new = first_half(trial.span());
   if (p_ && !next_p_) next_p_.emplace(system().vectors().view(second_half(trial.span())));

@@ -19,17 +19,15 @@
 
 #include <vector>
 
-#include "solvers/integrators/stepping_integrator.hpp"
+#include "solvers/integrators/march.hpp"
 
 namespace stillpoint {
 
-class StaggeredIteration : public SteppingIntegrator {
+class StaggeredIteration : public March {
  public:
-  bool force_is_current() const final { return force_is_current_; }
-  ConstVec velocity() const final { return p_ ? v_->span() : ConstVec(); }
-  ConstVec acceleration() const final { return p_ && force_is_current_ ? a_.span() : ConstVec(); }
+  Known known() const override;
   CarriedOver carried_over() const final {
-    return {.last_step = last_step_, .rate = damping_rate(), .step_share = step_share()};
+    return {.last_step = last_step_, .rate = rate(), .step_share = step_share()};
   }
 
  protected:
@@ -58,6 +56,8 @@ class StaggeredIteration : public SteppingIntegrator {
   /// Archives what the strategy itself remembers.
   virtual void archive_strategy(const StateArchive& /*state*/) {}
 
+  /// The damping c [1/s] that the strategy has found so far, if it determines one.
+  virtual std::optional<double> rate() const { return std::nullopt; }
   /// The share of the step given that the strategy takes, if it chooses one, else 0.
   virtual double step_share() const { return 0; }
 

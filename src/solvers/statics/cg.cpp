@@ -72,7 +72,7 @@ class ConjugateGradients final : public StaticIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_cg(const StaticMethodOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_cg(const StaticMethodOptions& options, RelaxationSystem& system) {
   return std::make_unique<ConjugateGradients>(options, system);
 }
 

@@ -42,7 +42,7 @@ class LimitedMemoryBfgs final : public StaticIteration {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_lbfgs(const StaticMethodOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_lbfgs(const StaticMethodOptions& options, RelaxationSystem& system) {
   return std::make_unique<LimitedMemoryBfgs>(options, system);
 }
 

@@ -2,22 +2,17 @@
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/statics/static_methods.hpp"
+#include "solvers/statics/without_time.hpp"
 
 namespace stillpoint {
 namespace {
 
-class NewtonStep final : public Integrator {
+class NewtonStep final : public WithoutTime<Stepper> {
  public:
-  NewtonStep(const NewtonOptions& options, RelaxationSystem& system) : options_(options), system_(system) {
-    if (system.system().contact()) {
-      throw std::invalid_argument(
-          "in a static solution nothing that touches the body can open or close: take relaxation");
-    }
-  }
+  NewtonStep(const NewtonOptions& options, RelaxationSystem& system) : WithoutTime(system), options_(options) {}
 
   void start(double t, Vector& y) override {
     t_ = t;
@@ -26,32 +21,24 @@ class NewtonStep final : public Integrator {
   // Solves at the t of the start, as time does not advance. A second step solves once more, from the last answer and to
   // a smaller residual.
   StepReport step(double /*t_stop*/) override {
-    const StaticReport report = newton(system_.system(), t_, first_half(y_->span()), options_);
-    iterations_ += report.iterations;
-    system_.count_evaluations(report.force_evaluations + report.tangent_products);
-    std::ranges::fill(second_half(y_->span()), 0.0);
+    const StaticReport report = newton(system().system(), t_, first_half(state().span()), options_);
+    steps_ += report.iterations;
+    system().count_evaluations(report.force_evaluations + report.tangent_products);
+    std::ranges::fill(second_half(state().span()), 0.0);
     constexpr double smaller = 1e-2, rounding = 1e-17;
     options_.tolerance = std::clamp(smaller * report.residual, rounding, options_.tolerance);
-    const bool moved = report.iterations > 0 || iterations_ == 0;
+    const bool moved = report.iterations > 0 || steps_ == 0;
     if (report.converged && moved) return {.t = t_, .message = report.reason};
     return {.status = StepReport::Status::failed,
             .t = t_,
             .message = report.converged ? "Newton's method comes no nearer: " + report.reason : report.reason};
   }
   void set_max_step(double /*h*/) override {}
-  void velocity_changed() override {}
-  void displacement_changed() override {}
-  bool static_iteration() const override { return true; }
-  void archive(const StateArchive& state) override { state("iterations", iterations_); }
-  long steps() const override { return iterations_; }
-  long rejected_steps() const override { return 0; }
+  void archive(const StateArchive& state) override { state("iterations", steps_); }
 
  private:
   NewtonOptions options_;
-  RelaxationSystem& system_;
   double t_ = 0;
-  Vector* y_ = nullptr;
-  long iterations_ = 0;
 };
 
 }  // namespace
@@ -69,7 +56,7 @@ void precondition(NewtonOptions& options, const Mass& M) {
   options.assembles = true;
 }
 
-std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_newton(const StaticMethodOptions& options, RelaxationSystem& system) {
   NewtonOptions of_newton = newton_options(options.name, options.load_steps);
   of_newton.tolerance = options.tolerance;
   if (system.keeps_momentum()) precondition(of_newton, system.mass());

@@ -1,7 +1,6 @@
 #include "solvers/statics/static_iteration.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,7 +21,7 @@ LoadIncrements increments(const StaticMethodOptions& options) {
 
 StaticIteration::StaticIteration(const StaticMethodOptions& options, RelaxationSystem& system,
                                  LineSearch::Accuracy sigma)
-    : SteppingIntegrator({.max_step = options.max_step}, system),
+    : WithoutTime(system, IntegratorOptions{.max_step = options.max_step}),
       sigma_(sigma),
       tolerance_(options.tolerance),
       load_(increments(options)),
@@ -31,12 +30,7 @@ StaticIteration::StaticIteration(const StaticMethodOptions& options, RelaxationS
       next_Q_(system.vectors().make(system.size())),
       p_(system.vectors().make(system.size())),
       u_begin_(system.vectors().make(system.size())),
-      Q_begin_(system.vectors().make(system.size())) {
-  if (system.system().contact()) {
-    throw std::invalid_argument(
-        "in a static solution nothing that touches the body can open or close: take relaxation");
-  }
-}
+      Q_begin_(system.vectors().make(system.size())) {}
 
 void StaticIteration::begin(double t, const Vector& y) {
   const ConstVec u = first_half(y.span());
@@ -49,7 +43,7 @@ void StaticIteration::begin(double t, const Vector& y) {
   begin_increment(0, u);
 }
 
-SteppingIntegrator::Attempt StaticIteration::attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) {
+TrialStepper::Attempt StaticIteration::attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) {
   if (!admissible_) return {.status = StepReport::Status::inadmissible};
   const ConstVec u = first_half(std::as_const(y).span());
   const Vec u_new = first_half(trial.span());

@@ -1,8 +1,8 @@
 // The base of the static iterations: u ← u + α p for a direction p that leads downhill, Q·p > 0, with α by a line
 // search.
 //
-// There is no time in R(u) = F: a step is a new iterate, v is 0, and a pseudo-time advances by the step given so that
-// output rows and limits work as for other integrators. The load comes in increments (LoadIncrements): the
+// A step is a new iterate, v is 0, and a pseudo-time advances by the step given so that output rows and limits work as
+// for marches. The load comes in increments (LoadIncrements): the
 // out-of-balance force is
 //
 //   Q_s(u) = Q(u) − (1 − s) Q(u₀),   Q = F − R,   s from 0 at u₀, the state at the start, to 1
@@ -12,18 +12,19 @@
 // cannot follow, or that makes no progress in many times the steps of the first one, is begun again at half its size.
 #pragma once
 
-#include "solvers/integrators/stepping_integrator.hpp"
+#include "solvers/integrators/trial_stepper.hpp"
 #include "solvers/statics/line_search.hpp"
 #include "solvers/statics/load_increments.hpp"
 #include "solvers/statics/static_methods.hpp"
+#include "solvers/statics/without_time.hpp"
 
 namespace stillpoint {
 
-class StaticIteration : public SteppingIntegrator {
+class StaticIteration : public WithoutTime<TrialStepper> {
  public:
-  bool force_is_current() const final { return true; }
-  bool static_iteration() const final { return true; }
-  ConstVec acceleration() const final { return admissible_ && load_.to() >= 1 ? z_.span() : ConstVec(); }
+  Known known() const final {
+    return {.force = true, .acceleration = admissible_ && load_.to() >= 1 ? z_.span() : ConstVec()};
+  }
 
  protected:
   /// Throws std::invalid_argument if the body has contact.

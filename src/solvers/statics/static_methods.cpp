@@ -9,7 +9,7 @@ namespace {
 
 struct Row {
   StaticMethodInfo about;
-  std::unique_ptr<Integrator> (*make)(const StaticMethodOptions&, RelaxationSystem&);
+  std::unique_ptr<Stepper> (*make)(const StaticMethodOptions&, RelaxationSystem&);
   LinearSolver solver = LinearSolver::automatic;
 };
 
@@ -56,7 +56,7 @@ LinearSolver linear_solver_of(std::string_view name) {
   return row == rows().end() ? LinearSolver::automatic : row->solver;
 }
 
-std::unique_ptr<Integrator> make_static_method(const StaticMethodOptions& options, RelaxationSystem& system) {
+std::unique_ptr<Stepper> make_static_method(const StaticMethodOptions& options, RelaxationSystem& system) {
   for (const Row& row : rows()) {
     if (row.about.name == options.name) return row.make(options, system);
   }

@@ -34,11 +34,11 @@ void precondition(NewtonOptions& options, const Mass& M);
 
 /// Makes the static solver for y = [u; 0]. The points' history is committed at the end of each load increment but the
 /// last. Throws std::invalid_argument for an unknown name, and if the body has contact.
-std::unique_ptr<Integrator> make_static_method(const StaticMethodOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_static_method(const StaticMethodOptions& options, RelaxationSystem& system);
 
 // Each of these has a file of its own:
-std::unique_ptr<Integrator> make_cg(const StaticMethodOptions& options, RelaxationSystem& system);
-std::unique_ptr<Integrator> make_lbfgs(const StaticMethodOptions& options, RelaxationSystem& system);
-std::unique_ptr<Integrator> make_newton(const StaticMethodOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_cg(const StaticMethodOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_lbfgs(const StaticMethodOptions& options, RelaxationSystem& system);
+std::unique_ptr<Stepper> make_newton(const StaticMethodOptions& options, RelaxationSystem& system);
 
 }  // namespace stillpoint

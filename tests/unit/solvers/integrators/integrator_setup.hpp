@@ -56,7 +56,7 @@ struct Setup {
   RelaxationSystem system;
   std::vector<double> values;
   Vector y;
-  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<Stepper> integrator;
 };
 
 /// Each method in each way that it can step.

@@ -92,8 +92,8 @@ TEST_CASE("after a step an iteration knows its velocity and acceleration: energy
     REQUIRE(report.status == StepReport::Status::ok);
     const Vector p = vectors.view(second_half(y.span()));
     const double residual = system.last_residual();
-    const double energy = system.motion(p, iteration->velocity()).kinetic_energy;
-    const double error = system.energy_error(inverse, omega_1, iteration->acceleration());
+    const double energy = system.motion(p, iteration->known().velocity).kinetic_energy;
+    const double error = system.energy_error(inverse, omega_1, iteration->known().acceleration);
     CHECK(inverses == 1);  // of the step
     CHECK(residual > 0);
     CHECK_THAT(energy, Catch::WithinRel(system.motion(p).kinetic_energy, 1e-10) || Catch::WithinAbs(0, 1e-30));

@@ -1,4 +1,4 @@
-// The base of all integrators around their own step: it divides the interval to t_stop, tries a step, examines the
+// The base of all steppers around a step that is tried: it divides the interval to t_stop, tries a step, examines the
 // trial, and retries or accepts it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace stillpoint {
 
-class SteppingIntegrator : public Integrator {
+class TrialStepper : public Stepper {
  public:
   /// An inadmissible trial is tried again with half its step, at most max_halvings times. The first admissible trial
   /// may still be nearly turned inside out, under stresses that would tear it apart within that step: the step finally
@@ -22,11 +22,7 @@ class SteppingIntegrator : public Integrator {
   void start(double t, Vector& y) final;
   StepReport step(double t_stop) final;
   void set_max_step(double h) final;
-  void velocity_changed() final { restart(t_, *y_); }
-  void displacement_changed() final { evaluate_anew(t_, *y_); }
   void archive(const StateArchive& state) final;
-  long steps() const final { return steps_; }
-  long rejected_steps() const final { return rejected_; }
 
  protected:
   struct Attempt {
@@ -38,14 +34,10 @@ class SteppingIntegrator : public Integrator {
     std::string message{};  // why it failed; the caller finds the place of an inadmissible or non-finite state
   };
 
-  SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system);
+  TrialStepper(const IntegratorOptions& options, RelaxationSystem& system);
 
-  /// Begins the integration at (t, y).
+  /// Begins at (t, y).
   virtual void begin(double t, const Vector& y) = 0;
-  /// Begins again at (t, y) when only v has changed; the last force evaluation was at this u.
-  virtual void restart(double t, const Vector& y) { begin(t, y); }
-  /// Begins again at (t, y) when u has changed as well, so that there is no force evaluation at it yet.
-  virtual void evaluate_anew(double t, const Vector& y) { begin(t, y); }
   /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
   /// read.
   virtual Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) = 0;
@@ -55,29 +47,23 @@ class SteppingIntegrator : public Integrator {
   virtual void refused() {}
   /// Called after options().max_step has changed.
   virtual void max_step_changed() {}
-  /// Archives what the integrator remembers of earlier steps; called after a begin() at the same (t, y).
+  /// Archives what the stepper remembers of earlier steps; called after a begin() at the same (t, y).
   virtual void archive_memory(const StateArchive& /*state*/) {}
   void count_rejected(long rejected) { rejected_ += rejected; }
 
-  RelaxationSystem& system() { return system_; }
   const IntegratorOptions& options() const { return options_; }
   bool adaptive() const { return options_.rtol.has_value(); }
-  /// The y on which the integration has begun, (2n).
-  Vector& state() { return *y_; }
 
  private:
   bool is_finite(const Attempt& attempt) const;
   StepReport accept(const Attempt& attempt);
   std::string message_of(const Attempt& tried, int halvings) const;
 
-  RelaxationSystem& system_;
   IntegratorOptions options_;
   StepDivision division_;
-  std::optional<Vector> trial_;  // (2n), of the same kind as y
-  Vector* y_ = nullptr;
+  std::optional<Vector> trial_;        // (2n), of the same kind as y
   std::optional<Vector> trial_u_, u_;  // views of the first halves of the trial and of y
   double t_ = 0;
-  long steps_ = 0, rejected_ = 0;
 };
 
 }  // namespace stillpoint

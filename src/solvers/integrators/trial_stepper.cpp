@@ -1,4 +1,4 @@
-#include "solvers/integrators/stepping_integrator.hpp"
+#include "solvers/integrators/trial_stepper.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -11,25 +11,25 @@
 
 namespace stillpoint {
 
-SteppingIntegrator::SteppingIntegrator(const IntegratorOptions& options, RelaxationSystem& system)
-    : system_(system), options_(options), division_(options.max_step) {}
+TrialStepper::TrialStepper(const IntegratorOptions& options, RelaxationSystem& system)
+    : Stepper(system), options_(options), division_(options.max_step) {}
 
-void SteppingIntegrator::start(double t, Vector& y) {
-  if (y.size() != 2 * system_.size()) {
-    throw std::invalid_argument(fmt::format("y has {} entries, 2n is {}", y.size(), 2 * system_.size()));
+void TrialStepper::start(double t, Vector& y) {
+  if (y.size() != 2 * system().size()) {
+    throw std::invalid_argument(fmt::format("y has {} entries, 2n is {}", y.size(), 2 * system().size()));
   }
-  if (!trial_) trial_ = system_.vectors().like(y);
+  if (!trial_) trial_ = system().vectors().like(y);
   if (!same_kind(*trial_, y)) throw std::invalid_argument("y is another kind of N_Vector than at the first start");
   t_ = t;
   y_ = &y;
-  u_.emplace(system_.vectors().view(first_half(y.span())));
-  trial_u_.emplace(system_.vectors().view(first_half(trial_->span())));
-  system_.forget_force();
+  u_.emplace(system().vectors().view(first_half(y.span())));
+  trial_u_.emplace(system().vectors().view(first_half(trial_->span())));
+  system().forget_force();
   begin(t, y);
-  system_.remember_force();
+  system().remember_force();
 }
 
-StepReport SteppingIntegrator::step(double t_stop) {
+StepReport TrialStepper::step(double t_stop) {
   if (!y_) throw std::logic_error("step() before start()");
   if (!(t_stop > t_) || !std::isfinite(t_stop)) {
     throw std::invalid_argument(fmt::format("there is no step from t = {} to {}", t_, t_stop));
@@ -52,19 +52,19 @@ StepReport SteppingIntegrator::step(double t_stop) {
     const bool retry = tried.status == StepReport::Status::inadmissible && tried.h > 0 && halvings < max_halvings;
     if (!retry) return {.status = tried.status, .t = t_, .h = tried.h, .message = message_of(tried, halvings)};
     ++rejected_;
-    keeps_clear = keeps_clear && system_.went_too_far();
+    keeps_clear = keeps_clear && system().went_too_far();
     h = tried.h / 2;
   }
 }
 
-void SteppingIntegrator::set_max_step(double h) {
+void TrialStepper::set_max_step(double h) {
   if (h == options_.max_step) return;
   options_.max_step = h;
   division_ = StepDivision(h);
   max_step_changed();
 }
 
-void SteppingIntegrator::archive(const StateArchive& state) {
+void TrialStepper::archive(const StateArchive& state) {
   double max_step = options_.max_step;
   state("max_step", max_step);
   if (state.restores()) set_max_step(max_step);
@@ -74,35 +74,35 @@ void SteppingIntegrator::archive(const StateArchive& state) {
   archive_memory(state);
 }
 
-std::string SteppingIntegrator::message_of(const Attempt& tried, int halvings) const {
+std::string TrialStepper::message_of(const Attempt& tried, int halvings) const {
   switch (tried.status) {
     case StepReport::Status::inadmissible:
-      if (tried.h == 0) return "the state cannot be evaluated: " + system_.refusal();
+      if (tried.h == 0) return "the state cannot be evaluated: " + system().refusal();
       return fmt::format("the trial state cannot be evaluated, also after {} halvings of the step: {}", halvings,
-                         system_.refusal());
+                         system().refusal());
     case StepReport::Status::not_finite:
       return fmt::format("{}; {}; expected a smaller step, or more damping",
                          tried.message.empty() ? "the new state is not finite" : tried.message,
-                         divergence_at(system_.system(), std::as_const(*y_).span(), std::as_const(*trial_).span()));
+                         divergence_at(system().system(), std::as_const(*y_).span(), std::as_const(*trial_).span()));
     default:
       return tried.message;
   }
 }
 
 // A sum of squares is finite only if every entry is.
-bool SteppingIntegrator::is_finite(const Attempt& attempt) const {
+bool TrialStepper::is_finite(const Attempt& attempt) const {
   if (attempt.is_finite) return *attempt.is_finite;
   return std::isfinite(attempt.keeps_v ? dot(*trial_u_, *trial_u_) : dot(*trial_, *trial_));
 }
 
-StepReport SteppingIntegrator::accept(const Attempt& attempt) {
+StepReport TrialStepper::accept(const Attempt& attempt) {
   if (attempt.keeps_v) {
     copy(*trial_u_, *u_);
   } else {
     copy(*trial_, *y_);
   }
   accepted();
-  system_.remember_force();
+  system().remember_force();
   t_ = adaptive() ? attempt.t : division_.arrive(t_, attempt.h);
   ++steps_;
   return {.status = StepReport::Status::ok, .t = t_, .h = attempt.h};

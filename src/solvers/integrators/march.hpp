@@ -1,0 +1,32 @@
+// The base of all marches in time: laws remember every step, and contacts open and close after it.
+#pragma once
+
+#include "solvers/integrators/trial_stepper.hpp"
+
+namespace stillpoint {
+
+class March : public TrialStepper {
+ public:
+  bool moves() const override { return true; }
+  void accept(double t) final {
+    switch (system().accept(t, state().span(), known().force)) {
+      case ContactChange::nothing:
+        break;
+      case ContactChange::velocity:
+        restart(t, state());
+        break;
+      case ContactChange::displacement:
+        evaluate_anew(t, state());
+    }
+  }
+  void finish(double /*t*/) final {}
+
+ protected:
+  using TrialStepper::TrialStepper;
+  /// Begins again at (t, y) when only v has changed; the last force evaluation was at this u.
+  virtual void restart(double t, const Vector& y) { begin(t, y); }
+  /// Begins again at (t, y) when u has changed as well, so that there is no force evaluation at it yet.
+  virtual void evaluate_anew(double t, const Vector& y) { begin(t, y); }
+};
+
+}  // namespace stillpoint
