@@ -9,11 +9,17 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 namespace stillpoint {
 
 class ForceScale;
+
+/// What the last evaluation of a system left. Forces of contacts are not in it: they may change after it.
+struct Evaluation {
+  double t = 0;                       // [s]
+  Vector F, R;                        // external and internal forces, (n) [N]
+  std::unique_ptr<TrialState> trial;  // with the support reactions
+};
 
 /// The right-hand side for integrators. It is repeatable, allocates nothing and counts its evaluations.
 class RelaxationSystem {
@@ -42,11 +48,16 @@ class RelaxationSystem {
   bool out_of_balance(double t, ConstVec u, Vec Q, Vec a);
   /// Q = F(t) − R(u) + D(v, F − R), with local damping, in one pass over memory where possible; u, v, Q: (n).
   bool damped_out_of_balance(double t, ConstVec u, ConstVec v, Vec Q);
+  /// Evaluates no more than F and R at (t, u), for last(), and does not count it. False as above.
+  bool evaluate(double t, ConstVec u);
+  const Evaluation& last() const { return last_; }
   /// Q of the last evaluation as out_of_balance() gives it, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
-  /// The reason why the last evaluation was refused, and the place.
-  std::string refusal() const;
-  bool went_too_far() const { return trial_->too_far; }
+  /// The same without the inertia of moving supports: what is out of balance at rest.
+  void last_static_balance(Vec Q) const;
+  /// The force [N] beside which that is small: ‖F‖ of the last evaluation over the free degrees of freedom; if F = 0,
+  /// the largest reactions or, without any, the largest internal force so far (ForceScale).
+  double force_scale();
   /// Q += D(v, Q) of local damping, except where a contact holds; v, Q: (n), Q as from out_of_balance().
   void add_local_damping(ConstVec v, Vec Q) const;
 
@@ -60,50 +71,15 @@ class RelaxationSystem {
   /// whether the last evaluation was at (t, y). Returns what contacts changed in y.
   ContactChange accept(double t, Vec y, bool force_is_current);
 
-  /// The relative residual ‖F − R‖/‖F‖ over the free degrees of freedom; if F = 0, relative to the largest reactions
-  /// or, without any, to the largest internal force so far (ForceScale). 0 if there is no load.
-  double residual(double t, ConstVec u);
-  /// The relative residual of the last evaluation, at no cost, for integrators that end a step with one
-  /// (force_is_current()).
-  double last_residual();
-  /// The relative residual of the last evaluation, whose ‖F − R‖ is known already [N].
-  double relative_to_loads(double unbalanced);
-  /// The error bound ‖M⁻¹Q‖_M/ω₁ with Q of the last residual() [√J]: in a linear system it is no less than ‖u − u*‖_K,
-  /// since u − u* = −K⁻¹Q and no eigenvalue of M⁻¹K is below ω₁². M: the system's mass, or any other with its own ω₁.
-  /// acceleration: M⁻¹Q, (n), if it is known; else empty.
-  double energy_error(const Mass& M, double omega_1, ConstVec acceleration = {});
-  /// ‖u‖_M [m √kg]; u: (n).
-  double mass_norm(const Mass& M, const Vector& u);
-  /// |F·u| + |R·u| of the last evaluation [J], the scale of the work done; u: (n).
-  double work_scale(const Vector& u);
-  /// R·u of the last evaluation [J]; u: (n).
-  double internal_work(const Vector& u) const;
-  /// Q·v [W]; v: the second half of y, Q: (n).
-  double power(const Vector& v, const Vector& Q) { return keeps_momentum() ? motion(v, Q, {}).power : dot(Q, v); }
-  struct Motion {
-    double power;           // Q·v [W]
-    double kinetic_energy;  // ½ vᵀ M v [J], without what was added to light nodes
-  };
-  /// Power and kinetic energy with the Q of the last residual(); v: the second half of y, (n). If that is the momentum
-  /// p, takes one product with M⁻¹, or none if the velocity M⁻¹p, (n), is given.
-  Motion motion(const Vector& v, ConstVec velocity = {}) { return motion(v, Q_, velocity); }
-  /// F of the last evaluation, (n) [N].
-  ConstVec last_external_force() const { return F_.span(); }
-  double last_t() const { return last_t_; }
-  /// Support reactions of the last evaluation [N], as in TrialState.
-  ConstVec last_reactions() const { return trial_->reactions; }
-
   /// Saves or restores what is kept of earlier evaluations.
   void archive(const StateArchive& state);
 
-  /// Force evaluations made by integrators (not by residual()).
+  /// Force evaluations made by steps.
   long evaluations() const { return evaluations_; }
   /// Adds the evaluations of a static solver, which evaluates system() itself.
   void count_evaluations(long count) { evaluations_ += count; }
 
  private:
-  Motion motion(const Vector& v, const Vector& Q, ConstVec velocity);
-  bool evaluate(double t, ConstVec u);
   bool balance(double t, ConstVec u, Vec Q);
   bool is_sum_of_its_own() const;
   void add_local_damping(std::size_t begin, ConstVec v, Vec Q) const;
@@ -113,16 +89,14 @@ class RelaxationSystem {
   const Mass& mass_;
   LinearDamping linear_;
   VectorSpace vectors_;
-  std::unique_ptr<TrialState> trial_;  // results of the last evaluation
-  bool is_committed_ = false;          // whether trial_ is committed
-  Vector F_, R_, Q_;
+  Evaluation last_;
+  bool is_committed_ = false;     // whether last_.trial is committed
+  std::optional<Vector> work_;    // of accept(), (n)
   std::optional<Vector> Q_last_;  // set by remember_force()
   bool force_remembered_ = false;
-  std::optional<Vector> work_;  // work array of the norms, (n)
-  double last_t_ = 0;
   bool loads_are_constant_, loads_are_known_ = false;
-  std::optional<double> load_norm_;          // ‖F‖, if known [N]
-  std::unique_ptr<ForceScale> force_scale_;  // for residual() and last_residual()
+  std::optional<double> load_norm_;  // ‖F‖, if known [N]
+  std::unique_ptr<ForceScale> force_scale_;
   long evaluations_ = 0;
 };
 

@@ -30,7 +30,7 @@ std::vector<double> EnergyBalance::values(double kinetic_energy) const {
 
 void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u) {
   if (!watches_) return;
-  const ConstVec F = system.last_external_force(), reactions = system.last_reactions();
+  const ConstVec F = system.last().F.span(), reactions = system.last().trial->reactions;
   const std::vector<double> support = phase_.supports().support_displacements(t);
   if (last_.u.empty())  // the start of the run: nothing has moved yet but supports, from where nothing is deformed
     last_ = {copy_of(F), copy_of(u), std::vector(reactions.size(), 0.0), std::vector(support.size(), 0.0)};
@@ -45,7 +45,7 @@ void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u
 
 void EnergyBalance::begin_phase(double t, const RelaxationSystem& system) {
   if (!watches_) return;
-  last_ = {copy_of(system.last_external_force()), std::vector(system.size(), 0.0), copy_of(system.last_reactions()),
+  last_ = {copy_of(system.last().F.span()), std::vector(system.size(), 0.0), system.last().trial->reactions,
            phase_.supports().support_displacements(t)};
 }
 

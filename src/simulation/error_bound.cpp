@@ -13,17 +13,17 @@ namespace stillpoint {
 ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1, std::optional<VolumeNorm> volume)
     : phase_(phase), omega_1_(phase.info().updated_lagrangian ? std::nullopt : omega_1), volume_(std::move(volume)) {}
 
-std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const Vector& u, ConstVec acceleration) {
+std::optional<double> ErrorBound::distance(StateNorms& norms, const Vector& u, ConstVec acceleration) {
   beside_largest_.reset();
   if (!omega_1_) return std::nullopt;
-  const Mass& M = relaxation.mass();
+  const Mass& M = norms.system().mass();
   const Mass& V = volume_ ? volume_->V : M;
   by_strain_ = !V.has_product();
   const double omega_V = this->omega_V();
-  energy_error_ = relaxation.energy_error(M, *omega_1_, acceleration);
-  if (volume_) energy_error_ = std::min(energy_error_, relaxation.energy_error(V, omega_V));
+  energy_error_ = norms.energy_error(M, *omega_1_, acceleration);
+  if (volume_) energy_error_ = std::min(energy_error_, norms.energy_error(V, omega_V));
   const double error = energy_error_ / omega_V;
-  size_ = by_strain_ ? strain_norm(relaxation, u) : relaxation.mass_norm(V, u);
+  size_ = by_strain_ ? strain_norm(norms, u) : norms.mass_norm(V, u);
   largest_ = std::max(largest_, std::min(size_, most_));
   const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
   constexpr double negligible = 0.01;  // share of the largest ‖u‖_V so far
@@ -34,10 +34,11 @@ std::optional<double> ErrorBound::distance(RelaxationSystem& relaxation, const V
 double ErrorBound::omega_V() const { return by_strain_ ? 1 : volume_ ? volume_->omega_1 : *omega_1_; }
 
 // ‖u‖_K² = uᵀK u over free unknowns and supports: u·R + u_s·R_s.
-double ErrorBound::strain_norm(const RelaxationSystem& relaxation, const Vector& u) const {
-  const std::vector<double> support = phase_.supports().support_displacements(relaxation.last_t());
-  const ConstVec reactions = relaxation.last_reactions();
-  double work = relaxation.internal_work(u);
+double ErrorBound::strain_norm(StateNorms& norms, const Vector& u) const {
+  const Evaluation& last = norms.system().last();
+  const std::vector<double> support = phase_.supports().support_displacements(last.t);
+  const ConstVec reactions = last.trial->reactions;
+  double work = norms.internal_work(u);
   for (std::size_t s = 0; s < std::min(support.size(), reactions.size()); ++s) work += support[s] * reactions[s];
   return std::sqrt(std::abs(work));
 }

@@ -1,7 +1,7 @@
 // A bound on the distance of a state from equilibrium, from its residual and the lowest frequency.
 #pragma once
 
-#include <stillpoint/relaxation_system.hpp>
+#include <stillpoint/state_norms.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -24,7 +24,7 @@ class ErrorBound {
   /// Takes an ω₁ that shows on the way, if none was known at the beginning and V = M; the lowest so far counts.
   void learn(double omega_1) { omega_1_ = std::min(omega_1, omega_1_.value_or(omega_1)); }
   /// The distance of u, (n), where the system was evaluated last. acceleration: its M⁻¹Q; empty: it is not known.
-  std::optional<double> distance(RelaxationSystem& relaxation, const Vector& u, ConstVec acceleration = {});
+  std::optional<double> distance(StateNorms& norms, const Vector& u, ConstVec acceleration = {});
   /// The last distance, but relative to the largest ‖u‖_V so far if that is a hundred times as large: after unloading.
   std::optional<double> beside_largest() const { return beside_largest_; }
   /// From now on the loads stay what they are, so that a linear body gets no energy beyond what it has: if ‖u‖_V still
@@ -45,7 +45,7 @@ class ErrorBound {
 
  private:
   double omega_V() const;
-  double strain_norm(const RelaxationSystem& relaxation, const Vector& u) const;
+  double strain_norm(StateNorms& norms, const Vector& u) const;
 
   const LagrangianPhase& phase_;
   std::optional<double> omega_1_, beside_largest_;

@@ -14,9 +14,9 @@ const Measurements::Figures& Measurements::all() {
   figures_.residual = motion.residual(run_.t);
   if (const auto omega_1 = run_.model.learns_omega_1 ? motion.stepper->lowest_frequency() : std::nullopt)
     error_bound_.learn(*omega_1);
-  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.stepper->known().acceleration);
-  figures_.work_scale = motion.system.work_scale(motion.u_vector);
-  const RelaxationSystem::Motion measured = motion.motion();
+  figures_.distance = error_bound_.distance(motion.norms, motion.u_vector, motion.stepper->known().acceleration);
+  figures_.work_scale = motion.norms.work_scale(motion.u_vector);
+  const StateNorms::Motion measured = motion.motion();
   figures_.power = measured.power;
   figures_.kinetic_energy = measured.kinetic_energy;
   if (run_.schedule.settled_for_good(run_.t)) error_bound_.loads_have_settled(figures_.kinetic_energy);
@@ -46,8 +46,8 @@ std::optional<double> Measurements::distance_to_go() const {
 void Measurements::refresh_distance() {
   PhaseMotion& motion = *run_.motion;
   if (!error_bound_.refresh(run_.t, motion.u(), figures_.residual)) return;
-  motion.system.residual(run_.t, motion.u());
-  figures_.distance = error_bound_.distance(motion.system, motion.u_vector, motion.stepper->known().acceleration);
+  motion.norms.residual(run_.t, motion.u());
+  figures_.distance = error_bound_.distance(motion.norms, motion.u_vector, motion.stepper->known().acceleration);
 }
 
 void Measurements::archive(const StateArchive& state) {

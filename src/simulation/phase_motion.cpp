@@ -28,6 +28,7 @@ std::unique_ptr<Stepper> make_stepper(const Model& model, const Problem& problem
 PhaseMotion::PhaseMotion(Model& model, const Problem& problem, const VectorSpace& vectors, double t, ConstVec u0,
                          ConstVec v0)
     : system(*model.phase, *model.damping, vectors, model.multigrid ? &model.multigrid->mass : nullptr),
+      norms(system),
       shared_y(std::make_shared<Vector>(vectors.make(2 * model.phase->size()))),
       y(*shared_y),
       u_vector(vectors.view(first_half(y.span()))),
@@ -50,9 +51,9 @@ ConstVec PhaseMotion::v() const {
   return velocity_;
 }
 
-RelaxationSystem::Motion PhaseMotion::motion() {
+StateNorms::Motion PhaseMotion::motion() {
   if (!stepper->moves()) return {.power = 0, .kinetic_energy = 0};
-  return system.motion(v_vector, stepper->known().velocity);
+  return norms.motion(v_vector, stepper->known().velocity);
 }
 
 void PhaseMotion::accept(double t) {

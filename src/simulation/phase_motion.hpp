@@ -1,7 +1,7 @@
 // The motion through one phase: its unknowns, and what steps them.
 #pragma once
 
-#include <stillpoint/relaxation_system.hpp>
+#include <stillpoint/state_norms.hpp>
 
 #include <memory>
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "simulation/setup/model.hpp"
 #include "simulation/setup/stiffening_step.hpp"
+#include "system/force_scale.hpp"
 
 namespace stillpoint {
 
@@ -28,20 +29,21 @@ class PhaseMotion {
   /// Saves it, or restores one that begins at the (t, u, v) of then.
   void archive(const StateArchive& state);
   /// Power and kinetic energy of the state that residual() was called for last.
-  RelaxationSystem::Motion motion();
+  StateNorms::Motion motion();
   /// Evaluates the system at t, if the last evaluation was elsewhere: in a stage, or in a trial that was refused.
   void evaluate(double t) {
-    if (!stepper->known().force) system.residual(t, u());
+    if (!stepper->known().force) norms.residual(t, u());
   }
   /// ‖F − R‖/‖F‖ at t.
-  double residual(double t) { return stepper->known().force ? system.last_residual() : system.residual(t, u()); }
+  double residual(double t) { return stepper->known().force ? norms.last_residual() : norms.residual(t, u()); }
   /// The same, at less cost if the stepper knows it; the system is not evaluated then.
   double known_residual(double t) {
     const auto unbalanced = stepper->known().unbalanced_force;
-    return unbalanced ? system.relative_to_loads(*unbalanced) : residual(t);
+    return unbalanced ? relative(*unbalanced, system.force_scale()) : residual(t);
   }
 
   RelaxationSystem system;
+  StateNorms norms;                  // of the system
   std::shared_ptr<Vector> shared_y;  // shared with whoever looks at it for longer than this object lives
   Vector& y;                         // [u; v], or [u; p] if the system keeps momentum
   Vector u_vector, v_vector;         // its halves, in place

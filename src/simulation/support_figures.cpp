@@ -59,7 +59,7 @@ std::vector<double> reaction_values(const Problem& problem, const LagrangianPhas
   std::vector<double> values;
   if (!has_named_supports(problem)) return values;
   for (const SupportReaction& support :
-       phase.supports().support_reactions(t, motion.u(), motion.system.last_reactions())) {
+       phase.supports().support_reactions(t, motion.u(), motion.system.last().trial->reactions)) {
     values.insert(values.end(), support.force.begin(), support.force.begin() + problem.dim);
     values.insert(values.end(), support.moment.begin(), support.moment.begin() + moment_components(problem));
   }
@@ -71,7 +71,7 @@ void fill_supports(const Problem& problem, const LagrangianPhase& phase, double 
   if (has_named_supports(problem)) {
     motion.residual(t);
     for (const SupportReaction& support :
-         phase.supports().support_reactions(t, motion.u(), motion.system.last_reactions())) {
+         phase.supports().support_reactions(t, motion.u(), motion.system.last().trial->reactions)) {
       summary.reactions[support.name] = {support.force.begin(), support.force.begin() + problem.dim};
       if (const int moments = moment_components(problem); moments > 0)
         summary.reaction_moments[support.name] = {support.moment.begin(), support.moment.begin() + moments};

@@ -1,8 +1,6 @@
 #include <stillpoint/relaxation_system.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -18,10 +16,7 @@ RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping,
       mass_(fictitious ? *fictitious : system.mass()),
       linear_(damping.linear()),
       vectors_(vectors),
-      trial_(system.make_trial()),
-      F_(vectors_.make(system.size())),
-      R_(vectors_.make(system.size())),
-      Q_(vectors_.make(system.size())),
+      last_{.F = vectors_.make(system.size()), .R = vectors_.make(system.size()), .trial = system.make_trial()},
       loads_are_constant_(system.loads_are_constant()),
       force_scale_(std::make_unique<ForceScale>()) {
   if (keeps_momentum() && (damping.is_local() || linear_.identity != 0)) {
@@ -65,10 +60,11 @@ bool RelaxationSystem::out_of_balance(double t, ConstVec u, Vec Q, Vec a) {
     return true;
   }
   if (!evaluate(t, u)) return false;
-  for_each_index(Q.size(), [=, F = F_.span().data(), R = R_.span().data(), m = mass_.diagonal().data()](std::size_t i) {
-    Q[i] = F[i] - R[i];
-    a[i] = Q[i] / m[i];
-  });
+  for_each_index(Q.size(),
+                 [=, F = last_.F.span().data(), R = last_.R.span().data(), m = mass_.diagonal().data()](std::size_t i) {
+                   Q[i] = F[i] - R[i];
+                   a[i] = Q[i] / m[i];
+                 });
   return true;
 }
 
@@ -81,7 +77,7 @@ bool RelaxationSystem::damped_out_of_balance(double t, ConstVec u, ConstVec v, V
   }
   if (!evaluate(t, u)) return false;
   for_each_piece(Q.size(), [=, this](std::size_t begin, std::size_t count) {
-    const ConstVec F = F_.span().subspan(begin, count), R = R_.span().subspan(begin, count);
+    const ConstVec F = last_.F.span().subspan(begin, count), R = last_.R.span().subspan(begin, count);
     const Vec piece = Q.subspan(begin, count);
     for_each_index(count, [=](std::size_t i) { piece[i] = F[i] - R[i]; });
     add_local_damping(begin, v.subspan(begin, count), piece);
@@ -96,12 +92,12 @@ bool RelaxationSystem::is_sum_of_its_own() const { return system_.mass().is_lump
 // Evaluates F and R.
 bool RelaxationSystem::evaluate(double t, ConstVec u) {
   if (!std::exchange(loads_are_known_, loads_are_constant_)) {
-    system_.external_force(t, u, F_.span());
+    system_.external_force(t, u, last_.F.span());
     load_norm_.reset();
   }
-  last_t_ = t;
+  last_.t = t;
   is_committed_ = false;
-  return system_.internal_force(t, u, R_.span(), *trial_);
+  return system_.internal_force(t, u, last_.R.span(), *last_.trial);
 }
 
 // Evaluates Q = F − R − M_fs (a_s + c_m v_s) + contact forces.
@@ -112,13 +108,22 @@ bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
 }
 
 void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
-  const ConstVec F = F_.span(), R = R_.span();
+  const ConstVec F = last_.F.span(), R = last_.R.span();
   for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
   system_.add_support_inertia(t, linear_.mass, Q);
   if (const Contact* contact = system_.contact()) contact->add_force(t, linear_, Q);
 }
 
-std::string RelaxationSystem::refusal() const { return system_.diagnosis().refusal(*trial_); }
+void RelaxationSystem::last_static_balance(Vec Q) const {
+  const ConstVec F = last_.F.span(), R = last_.R.span();
+  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
+  if (const Contact* contact = system_.contact()) contact->add_force(last_.t, linear_, Q);
+}
+
+double RelaxationSystem::force_scale() {
+  if (!load_norm_) load_norm_ = norm(last_.F);
+  return force_scale_->of(*load_norm_, last_.R, *last_.trial, system_.contact());
+}
 
 void RelaxationSystem::add_local_damping(ConstVec v, Vec Q) const {
   add_local_damping(0, v, Q);
@@ -137,7 +142,7 @@ void RelaxationSystem::add_local_damping(std::size_t begin, ConstVec v, Vec Q) c
 
 void RelaxationSystem::remember_force() {
   if (!Q_last_) return;
-  last_out_of_balance(last_t_, Q_last_->span());
+  last_out_of_balance(last_.t, Q_last_->span());
   force_remembered_ = true;
 }
 
@@ -145,77 +150,24 @@ ContactChange RelaxationSystem::accept(double t, Vec y, bool force_is_current) {
   Contact* contact = system_.contact();
   if (!system_.history_dependent() && !contact) return ContactChange::nothing;
   const Vec u = first_half(y);
-  if (!force_is_current && !balance(t, u, Q_.span())) throw std::logic_error("an accepted state cannot be evaluated");
-  if (!std::exchange(is_committed_, true)) system_.commit(*trial_);
-  return contact ? contact->update(t, u, second_half(y)) : ContactChange::nothing;
-}
-
-double RelaxationSystem::residual(double t, ConstVec u) {
-  if (!balance(t, u, Q_.span())) return std::numeric_limits<double>::quiet_NaN();
-  return last_residual();
-}
-
-double RelaxationSystem::last_residual() {
-  const ConstVec F = F_.span(), R = R_.span();
-  const Vec Q = Q_.span();
-  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
-  if (const Contact* contact = system_.contact()) contact->add_force(last_t_, linear_, Q);
-  return relative_to_loads(norm(Q_));
-}
-
-double RelaxationSystem::relative_to_loads(double unbalanced) {
-  if (!load_norm_) load_norm_ = norm(F_);
-  return relative(unbalanced, force_scale_->of(*load_norm_, R_, *trial_, system_.contact()));
-}
-
-// ‖M⁻¹Q‖_M² = Qᵀ M⁻¹ Q
-double RelaxationSystem::energy_error(const Mass& M, double omega_1, ConstVec acceleration) {
-  if (!work_) work_ = vectors_.make(size());
-  if (acceleration.empty()) {
-    M.solve(Q_.span(), work_->span());
-  } else {
-    std::ranges::copy(acceleration, work_->span().begin());
+  if (!force_is_current) {  // contacts read the forces in Q as well
+    if (!work_) work_ = vectors_.make(size());
+    if (!balance(t, u, work_->span())) throw std::logic_error("an accepted state cannot be evaluated");
   }
-  return std::sqrt(dot(Q_, *work_)) / omega_1;
-}
-
-double RelaxationSystem::mass_norm(const Mass& M, const Vector& u) {
-  if (!work_) work_ = vectors_.make(size());
-  M.apply(u.span(), work_->span());
-  return std::sqrt(dot(u, *work_));
+  if (!std::exchange(is_committed_, true)) system_.commit(*last_.trial);
+  return contact ? contact->update(t, u, second_half(y)) : ContactChange::nothing;
 }
 
 void RelaxationSystem::archive(const StateArchive& state) {
   state("rate", linear_.mass);
-  state("F", F_.span());
-  state("R", R_.span());
-  state("Q", Q_.span());
-  state("reactions", Vec(trial_->reactions));
-  state("t", last_t_);
+  state("F", last_.F.span());
+  state("R", last_.R.span());
+  state("reactions", Vec(last_.trial->reactions));
+  state("t", last_.t);
   state("force_remembered", force_remembered_);
   if (Q_last_) state("last_Q", Q_last_->span());
   state("evaluations", evaluations_);
   force_scale_->archive(state);
-}
-
-double RelaxationSystem::work_scale(const Vector& u) { return std::abs(dot(F_, u)) + std::abs(dot(R_, u)); }
-
-double RelaxationSystem::internal_work(const Vector& u) const { return dot(R_, u); }
-
-// Computes Q·v and ½ vᵀ M v, or Q·M⁻¹p and ½ pᵀ M⁻¹ p if the momentum is kept.
-RelaxationSystem::Motion RelaxationSystem::motion(const Vector& v, const Vector& Q, ConstVec velocity) {
-  if (!work_) work_ = vectors_.make(size());
-  if (keeps_momentum()) {
-    if (velocity.empty()) {
-      mass_.solve(v.span(), work_->span());
-    } else {
-      std::ranges::copy(velocity, work_->span().begin());
-    }
-    return {.power = dot(Q, *work_), .kinetic_energy = 0.5 * dot(v, *work_)};
-  }
-  const double power = dot(Q, v);
-  mass_.apply(v.span(), work_->span());
-  return {.power = power, .kinetic_energy = 0.5 * dot(v, *work_) - mass_.relative_energy(v.span())};
 }
 
 }  // namespace stillpoint

@@ -18,7 +18,7 @@ constexpr std::size_t fewest_pieces = 64;  // a fifth of which a slope can be fi
 // The support that drives the loads is the last of all.
 Verdict LimitLoad::judge(RunState& run) {
   if (!run.scene.load) return {};
-  const ConstVec reactions = run.motion->system.last_reactions();
+  const ConstVec reactions = run.motion->system.last().trial->reactions;
   const double force = reactions.empty() ? 0 : reactions.back();
   const bool piece_is_over = take(*run.model.phase->supports().load_state(run.t, run.motion->u()), force);
   run.load_growth = growth_;

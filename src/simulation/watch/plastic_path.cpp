@@ -83,7 +83,7 @@ void PlasticPath::sample(RunState& run) {
   last_ = now;
   imbalance_ = imbalance;
   power_ = power;
-  work_ = std::max(work_, earlier_work_ + work(run.t, system, run.motion->u_vector));
+  work_ = std::max(work_, earlier_work_ + work(run.t, *run.motion));
   next_ = run.t + interval_;
 }
 
@@ -91,7 +91,7 @@ void PlasticPath::end_phase(RunState& run, bool is_last) {
   if (!watches_) return;
   if (is_last) return sample(run);
   run.measured.all();
-  earlier_work_ += work(run.t, run.motion->system, run.motion->u_vector);
+  earlier_work_ += work(run.t, *run.motion);
   work_ = std::max(work_, earlier_work_);
 }
 
@@ -131,7 +131,7 @@ double PlasticPath::plastic_work(double t, ConstVec u) const {
 // ‖Q_⊥‖/‖Q‖. A static solver has no way: its loads are there at once, and all that yields does so out of balance.
 double PlasticPath::across_loads(double t, const RelaxationSystem& system) {
   if (model_.static_method) return 1;
-  const ConstVec F = system.last_external_force();
+  const ConstVec F = system.last().F.span();
   Q_.resize(F.size());
   system.last_out_of_balance(t, Q_);
   double FF = 0, FQ = 0, QQ = 0;
@@ -144,12 +144,12 @@ double PlasticPath::across_loads(double t, const RelaxationSystem& system) {
 }
 
 // ½ (|F·u| + |R·u|) + |R_s·u_s|, since the phase began
-double PlasticPath::work(double t, RelaxationSystem& system, const Vector& u) const {
-  const ConstVec reactions = system.last_reactions();
+double PlasticPath::work(double t, const PhaseMotion& motion) const {
+  const ConstVec reactions = motion.system.last().trial->reactions;
   const std::vector<double> moved = model_.phase->supports().support_displacements(t);
   double of_supports = 0;
   for (std::size_t s = 0; s < moved.size(); ++s) of_supports += reactions[s] * moved[s];
-  return 0.5 * system.work_scale(u) + std::abs(of_supports);
+  return 0.5 * motion.norms.work_scale(motion.u_vector) + std::abs(of_supports);
 }
 
 void PlasticPath::archive(const StateArchive& state, RunState&) {

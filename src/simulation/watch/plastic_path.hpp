@@ -47,7 +47,7 @@ class PlasticPath : public Watcher {
   std::optional<double> unbalanced_work(double t, ConstVec u) const;
   double plastic_work(double t, ConstVec u) const;
   double across_loads(double t, const RelaxationSystem& system);
-  double work(double t, RelaxationSystem& system, const Vector& u) const;
+  double work(double t, const PhaseMotion& motion) const;
 
   const Model& model_;
   const GivingWay& giving_way_;

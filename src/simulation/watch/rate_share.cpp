@@ -42,7 +42,7 @@ void RateShare::sample(double t, long steps, PhaseMotion& motion) {
   Q_.resize(v.size());
   motion.system.last_out_of_balance(t, Q_);
   const double power = sum_over(v.size(), [Q = Q_.data(), v = v.data()](std::size_t i) { return Q[i] * v[i]; });
-  const ConstVec F = motion.system.last_external_force();
+  const ConstVec F = motion.system.last().F.span();
   const double loads = sum_over(v.size(), [F = F.data(), v = v.data()](std::size_t i) { return F[i] * v[i]; });
   unbalanced_ += 0.5 * (power_ + power) * (t - t_);
   of_loads_ += 0.5 * (load_power_ + loads) * (t - t_);
@@ -58,7 +58,7 @@ void RateShare::sample(double t, long steps, PhaseMotion& motion) {
 
 // The work since the last sample. Displacements of supports are known at any time, whenever the phase began.
 double RateShare::work_of_driving(double t, const RelaxationSystem& system) const {
-  const ConstVec reactions = system.last_reactions();
+  const ConstVec reactions = system.last().trial->reactions;
   const std::vector<double> now = phase_.supports().support_displacements(t),
                             before = phase_.supports().support_displacements(t_);
   double work = 0;

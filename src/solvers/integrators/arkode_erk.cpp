@@ -44,7 +44,7 @@ class Erk final : public March {
         table_(erk_table(options.method)),
         kinetic_(options.halts_at_energy_peaks),
         Q_(system.vectors().make(kinetic_ ? system.size() : 0)),
-        v_(system.vectors().view(Q_.span())) {}
+        v_(system.keeps_momentum() ? system.vectors().like(Q_) : system.vectors().view(Q_.span())) {}
   Erk(const Erk&) = delete;
   Erk& operator=(const Erk&) = delete;
   ~Erk() override {
@@ -186,8 +186,12 @@ class Erk final : public March {
       const ConstVec both(N_VGetArrayPointer(y), 2 * erk.system().size());
       erk.inadmissible_ = !erk.system().out_of_balance(t, first_half(both), erk.Q_.span());
       if (erk.inadmissible_) return 1;
-      N_VSetArrayPointer(N_VGetArrayPointer(y) + erk.system().size(), erk.v_.handle());
-      *value = erk.system().power(erk.v_, erk.Q_);
+      if (erk.system().keeps_momentum()) {
+        erk.system().mass().solve(second_half(both), erk.v_.span());
+      } else {
+        N_VSetArrayPointer(N_VGetArrayPointer(y) + erk.system().size(), erk.v_.handle());
+      }
+      *value = dot(erk.Q_, erk.v_);
       return 0;
     } catch (...) {
       erk.exception_ = std::current_exception();
@@ -207,7 +211,7 @@ class Erk final : public March {
 
   ButcherTable table_;
   bool kinetic_;
-  Vector Q_, v_;  // work of power(), (n); v_ is a view of the second half of the y that is asked for
+  Vector Q_, v_;  // work of power(), (n); v_ holds M⁻¹p, or is a view of v in the y that is asked for
   void* arkode_ = nullptr;
   SUNContext context_ = nullptr;
   N_Vector weights_ = nullptr;  // the vector that unit_weights() filled

@@ -52,7 +52,7 @@ StepReport TrialStepper::step(double t_stop) {
     const bool retry = tried.status == StepReport::Status::inadmissible && tried.h > 0 && halvings < max_halvings;
     if (!retry) return {.status = tried.status, .t = t_, .h = tried.h, .message = message_of(tried, halvings)};
     ++rejected_;
-    keeps_clear = keeps_clear && system().went_too_far();
+    keeps_clear = keeps_clear && system().last().trial->too_far;
     h = tried.h / 2;
   }
 }
@@ -75,11 +75,12 @@ void TrialStepper::archive(const StateArchive& state) {
 }
 
 std::string TrialStepper::message_of(const Attempt& tried, int halvings) const {
+  const auto refusal = [this] { return system().system().diagnosis().refusal(*system().last().trial); };
   switch (tried.status) {
     case StepReport::Status::inadmissible:
-      if (tried.h == 0) return "the state cannot be evaluated: " + system().refusal();
+      if (tried.h == 0) return "the state cannot be evaluated: " + refusal();
       return fmt::format("the trial state cannot be evaluated, also after {} halvings of the step: {}", halvings,
-                         system().refusal());
+                         refusal());
     case StepReport::Status::not_finite:
       return fmt::format("{}; {}; expected a smaller step, or more damping",
                          tried.message.empty() ? "the new state is not finite" : tried.message,

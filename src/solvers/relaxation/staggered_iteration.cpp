@@ -57,7 +57,7 @@ void StaggeredIteration::evaluate_anew(double t, const Vector& /*y*/) {
 
 void StaggeredIteration::remember_loads() {
   if (relaxation_.steady) return;
-  const ConstVec F = system().last_external_force();
+  const ConstVec F = system().last().F.span();
   F_.assign(F.begin(), F.end());
 }
 
@@ -83,7 +83,7 @@ void StaggeredIteration::accepted() {
   t_ = trial_t_;
   if (!relaxation_.steady) {
     // The stiffness answers a step by ΔR = Q_before + ΔF − Q: a jump of the load F has to be left out of it.
-    const ConstVec F = system().last_external_force();
+    const ConstVec F = system().last().F.span();
     for_each_index(F.size(), [Q = next_Q_.span().data(), now = F.data(), before = F_.data()](std::size_t i) {
       Q[i] += now[i] - before[i];
     });

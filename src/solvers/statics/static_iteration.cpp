@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
+#include "system/force_scale.hpp"
 #include "system/largest_at.hpp"
 
 namespace stillpoint {
@@ -117,11 +118,11 @@ void StaticIteration::accepted() {
   moved(alpha_);
   ++steps_of_this_;
   const bool is_last = load_.to() >= 1;  // the run itself ends the last increment
-  if (!is_last && system().relative_to_loads(norm(Q_)) <= tolerance_) end_increment();
+  if (!is_last && relative(norm(Q_), system().force_scale()) <= tolerance_) end_increment();
 }
 
 void StaticIteration::end_increment() {
-  system().accept(system().last_t(), state().span(), /*force_is_current=*/true);
+  system().accept(system().last().t, state().span(), /*force_is_current=*/true);
   if (steps_of_first_ == 0) steps_of_first_ = steps_of_this_;
   const double s = load_.to();
   load_.reached(/*easily=*/steps_of_this_ <= steps_of_first_);
