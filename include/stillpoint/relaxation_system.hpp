@@ -21,7 +21,8 @@ struct Evaluation {
   std::unique_ptr<TrialState> trial;  // with the support reactions
 };
 
-/// The right-hand side for integrators. It is repeatable, allocates nothing and counts its evaluations.
+/// The right-hand side for steppers. It is repeatable, allocates nothing and counts its evaluations. Norms of its
+/// states: StateNorms.
 class RelaxationSystem {
  public:
   /// All arguments must outlive this object. fictitious: a mass for the motion towards an equilibrium that does not

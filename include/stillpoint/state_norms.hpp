@@ -27,8 +27,6 @@ class StateNorms {
   double mass_norm(const Mass& M, const Vector& u);
   /// |F·u| + |R·u| of the last evaluation [J], the scale of the work done; u: (n).
   double work_scale(const Vector& u) const;
-  /// R·u of the last evaluation [J]; u: (n).
-  double internal_work(const Vector& u) const;
   struct Motion {
     double power;           // Q·v [W]
     double kinetic_energy;  // ½ vᵀ M v [J], without what was added to light nodes

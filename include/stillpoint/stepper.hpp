@@ -32,26 +32,27 @@ struct StepReport {
   std::string message{};
 };
 
-/// What the steps have computed of the present (t, y) already; empty: not known. Spans are valid until the next step.
-struct Known {
-  bool force = false;  // the system's last force evaluation was there, so that its residual costs nothing
-  std::optional<double> unbalanced_force{};  // ‖F − R‖ [N]
-  ConstVec velocity{};                       // M⁻¹p of y = [u; p], for a mass known by its inverse: (n) [m/s]
-  ConstVec acceleration{};                   // M⁻¹(F − R): (n) [m/s²]
-};
-
 /// Advances y in place. One instance steps one y.
 class Stepper {
  public:
+  /// What the steps have computed of the present (t, y) already; empty: not known. Spans are valid until the next step.
+  struct Known {
+    bool force = false;  // the system's last force evaluation was there, so that its residual costs nothing
+    std::optional<double> unbalanced_force{};  // ‖F − R‖ [N]
+    ConstVec velocity{};                       // M⁻¹p of y = [u; p], for a mass known by its inverse: (n) [m/s]
+    ConstVec acceleration{};                   // M⁻¹(F − R): (n) [m/s²]
+  };
+
   virtual ~Stepper() = default;
   /// Begins at (t, y), y: (2n), which belongs to the caller and must outlive the stepper.
   virtual void start(double t, Vector& y) = 0;
   /// One accepted step, never past t_stop. A fixed step is the largest not above max_step of which a whole number
   /// reaches t_stop, so that equal steps land on every output time. After a failure y holds the last good state.
   virtual StepReport step(double t_stop) = 0;
-  /// Called at the start and after each step, at the present t: what happens to laws and contacts then.
+  /// Called at the present t, at the start and after each step. A march commits it: laws remember, contacts open and
+  /// close, and the march goes on from what they change in y. Iterates are not committed.
   virtual void accept(double t) = 0;
-  /// Called at the end of the phase, at the present t.
+  /// Called at the present t, at the end of a phase: commits it, if accept() did not.
   virtual void finish(double t) = 0;
   /// Changes max_step from the next step on, if the critical step changes with the state. h > 0 [s].
   virtual void set_max_step(double h) = 0;

@@ -23,7 +23,7 @@ std::optional<double> ErrorBound::distance(StateNorms& norms, const Vector& u, C
   energy_error_ = norms.energy_error(M, *omega_1_, acceleration);
   if (volume_) energy_error_ = std::min(energy_error_, norms.energy_error(V, omega_V));
   const double error = energy_error_ / omega_V;
-  size_ = by_strain_ ? strain_norm(norms, u) : norms.mass_norm(V, u);
+  size_ = by_strain_ ? strain_norm(norms.system().last(), u) : norms.mass_norm(V, u);
   largest_ = std::max(largest_, std::min(size_, most_));
   const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
   constexpr double negligible = 0.01;  // share of the largest ‖u‖_V so far
@@ -34,11 +34,10 @@ std::optional<double> ErrorBound::distance(StateNorms& norms, const Vector& u, C
 double ErrorBound::omega_V() const { return by_strain_ ? 1 : volume_ ? volume_->omega_1 : *omega_1_; }
 
 // ‖u‖_K² = uᵀK u over free unknowns and supports: u·R + u_s·R_s.
-double ErrorBound::strain_norm(StateNorms& norms, const Vector& u) const {
-  const Evaluation& last = norms.system().last();
+double ErrorBound::strain_norm(const Evaluation& last, const Vector& u) const {
   const std::vector<double> support = phase_.supports().support_displacements(last.t);
   const ConstVec reactions = last.trial->reactions;
-  double work = norms.internal_work(u);
+  double work = dot(last.R, u);
   for (std::size_t s = 0; s < std::min(support.size(), reactions.size()); ++s) work += support[s] * reactions[s];
   return std::sqrt(std::abs(work));
 }

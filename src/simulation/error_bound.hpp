@@ -45,7 +45,7 @@ class ErrorBound {
 
  private:
   double omega_V() const;
-  double strain_norm(StateNorms& norms, const Vector& u) const;
+  double strain_norm(const Evaluation& last, const Vector& u) const;
 
   const LagrangianPhase& phase_;
   std::optional<double> omega_1_, beside_largest_;

@@ -36,8 +36,6 @@ double StateNorms::work_scale(const Vector& u) const {
   return std::abs(dot(system_.last().F, u)) + std::abs(dot(system_.last().R, u));
 }
 
-double StateNorms::internal_work(const Vector& u) const { return dot(system_.last().R, u); }
-
 // Computes Q·v and ½ vᵀ M v, or Q·M⁻¹p and ½ pᵀ M⁻¹ p if the momentum is kept.
 StateNorms::Motion StateNorms::motion(const Vector& v, ConstVec velocity) {
   const Mass& M = system_.mass();

@@ -54,7 +54,7 @@ class Erk final : public March {
   }
 
  private:
-  void begin(double t, const Vector& y) override {
+  bool begin(double t, const Vector& y) override {
     if (!arkode_) {
       create(t, y);
     } else {
@@ -64,6 +64,7 @@ class Erk final : public March {
     refused_ = false;
     arkode_t_ = t;
     error_test_failures_ = 0;
+    return true;
   }
 
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) override {

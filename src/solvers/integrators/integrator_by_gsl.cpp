@@ -128,20 +128,20 @@ class Gsl final : public March {
   Gsl& operator=(const Gsl&) = delete;
 
  private:
-  void begin(double t, const Vector& y) override {
+  bool begin(double t, const Vector& y) override {
     const QuietGsl quiet;
     suggested_h_ = options().max_step;
     if (adaptive()) {
       refused();
-      return;
+      return true;
     }
     gsl_odeiv2_step_reset(stepper_.get());
-    admissible_ = right_hand_side(t, y.span().data(), ydot_.data(), this) == GSL_SUCCESS;
+    const bool is_admissible = right_hand_side(t, y.span().data(), ydot_.data(), this) == GSL_SUCCESS;
     rethrow();
+    return is_admissible;
   }
 
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const QuietGsl quiet;
     std::ranges::copy(std::as_const(y).span(), trial.span().begin());
     return adaptive() ? adaptive_step(t, h, t_stop, trial.span().data()) : fixed_step(t, h, trial.span().data());
@@ -207,7 +207,6 @@ class Gsl final : public March {
   GslStep stepper_{nullptr, gsl_odeiv2_step_free};  // fixed steps
   Driver driver_{nullptr, gsl_odeiv2_driver_free};  // adaptive steps; holds stepper, control and evolution together
   double suggested_h_ = 0;                          // adaptive steps [s]
-  bool admissible_ = true;
   std::exception_ptr exception_;
 };
 

@@ -43,31 +43,30 @@ class Leapfrog final : public March {
         next_a_(system.vectors().make(system.size())) {}
 
   // A step ends with the force at its end, unless the step was refused.
-  Known known() const override { return {.force = force_is_current_}; }
+  Known known() const override { return {.force = is_at_state()}; }
 
  private:
   // M a_0 = Q_0 + D(v_0, Q_0) − C v_0
-  void begin(double t, const Vector& y) override {
+  bool begin(double t, const Vector& y) override {
     const ConstVec v = second_half(y.span());
-    admissible_ = system().damped_out_of_balance(t, first_half(y.span()), v, a_.span());
-    if (admissible_) initial_acceleration_(0, v, a_.span());
-    force_is_current_ = true;
+    if (!system().damped_out_of_balance(t, first_half(y.span()), v, a_.span())) return false;
+    initial_acceleration_(0, v, a_.span());
+    return true;
   }
 
-  void restart(double t, const Vector& y) override {
+  bool restart(double t, const Vector& y) override {
     system().last_out_of_balance(t, a_.span());
     const ConstVec v = second_half(y.span());
     system().add_local_damping(v, a_.span());
     initial_acceleration_(0, v, a_.span());
+    return true;
   }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span()), a = a_.span();
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a_new = next_a_.span();
 
     kick_drift_(h / 2, a, h, u, v, u_new, v_new);
-    force_is_current_ = false;
     if (!system().damped_out_of_balance(t + h, u_new, v_new, a_new))
       return {.status = StepReport::Status::inadmissible, .h = h};
     std::atomic<bool> finite = true;
@@ -84,18 +83,13 @@ class Leapfrog final : public March {
     return {.h = h, .is_finite = finite};
   }
 
-  void accepted() override {
-    std::swap(a_, next_a_);
-    force_is_current_ = true;
-  }
+  void accepted() override { std::swap(a_, next_a_); }
 
   void archive_memory(const StateArchive& state) override { state("a", a_.span()); }
 
   KickDrift kick_drift_;
   DampedAcceleration initial_acceleration_, acceleration_;
   Vector a_, next_a_;  // at t_n and at the trial's time, (n)
-  bool admissible_ = true;
-  bool force_is_current_ = false;
 };
 
 }  // namespace

@@ -13,10 +13,10 @@ class March : public TrialStepper {
       case ContactChange::nothing:
         break;
       case ContactChange::velocity:
-        restart(t, state());
+        begun(restart(t, state()));
         break;
       case ContactChange::displacement:
-        evaluate_anew(t, state());
+        begun(evaluate_anew(t, state()));
     }
   }
   void finish(double /*t*/) final {}
@@ -24,9 +24,9 @@ class March : public TrialStepper {
  protected:
   using TrialStepper::TrialStepper;
   /// Begins again at (t, y) when only v has changed; the last force evaluation was at this u.
-  virtual void restart(double t, const Vector& y) { begin(t, y); }
+  virtual bool restart(double t, const Vector& y) { return begin(t, y); }
   /// Begins again at (t, y) when u has changed as well, so that there is no force evaluation at it yet.
-  virtual void evaluate_anew(double t, const Vector& y) { begin(t, y); }
+  virtual bool evaluate_anew(double t, const Vector& y) { return begin(t, y); }
 };
 
 }  // namespace stillpoint

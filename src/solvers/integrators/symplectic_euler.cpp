@@ -35,27 +35,23 @@ class SymplecticEuler final : public March {
         a_(system.vectors().make(system.size())) {}
 
   // A step ends with the force at its end, unless the step was refused.
-  Known known() const override { return {.force = force_is_current_}; }
+  Known known() const override { return {.force = is_at_state()}; }
 
  private:
-  void begin(double t, const Vector& y) override {
-    admissible_ = evaluate(t, y.span(), Q_.span());
-    force_is_current_ = true;
-  }
-  void restart(double t, const Vector& y) override {
+  bool begin(double t, const Vector& y) override { return evaluate(t, y.span(), Q_.span()); }
+  bool restart(double t, const Vector& y) override {
     system().last_out_of_balance(t, Q_.span());
     system().add_local_damping(second_half(y.span()), Q_.span());
+    return true;
   }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
-    if (!admissible_) return {.status = StepReport::Status::inadmissible};
     const ConstVec u = first_half(std::as_const(y).span()), v = second_half(std::as_const(y).span());
     const Vec u_new = first_half(trial.span()), v_new = second_half(trial.span()), a = a_.span();
 
     std::ranges::copy(std::as_const(Q_).span(), a.begin());
     acceleration_(h, v, a);
     kick_drift_(h, a, h, u, v, u_new, v_new);
-    force_is_current_ = false;
     if (!evaluate(t + h, trial.span(), next_Q_.span())) return {.status = StepReport::Status::inadmissible, .h = h};
     return {.h = h};
   }
@@ -65,10 +61,7 @@ class SymplecticEuler final : public March {
     return system().damped_out_of_balance(t, first_half(y), second_half(y), Q);
   }
 
-  void accepted() override {
-    std::swap(Q_, next_Q_);
-    force_is_current_ = true;
-  }
+  void accepted() override { std::swap(Q_, next_Q_); }
 
   void archive_memory(const StateArchive& state) override { state("Q", Q_.span()); }
 
@@ -76,8 +69,6 @@ class SymplecticEuler final : public March {
   DampedAcceleration acceleration_;
   Vector Q_, next_Q_;  // Q + D at t_n and at the trial's time, (n)
   Vector a_;           // (n)
-  bool admissible_ = true;
-  bool force_is_current_ = false;
 };
 
 }  // namespace

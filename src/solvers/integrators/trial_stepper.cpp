@@ -25,7 +25,7 @@ void TrialStepper::start(double t, Vector& y) {
   u_.emplace(system().vectors().view(first_half(y.span())));
   trial_u_.emplace(system().vectors().view(first_half(trial_->span())));
   system().forget_force();
-  begin(t, y);
+  begun(begin(t, y));
   system().remember_force();
 }
 
@@ -34,6 +34,11 @@ StepReport TrialStepper::step(double t_stop) {
   if (!(t_stop > t_) || !std::isfinite(t_stop)) {
     throw std::invalid_argument(fmt::format("there is no step from t = {} to {}", t_, t_stop));
   }
+  if (!is_admissible_) {
+    constexpr auto status = StepReport::Status::inadmissible;
+    return {.status = status, .t = t_, .message = message_of({.status = status}, 0)};
+  }
+  is_at_state_ = false;
   double h = adaptive() ? options_.max_step : division_.step_from(t_, t_stop);
   bool keeps_clear = true;  // of states that cannot be evaluated
   for (int halvings = 0;; ++halvings) {
@@ -102,6 +107,7 @@ StepReport TrialStepper::accept(const Attempt& attempt) {
   } else {
     copy(*trial_, *y_);
   }
+  is_at_state_ = true;
   accepted();
   system().remember_force();
   t_ = adaptive() ? attempt.t : division_.arrive(t_, attempt.h);

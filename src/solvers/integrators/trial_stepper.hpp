@@ -36,10 +36,15 @@ class TrialStepper : public Stepper {
 
   TrialStepper(const IntegratorOptions& options, RelaxationSystem& system);
 
-  /// Begins at (t, y).
-  virtual void begin(double t, const Vector& y) = 0;
-  /// Tries one step from (t, y), of length h or, adaptive, at most h and not past t_stop. y, trial: (2n); y is only
-  /// read.
+  /// Begins at (t, y). False if the state there cannot be evaluated.
+  virtual bool begin(double t, const Vector& y) = 0;
+  /// Called when it has begun, or begun again, at the present state. is_admissible: whether that can be evaluated.
+  void begun(bool is_admissible) {
+    is_admissible_ = is_admissible;
+    is_at_state_ = true;
+  }
+  /// Tries one step from (t, y), which can be evaluated, of length h or, adaptive, at most h and not past t_stop. y,
+  /// trial: (2n); y is only read.
   virtual Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) = 0;
   /// Called after the last trial has become the state.
   virtual void accepted() {}
@@ -52,6 +57,10 @@ class TrialStepper : public Stepper {
   void count_rejected(long rejected) { rejected_ += rejected; }
 
   const IntegratorOptions& options() const { return options_; }
+  bool is_admissible() const { return is_admissible_; }
+  /// Whether the last trial, if there was one, has become the present state: then a step that ends with the force at
+  /// its end knows the force.
+  bool is_at_state() const { return is_at_state_; }
   bool adaptive() const { return options_.rtol.has_value(); }
 
  private:
@@ -64,6 +73,7 @@ class TrialStepper : public Stepper {
   std::optional<Vector> trial_;        // (2n), of the same kind as y
   std::optional<Vector> trial_u_, u_;  // views of the first halves of the trial and of y
   double t_ = 0;
+  bool is_admissible_ = true, is_at_state_ = false;
 };
 
 }  // namespace stillpoint

@@ -17,14 +17,14 @@ StaggeredIteration::StaggeredIteration(const RelaxationOptions& options, Relaxat
       Mx_(system.vectors().make(system.size())),
       work_(system.vectors().make(system.size())) {}
 
-Known StaggeredIteration::known() const {
-  Known known{.force = force_is_current_};
+Stepper::Known StaggeredIteration::known() const {
+  Known known{.force = is_at_state()};
   if (p_) known.velocity = v_->span();
-  if (p_ && force_is_current_) known.acceleration = a_.span();
+  if (p_ && known.force) known.acceleration = a_.span();
   return known;
 }
 
-void StaggeredIteration::begin(double t, const Vector& /*y*/) {
+bool StaggeredIteration::begin(double t, const Vector& y) {
   u_.emplace(system().vectors().view(first_half(state().span())));
   if (system().keeps_momentum()) {
     p_.emplace(system().vectors().view(second_half(state().span())));
@@ -36,23 +36,22 @@ void StaggeredIteration::begin(double t, const Vector& /*y*/) {
   t_ = t;
   last_step_ = relaxation().from.last_step;
   system().set_damping_rate(relaxation().from.rate.value_or(0));
-  admissible_ = system().out_of_balance(t, u_->span(), Q_.span(), a_.span());
-  remember_loads();
-  force_is_current_ = true;
-  if (admissible_) on_restart();
+  return evaluate_anew(t, y);
 }
 
-void StaggeredIteration::restart(double t, const Vector& /*y*/) {
+bool StaggeredIteration::restart(double t, const Vector& /*y*/) {
   system().last_out_of_balance(t, Q_.span());
   system().mass().solve(Q_.span(), a_.span());
   remember_loads();
   on_restart();
+  return true;
 }
 
-void StaggeredIteration::evaluate_anew(double t, const Vector& /*y*/) {
-  admissible_ = system().out_of_balance(t, u_->span(), Q_.span(), a_.span());
+bool StaggeredIteration::evaluate_anew(double t, const Vector& /*y*/) {
+  const bool is_admissible = system().out_of_balance(t, u_->span(), Q_.span(), a_.span());
   remember_loads();
-  if (admissible_) on_restart();
+  if (is_admissible) on_restart();
+  return is_admissible;
 }
 
 void StaggeredIteration::remember_loads() {
@@ -62,11 +61,9 @@ void StaggeredIteration::remember_loads() {
 }
 
 TrialStepper::Attempt StaggeredIteration::attempt(double t, Vector& /*y*/, double h, double /*t_stop*/, Vector& trial) {
-  if (!admissible_) return {.status = StepReport::Status::inadmissible};
   const Vec u_new = first_half(trial.span());
   if (p_ && !next_p_) next_p_.emplace(system().vectors().view(second_half(trial.span())));
   propose(h, u_new, p_ ? next_v_->span() : second_half(trial.span()));
-  force_is_current_ = false;
   if (!system().out_of_balance(t + h, u_new, next_Q_.span(), next_a_.span()))
     return {.status = StepReport::Status::inadmissible, .h = h};
   trial_step_ = h;
@@ -78,7 +75,6 @@ void StaggeredIteration::accepted() {
   std::swap(Q_, next_Q_);
   std::swap(a_, next_a_);
   if (p_ && !keeps_v()) std::swap(v_, next_v_);
-  force_is_current_ = true;
   last_step_ = trial_step_;
   t_ = trial_t_;
   if (!relaxation_.steady) {

@@ -87,9 +87,9 @@ class StaggeredIteration : public March {
   const RelaxationOptions& relaxation() const { return relaxation_; }
 
  private:
-  void begin(double t, const Vector& y) final;
-  void restart(double t, const Vector& y) final;
-  void evaluate_anew(double t, const Vector& y) final;
+  bool begin(double t, const Vector& y) final;
+  bool restart(double t, const Vector& y) final;
+  bool evaluate_anew(double t, const Vector& y) final;
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
   void archive_memory(const StateArchive& state) final;
@@ -102,7 +102,6 @@ class StaggeredIteration : public March {
   std::vector<double> F_;  // the loads in Q_, if they depend on t [N]
   double t_ = 0, trial_t_ = 0;
   double last_step_ = 0, trial_step_ = 0;
-  bool admissible_ = true, force_is_current_ = false;
 };
 
 }  // namespace stillpoint

@@ -33,19 +33,18 @@ StaticIteration::StaticIteration(const StaticMethodOptions& options, RelaxationS
       u_begin_(system.vectors().make(system.size())),
       Q_begin_(system.vectors().make(system.size())) {}
 
-void StaticIteration::begin(double t, const Vector& y) {
+bool StaticIteration::begin(double t, const Vector& y) {
   const ConstVec u = first_half(y.span());
   forget();
   load_.start_over();
   steps_of_first_ = 0;
-  admissible_ = system().out_of_balance(t, u, Q_begin_.span());
-  if (!admissible_) return;
+  if (!system().out_of_balance(t, u, Q_begin_.span())) return false;
   std::ranges::fill(Q_.span(), 0.0);
   begin_increment(0, u);
+  return true;
 }
 
 TrialStepper::Attempt StaticIteration::attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) {
-  if (!admissible_) return {.status = StepReport::Status::inadmissible};
   const ConstVec u = first_half(std::as_const(y).span());
   const Vec u_new = first_half(trial.span());
   std::ranges::copy(u, u_new.begin());

@@ -23,7 +23,7 @@ namespace stillpoint {
 class StaticIteration : public WithoutTime<TrialStepper> {
  public:
   Known known() const final {
-    return {.force = true, .acceleration = admissible_ && load_.to() >= 1 ? z_.span() : ConstVec()};
+    return {.force = true, .acceleration = is_admissible() && load_.to() >= 1 ? z_.span() : ConstVec()};
   }
 
  protected:
@@ -50,7 +50,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   double shortest() const { return options().max_step * options().max_step / 4; }
 
  private:
-  void begin(double t, const Vector& y) final;
+  bool begin(double t, const Vector& y) final;
   Attempt attempt(double t, Vector& y, double h, double t_stop, Vector& trial) final;
   void accepted() final;
   void archive_memory(const StateArchive& state) final;
@@ -73,7 +73,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   double alpha_ = 0;
   double unbalanced_at_begin_ = 0;               // ‖Q_s‖ at the same place [N]
   long steps_of_first_ = 0, steps_of_this_ = 0;  // steps of the first increment (0 before its end) and of this one
-  bool admissible_ = true, moves_ = false;
+  bool moves_ = false;
 };
 
 }  // namespace stillpoint
