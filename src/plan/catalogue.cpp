@@ -57,7 +57,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
 
 Scene load_scene(const std::filesystem::path& file, const std::string& text,
                  const std::vector<std::string>& overrides) {
-  return read_scene(file, text, overrides, catalogue());
+  return read_scene(file, text, file.string(), overrides, catalogue());
 }
 
 Problem resolve(Problem problem) { return resolved(std::move(problem), catalogue()); }

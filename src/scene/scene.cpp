@@ -35,14 +35,19 @@ Location Scene::location(const std::string& key) const {
     const auto end = around.find_last_of(".[");
     around.resize(end == std::string::npos ? 0 : end);
   }
-  if (where.empty()) return {file.string(), 0, 0};  // a program's own scene
+  const auto has_no_file = [](const auto& written) { return written.second.file.empty(); };
+  if (where.empty() || std::ranges::any_of(where, has_no_file)) return {};  // a program's own scene
   return {file.string(), 1, 1};
 }
 
 SceneError Scene::located(const SceneError& error) const {
   std::vector<Mistake> mistakes = error.problems();
-  for (Mistake& mistake : mistakes)
-    if (!mistake.key.empty() && !where.empty()) mistake.where = location(std::exchange(mistake.key, ""));
+  for (Mistake& mistake : mistakes) {
+    const Location found = location(mistake.key);
+    if (mistake.key.empty() || found.file.empty()) continue;
+    mistake.where = found;
+    mistake.key.clear();
+  }
   return SceneError(std::move(mistakes));
 }
 

@@ -154,11 +154,12 @@ std::vector<FoundTable> find_tables(const TableInfo& info, const toml::table& ro
 
 void read_keys(const FoundTable& found, const TableInfo& info, const std::vector<Key>& keys, void* part,
                Reading& reading) {
+  const auto path_of = [&](const std::string& name) { return found.path.empty() ? name : found.path + "." + name; };
   for (const Key& key : keys) {
     if (!key.info.is_in(reading.dim)) continue;
     const std::string name(key.info.name);
     if (const toml::node* const node = found.table.get(name)) {
-      key.read(part, {*node, found.path.empty() ? name : found.path + "." + name, reading}, key.info);
+      key.read(part, {*node, path_of(name), reading}, key.info);
     } else if (key.info.required) {
       reading.problem(location_of(found.table.source()), found.path, fmt::format("the key '{}' is missing", name));
     }
@@ -170,7 +171,7 @@ void read_keys(const FoundTable& found, const TableInfo& info, const std::vector
   for (auto&& [key, node] : found.table) {
     const std::string name(key.str());
     if (std::ranges::find(known, name) == known.end())
-      reading.problem(location_of(key.source()), found.path, unknown_word("unknown key", name, known));
+      reading.problem(location_of(key.source()), found.path, unknown_word("unknown key", name, known), path_of(name));
   }
 }
 

@@ -15,7 +15,11 @@
 namespace stillpoint {
 namespace {
 
-bool from_override(const toml::node* node) { return node && location_of(node->source()).line == 0; }
+bool from_override(const toml::node* node) {
+  if (!node) return false;
+  const Location where = location_of(node->source());
+  return !where.file.empty() && where.line == 0;
+}
 
 /// The file's own entry of a table goes; what --set gives stays.
 void drop(toml::table& root, std::string_view table_name, std::string_view key) {
@@ -73,8 +77,12 @@ void find_files(Scene& scene) {
 /// A scene under overrides, with all that it may choose from.
 class SceneText {
  public:
-  SceneText(const std::filesystem::path& file, std::string text, const Catalogue& catalogue)
-      : file_(file), text_(std::move(text)), catalogue_(catalogue), tables_(scene_tables(catalogue)) {}
+  SceneText(const std::filesystem::path& file, std::string text, std::string name, const Catalogue& catalogue)
+      : file_(file),
+        text_(std::move(text)),
+        name_(std::move(name)),
+        catalogue_(catalogue),
+        tables_(scene_tables(catalogue)) {}
 
   /// Complete only if problems stays empty.
   Scene read(const std::vector<std::string>& overrides, std::vector<Mistake>& problems) const {
@@ -83,7 +91,7 @@ class SceneText {
     scene.name = file_.stem().string();
     scene.text = text_;
     scene.overrides = overrides;
-    auto root = parse_toml(text_, file_.string(), problems);
+    auto root = parse_toml(text_, name_, problems);
     if (!root) return scene;
     for (const std::string& text : overrides) {
       drop_what_it_replaces(*root, text);
@@ -108,12 +116,14 @@ class SceneText {
   /// Overrides stay out of it: a variant that does not go with them is no fault of the scene that was asked for.
   void check_variants(const Scene& scene, std::vector<Mistake>& problems) const {
     constexpr std::size_t most = 1000, most_bytes = std::size_t{32} << 20;
-    if (scene.variants.size() > most)
-      return problems.push_back({scene.location("variant"), fmt::format("more than {} variants", most)});
+    const auto add = [&](const std::string& key, std::string message) {
+      const Location where = scene.location(key);
+      problems.push_back({where, std::move(message), where.file.empty() ? key : ""});
+    };
+    if (scene.variants.size() > most) return add("variant", fmt::format("more than {} variants", most));
     if (scene.variants.size() * text_.size() > most_bytes)
-      return problems.push_back(
-          {scene.location("variant"), fmt::format("{} variants of a scene of {} bytes are more than this program reads",
-                                                  scene.variants.size(), text_.size())});
+      return add("variant", fmt::format("{} variants of a scene of {} bytes are more than this program reads",
+                                        scene.variants.size(), text_.size()));
     std::vector<Mistake> own;
     if (!scene.variants.empty()) read({}, own);
     for (std::size_t k = 0; k < scene.variants.size(); ++k) {
@@ -124,15 +134,15 @@ class SceneText {
           return problem.message == other.message && to_string(problem.where) == to_string(other.where);
         };
         if (std::ranges::any_of(own, same)) continue;
-        problems.push_back({scene.location(fmt::format("variant[{}].set", k)),
-                            fmt::format("variant {}: {}", in_quotes(scene.variants[k].name), problem.message)});
+        add(fmt::format("variant[{}].set", k),
+            fmt::format("variant {}: {}", in_quotes(scene.variants[k].name), problem.message));
       }
     }
   }
 
  private:
   const std::filesystem::path& file_;
-  std::string text_;
+  std::string text_, name_;
   const Catalogue& catalogue_;
   std::vector<TableInfo> tables_;
 };
@@ -144,13 +154,13 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   std::vector<Mistake> problems;
   auto text = read_file(file, problems);
   if (!text) throw SceneError(std::move(problems));
-  return read_scene(file, std::move(*text), overrides, catalogue);
+  return read_scene(file, std::move(*text), file.string(), overrides, catalogue);
 }
 
-Scene read_scene(const std::filesystem::path& file, std::string text, const std::vector<std::string>& overrides,
-                 const Catalogue& catalogue) {
+Scene read_scene(const std::filesystem::path& file, std::string text, std::string name,
+                 const std::vector<std::string>& overrides, const Catalogue& catalogue) {
   std::vector<Mistake> problems;
-  const SceneText scene_text(file, std::move(text), catalogue);
+  const SceneText scene_text(file, std::move(text), std::move(name), catalogue);
   Scene scene = scene_text.read(overrides, problems);
   scene_text.check_variants(scene, problems);
   if (problems.empty()) return scene;
@@ -163,6 +173,12 @@ Scene read_scene(const std::filesystem::path& file, std::string text, const std:
   for (Mistake& problem : problems)
     problem.message = one_line(problem.message);  // keys and TOML's own words may be more
   throw SceneError(std::move(problems));
+}
+
+Scene read_again(const Scene& scene, const std::vector<std::string>& more, const Catalogue& catalogue) {
+  std::vector<std::string> overrides = scene.overrides;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return read_scene(scene.file, scene.text, scene.location("").file, overrides, catalogue);
 }
 
 Problem resolved(Problem problem, const Catalogue& catalogue) {

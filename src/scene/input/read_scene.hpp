@@ -14,9 +14,12 @@ namespace stillpoint {
 /// SceneError with every problem.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  const Catalogue& catalogue);
-/// The same of a text, which stands for that of the file.
-Scene read_scene(const std::filesystem::path& file, std::string text, const std::vector<std::string>& overrides,
-                 const Catalogue& catalogue);
+/// The same of a text, which stands for that of the file. name: what locations in the text are called; empty: there are
+/// none, and faults are told by their keys alone.
+Scene read_scene(const std::filesystem::path& file, std::string text, std::string name,
+                 const std::vector<std::string>& overrides, const Catalogue& catalogue);
+/// A scene with more overrides laid over it, from its text.
+Scene read_again(const Scene& scene, const std::vector<std::string>& more, const Catalogue& catalogue);
 
 /// The same of a program's own problem, see resolve().
 Problem resolved(Problem problem, const Catalogue& catalogue);

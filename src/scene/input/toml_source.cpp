@@ -145,7 +145,8 @@ void collect(const toml::node& node, std::string& path, std::vector<std::pair<st
 }  // namespace
 
 Location location_of(const toml::source_region& region) {
-  const std::string name = region.path ? *region.path : std::string();
+  if (!region.path) return {};
+  const std::string& name = *region.path;
   if (name.starts_with(kOverride)) return {name, 0, 0};
   return {name, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }

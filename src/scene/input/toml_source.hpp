@@ -14,13 +14,14 @@
 
 namespace stillpoint {
 
-/// The location of a node or key: a location in the file, or the override that wrote it.
+/// The location of a node or key: a location in the file, or the override that wrote it; empty in a text without a
+/// name.
 Location location_of(const toml::source_region& region);
 
 /// The text of a file. Empty, with a problem, if there is none to be had.
 std::optional<std::string> read_file(const std::filesystem::path& file, std::vector<Mistake>& problems);
 
-/// Parses text, whose locations are called name. Empty, with a problem, on a syntax error.
+/// Parses text, whose locations are called name, or are empty if the name is. Empty, with a problem, on a syntax error.
 std::optional<toml::table> parse_toml(std::string_view text, const std::string& name, std::vector<Mistake>& problems);
 
 /// Lays "dotted.key=value" over a table, making the tables on the way.

@@ -49,11 +49,13 @@ std::optional<Expression> compile(const toml::value<std::string>& text, const Va
 
 }  // namespace
 
-void Reading::problem(const Location& where, const std::string& path, const std::string& message) {
+void Reading::problem(const Location& where, const std::string& path, const std::string& message,
+                      const std::string& key) {
   wrong.insert(path);
   constexpr std::size_t longest = 200;  // bytes of a path, which may hold names that users gave
   // A program's own problem has no location.
-  add({where, path.empty() ? message : shortened(path, longest) + ": " + message, where.file.empty() ? path : ""});
+  const std::string& wrong_key = key.empty() ? path : key;
+  add({where, path.empty() ? message : shortened(path, longest) + ": " + message, where.file.empty() ? wrong_key : ""});
 }
 
 void Reading::add(Mistake problem) {

@@ -24,8 +24,8 @@ struct Reading {
   std::set<std::string> wrong{};   // dotted keys whose values are wrong, or could not be computed
   std::vector<Mistake> problems{};
 
-  /// Records that the value of the dotted key path is wrong.
-  void problem(const Location& where, const std::string& path, const std::string& message);
+  /// Records that the value of the dotted key path is wrong, or a key in it.
+  void problem(const Location& where, const std::string& path, const std::string& message, const std::string& key = {});
   /// Records what is wrong. Throws EnoughProblems after the last that is listed.
   void add(Mistake problem);
 };
