@@ -2,7 +2,7 @@
 // equilibrium and against the Chebyshev estimate ½ √κ ln(2/ε).
 #pragma once
 
-#include <stillpoint/problem.hpp>
+#include <stillpoint/scene.hpp>
 #include <stillpoint/study_progress.hpp>
 
 #include <filesystem>
@@ -107,11 +107,12 @@ double chebyshev_estimate(double kappa, double error);
 /// Runs the scene once for each combination to count evaluations, and those that reach the goal `repeats` times to time
 /// them, one at a time. Runs of small bodies are counted side by side and then timed; a run of a large body is timed as
 /// it is counted, its steps alone. A set-up that several runs share is made once, and counts for each of them. A
-/// combination that the scene refuses is a row with the reason. Throws SceneError if the scene itself is wrong, or if a
-/// name in the options, written as for --set, is unknown.
-Comparison compare(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
-                   const CompareOptions& options = {});
+/// combination that the scene refuses is a row with the reason. Throws SceneError if a name in the options, written as
+/// for --set, is unknown.
+Comparison compare(const Scene& scene, const CompareOptions& options = {});
 
+/// The text of compare.json.
+std::string to_json(const Comparison& comparison);
 /// Writes compare.csv, compare.json and report.html into a folder.
 void write_comparison(const Comparison& comparison, const std::filesystem::path& folder);
 

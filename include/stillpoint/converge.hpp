@@ -1,7 +1,7 @@
 // Convergence studies: one scene on ever finer levels, its errors, and their observed orders.
 #pragma once
 
-#include <stillpoint/problem.hpp>
+#include <stillpoint/scene.hpp>
 #include <stillpoint/study_progress.hpp>
 #include <stillpoint/summary.hpp>
 
@@ -40,13 +40,14 @@ struct ConvergeOptions {
   std::function<void(const StudyProgress&)> progress{};
 };
 
-/// A key of the scene and the values that it takes, each of which gives a series of levels.
-struct Variation {
-  std::string key;
-  std::vector<std::string> values;  // as for --set
+/// A scene for a series of levels.
+struct VariedScene {
+  Scene scene;
+  std::vector<std::string> varied;  // the last of its overrides: those that differ from series to series
 };
-/// Reads a variation such as "grid.basis=linear,quadratic". Throws SceneError.
-Variation variation_of(const std::string& text);
+/// The settings of each series, "key=value" as for --set: one for each value of the key that varies, or for each pair
+/// of values of two keys. vary: a key with its values each, "grid.basis=linear,quadratic". Throws SceneError.
+std::vector<std::vector<std::string>> settings_of_series(const std::vector<std::string>& vary);
 
 struct ConvergenceLevel {
   std::vector<std::string> set;  // settings of the scene on this level, "key=value"
@@ -104,21 +105,18 @@ struct ConvergenceStudy {
 /// Runs the scene on each level. Where h or points are refined, errors are measured against the scene's exact solution
 /// or, without one, against the finest level at the same places, and those of the probes against Richardson's
 /// extrapolation; where the points stay the same from level to level, errors are measured against the finest level.
-/// Throws SceneError if the scene is wrong, or lacks the quantity that is to be refined.
-ConvergenceStudy converge(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
-                          const ConvergeOptions& options = {});
+/// Throws SceneError if the scene lacks the quantity that is to be refined, and std::invalid_argument if an option is
+/// out of its range.
+ConvergenceStudy converge(const Scene& scene, const ConvergeOptions& options = {});
 
-/// Runs converge() for each value that is varied, or for each pair of values of two keys, one series after the other.
-/// Throws SceneError before anything runs if one of the series is impossible, and StateError if a kept run belongs to
-/// none of them.
-std::vector<ConvergenceStudy> converge_varied(const std::filesystem::path& scene,
-                                              const std::vector<std::string>& overrides,
-                                              const std::vector<Variation>& varied,
+/// Runs converge() for each scene, one series after the other. Throws likewise, before anything runs, if one of the
+/// series is impossible, and StateError if a kept run belongs to none of them.
+std::vector<ConvergenceStudy> converge_varied(const std::vector<VariedScene>& scenes,
                                               const ConvergeOptions& options = {});
 
-/// Writes converge.csv, converge.json and report.html into a folder.
-void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder);
-/// Writes all series, with a column for each varied key and a list of series.
+/// The text of converge.json: all series, as a list if something varies.
+std::string to_json(const std::vector<ConvergenceStudy>& series);
+/// Writes converge.csv, with a column for each varied key, converge.json and report.html into a folder.
 void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder);
 
 }  // namespace stillpoint

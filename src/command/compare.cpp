@@ -90,7 +90,8 @@ int compare(const CompareArguments& arguments) {
   CompareOptions options = arguments.options;
   options.interrupted = interrupted;
   if (!arguments.quiet) options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
-  const Comparison comparison = stillpoint::compare(arguments.scene.file, arguments.scene.overrides, options);
+  const Comparison comparison =
+      stillpoint::compare(load_scene(arguments.scene.file, arguments.scene.overrides), options);
   line.finish();
   write_comparison(comparison, out);
   if (!arguments.quiet) {

@@ -11,7 +11,6 @@
 #include "command/commands.hpp"
 #include "command/study_output.hpp"
 #include "command/terminal.hpp"
-#include "scene/throw_scene_error.hpp"
 
 namespace stillpoint::command {
 namespace {
@@ -60,15 +59,15 @@ void print_table(const ConvergenceStudy& study) {
   for (const std::string& note : study.notes) fmt::print("  note: {}\n", note);
 }
 
-std::vector<Variation> variations(const std::vector<std::string>& texts) {
-  std::vector<Variation> varied;
-  for (const std::string& text : texts) {
-    varied.push_back(variation_of(text));
-    if (varied.size() > 2) throw_option_error("--vary", text, "is the third; expected two keys at most");
-    if (varied.size() == 2 && varied.front().key == varied.back().key)
-      throw_option_error("--vary", text, "is a key that is varied already; expected all its values at once");
+// The scene for each series.
+std::vector<VariedScene> varied_scenes(const ConvergeArguments& arguments) {
+  std::vector<VariedScene> scenes;
+  for (const std::vector<std::string>& varied : settings_of_series(arguments.vary)) {
+    std::vector<std::string> overrides = arguments.scene.overrides;
+    overrides.insert(overrides.end(), varied.begin(), varied.end());
+    scenes.push_back({load_scene(arguments.scene.file, overrides), varied});
   }
-  return varied;
+  return scenes;
 }
 
 void tell_of_interrupt(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& kept) {
@@ -95,8 +94,7 @@ int converge(const ConvergeArguments& arguments) {
   options.interrupted = interrupted;
   if (!arguments.quiet) options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
   options.keep = out / "runs";
-  const std::vector<ConvergenceStudy> series =
-      converge_varied(arguments.scene.file, arguments.scene.overrides, variations(arguments.vary), options);
+  const std::vector<ConvergenceStudy> series = converge_varied(varied_scenes(arguments), options);
   line.finish();
   write_studies(series, out);
   if (!arguments.quiet) {

@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <string>
 
 #include "python/bindings.hpp"
 
@@ -15,23 +16,26 @@ namespace py = pybind11;
 
 void raise(const py::object& error) { PyErr_SetObject(py::type::handle_of(error).ptr(), error.ptr()); }
 
-py::object problems_of(const SceneError& error) {
-  py::list problems;
-  for (const Mistake& problem : error.problems()) {
-    const Location& where = problem.where;
-    problems.append(py::make_tuple(where.file, where.line, where.column, problem.message));
-  }
-  return problems;
-}
-
 // An attribute of stillpoint.errors, a module of this package that is imported by now.
 py::object of_errors(const char* name) { return py::module_::import("stillpoint.errors").attr(name); }
+
+// A problem of a dictionary stands at its key, with which its message may begin as well.
+py::object problem_of(const Mistake& mistake) {
+  const auto& [where, message, key] = mistake;
+  const py::object problem = of_errors("Problem");
+  if (!where.file.empty()) return problem(where.file, where.line, where.column, message);
+  const std::string begin = key + ": ";
+  return problem(key.empty() ? "the scene" : key, 0, 0,
+                 message.starts_with(begin) ? message.substr(begin.size()) : message);
+}
 
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const SceneError& error) {
-    raise(of_errors("SceneError").attr("_of")(problems_of(error)));
+    py::list problems;
+    for (const Mistake& mistake : error.problems()) problems.append(problem_of(mistake));
+    raise(of_errors("SceneError")(py::tuple(problems)));
   } catch (const StateError& error) {
     raise(of_errors("StateError")(error.what()));
   } catch (const SetUpStopped& error) {

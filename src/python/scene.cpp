@@ -7,7 +7,9 @@
 
 #include <pybind11/stl.h>
 
+#include "plan/catalogue.hpp"
 #include "python/bindings.hpp"
+#include "scene/input/read_scene.hpp"
 
 namespace stillpoint::python {
 
@@ -23,19 +25,23 @@ void bind_scene(py::module_& module) {
       .def_property_readonly("file", [](const Scene& scene) { return scene.file.string(); })
       .def("__repr__", [](const Scene& scene) { return "<stillpoint.Scene '" + scene.name + "'>"; });
 
+  using Overrides = std::vector<std::string>;
+  const py::call_guard<py::gil_scoped_release> without_gil;
   module.def(
-      "load_file",
-      [](const std::string& file, const std::vector<std::string>& overrides) { return load_scene(file, overrides); },
-      py::call_guard<py::gil_scoped_release>());
+      "load_file", [](const std::string& file, const Overrides& overrides) { return load_scene(file, overrides); },
+      without_gil);
   module.def(
       "load_text",
-      [](const std::string& file, const std::string& text, const std::vector<std::string>& overrides) {
-        return load_scene(file, text, overrides);
+      [](const std::string& file, const std::string& text, const Overrides& overrides) {
+        return read_scene(file, text, "", overrides, catalogue());
       },
-      py::call_guard<py::gil_scoped_release>());
+      without_gil);
   module.def(
-      "load_checkpoint", [](const std::string& checkpoint) { return load_scene_of(checkpoint); },
-      py::call_guard<py::gil_scoped_release>());
+      "load_again",
+      [](const Scene& scene, const Overrides& overrides) { return read_again(scene, overrides, catalogue()); },
+      without_gil);
+  module.def(
+      "load_checkpoint", [](const std::string& checkpoint) { return load_scene_of(checkpoint); }, without_gil);
 }
 
 }  // namespace stillpoint::python

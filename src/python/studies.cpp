@@ -9,7 +9,9 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -45,9 +47,52 @@ auto interruptible(const Function& function) {
   return work.get();
 }
 
-std::string run_with_files(const Scene& scene, const std::string& out, const std::string& resume, int threads,
-                           const py::object& progress) {
-  SimulationOptions options{.out = out, .resume = resume, .threads = threads};
+// Takes the option of this name from what a study was given.
+template <class T>
+void take(const py::kwargs& given, const char* name, T& option) {
+  const py::object value = given[name];
+  try {
+    option = value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format("{}: expected {}, found {}", name, py::detail::make_caster<T>::name.text,
+                                     py::repr(value).cast<std::string>()));
+  }
+}
+
+CompareOptions compare_options(const py::kwargs& given) {
+  CompareOptions options;
+  take(given, "integrators", options.integrators);
+  take(given, "strategies", options.strategies);
+  take(given, "step_fractions", options.step_fractions);
+  take(given, "tolerances", options.tolerances);
+  take(given, "goal", options.goal);
+  take(given, "limit", options.limit);
+  take(given, "seconds", options.seconds);
+  take(given, "repeats", options.repeats);
+  take(given, "seed", options.seed);
+  take(given, "overshoot", options.overshoot);
+  take(given, "threads", options.threads);
+  return options;
+}
+
+ConvergeOptions converge_options(const py::kwargs& given) {
+  ConvergeOptions options{.refine = {}};
+  std::vector<std::string> names;
+  take(given, "refine", names);
+  for (const std::string& name : names) {
+    const auto refinement = refinement_of(name);
+    if (!refinement) throw std::invalid_argument(fmt::format("there is no refinement '{}'", name));
+    options.refine.push_back(*refinement);
+  }
+  take(given, "levels", options.levels);
+  take(given, "ratio", options.ratio);
+  take(given, "dominant", options.finds_dominant);
+  take(given, "threads", options.threads);
+  return options;
+}
+
+std::string run_to_json(const Scene& scene, const std::string& out, int threads, const py::object& progress) {
+  SimulationOptions options{.out = out, .threads = threads};
   options.progress = progress_to(progress);
   return interruptible([&](const auto& asked) {
     options.interrupted = asked;
@@ -55,34 +100,31 @@ std::string run_with_files(const Scene& scene, const std::string& out, const std
   });
 }
 
-// Writes compare.json and compare.csv into a folder.
-void compare_into(const std::string& folder, const std::string& scene, const std::vector<std::string>& overrides,
-                  CompareOptions options, const py::object& progress) {
+// Writes files only if there is a folder for them.
+std::string compare_to_json(const Scene& scene, const std::string& out, const py::object& progress,
+                            const py::kwargs& given) {
+  CompareOptions options = compare_options(given);
   options.progress = study_progress_to(progress);
-  interruptible([&](const auto& asked) {
+  return interruptible([&](const auto& asked) {
     options.interrupted = asked;
-    write_comparison(compare(scene, overrides, options), folder);
-    return true;
+    const Comparison comparison = compare(scene, options);
+    if (!out.empty()) write_comparison(comparison, out);
+    return to_json(comparison);
   });
 }
 
-// Writes converge.json and converge.csv into a folder.
-void converge_into(const std::string& folder, const std::string& scene, const std::vector<std::string>& overrides,
-                   const std::vector<std::string>& refine, const std::vector<std::string>& vary,
-                   ConvergeOptions options, const py::object& progress) {
-  options.refine.clear();
-  for (const std::string& name : refine) {
-    const auto refinement = refinement_of(name);
-    if (!refinement) throw std::invalid_argument(fmt::format("there is no refinement '{}'", name));
-    options.refine.push_back(*refinement);
-  }
+// Likewise. varied: the settings of each scene.
+std::string converge_to_json(const std::vector<Scene>& scenes, const std::vector<std::vector<std::string>>& varied,
+                             const std::string& out, const py::object& progress, const py::kwargs& given) {
+  ConvergeOptions options = converge_options(given);
   options.progress = study_progress_to(progress);
-  interruptible([&](const auto& asked) {
+  std::vector<VariedScene> series;
+  for (std::size_t k = 0; k < scenes.size(); ++k) series.push_back({scenes[k], varied[k]});
+  return interruptible([&](const auto& asked) {
     options.interrupted = asked;
-    std::vector<Variation> varied;
-    for (const std::string& text : vary) varied.push_back(variation_of(text));
-    write_studies(converge_varied(scene, overrides, varied, options), folder);
-    return true;
+    const std::vector<ConvergenceStudy> studies = converge_varied(series, options);
+    if (!out.empty()) write_studies(studies, out);
+    return to_json(studies);
   });
 }
 
@@ -106,34 +148,13 @@ py::dict spectrum_as_dict(const Scene& scene) {
 }  // namespace
 
 void bind_studies(py::module_& module) {
-  module.def("run_with_files", run_with_files);
-  module.def("compare_into", [](const std::string& folder, const std::string& scene,
-                                const std::vector<std::string>& overrides, const std::vector<std::string>& integrators,
-                                const std::vector<std::string>& strategies, const std::vector<double>& step_fractions,
-                                const std::vector<double>& tolerances, double goal, double limit, double seconds,
-                                int repeats, unsigned seed, bool overshoot, int threads, const py::object& progress) {
-    compare_into(folder, scene, overrides,
-                 {.integrators = integrators,
-                  .strategies = strategies,
-                  .step_fractions = step_fractions,
-                  .tolerances = tolerances,
-                  .goal = goal,
-                  .limit = limit,
-                  .seconds = seconds,
-                  .repeats = repeats,
-                  .seed = seed,
-                  .overshoot = overshoot,
-                  .threads = threads},
-                 progress);
-  });
-  module.def("converge_into", [](const std::string& folder, const std::string& scene,
-                                 const std::vector<std::string>& overrides, const std::vector<std::string>& refine,
-                                 const std::vector<std::string>& vary, int levels, double ratio, bool finds_dominant,
-                                 int threads, const py::object& progress) {
-    converge_into(folder, scene, overrides, refine, vary,
-                  {.levels = levels, .ratio = ratio, .finds_dominant = finds_dominant, .threads = threads}, progress);
-  });
-  module.def("spectrum_of", spectrum_as_dict);
+  const py::kw_only by_name;
+  const py::arg scene("scene"), out("out"), progress("progress");
+  module.def("run", run_to_json, scene, by_name, out, py::arg("threads"), progress);
+  module.def("compare", compare_to_json, scene, by_name, out, progress);
+  module.def("converge", converge_to_json, py::arg("scenes"), by_name, py::arg("varied"), out, progress);
+  module.def("settings_of_series", settings_of_series, py::arg("vary"));
+  module.def("spectrum", spectrum_as_dict);
 }
 
 }  // namespace stillpoint::python

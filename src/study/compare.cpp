@@ -40,13 +40,11 @@ Spread spread_of(std::vector<double> values) {
 /// One comparison, from the scene to its rows.
 class Comparing {
  public:
-  Comparing(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
-            const CompareOptions& options)
-      : options_(options), scene_(load_scene(scene, overrides)) {
+  Comparing(const Scene& scene, const CompareOptions& options) : options_(options), scene_(scene) {
     result_.scene = scene_.name;
     result_.title = scene_.title;
     result_.scene_text = scene_.text;
-    result_.overrides = overrides;
+    result_.overrides = scene_.overrides;
     result_.goal = options_.goal;
     result_.threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
     result_.chooses_threads = options_.threads == 0 && result_.threads > 1;
@@ -273,7 +271,7 @@ class Comparing {
   }
 
   const CompareOptions& options_;
-  Scene scene_;
+  const Scene& scene_;
   Comparison result_;
   std::vector<Candidate> candidates_;
   std::vector<std::vector<double>> seconds_;  // wall times of each candidate [s]
@@ -288,9 +286,6 @@ class Comparing {
 
 }  // namespace
 
-Comparison compare(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
-                   const CompareOptions& options) {
-  return Comparing(scene, overrides, options).compare();
-}
+Comparison compare(const Scene& scene, const CompareOptions& options) { return Comparing(scene, options).compare(); }
 
 }  // namespace stillpoint

@@ -94,13 +94,14 @@ Json json(const Comparison& c) {
 
 }  // namespace
 
+std::string to_json(const Comparison& comparison) { return json(comparison).dump(1) + "\n"; }
+
 void write_comparison(const Comparison& comparison, const std::filesystem::path& folder) {
   write_file(folder / "compare.csv", csv(comparison));
-  const Json whole = json(comparison);
-  write_file(folder / "compare.json", whole.dump(1) + "\n");
+  write_file(folder / "compare.json", to_json(comparison));
   const std::string page = report_page(comparison.title.empty() ? comparison.scene : comparison.title,
                                        {{"kind", "compare"},
-                                        {"comparison", whole},
+                                        {"comparison", json(comparison)},
                                         {"scene", {{"text", comparison.scene_text}, {"set", comparison.overrides}}}});
   write_file(folder / report_name, page);
 }

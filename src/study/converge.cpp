@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,8 +34,7 @@ struct Job {
   bool is_done = false;
 };
 
-template <class T>
-std::vector<T> both(std::vector<T> first, const std::vector<T>& second) {
+Settings both(Settings first, const Settings& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
@@ -51,16 +51,13 @@ std::string file_name_of(const std::vector<std::string>& varied) {
 /// One series of levels.
 class Converging {
  public:
-  Converging(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-             const std::vector<std::string>& varied, const ConvergeOptions& options)
-      : options_(options),
-        scene_(load_scene(file, both(overrides, varied))),
-        kept_(options_.keep, options_.resumes, scene_) {
+  Converging(const VariedScene& of, const ConvergeOptions& options)
+      : options_(options), scene_(of.scene), kept_(options_.keep, options_.resumes, scene_) {
     study_.scene = scene_.name;
     study_.title = scene_.title;
     study_.scene_text = scene_.text;
-    study_.overrides = overrides;
-    study_.varied = varied;
+    study_.overrides.assign(scene_.overrides.begin(), scene_.overrides.end() - std::ssize(of.varied));
+    study_.varied = of.varied;
     study_.refined = options_.refine;
     study_.ratio = options_.ratio;
     for (int k = 0; k < options_.levels; ++k) {
@@ -79,7 +76,6 @@ class Converging {
   }
 
   std::size_t runs() const { return study_.runs; }
-  const Scene& scene() const { return scene_; }
 
   /// Runs all levels; done: called after each run with a description of it.
   ConvergenceStudy converge(const std::function<void(const std::string&)>& done) {
@@ -202,36 +198,31 @@ class Converging {
   bool is_interrupted() const { return options_.interrupted && options_.interrupted(); }
 
   const ConvergeOptions& options_;
-  Scene scene_;
+  const Scene& scene_;
   KeptRuns kept_;
   std::vector<Job> levels_, sources_;
   std::optional<CommonPlaces> places_;  // common places of the levels; empty: the points themselves, or no comparison
   ConvergenceStudy study_;
 };
 
-// All combinations of one value for each varied key, "key=value".
-std::vector<std::vector<std::string>> combinations(const std::vector<Variation>& varied) {
-  std::vector<std::vector<std::string>> all(1);
-  for (const Variation& variation : varied) {
-    std::vector<std::vector<std::string>> longer;
-    for (const std::vector<std::string>& set : all)
-      for (const std::string& value : variation.values)
-        longer.push_back(both<std::string>(set, {variation.key + "=" + value}));
-    all = std::move(longer);
-  }
-  return all;
+void check(const ConvergeOptions& options) {
+  const auto refuse_if = [](bool condition, const std::string& message) {
+    if (condition) throw std::invalid_argument(message);
+  };
+  refuse_if(options.refine.empty(), "refine: expected something to refine");
+  refuse_if(options.levels < 2, fmt::format("levels: expected at least 2, found {}", options.levels));
+  refuse_if(!(options.ratio > 1), fmt::format("ratio: expected more than 1, found {}", options.ratio));
 }
 
 }  // namespace
 
-std::vector<ConvergenceStudy> converge_varied(const std::filesystem::path& scene,
-                                              const std::vector<std::string>& overrides,
-                                              const std::vector<Variation>& varied, const ConvergeOptions& options) {
+std::vector<ConvergenceStudy> converge_varied(const std::vector<VariedScene>& scenes, const ConvergeOptions& options) {
+  check(options);
   std::vector<std::unique_ptr<Converging>> all;
   std::size_t total = 0;
-  for (const std::vector<std::string>& set : combinations(varied)) {
-    all.push_back(std::make_unique<Converging>(scene, overrides, set, options));
-    if (!varied.empty()) check_set_up(all.back()->scene(), options.interrupted);
+  for (const VariedScene& scene : scenes) {
+    all.push_back(std::make_unique<Converging>(scene, options));
+    if (!scene.varied.empty()) check_set_up(scene.scene, options.interrupted);
     total += all.back()->runs();
   }
   const Stopwatch wall;
@@ -247,9 +238,8 @@ std::vector<ConvergenceStudy> converge_varied(const std::filesystem::path& scene
   return series;
 }
 
-ConvergenceStudy converge(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
-                          const ConvergeOptions& options) {
-  return std::move(converge_varied(scene, overrides, {}, options).front());
+ConvergenceStudy converge(const Scene& scene, const ConvergeOptions& options) {
+  return std::move(converge_varied({VariedScene{scene, {}}}, options).front());
 }
 
 }  // namespace stillpoint

@@ -105,11 +105,7 @@ Json json(const ConvergenceStudy& study) {
           {"notes", study.notes}};
 }
 
-}  // namespace
-
-void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder) { write_studies({study}, folder); }
-
-void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder) {
+Json json(const std::vector<ConvergenceStudy>& series) {
   const ConvergenceStudy& first = series.front();
   Json whole = json(first);
   if (!first.varied.empty()) {
@@ -126,11 +122,21 @@ void write_studies(const std::vector<ConvergenceStudy>& series, const std::files
              {"series", std::move(all)}};
   }
   whole["versions"] = versions_of_libraries();
+  return whole;
+}
+
+}  // namespace
+
+std::string to_json(const std::vector<ConvergenceStudy>& series) { return json(series).dump(1) + "\n"; }
+
+void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder) {
+  const ConvergenceStudy& first = series.front();
   write_file(folder / "converge.csv", csv(series));
-  write_file(folder / "converge.json", whole.dump(1) + "\n");
-  const std::string page = report_page(
-      first.title.empty() ? first.scene : first.title,
-      {{"kind", "converge"}, {"study", whole}, {"scene", {{"text", first.scene_text}, {"set", first.overrides}}}});
+  write_file(folder / "converge.json", to_json(series));
+  const std::string page = report_page(first.title.empty() ? first.scene : first.title,
+                                       {{"kind", "converge"},
+                                        {"study", json(series)},
+                                        {"scene", {{"text", first.scene_text}, {"set", first.overrides}}}});
   write_file(folder / report_name, page);
 }
 

@@ -1,11 +1,18 @@
 #include <stillpoint/converge.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include "scene/throw_scene_error.hpp"
 
 namespace stillpoint {
 namespace {
+
+/// A key of the scene and the values that it takes, as for --set.
+struct Variation {
+  std::string key;
+  std::vector<std::string> values;
+};
 
 // Splits at the commas that are in no array, table or string.
 std::vector<std::string> split(const std::string& text) {
@@ -31,8 +38,6 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-}  // namespace
-
 Variation variation_of(const std::string& text) {
   const std::size_t equals = text.find('=');
   Variation variation;
@@ -43,6 +48,34 @@ Variation variation_of(const std::string& text) {
     if (std::find(variation.values.begin(), value, *value) != value)
       throw_option_error("--vary", text, "the value " + *value + " stands there twice");
   return variation;
+}
+
+std::vector<Variation> variations_of(const std::vector<std::string>& texts) {
+  std::vector<Variation> varied;
+  for (const std::string& text : texts) {
+    varied.push_back(variation_of(text));
+    if (varied.size() > 2) throw_option_error("--vary", text, "is the third; expected two keys at most");
+    if (varied.size() == 2 && varied.front().key == varied.back().key)
+      throw_option_error("--vary", text, "is a key that is varied already; expected all its values at once");
+  }
+  return varied;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::string>> settings_of_series(const std::vector<std::string>& vary) {
+  std::vector<std::vector<std::string>> all(1);
+  for (const Variation& variation : variations_of(vary)) {
+    std::vector<std::vector<std::string>> longer;
+    for (const std::vector<std::string>& set : all) {
+      for (const std::string& value : variation.values) {
+        longer.push_back(set);
+        longer.back().push_back(variation.key + "=" + value);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
 }
 
 }  // namespace stillpoint

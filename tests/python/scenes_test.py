@@ -42,9 +42,35 @@ def _(_folder):
     error = raised(stillpoint.SceneError, stillpoint.load, table)
     assert isinstance(error, ValueError)
     told = {problem.where: problem.message for problem in error.problems}
-    assert set(told) == {"grid.cells", "body.material", "suport[0]", "support[0].at"}, told
-    assert "did you mean 'support'" in told["suport[0]"]
+    assert set(told) == {"grid.cells", "body.material", "suport", "support[0].at"}, told
+    assert "did you mean 'support'" in told["suport"]
     assert str(error).splitlines() == [f"{where}: {message}" for where, message in told.items()], str(error)
+
+
+@claim("what a dictionary lacks is told by the table that it belongs into, and what is wrong with a variant by the variant")
+def _(_folder):
+    def told(table):
+        problems = raised(stillpoint.SceneError, stillpoint.load, table).problems
+        assert not any(problem.line or problem.column for problem in problems), problems
+        return {problem.where: problem.message for problem in problems}
+
+    table = table_of(BAR)
+    del table["grid"], table["body"]["material"]
+    lacking = told(table)
+    assert lacking["grid"].startswith("this table is missing: ") and lacking["body"] == "the key 'material' is missing", lacking
+    assert "unknown key 'titel'" in told({**table_of(BAR), "titel": "a bar"})["titel"]
+    table = {**table_of(BAR), "variant": [{"name": "wide", "set": ["grid.cells=0"]}]}
+    assert list(told(table)) == ["variant[0].set"], told(table)
+
+
+@claim("what only the set-up of a dictionary finds is told by its key, and of an override as of --set")
+def _(_folder):
+    table = table_of(BAR)
+    for refine, where in ("motion", "phase"), ("rtol", "integrator"):
+        error = raised(stillpoint.SceneError, stillpoint.converge, table, refine=[refine])
+        assert [(problem.where, problem.line) for problem in error.problems] == [(where, 0)], error.problems
+    error = raised(stillpoint.SceneError, stillpoint.converge, table, {"grid.cells": 0})
+    assert [problem.where for problem in error.problems] == ["--set grid.cells=0"], error.problems
 
 
 @claim("everything wrong with a file is told at once, with line and column")
@@ -70,17 +96,16 @@ def _(_folder):
 
 
 @claim("numpy's numbers and arrays, paths and tuples are values of a scene, and nothing else is")
-def _(folder):
-    from stillpoint.scene_text import SceneText
+def _(_folder):
+    from stillpoint.scene_text import scene_text
 
     table = {"a": np.float64(0.1), "b": np.arange(3), "c": (1, 2.5), "d": Path("x y"), "e": True, "f": 'q"\n', "g": -math.inf}
     import tomllib
 
-    read = tomllib.loads(SceneText(table).text)
+    read = tomllib.loads(scene_text(table))
     assert read == {"a": 0.1, "b": [0, 1, 2], "c": [1, 2.5], "d": "x y", "e": True, "f": 'q"\n', "g": -math.inf}
     assert isinstance(read["e"], bool)
-    assert "NoneType" in str(raised(TypeError, SceneText, {"a": None}))
-    (folder / "points.csv").write_text("x,volume\n")
+    assert "NoneType" in str(raised(TypeError, scene_text, {"a": None}))
 
 
 @claim("what cannot be opened is told as of the command")

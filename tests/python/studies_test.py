@@ -58,6 +58,52 @@ def _(folder):
     raised(stillpoint.SceneError, stillpoint.compare, BAR, strategies=["none-such"])
 
 
+@claim("studies of a dictionary read and write no file")
+def _(folder):
+    import tempfile
+
+    tempfile.tempdir = str(folder / "no-such-folder")
+    table = table_of(BAR)
+    os.chdir(folder)
+    assert stillpoint.compare(table, strategies=["auto"], integrators=["leapfrog"], repeats=0).runs[0].status == "converged"
+    varied = stillpoint.converge(table, levels=2, dominant=False, vary=["grid.basis=linear,quadratic"])
+    assert [one.set for one in varied.series] == [["grid.basis=linear"], ["grid.basis=quadratic"]]
+    assert stillpoint.spectrum(table).omega_1 > 0 and stillpoint.run(table).status == "equilibrium"
+    assert not list(folder.iterdir()), list(folder.iterdir())
+
+
+@claim("a study of a scene is one of what was read, with more laid over it, whatever has become of its file")
+def _(folder):
+    file = Path(shutil.copy(BAR, folder))
+    scene = stillpoint.load(file, {"grid.cells": 5})
+    file.unlink()
+    study = stillpoint.converge(scene, {"grid.basis": "quadratic"}, levels=2, dominant=False, out=folder / "out")
+    assert [level.set for level in study.levels] == [["grid.cells=[5]"], ["grid.cells=[10]"]], study.levels
+    page = (folder / "out/report.html").read_text(encoding="utf-8")
+    assert "grid.cells=5" in page and 'grid.basis=\\"quadratic\\"' in page
+    assert json.loads((folder / "out/converge.json").read_text(encoding="utf-8"))["scene"] == study.scene == "bar"
+
+
+@claim("an option that a study cannot take is named")
+def _(_folder):
+    for study, kind, name, value in (
+        (stillpoint.compare, TypeError, "goal", "small"),
+        (stillpoint.compare, TypeError, "strategies", "kinetic"),
+        (stillpoint.compare, TypeError, "repeats", 1.5),
+        (stillpoint.compare, TypeError, "seed", -1),
+        (stillpoint.converge, TypeError, "refine", 3),
+        (stillpoint.converge, ValueError, "refine", []),
+        (stillpoint.converge, ValueError, "levels", 1),
+        (stillpoint.converge, ValueError, "ratio", float("nan")),
+    ):
+        error = raised(kind, study, BAR, **{name: value})
+        assert str(error).startswith(f"{name}: expected "), error
+    assert "'x'" in str(raised(ValueError, stillpoint.converge, BAR, refine=["x"]))
+    assert "vary: List[str]" in str(raised(TypeError, stillpoint.converge, BAR, vary="grid.cells=4,8"))
+    error = raised(stillpoint.SceneError, stillpoint.converge, BAR, vary=["grid.cells=4"])
+    assert error.problems[0].where == "--vary grid.cells=4", error.problems
+
+
 @claim("a convergence study has its errors as arrays of the levels, and falls by the order of the basis")
 def _(_folder):
     study = stillpoint.converge("problems/mms_bar.toml", levels=3, dominant=False)

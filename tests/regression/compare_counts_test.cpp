@@ -21,7 +21,7 @@ Comparison compared(const std::string& problem, CompareOptions options, const st
   options.repeats = 0;
   options.threads = 1;  // tests run side by side
   if (options.integrators.empty()) options.integrators = {"leapfrog"};
-  return compare(std::string(STILLPOINT_PROBLEMS) + "/" + problem + ".toml", set, options);
+  return compare(load_scene(std::string(STILLPOINT_PROBLEMS) + "/" + problem + ".toml", set), options);
 }
 
 const ComparedRun& row(const Comparison& c, const std::string& label) {

@@ -54,7 +54,7 @@ TEST_CASE("shares of the load are refused where they have no part") {
 
 TEST_CASE("a comparison takes the shares that are asked for", "[compare]") {
   const auto steps = [](const char* shares) {
-    const Comparison c = compare(std::string(STILLPOINT_PROBLEMS) + "/footing.toml", {"solve.method=newton", shares},
+    const Comparison c = compare(scenes::load("footing", {"solve.method=newton", shares}),
                                  {.strategies = {"newton", "cg"}, .repeats = 0, .threads = 1});
     for (const ComparedRun& run : c.runs) {
       CAPTURE(run.reason);

@@ -26,7 +26,7 @@ namespace {
 Comparison compared(const std::string& problem, CompareOptions options, const std::vector<std::string>& set = {}) {
   if (options.integrators.empty()) options.integrators = {"leapfrog"};
   if (options.threads == 0) options.threads = 1;  // tests run side by side
-  return compare(std::string(STILLPOINT_PROBLEMS) + "/" + problem + ".toml", set, options);
+  return compare(load_scene(std::string(STILLPOINT_PROBLEMS) + "/" + problem + ".toml", set), options);
 }
 
 const ComparedRun& row(const Comparison& c, const std::string& label) {

@@ -25,7 +25,7 @@ namespace {
 
 ConvergenceStudy study_of(const std::string& problem, const std::vector<std::string>& overrides,
                           const ConvergeOptions& options) {
-  return converge(fs::path(STILLPOINT_PROBLEMS) / (problem + ".toml"), overrides, options);
+  return converge(scenes::load(problem, overrides), options);
 }
 
 const StudiedQuantity& quantity(const ConvergenceStudy& study, const std::string& name) {
@@ -151,7 +151,7 @@ TEST_CASE("without an exact solution probes are extrapolated: the stress at the 
   const fs::path file = without_exact("mms_bar", folder);
   const std::vector<std::string> set = {"grid.cells=8", "stop.residual=1e-11",
                                         "probe=[{name='end', at=1.0, fields=['stress']}]"};
-  const ConvergenceStudy study = converge(file, set, {.levels = 5, .finds_dominant = false});
+  const ConvergenceStudy study = converge(load_scene(file, set), {.levels = 5, .finds_dominant = false});
   CHECK(study.reference == "the finest level, and Richardson's extrapolation of the probes");
   CHECK(says(study, "expected [exact]"));
   const StudiedQuantity& end = quantity(study, "end.stress");
@@ -176,7 +176,7 @@ TEST_CASE("without an exact solution u and stress are compared at the same place
                                           is_bar ? "grid.cells=8" : "grid.cells=[4, 2]"};
     const ConvergeOptions options{.levels = 5, .finds_dominant = false};
     const ConvergenceStudy known = study_of(problem, set, options);
-    const ConvergenceStudy study = converge(without_exact(problem, folder), set, options);
+    const ConvergenceStudy study = converge(load_scene(without_exact(problem, folder), set), options);
     CAPTURE(problem, basis);
     CHECK(says(study, "expected [exact]"));
     const StudiedQuantity &u = quantity(study, "u_l2"), &stress = quantity(study, "stress_l2");
@@ -210,9 +210,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a level that is no scene is refused with the key of the scene's file that made it so") {
-  const auto study = [] {
-    converge(fs::path(STILLPOINT_PROBLEMS) / "block.toml", {}, {.levels = 4, .ratio = 100, .finds_dominant = false});
-  };
+  const auto study = [] { converge(scenes::load("block"), {.levels = 4, .ratio = 100, .finds_dominant = false}); };
   CHECK_THROWS_WITH(study(),
                     Catch::Contains("block.toml:14:9: grid.cells: ") && Catch::Contains("cells are more than"));
 }
@@ -323,11 +321,11 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
   const std::vector<std::string> set = {"grid.cells=8"};  // u and stress at places are kept, too
   int runs = 0;
   ConvergeOptions options{.levels = 4, .threads = 1};
-  const ConvergenceStudy unbroken = converge(file, set, options);
+  const ConvergenceStudy unbroken = converge(load_scene(file, set), options);
   options.keep = out;
   options.progress = [&](const StudyProgress&) { ++runs; };
   options.interrupted = [&] { return runs >= 2; };
-  const ConvergenceStudy broken = converge(file, set, options);
+  const ConvergenceStudy broken = converge(load_scene(file, set), options);
   CHECK(broken.interrupted);
   CHECK(broken.finished_runs == 2);
   CHECK(broken.levels[3].status == RunStatus::equilibrium);
@@ -336,7 +334,7 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
 
   options.interrupted = {};
   options.resumes = true;
-  ConvergenceStudy resumed = converge(file, set, options);
+  ConvergenceStudy resumed = converge(load_scene(file, set), options);
   CHECK_FALSE(resumed.interrupted);
   CHECK(resumed.levels[3].wall_s == broken.levels[3].wall_s);  // it was not run once more
   REQUIRE(resumed.quantities.size() == unbroken.quantities.size());
@@ -351,7 +349,7 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
 
   const auto refusal = [&](const fs::path& scene, const std::vector<std::string>& given) {
     try {
-      converge(scene, given, options);
+      converge(load_scene(scene, given), options);
     } catch (const StateError& error) {
       return std::string(error.what());
     }
@@ -366,7 +364,7 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
   folder.write("out/level-2.json", "{\"of\": 1");
   CHECK_THAT(refusal(file, set), Catch::Contains("level-2.json: is damaged"));
   options.resumes = false;
-  CHECK(converge(file, set, options).finished_runs == unbroken.runs);
+  CHECK(converge(load_scene(file, set), options).finished_runs == unbroken.runs);
 }
 
 TEST_CASE("Ctrl-C ends a study with status 3 and the rows of its finished levels, which are on the disk before") {

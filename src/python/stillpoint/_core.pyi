@@ -195,12 +195,14 @@ def add_relaxation(
 ) -> None: ...
 def load_file(file: str, overrides: Sequence[str]) -> Scene: ...
 def load_text(file: str, text: str, overrides: Sequence[str]) -> Scene: ...
+def load_again(scene: Scene, overrides: Sequence[str]) -> Scene: ...
 def load_checkpoint(checkpoint: str) -> Scene: ...
-def run_with_files(scene: Scene, out: str, resume: str, threads: int, progress: Told) -> str: ...
-def compare_into(
-    folder: str,
-    scene: str,
-    overrides: Sequence[str],
+def run(scene: Scene, *, out: str, threads: int, progress: Told) -> str: ...
+def compare(
+    scene: Scene,
+    *,
+    out: str,
+    progress: Told,
     integrators: Sequence[str],
     strategies: Sequence[str],
     step_fractions: Sequence[float],
@@ -212,18 +214,18 @@ def compare_into(
     seed: int,
     overshoot: bool,
     threads: int,
+) -> str: ...
+def converge(
+    scenes: Sequence[Scene],
+    *,
+    varied: Sequence[Sequence[str]],
+    out: str,
     progress: Told,
-) -> None: ...
-def converge_into(
-    folder: str,
-    scene: str,
-    overrides: Sequence[str],
     refine: Sequence[str],
-    vary: Sequence[str],
     levels: int,
     ratio: float,
-    finds_dominant: bool,
+    dominant: bool,
     threads: int,
-    progress: Told,
-) -> None: ...
-def spectrum_of(scene: Scene) -> dict[str, Any]: ...
+) -> str: ...
+def settings_of_series(vary: Sequence[str]) -> list[list[str]]: ...
+def spectrum(scene: Scene) -> dict[str, Any]: ...

@@ -27,10 +27,6 @@ class SceneError(ValueError):
         super().__init__("\n".join(map(str, problems)))
         self.problems = problems
 
-    @classmethod
-    def _of(cls, problems: list[tuple[str, int, int, str]]) -> SceneError:
-        return cls(tuple(Problem(*problem) for problem in problems))
-
 
 class StateError(ValueError):
     """A checkpoint that cannot be gone on from, and why."""

@@ -73,24 +73,17 @@ class ProgressBar:
             self._width = 0
 
 
-class _Callable:
-    """A callable of the user's, which has nothing to close."""
-
-    def __init__(self, told: Callable[[dict[str, Any]], Any]) -> None:
-        self._told = told
-
-    def __call__(self, told: dict[str, Any]) -> None:
-        self._told(told)
-
-    def close(self) -> None:
-        pass
-
-
 Told = Union[bool, None, Callable[[dict[str, Any]], Any]]
 
 
-def telling(progress: Told) -> ProgressBar | _Callable | None:
+def telling(progress: Told) -> Callable[[dict[str, Any]], Any] | None:
     """Whom a simulation tells: nobody, a bar, or a callable."""
-    if progress is None or progress is False:
-        return None
-    return ProgressBar() if progress is True else _Callable(progress)
+    if progress is None or isinstance(progress, bool):
+        return ProgressBar() if progress else None
+    return progress
+
+
+def close(told: Callable[[dict[str, Any]], Any] | None) -> None:
+    """Ends the line of a bar."""
+    if isinstance(told, ProgressBar):
+        told.close()

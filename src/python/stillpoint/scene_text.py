@@ -1,4 +1,4 @@
-"""Scenes as dictionaries: written as TOML, a key a line, so that they are read and checked like any file."""
+"""Scenes as dictionaries, and overrides, as the TOML that they stand for."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ import math
 import os
 import re
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_FILES = ("body", "file"), ("body", "stl")  # keys that name files: from the present folder
 
 
 def _string(text: str) -> str:
@@ -49,38 +47,18 @@ def _is_tables(value: Any) -> bool:
     return isinstance(value, Sequence) and len(value) > 0 and all(isinstance(item, Mapping) for item in value)
 
 
-class SceneText:
-    """A dictionary as TOML text; keys[line - 1] is the key that a line of it says."""
-
-    def __init__(self, scene: Mapping[str, Any]) -> None:
-        self._lines: list[str] = []
-        self.keys: list[str] = []
-        self._table(scene, (), "")
-        self.text = "\n".join(self._lines) + "\n"
-
-    def _line(self, text: str, key: str) -> None:
-        self._lines.append(text)
-        self.keys.append(key)
-
-    # Plain values first: what follows a header belongs to it.
-    def _table(self, table: Mapping[str, Any], header: tuple[str, ...], path: str) -> None:
-        inner = {key: value for key, value in table.items() if isinstance(value, Mapping) or _is_tables(value)}
-        for key, value in table.items():
-            if key in inner:
-                continue
-            if (*header, key) in _FILES and isinstance(value, (str, os.PathLike)):
-                value = Path(value).absolute()
-            self._line(f"{_key(key)} = {value_text(value)}", path + key)
-        for key, value in inner.items():
-            names = (*header, key)
-            dotted = ".".join(map(_key, names))
-            if isinstance(value, Mapping):
-                self._line(f"[{dotted}]", path + key)
-                self._table(value, names, f"{path}{key}.")
-                continue
-            for number, item in enumerate(value):
-                self._line(f"[[{dotted}]]", f"{path}{key}[{number}]")
-                self._table(item, names, f"{path}{key}[{number}].")
+def scene_text(table: Mapping[str, Any], header: str = "") -> str:
+    """A dictionary with a key a line. Plain values come first: what follows a header belongs to it."""
+    text, tables = "", ""
+    for key, value in table.items():
+        name = header + _key(key)
+        if isinstance(value, Mapping):
+            tables += f"\n[{name}]\n" + scene_text(value, name + ".")
+        elif _is_tables(value):
+            tables += "".join(f"\n[[{name}]]\n" + scene_text(item, name + ".") for item in value)
+        else:
+            text += f"{_key(key)} = {value_text(value)}\n"
+    return text + tables
 
 
 def override_texts(overrides: Mapping[str, Any]) -> list[str]:

@@ -3,39 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar, Union
+from typing import Any, Union
 
 from . import _core
-from .errors import Problem, SceneError
-from .scene_text import SceneText, override_texts
+from .scene_text import override_texts, scene_text
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
-Result = TypeVar("Result")
-
-
-def _with_keys(error: SceneError, text: SceneText, file: str) -> SceneError:
-    """The same error with keys of the dictionary in the place of lines."""
-
-    def told(problem: Problem) -> Problem:
-        if problem.where != file:
-            return problem
-        known = 0 < problem.line <= len(text.keys)
-        key = text.keys[problem.line - 1] if known else "the scene"
-        return Problem(key, 0, 0, problem.message.removeprefix(f"{key}: "))
-
-    return SceneError(tuple(map(told, error.problems)))
-
-
-def reading(source: Source, file: str, read: Callable[[str, str], Result]) -> Result:
-    """read(file, text) of a dictionary; what it says of lines is said of keys."""
-    assert isinstance(source, Mapping)
-    text = SceneText(source)
-    try:
-        return read(file, text.text)
-    except SceneError as error:
-        raise _with_keys(error, text, file) from None
 
 
 def load(source: Source, overrides: Mapping[str, Any] | None = None, /, **more: Any) -> _core.Scene:
@@ -47,13 +22,13 @@ def load(source: Source, overrides: Mapping[str, Any] | None = None, /, **more: 
 
     SceneError lists all that is wrong, with file, line and column, or with the key of a dictionary.
     """
-    sets = override_texts({**(overrides or {}), **more})
-    if not isinstance(source, Mapping):
-        return _core.load_file(os.fspath(source), sets)
-    file = str(Path.cwd() / "scene.toml")
-    return reading(source, file, lambda name, text: _core.load_text(name, text, sets))
+    return scene_of(source, override_texts({**(overrides or {}), **more}))
 
 
-def scene_of(scene: _core.Scene | Source) -> _core.Scene:
-    """A scene that was loaded, or the one of a file or a dictionary."""
-    return scene if isinstance(scene, _core.Scene) else load(scene)
+def scene_of(scene: _core.Scene | Source, overrides: Sequence[str] = ()) -> _core.Scene:
+    """A scene that was loaded, or the one of a file or a dictionary, with overrides as for --set laid over it."""
+    if isinstance(scene, _core.Scene):
+        return _core.load_again(scene, overrides) if overrides else scene
+    if isinstance(scene, Mapping):
+        return _core.load_text(str(Path.cwd() / "scene.toml"), scene_text(scene), overrides)
+    return _core.load_file(os.fspath(scene), overrides)

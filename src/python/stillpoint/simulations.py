@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from . import _core
 from .figures import Figures, figures_in, table_of
-from .progress import Told, telling
+from .progress import Told, close, telling
 from .scenes import Source, scene_of
-
 
 
 def _path(path: str | os.PathLike[str] | None) -> str:
@@ -42,8 +41,8 @@ class Simulation(_core.Simulation):
         _resume: str = "",
     ) -> None:
         self._scene = scene_of(scene)
-        self._bar = telling(progress)
-        super().__init__(self._scene, out=_path(out), resume=_resume, threads=threads, stop=stop, progress=self._bar)
+        self._told = telling(progress)
+        super().__init__(self._scene, out=_path(out), resume=_resume, threads=threads, stop=stop, progress=self._told)
 
     @classmethod
     def resume(
@@ -74,8 +73,8 @@ class Simulation(_core.Simulation):
         """Steps until time until [s], or until it is done. Ctrl-C is raised between two steps, and the simulation can go
         on from there; a single step that takes more than half a second is broken off and ends it. Returns itself."""
         super().run(until)
-        if self._bar is not None and self.done:
-            self._bar.close()
+        if self.done:
+            close(self._told)
         return self
 
     def save(self, checkpoint: str | os.PathLike[str]) -> None:
@@ -115,8 +114,7 @@ def run(
     A run that goes wrong says so in .status, .reason and .exit_status. Ctrl-C finishes the step, writes the files, and is
     raised then.
     """
-    bar = telling(progress)
-    text = _core.run_with_files(scene_of(scene), _path(out), "", threads, bar)
-    if bar is not None:
-        bar.close()
+    told = telling(progress)
+    text = _core.run(scene_of(scene), out=_path(out), threads=threads, progress=told)
+    close(told)
     return figures_in(text)

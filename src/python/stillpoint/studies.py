@@ -3,48 +3,24 @@
 from __future__ import annotations
 
 import os
-import tempfile
-from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from . import _core
 from .figures import Figures, figures_in, numbers_of, table_of
-from .progress import Told, telling
+from .progress import Told, close, telling
 from .scene_text import override_texts
-from .scenes import Source, reading, scene_of
+from .scenes import Source, scene_of
 
 
-def _study(
-    scene: _core.Scene | Source,
-    overrides: Mapping[str, Any] | None,
-    out: str | os.PathLike[str] | None,
-    name: str,
-    progress: Told,
-    work: Callable[[str, str, list[str], Any], None],
-) -> Figures:
-    """What work(folder, file, overrides, progress) writes into NAME.json. A scene that is no file becomes one."""
-    sets = override_texts(overrides or {})
-    bar = telling(progress)
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = Path(temporary) if out is None else Path(out)
-        folder.mkdir(parents=True, exist_ok=True)
-        if isinstance(scene, _core.Scene):
-            work(str(folder), scene.file, [*scene.overrides, *sets], bar)
-        elif isinstance(scene, Mapping):
-
-            def of_text(file: str, text: str) -> None:
-                Path(file).write_text(text, encoding="utf-8")
-                work(str(folder), file, sets, bar)
-
-            reading(scene, str(Path(temporary) / "scene.toml"), of_text)
-        else:
-            work(str(folder), os.fspath(scene), sets, bar)
-        if bar is not None:
-            bar.close()
-        return figures_in((folder / f"{name}.json").read_text(encoding="utf-8"))
+def _folder(out: str | os.PathLike[str] | None) -> str:
+    """The folder of that name, which is there from now on; "": there is none."""
+    if out is None:
+        return ""
+    os.makedirs(out, exist_ok=True)
+    return os.fspath(out)
 
 
 def compare(
@@ -71,14 +47,14 @@ def compare(
     .samples as a structured array (evaluations, error, residual, distance). out: a folder for compare.csv and
     compare.json, which scripts/plot_compare.py draws. What a strategy written in Python raises is the .reason of its run.
     """
-
-    def work(folder: str, file: str, sets: list[str], told: Any) -> None:
-        _core.compare_into(
-            folder, file, sets, list(integrators), list(strategies), list(step_fractions), list(tolerances), goal,
-            limit, seconds, repeats, seed, overshoot, threads, told,
-        )  # fmt: skip
-
-    study = _study(scene, overrides, out, "compare", progress, work)
+    told = telling(progress)
+    text = _core.compare(
+        scene_of(scene, override_texts(overrides or {})), out=_folder(out), progress=told, strategies=strategies,
+        integrators=integrators, step_fractions=step_fractions, tolerances=tolerances, goal=goal, limit=limit,
+        seconds=seconds, repeats=repeats, seed=seed, overshoot=overshoot, threads=threads,
+    )  # fmt: skip
+    close(told)
+    study = figures_in(text)
     for one in study["runs"]:
         rows = [numbers_of(sample) for sample in one["samples"]]
         one["samples"] = table_of(study["sample"], rows, whole=("evaluations",))
@@ -103,11 +79,15 @@ def converge(
     refine: "h", "points", "step", "rtol" or "motion". vary: "key=value,value", a series with each: then .series has one
     study each. .quantities[name].values and .errors are arrays, (levels), and so are .sizes, .dofs and .h.
     """
-
-    def work(folder: str, file: str, sets: list[str], told: Any) -> None:
-        _core.converge_into(folder, file, sets, list(refine), list(vary), levels, ratio, dominant, threads, told)
-
-    study = _study(scene, overrides, out, "converge", progress, work)
+    told = telling(progress)
+    sets = override_texts(overrides or {})
+    varied = _core.settings_of_series(vary)
+    text = _core.converge(
+        [scene_of(scene, [*sets, *one]) for one in varied], varied=varied, out=_folder(out), progress=told,
+        refine=refine, levels=levels, ratio=ratio, dominant=dominant, threads=threads,
+    )  # fmt: skip
+    close(told)
+    study = figures_in(text)
     for one in study.get("series", [study]):
         for quantity in one["quantities"].values():
             quantity.update(values=numbers_of(quantity["values"]), errors=numbers_of(quantity["errors"]))
@@ -121,7 +101,7 @@ def spectrum(scene: _core.Scene | Source) -> Figures:
     """omega_1 and omega_max [rad/s], kappa, critical_damping 2 omega_1 [1/s] (NaN if the body is not held), and two
     structured arrays: estimates (what, how, omega, iterations, wall_s), each frequency by each method, and critical_steps
     (method, step, evaluations), of each integrator."""
-    study = Figures(_core.spectrum_of(scene_of(scene)))
+    study = Figures(_core.spectrum(scene_of(scene)))
     study["estimates"] = np.array(
         study["estimates"],
         dtype=[("what", "U16"), ("how", "U64"), ("omega", float), ("iterations", int), ("wall_s", float)],
