@@ -20,16 +20,16 @@ constexpr double open_end = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-SimulationObject::SimulationObject(const Scene& scene, const SimulationArguments& arguments)
-    : stop_(arguments.stop.is_none() ? nullptr : hold(arguments.stop)) {
-  SimulationOptions options{.out = arguments.out, .resume = arguments.resume, .threads = arguments.threads};
+SimulationObject::SimulationObject(const Scene& scene, SimulationOptions options, const py::object& stop,
+                                   const py::object& progress)
+    : stop_(stop.is_none() ? nullptr : hold(stop)) {
   options.interrupted = [this] { return simulation_ ? interrupt_.asked_of_what_takes_long() : interrupt_.asked(); };
   options.at_row = [this](const std::vector<std::string>& columns, const std::vector<double>& row) {
     if (columns_.empty()) columns_ = columns;
     rows_.insert(rows_.end(), row.begin(), row.end());
   };
   if (stop_) options.stop_test = [this] { return ask_stop_test(); };
-  options.progress = progress_to(arguments.progress);
+  options.progress = progress_to(progress);
   try {
     const py::gil_scoped_release released;
     simulation_ = std::make_unique<Simulation>(scene, std::move(options));
@@ -94,9 +94,9 @@ std::string SimulationObject::ask_stop_test() {
 void bind_simulation(py::module_& module) {
   py::class_<SimulationObject>(module, "Simulation")
       .def(py::init([](const Scene& scene, const std::string& out, const std::string& resume, int threads,
-                       py::object stop, py::object progress) {
+                       const py::object& stop, const py::object& progress) {
              return std::make_unique<SimulationObject>(
-                 scene, SimulationArguments{out, resume, threads, std::move(stop), std::move(progress)});
+                 scene, SimulationOptions{.out = out, .resume = resume, .threads = threads}, stop, progress);
            }),
            py::arg("scene"), py::kw_only(), py::arg("out") = "", py::arg("resume") = "", py::arg("threads") = 0,
            py::arg("stop") = py::none(), py::arg("progress") = py::none())

@@ -14,16 +14,11 @@
 
 namespace stillpoint::python {
 
-/// The arguments of the constructor; callables may be None.
-struct SimulationArguments {
-  std::string out, resume;
-  int threads = 0;
-  pybind11::object stop, progress;
-};
-
 class SimulationObject {
  public:
-  SimulationObject(const Scene& scene, const SimulationArguments& arguments);
+  /// The callables may be None.
+  SimulationObject(const Scene& scene, SimulationOptions options, const pybind11::object& stop,
+                   const pybind11::object& progress);
   SimulationObject(const SimulationObject&) = delete;
   SimulationObject& operator=(const SimulationObject&) = delete;
 
@@ -75,7 +70,7 @@ class SimulationObject {
   std::thread::id worker_{};   // the thread that works on it; none if it is at rest
   bool in_stop_test_ = false;  // of the working thread
   Interrupt interrupt_;
-  Held stop_, progress_;
+  Held stop_;
   std::vector<std::string> columns_;
   std::vector<double> rows_;
   std::unique_ptr<Simulation> simulation_;  // last, so that everything it calls outlives it
