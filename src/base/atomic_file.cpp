@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/checksum.hpp"
-
 namespace stillpoint {
 namespace {
 

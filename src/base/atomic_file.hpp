@@ -1,14 +1,22 @@
 // Files that are complete or absent: written as NAME.partial, renamed when complete.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+
+#include <zlib.h>
 
 #include "base/output_file.hpp"
 #include "base/stopwatch.hpp"
 
 namespace stillpoint {
+
+/// The checksum after `size` more bytes; before: the checksum of the bytes that precede them, 0 if there are none.
+inline std::uint64_t checksum(std::uint64_t before, const void* bytes, std::size_t size) {
+  return crc32_z(before, static_cast<const Bytef*>(bytes), size);
+}
 
 /// The name under which a file is written until it is complete: NAME.partial.
 std::filesystem::path partial_name(std::filesystem::path file);

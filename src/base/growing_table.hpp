@@ -1,9 +1,12 @@
-// A table of catalogue rows to which a program may add rows of its own.
+// A table of catalogue rows to which a program may add rows of its own, whose texts are kept to the end.
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <list>
 #include <mutex>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,5 +41,13 @@ class GrowingTable {
   mutable std::mutex mutex_;
   std::list<std::vector<Row>> versions_;
 };
+
+/// A copy of the text that stays to the end of the process.
+inline std::string_view kept_for_good(const std::string& text) {
+  static std::mutex mutex;
+  static std::deque<std::string> all;
+  const std::scoped_lock lock(mutex);
+  return all.emplace_back(text);
+}
 
 }  // namespace stillpoint

@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/versions.hpp"
-
 namespace stillpoint {
 
 using Json = nlohmann::ordered_json;
@@ -16,10 +14,7 @@ using Json = nlohmann::ordered_json;
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 inline Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
-inline Json versions_of_libraries() {
-  Json versions = Json::object();
-  for (const auto& [name, version] : library_versions()) versions[name] = version;
-  return versions;
-}
+/// The versions of the program and of the libraries that its results depend on, by name.
+Json versions_of_libraries();
 
 }  // namespace stillpoint

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "output/folder_lock.hpp"
+#include "output/run_folder.hpp"
 
 namespace stillpoint::command {
 

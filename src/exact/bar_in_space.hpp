@@ -1,4 +1,4 @@
-// Checks that Saint-Venant's bars along x share.
+// What Saint-Venant's bars along x share: checks, and terms of their series.
 #pragma once
 
 #include <algorithm>
@@ -33,6 +33,17 @@ inline std::optional<SolutionFault> fault_of_section(const Problem& problem) {
   const double depth = parameter(problem, "depth"), width = parameter(problem, "width");
   if (auto fault = fault_of_extent(problem, "depth", 1, parameter(problem, "y0") - depth / 2, depth)) return fault;
   return fault_of_extent(problem, "width", 2, parameter(problem, "z0") - width / 2, width);
+}
+
+/// sinh x/cosh c and cosh x/cosh c for |x| ≤ c, also if cosh c itself overflows: terms of Fourier series across a
+/// rectangle.
+struct HyperbolicRatios {
+  double sinh, cosh;
+};
+
+inline HyperbolicRatios over_cosh(double x, double c) {
+  const double decay = std::exp(std::abs(x) - c) / (1 + std::exp(-2 * c)), other = std::exp(-2 * std::abs(x));
+  return {std::copysign(decay * (1 - other), x), decay * (1 + other)};
 }
 
 }  // namespace stillpoint

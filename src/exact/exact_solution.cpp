@@ -35,4 +35,11 @@ std::unique_ptr<ExactSolution> exact_solution(const Problem& problem) {
   throw std::invalid_argument("there is no exact solution '" + problem.exact.solution + "'");
 }
 
+const std::vector<KnownSolution>& known_solutions() {
+  static const std::vector<KnownSolution> rows = {column_solution(),      lame_cylinder_solution(), kirsch_solution(),
+                                                  strip_load_solution(),  elastica_solution(),      vortex_solution(),
+                                                  radial_mode_solution(), torsion_solution(),       flexure_solution()};
+  return rows;
+}
+
 }  // namespace stillpoint

@@ -12,7 +12,6 @@
 #include <numbers>
 
 #include "exact/bar_in_space.hpp"
-#include "exact/hyperbolic_ratios.hpp"
 #include "exact/known_solutions.hpp"
 #include "exact/of_scene.hpp"
 

@@ -1,5 +1,3 @@
-#include "linalg/carried_multigrid.hpp"
-
 #include <algorithm>
 #include <mutex>
 #include <numeric>
@@ -9,6 +7,7 @@
 #include <Eigen/SparseCore>
 
 #include "base/parallel_loop.hpp"
+#include "linalg/multigrid.hpp"
 
 namespace stillpoint {
 namespace {

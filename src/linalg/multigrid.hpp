@@ -33,4 +33,12 @@ std::string multigrid_is_missing();
 /// K: (n × n), symmetric positive definite. Throws std::runtime_error if there is no module, or if PETSc fails.
 std::unique_ptr<Multigrid> make_multigrid(const SparseMatrix& K, const NodalLayout& layout);
 
+/// The cycle of one stiffness carried over to another one that shares most of its unknowns: that of the next phase, in
+/// which some nodes are new and some gone. B: a cycle on the unknowns in `from`. K: the stiffness on those in `to`,
+/// with a positive diagonal. Nodes at the same place, to the bit, are the same.
+///   B' = P B Pᵀ + D⁻¹     P: from the old unknowns to the new ones at the same place; D: diagonal of K in new unknowns
+/// is symmetric and positive definite as B is.
+std::shared_ptr<const Multigrid> carry(std::shared_ptr<const Multigrid> B, const NodalLayout& from,
+                                       const NodalLayout& to, const SparseMatrix& K);
+
 }  // namespace stillpoint

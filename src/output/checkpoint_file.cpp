@@ -20,7 +20,6 @@
 #include <fmt/format.h>
 
 #include "base/atomic_file.hpp"
-#include "base/checksum.hpp"
 #include "output/hdf5_handle.hpp"
 #include "output/hdf5_output.hpp"
 

@@ -1,10 +1,12 @@
-#include "output/place_probes.hpp"
-
+// Probes of places: one that moves with the material, and one that is fixed in space.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "output/point_fields.hpp"
+#include "output/probe.hpp"
 
 namespace stillpoint {
 namespace {
@@ -30,74 +32,107 @@ std::optional<std::vector<double>> material_at(const std::vector<double>& x, con
   return X;
 }
 
+/// The fields that can be read at a place.
+class PlaceFields {
+ public:
+  PlaceFields(const LagrangianPhase& phase, const std::vector<std::string>& names) {
+    for (const std::string& name : names) fields_.push_back(find_point_field(phase, name));
+  }
+  std::size_t size() const { return fields_.size(); }
+  /// Appends the value of each field at x, a position when the phase began. The displacement is the sum of that since
+  /// then and moved_before, (dim).
+  void read(const PlaceReader& places, const std::vector<double>& x, const std::vector<double>& moved_before,
+            std::vector<double>& values) const {
+    for (const PointFieldComponent& field : fields_) {
+      std::vector<double> all(field.components);
+      if (field.name == "u") {
+        places.displacement(x, all);
+        for (std::size_t d = 0; d < all.size(); ++d) all[d] += moved_before[d];
+      } else if (field.name == "v") {
+        places.velocity(x, all);
+      } else if (field.name == "strain") {
+        places.strain(x, all);
+      } else if (field.name == "stress") {
+        places.stress(x, all);
+      } else {
+        all[0] = places.history(field.name, x);
+      }
+      values.push_back(all[field.component]);
+    }
+  }
+
+ private:
+  std::vector<PointFieldComponent> fields_;
+};
+
+/// A place that moves by x += Σ_a N_a(x) u_a when a phase ends. Once no material reaches it, it is lost: its values are
+/// NaN.
+class MovingPlace final : public Probe {
+ public:
+  MovingPlace(const LagrangianPhase& phase, const ProbeSpec& spec)
+      : name_(spec.name), fields_(phase, spec.fields), start_(spec.at), x_(spec.at), next_(spec.at) {}
+  void read(ProbedMoment& moment, std::vector<double>& values) override {
+    if (lost_at_) return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> moved = x_;
+    for (std::size_t d = 0; d < moved.size(); ++d) moved[d] -= start_[d];
+    fields_.read(moment.places(), x_, moved, values);
+  }
+  std::vector<double> position() const override { return start_; }
+  void end_phase(ProbedMoment& moment) override {
+    if (lost_at_) return;
+    std::vector<double> u(x_.size());
+    moment.places().displacement(x_, u);
+    for (std::size_t d = 0; d < u.size(); ++d) next_[d] = x_[d] + u[d];
+  }
+  // Called only now because the place is read once more if the next phase cannot begin.
+  void begin_phase(ProbedMoment& moment) override {
+    if (lost_at_) return;
+    x_ = next_;
+    moment.places().put_back(x_);
+    if (!moment.places().reaches(x_)) lost_at_ = moment.t();
+  }
+  void archive(const StateArchive& state) override {
+    state("x", Vec(x_));
+    state("lost_at", lost_at_);
+  }
+  std::optional<std::string> note() const override {
+    if (!lost_at_) return std::nullopt;
+    return fmt::format(
+        "probe {}: no material reaches its place ({:.6g}) since t = {:.6g} s, and its values are nan; "
+        "expected a place further inside the body, or point = N, a material point",
+        name_, fmt::join(x_, ", "), *lost_at_);
+  }
+
+ private:
+  std::string name_;
+  PlaceFields fields_;
+  std::vector<double> start_, x_, next_;  // at the beginning of the run, of this phase and of the next [m]
+  std::optional<double> lost_at_;         // time of the loss [s]
+};
+
+/// Reads the material at the place at each moment: that whose place X when the phase began has X + u(X) = x. NaN while
+/// there is none.
+class FixedPlace final : public Probe {
+ public:
+  FixedPlace(const LagrangianPhase& phase, const ProbeSpec& spec) : fields_(phase, spec.fields), x_(spec.at) {}
+  void read(ProbedMoment& moment, std::vector<double>& values) override {
+    const auto X = material_at(x_, moment.places());
+    if (!X) return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
+    fields_.read(moment.places(), *X, {}, values);
+  }
+
+ private:
+  PlaceFields fields_;
+  std::vector<double> x_;  // [m]
+};
+
 }  // namespace
 
-PlaceFields::PlaceFields(const LagrangianPhase& phase, const std::vector<std::string>& names) {
-  for (const std::string& name : names) fields_.push_back(find_point_field(phase, name));
+std::unique_ptr<Probe> moving_place(const LagrangianPhase& phase, const ProbeSpec& spec) {
+  return std::make_unique<MovingPlace>(phase, spec);
 }
-
-void PlaceFields::read(const PlaceReader& places, const std::vector<double>& x, const std::vector<double>& moved_before,
-                       std::vector<double>& values) const {
-  for (const PointFieldComponent& field : fields_) {
-    std::vector<double> all(field.components);
-    if (field.name == "u") {
-      places.displacement(x, all);
-      for (std::size_t d = 0; d < all.size(); ++d) all[d] += moved_before[d];
-    } else if (field.name == "v") {
-      places.velocity(x, all);
-    } else if (field.name == "strain") {
-      places.strain(x, all);
-    } else if (field.name == "stress") {
-      places.stress(x, all);
-    } else {
-      all[0] = places.history(field.name, x);
-    }
-    values.push_back(all[field.component]);
-  }
-}
-
-MovingPlace::MovingPlace(const LagrangianPhase& phase, const ProbeSpec& spec)
-    : name_(spec.name), fields_(phase, spec.fields), start_(spec.at), x_(spec.at), next_(spec.at) {}
-
-void MovingPlace::read(ProbedMoment& moment, std::vector<double>& values) {
-  if (lost_at_) return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
-  std::vector<double> moved = x_;
-  for (std::size_t d = 0; d < moved.size(); ++d) moved[d] -= start_[d];
-  fields_.read(moment.places(), x_, moved, values);
-}
-
-void MovingPlace::end_phase(ProbedMoment& moment) {
-  if (lost_at_) return;
-  std::vector<double> u(x_.size());
-  moment.places().displacement(x_, u);
-  for (std::size_t d = 0; d < u.size(); ++d) next_[d] = x_[d] + u[d];
-}
-
-// Called only now because the place is read once more if the next phase cannot begin.
-void MovingPlace::begin_phase(ProbedMoment& moment) {
-  if (lost_at_) return;
-  x_ = next_;
-  moment.places().put_back(x_);
-  if (!moment.places().reaches(x_)) lost_at_ = moment.t();
-}
-
-void MovingPlace::archive(const StateArchive& state) {
-  state("x", Vec(x_));
-  state("lost_at", lost_at_);
-}
-
-std::optional<std::string> MovingPlace::note() const {
-  if (!lost_at_) return std::nullopt;
-  return fmt::format(
-      "probe {}: no material reaches its place ({:.6g}) since t = {:.6g} s, and its values are nan; "
-      "expected a place further inside the body, or point = N, a material point",
-      name_, fmt::join(x_, ", "), *lost_at_);
-}
-
-void FixedPlace::read(ProbedMoment& moment, std::vector<double>& values) {
-  const auto X = material_at(x_, moment.places());
-  if (!X) return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
-  fields_.read(moment.places(), *X, {}, values);
+std::unique_ptr<Probe> fixed_place(const LagrangianPhase& phase, const ProbeSpec& spec) {
+  return std::make_unique<FixedPlace>(phase, spec);
 }
 
 }  // namespace stillpoint

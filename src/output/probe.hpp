@@ -56,4 +56,11 @@ class Probe {
   virtual std::optional<std::string> note() const { return std::nullopt; }
 };
 
+// Kinds that have a file of their own:
+std::unique_ptr<Probe> moving_place(const LagrangianPhase& phase, const ProbeSpec& spec);
+std::unique_ptr<Probe> fixed_place(const LagrangianPhase& phase, const ProbeSpec& spec);
+/// Throws std::invalid_argument if no point is in the box.
+std::unique_ptr<Probe> mean_in_box(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec);
+std::unique_ptr<Probe> body_sums(const PointData& data, const ProbeSpec& spec);
+
 }  // namespace stillpoint

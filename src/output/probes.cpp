@@ -4,10 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "output/place_probes.hpp"
 #include "output/point_fields.hpp"
 #include "output/snapshots.hpp"
-#include "output/sum_probes.hpp"
 #include "scene/dimensions.hpp"
 #include "scene/throw_scene_error.hpp"
 
@@ -72,15 +70,15 @@ std::unique_ptr<Probe> make_probe(const Problem& problem, const LagrangianPhase&
       if (!spec.min.empty()) return std::make_unique<SlopeAngleInBox>(problem, spec);
       return std::make_unique<SlopeAngle>();
     case ProbeKind::mean:
-      return std::make_unique<MeanInBox>(phase, data, spec);
+      return mean_in_box(phase, data, spec);
     case ProbeKind::body:
-      return std::make_unique<BodySums>(data, spec);
+      return body_sums(data, spec);
     case ProbeKind::point:
       break;
   }
   if (spec.point) return std::make_unique<PointProbe>(phase, data, spec);
-  if (spec.frame == ProbeFrame::material) return std::make_unique<MovingPlace>(phase, spec);
-  return std::make_unique<FixedPlace>(phase, spec);
+  if (spec.frame == ProbeFrame::material) return moving_place(phase, spec);
+  return fixed_place(phase, spec);
 }
 
 /// ".shear", and in space ".shear.y" and ".shear.z" for a wall across x.
@@ -193,7 +191,7 @@ void check_probes(const Problem& problem, const LagrangianPhase& phase) {
     }
     if (probe.kind != ProbeKind::mean) continue;
     try {
-      MeanInBox(phase, data, probe);
+      mean_in_box(phase, data, probe);
     } catch (const std::invalid_argument& error) {
       throw_scene_error(key + ".min", error.what());
     }

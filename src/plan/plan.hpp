@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "base/memory_room.hpp"
-#include "plan/body_size.hpp"
-#include "plan/matrix_size.hpp"
+#include "plan/problem_size.hpp"
 
 namespace stillpoint {
 

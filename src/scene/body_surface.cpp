@@ -1,5 +1,3 @@
-#include "scene/body_surface.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,6 +8,7 @@
 #include "geometry/gauss_rule.hpp"
 #include "geometry/polygon_rule.hpp"
 #include "geometry/prism.hpp"
+#include "scene/body_border.hpp"
 #include "scene/body_solid.hpp"
 
 namespace stillpoint {

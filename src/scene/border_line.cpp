@@ -1,9 +1,8 @@
-#include "scene/border_line.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "scene/body_border.hpp"
 #include "scene/body_solid.hpp"
 
 namespace stillpoint {

@@ -16,7 +16,7 @@
 
 #include "base/special_functions.hpp"
 #include "base/text.hpp"
-#include "scene/expression_functions.hpp"
+#include "scene/formula_parts.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,4 +1,5 @@
-// The parts of a formula at which its value may jump or bend: its comparisons, and the arguments of its functions.
+// The parts of a formula's text: its names, and those at which its value may jump or bend, which are its comparisons
+// and the arguments of its functions.
 #pragma once
 
 #include <string>
@@ -6,6 +7,15 @@
 #include <vector>
 
 namespace stillpoint {
+
+/// "sin", "sqrt", "max" …: names that no constant can take.
+const std::vector<std::string>& expression_functions();
+
+/// "e" and "pi", which every formula has.
+const std::vector<std::string>& expression_constants();
+
+/// The names in a formula: constants, variables, functions.
+std::vector<std::string> names_in(std::string_view formula);
 
 /// "a < b" within a formula.
 struct Comparison {

@@ -3,6 +3,7 @@
 
 #include <stillpoint/problem.hpp>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,5 +34,12 @@ void move_into(std::vector<double>& position, const std::vector<double>& min, co
 void snap_to_lines(std::vector<double>& position, const GridSpec& grid);
 /// The box around all bodies, of which there is at least one: its lower and its upper corner.
 std::pair<std::vector<double>, std::vector<double>> box_around(const std::vector<BodySpec>& bodies);
+
+/// The longest side of the grid's cells at the start [m].
+inline double longest_cell(const GridSpec& grid) {
+  double longest = 0;
+  for (std::size_t d = 0; d < grid.cells.size(); ++d) longest = std::max(longest, grid.cell_length(d));
+  return longest;
+}
 
 }  // namespace stillpoint

@@ -1,8 +1,8 @@
-#include "scene/phase_choices.hpp"
-
 #include <algorithm>
 #include <set>
 #include <string_view>
+
+#include "scene/resolve.hpp"
 
 namespace stillpoint {
 namespace {

@@ -11,7 +11,6 @@
 #include "scene/body_solid.hpp"
 #include "scene/driven_motion.hpp"
 #include "scene/grid_lines.hpp"
-#include "scene/phase_choices.hpp"
 #include "scene/point_file.hpp"
 
 namespace stillpoint {

@@ -8,7 +8,6 @@
 #include <omp.h>
 
 #include "base/atomic_file.hpp"
-#include "output/folder_lock.hpp"
 #include "output/history.hpp"
 #include "output/report/report_page.hpp"
 #include "output/report/run_report.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/checksum.hpp"
+#include "base/atomic_file.hpp"
 #include "base/stop_request.hpp"
 #include "simulation/setup/model.hpp"
 

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "base/stopwatch.hpp"
-#include "simulation/end_request.hpp"
 #include "simulation/giving_way.hpp"
 #include "simulation/loads/load_schedule.hpp"
 #include "simulation/measurements.hpp"

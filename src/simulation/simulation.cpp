@@ -4,7 +4,7 @@
 
 #include <omp.h>
 
-#include "plan/body_size.hpp"
+#include "plan/problem_size.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/simulation_impl.hpp"

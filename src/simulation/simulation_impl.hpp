@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "output/folder_lock.hpp"
+#include "output/run_folder.hpp"
 #include "simulation/recorder.hpp"
 #include "simulation/run_state.hpp"
 #include "simulation/thread_choice.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "scene/own_loads.hpp"
-#include "simulation/loads/formula_positions.hpp"
+#include "simulation/loads/formula_samples.hpp"
 #include "system/largest_at.hpp"
 
 namespace stillpoint {

@@ -1,9 +1,12 @@
-// One relaxation of a scene, observed from outside: its distance from the exact discrete equilibrium as it runs.
+// One run of a comparison, observed from outside: a relaxation's distance from the exact discrete equilibrium as it
+// runs, or a transient's error in time.
 #pragma once
 
 #include <stillpoint/compare.hpp>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "simulation/setup/model.hpp"
 #include "simulation/setup/set_up_store.hpp"
@@ -33,5 +36,21 @@ double time_benchmark(const Scene& scene, long steps, int threads, SetUpStore& s
 /// Fills in the set-up costs of a simulation without a store; seconds: the time for the parts that were not in the
 /// store.
 void fill_set_up(const Model& model, double seconds, ComparedRun& run);
+
+/// The much more accurate motion relative to which displacements at stop.time are compared.
+struct TransientReference {
+  std::vector<double> displacement;  // of the points, (P × dim) [m]
+  std::string what;
+};
+
+/// The motion with the scene's own damping: by an integrator of order 7 at rtol 1e-11 if it is smooth, by leapfrog at a
+/// sixteenth of the critical step if there are history-dependent laws, contact or several phases.
+TransientReference transient_reference(const Scene& scene, SetUpStore& store);
+
+/// Fills the row, with a single sample at stop.time. Returns the wall time of the steps [s].
+double run_transient(const Scene& scene, const TransientReference& reference, int threads,
+                     const std::function<bool()>& interrupted, SetUpStore& store, ComparedRun& run);
+/// The wall time of the steps of the same run [s].
+double time_transient(const Scene& scene, int threads, SetUpStore& store);
 
 }  // namespace stillpoint

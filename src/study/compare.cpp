@@ -14,7 +14,7 @@
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
-#include "plan/body_size.hpp"
+#include "plan/problem_size.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/setup/multigrid_mass.hpp"
 #include "simulation/setup/set_up_store.hpp"
@@ -26,7 +26,6 @@
 #include "study/compare_candidates.hpp"
 #include "study/reference_solution.hpp"
 #include "study/side_by_side.hpp"
-#include "study/transient_run.hpp"
 
 namespace stillpoint {
 

@@ -13,15 +13,13 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
-#include "scene/longest_cell.hpp"
+#include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "study/common_places.hpp"
-#include "study/error_sources.hpp"
 #include "study/kept_runs.hpp"
 #include "study/level_run.hpp"
 #include "study/refinement.hpp"
 #include "study/side_by_side.hpp"
-#include "study/studied_quantities.hpp"
 
 namespace stillpoint {
 namespace {

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/atomic_file.hpp"
-#include "base/checksum.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,4 +1,4 @@
-// One run of a convergence study, and the results that are read at its end.
+// One run of a convergence study with the results that are read at its end, and what the study makes of its levels.
 #pragma once
 
 #include <stillpoint/converge.hpp>
@@ -30,5 +30,17 @@ LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::fu
 
 /// Throws SceneError if the scene is refused during its set-up, for example for a probe at a place without material.
 void check_set_up(const Scene& scene, const std::function<bool()>& interrupted);
+
+/// Whether all levels have the same material points.
+bool has_same_points(const std::vector<Refinement>& refine);
+
+/// Fills quantities and reference, and adds notes; runs: one for each level of the study, in the order of its levels.
+void gather_quantities(const Problem& problem, const std::vector<LevelRun>& runs, ConvergenceStudy& study);
+
+/// The name of the quantity by which sources of error are compared: the error in u, or the first probe, or the change
+/// of u itself.
+std::string figure_of_sources(const std::vector<Refinement>& refine, const LevelRun& run);
+/// The change of that quantity from one run to another; NaN if either has no value.
+double change(const std::string& figure, const LevelRun& a, const LevelRun& b);
 
 }  // namespace stillpoint

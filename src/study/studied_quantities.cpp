@@ -1,5 +1,3 @@
-#include "study/studied_quantities.hpp"
-
 #include <stillpoint/integrator.hpp>
 
 #include <algorithm>
@@ -10,8 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "plan/catalogue.hpp"
-#include "study/error_sources.hpp"
+#include "study/level_run.hpp"
 #include "study/observed_order.hpp"
+#include "study/refinement.hpp"
 
 namespace stillpoint {
 namespace {

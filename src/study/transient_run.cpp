@@ -1,4 +1,3 @@
-#include "study/transient_run.hpp"
 
 #include <stillpoint/simulation.hpp>
 

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "base/checksum.hpp"
+#include "base/atomic_file.hpp"
 #include "files.hpp"
 #include "output/checkpoint_file.hpp"
 #include "scenes.hpp"

@@ -1,6 +1,4 @@
 // Two runs into one folder at once would each leave half of what it holds.
-#include "output/folder_lock.hpp"
-
 #include <stillpoint/scene_error.hpp>
 
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include "base/atomic_file.hpp"
 #include "child.hpp"
 #include "files.hpp"
+#include "output/run_folder.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

@@ -1,9 +1,8 @@
-#include "output/report/body_moment.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include "output/point_fields.hpp"
+#include "output/report/body_picture.hpp"
 
 namespace stillpoint {
 namespace {

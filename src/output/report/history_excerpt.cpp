@@ -1,5 +1,3 @@
-#include "output/report/history_excerpt.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -9,6 +7,8 @@
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "output/report/run_report.hpp"
 
 namespace stillpoint {
 namespace {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "output/hdf5_file.hpp"
-#include "output/report/history_excerpt.hpp"
 #include "output/report/report_page.hpp"
 
 namespace stillpoint {

@@ -8,10 +8,15 @@
 #include <optional>
 #include <string>
 
-#include "output/report/body_moment.hpp"
+#include "base/json.hpp"
 #include "output/report/body_picture.hpp"
 
 namespace stillpoint {
+
+/// The part of history.csv that a report draws: {columns: […], rows: "t,steps,…\n…", of: number of all rows}, or null
+/// if there is no file. If there are more rows than a report has room for, it has those at which some column is largest
+/// or smallest among its neighbours, so that oscillating columns keep their envelope.
+Json history_excerpt(const std::filesystem::path& history_csv);
 
 /// Draws the frames of fields.h5 if there are any, otherwise the first and the last state of the run.
 class RunReport {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "scene/expression_functions.hpp"
+#include "scene/formula_parts.hpp"
 #include "scene/input/scene_keys.hpp"
 #include "scene/input/toml_source.hpp"
 

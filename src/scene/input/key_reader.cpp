@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "scene/expression_functions.hpp"
+#include "scene/formula_parts.hpp"
 #include "scene/input/toml_source.hpp"
 
 namespace stillpoint {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "scene/expression_functions.hpp"
+#include "scene/formula_parts.hpp"
 #include "scene/input/toml_source.hpp"
 
 namespace stillpoint {

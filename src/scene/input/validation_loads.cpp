@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "scene/body_surface.hpp"
-#include "scene/border_line.hpp"
+#include "scene/body_border.hpp"
 #include "scene/controlled_loads.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/own_loads.hpp"

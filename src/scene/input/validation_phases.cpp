@@ -6,7 +6,7 @@
 
 #include "base/text.hpp"
 #include "scene/input/scene_check.hpp"
-#include "scene/phase_choices.hpp"
+#include "scene/resolve.hpp"
 
 namespace stillpoint {
 namespace {

@@ -9,8 +9,7 @@
 
 #include "scene/throw_scene_error.hpp"
 #include "simulation/advice/notes.hpp"
-#include "simulation/loads/formula_positions.hpp"
-#include "simulation/loads/moments_of_change.hpp"
+#include "simulation/loads/formula_samples.hpp"
 
 namespace stillpoint {
 namespace {

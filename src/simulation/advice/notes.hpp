@@ -44,4 +44,18 @@ std::optional<std::string> distance_note(RunStatus status, std::optional<double>
 /// A note after a run in phases, if the displacements are no more than what positions are rounded to.
 std::optional<std::string> lost_motion_note(const LagrangianPhase& phase, double t, ConstVec u, long phases);
 
+// Materials that flow at a rate where they are stressed beyond their strength: a body of them is at rest for good only
+// once no point is.
+/// The largest yield function over the strength that equilibrium takes: a share of this size would still come off the
+/// stresses.
+inline constexpr double largest_over_stress = 1e-3;
+
+/// "it creeps: at …", and by how much the body is beyond its strength; empty: it does not creep. A pass over all
+/// points.
+std::string creep(const Problem& problem, const LagrangianPhase& phase);
+
+/// Notes on viscous materials that a user should know before a run: a static solver has no viscosity, or their flow
+/// takes longer than the run may. step: [s].
+std::vector<std::string> viscosity_notes(const Problem& problem, double step);
+
 }  // namespace stillpoint

@@ -1,9 +1,8 @@
-#include "simulation/advice/viscosity.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "simulation/advice/notes.hpp"
 #include "space/materials/material_laws.hpp"
 
 namespace stillpoint {

@@ -1,5 +1,3 @@
-#include "simulation/loads/formula_positions.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "scene/body_surface.hpp"
-#include "scene/border_line.hpp"
+#include "scene/body_border.hpp"
 #include "scene/support_kind.hpp"
+#include "simulation/loads/formula_samples.hpp"
 
 namespace stillpoint {
 namespace {

@@ -13,8 +13,7 @@
 
 #include "scene/own_loads.hpp"
 #include "scene/throw_scene_error.hpp"
-#include "simulation/loads/formula_positions.hpp"
-#include "simulation/loads/moments_of_change.hpp"
+#include "simulation/loads/formula_samples.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,5 +1,3 @@
-#include "simulation/loads/moments_of_change.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "scene/formula_parts.hpp"
+#include "simulation/loads/formula_samples.hpp"
 
 namespace stillpoint {
 namespace {

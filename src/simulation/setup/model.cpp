@@ -15,7 +15,6 @@
 #include "output/probes.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/advice/notes.hpp"
-#include "simulation/advice/viscosity.hpp"
 #include "simulation/loads/load_schedule.hpp"
 #include "simulation/setup/stages.hpp"
 

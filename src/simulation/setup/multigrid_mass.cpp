@@ -7,10 +7,10 @@
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
-#include "linalg/carried_multigrid.hpp"
 #include "linalg/lanczos.hpp"
+#include "linalg/linear_map.hpp"
+#include "linalg/multigrid.hpp"
 #include "linalg/power_iteration.hpp"
-#include "linalg/row_product.hpp"
 
 namespace stillpoint {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/longest_cell.hpp"
+#include "scene/grid_lines.hpp"
 
 namespace stillpoint {
 namespace {

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "output/point_fields.hpp"
-#include "scene/longest_cell.hpp"
-#include "simulation/advice/viscosity.hpp"
+#include "scene/grid_lines.hpp"
+#include "simulation/advice/notes.hpp"
 
 namespace stillpoint {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "simulation/advice/viscosity.hpp"
+#include "simulation/advice/notes.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,5 +1,3 @@
-#include "linalg/conjugate_gradients.hpp"
-
 #include <stillpoint/static_solution.hpp>
 
 #include <stdexcept>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "linalg/krylov.hpp"
 #include "solvers/statics/subtract_product.hpp"
 #include "system/largest_at.hpp"
 #include "system/static_balance.hpp"

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <span>
 
-#include "linalg/conjugate_gradients.hpp"
-#include "linalg/gmres.hpp"
+#include "linalg/krylov.hpp"
+#include "linalg/linear_map.hpp"
 #include "linalg/power_iteration.hpp"
-#include "linalg/row_product.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "solvers/statics/subtract_product.hpp"
 

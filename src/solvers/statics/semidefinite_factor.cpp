@@ -4,9 +4,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "linalg/conjugate_gradients.hpp"
-#include "linalg/gmres.hpp"
-#include "linalg/row_product.hpp"
+#include "linalg/krylov.hpp"
+#include "linalg/linear_map.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "solvers/spectrum/largest_entry.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/border_line.hpp"
+#include "scene/body_border.hpp"
 #include "space/grid/grid.hpp"
 
 namespace stillpoint {

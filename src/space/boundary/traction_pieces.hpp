@@ -10,8 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scene/body_surface.hpp"
-#include "scene/border_line.hpp"
+#include "scene/body_border.hpp"
 #include "space/boundary/face_pieces.hpp"
 #include "space/boundary/grid_crossings.hpp"
 #include "space/materials/deformation.hpp"

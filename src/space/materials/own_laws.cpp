@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/kept_text.hpp"
+#include "base/growing_table.hpp"
 #include "base/text.hpp"
 #include "space/materials/material_laws.hpp"
 

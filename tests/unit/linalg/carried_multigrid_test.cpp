@@ -1,5 +1,3 @@
-#include "linalg/carried_multigrid.hpp"
-
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -9,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "largest.hpp"
+#include "linalg/multigrid.hpp"
 
 using namespace stillpoint;
 

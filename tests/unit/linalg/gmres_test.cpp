@@ -1,5 +1,3 @@
-#include "linalg/gmres.hpp"
-
 #include <cmath>
 #include <vector>
 
@@ -9,6 +7,7 @@
 #include "base/stop_request.hpp"
 #include "convection.hpp"
 #include "largest.hpp"
+#include "linalg/krylov.hpp"
 #include "linalg/sparse_lu.hpp"
 
 using namespace stillpoint;

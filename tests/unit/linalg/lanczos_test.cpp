@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "linalg/conjugate_gradients.hpp"
+#include "linalg/krylov.hpp"
 
 using namespace stillpoint;
 

@@ -12,7 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include "largest.hpp"
-#include "linalg/conjugate_gradients.hpp"
+#include "linalg/krylov.hpp"
 #include "scenes.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 

@@ -7,8 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include "output/report/body_picture.hpp"
-#include "output/report/history_excerpt.hpp"
 #include "output/report/report_page.hpp"
+#include "output/report/run_report.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;

@@ -1,11 +1,10 @@
 // Pieces of curved surfaces: areas, and normals that enclose the body.
-#include "scene/body_surface.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
+#include "scene/body_border.hpp"
 #include "temporary_folder.hpp"
 #include "triangles.hpp"
 

@@ -1,7 +1,7 @@
-#include "simulation/end_request.hpp"
-
 #include <catch2/catch.hpp>
 #include <unistd.h>
+
+#include "simulation/verdict.hpp"
 
 using namespace stillpoint;
 

@@ -1,5 +1,3 @@
-#include "simulation/loads/moments_of_change.hpp"
-
 #include <stillpoint/simulation.hpp>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "simulation/loads/formula_samples.hpp"
 #include "simulation/loads/load_schedule.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 

@@ -1,11 +1,15 @@
-// The moments at which a formula of t has to be looked at, so that no pulse of it is missed.
+// The moments and positions at which a formula has to be looked at, so that no pulse of it is missed.
 #pragma once
 
 #include <stillpoint/expression.hpp>
+#include <stillpoint/problem.hpp>
 #include <stillpoint/types.hpp>
 
 #include <optional>
+#include <string>
 #include <vector>
+
+#include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
 
@@ -22,5 +26,10 @@ double unresolved_until(const Expression& formula, ConstVec x, ConstVec times, d
 /// moment at which it changes. It is looked at from 1e-9 to 1e12 s, at moments each 6 % after the last, and at those at
 /// which its comparisons switch or its functions bend. Empty if it goes on to change, or is not a finite number.
 std::optional<double> open_end(const Expression& formula, ConstVec x);
+
+/// Positions, (n × dim) [m], that stand for all at which the formula of a key such as "traction[0].value" is needed.
+/// For a traction or a support these are a thousand along its line or face, or eight to a cell, none at the ends;
+/// otherwise they are the material points.
+std::vector<double> formula_positions(const Problem& problem, const LagrangianPhase& phase, const std::string& key);
 
 }  // namespace stillpoint

@@ -1,0 +1,143 @@
+// Tables of which one key chooses what the others are: a material's law, the solution of [exact].
+#include <stillpoint/catalogue.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/input/key_reader.hpp"
+#include "scene/input/scene_keys.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// The keys of a row of the catalogue, into parts that have its parameters and choices.
+template <class Spec, class Row>
+std::vector<Key> keys_of_choice(const Row& row) {
+  std::vector<Key> keys;
+  for (const ParameterInfo& p : row.parameters) {
+    const auto value = [name = std::string(p.name)](Spec& of) -> double& { return of.parameters[name]; };
+    keys.push_back(key_of<Spec>(p.name, value, p.meaning,
+                                {.range = {p.lower, p.upper, p.lower_allowed, false},
+                                 .unit = p.unit,
+                                 .fallback = p.required          ? ""
+                                             : p.same_as.empty() ? fmt::format("{}", p.fallback)
+                                                                 : std::string(p.same_as),
+                                 .required = p.required}));
+  }
+  for (const ChoiceInfo& c : row.choices) {
+    const auto value = [name = std::string(c.name)](Spec& of) -> std::string& { return of.choices[name]; };
+    keys.push_back(key_of<Spec>(c.name, value, c.meaning,
+                                {.words = {c.values.begin(), c.values.end()}, .fallback = std::string(c.fallback)}));
+  }
+  return keys;
+}
+
+/// Sets what a table does not say, unless what it says is wrong.
+template <class Spec, class Row>
+void set_defaults(Spec& of, const Row& row, const FoundTable& found, const Reading& reading) {
+  const auto missing = [&](const auto& values, std::string_view name) {
+    return !values.contains(std::string(name)) && !reading.wrong.contains(fmt::format("{}.{}", found.path, name));
+  };
+  for (const ParameterInfo& p : row.parameters) {
+    if (!missing(of.parameters, p.name)) continue;
+    const auto same = of.parameters.find(std::string(p.same_as));
+    of.parameters[std::string(p.name)] = same == of.parameters.end() ? p.fallback : same->second;
+  }
+  for (const ChoiceInfo& c : row.choices)
+    if (missing(of.choices, c.name)) of.choices[std::string(c.name)] = c.fallback;
+}
+
+std::vector<Key> joined(std::vector<Key> keys, const std::vector<Key>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+}  // namespace
+
+std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
+  const auto law_key =
+      key_of<MaterialSpec>("law", &MaterialSpec::law, "`stillpoint list materials` has their equations",
+                           {.words = names_of(catalogue.laws), .required = true});
+  std::vector<TableInfo> tables = {
+      {.path = "material.<name>", .help = "what bodies are made of", .repeat = Repeat::named, .keys = {law_key.info}}};
+  std::map<std::string, std::vector<Key>> keys;
+  for (const LawInfo& law : catalogue.laws) {
+    std::vector<Key>& of_law = keys[std::string(law.name)] = keys_of_choice<MaterialSpec>(law);
+    of_law.insert(of_law.begin(), law_key);
+    tables.push_back({.path = "material.<name>",
+                      .help = law.equation,
+                      .repeat = Repeat::named,
+                      .choice_key = "law",
+                      .choice = law.name,
+                      .keys = infos_of(of_law)});
+  }
+  tables[0].read = [&catalogue, law_key, keys](const TableInfo& self, const toml::table& root, Scene& scene,
+                                               Reading& reading) {
+    for (const FoundTable& found : find_tables(self, root, reading)) {
+      MaterialSpec& material = scene.materials[found.name];
+      material.name = found.name;
+      if (const toml::node* const law = found.table.get("law")) {
+        law_key.read(&material, {*law, found.path + ".law", reading}, law_key.info);
+      } else {
+        reading.problem(location_of(found.table.source()), found.path, "the key 'law' is missing");
+      }
+      if (material.law.empty()) continue;  // which other keys belong here is not known
+      const auto& of_law = keys.at(material.law);
+      TableInfo told = self;
+      told.keys = infos_of(of_law);
+      read_keys(found, told, of_law, &material, reading);
+      set_defaults(material, *catalogue.law(material.law), found, reading);
+    }
+  };
+  return tables;
+}
+
+std::vector<TableInfo> exact_tables(const Catalogue& catalogue) {
+  const Key solution = key_of<ExactSpec>(
+      "solution", &ExactSpec::solution,
+      "one that the program knows, for the material of the bodies, in place of u and stress; `stillpoint list "
+      "solutions` has them",
+      {.words = names_of(catalogue.solutions)});
+  const std::vector<Key> formulas = {
+      key_of<ExactSpec>("u", &ExactSpec::u, "displacement", {.unit = "m", .variables = "xt"}),
+      key_of<ExactSpec>("stress", &ExactSpec::stress,
+                        "Cauchy's, beside u; with dim = 2 the components [xx, yy, zz, xy], axisymmetric [rr, zz, "
+                        "theta-theta, rz], with dim = 3 [xx, yy, zz, xy, yz, zx]",
+                        {.unit = "Pa", .variables = "xt", .of_stress = true})};
+  const std::vector<Key> keys_of_all = joined(formulas, {solution});
+  std::map<std::string, std::vector<Key>> keys;
+  std::vector<TableInfo> tables = {{.path = "exact",
+                                    .help = "the exact solution, if it is known: the run reports its error",
+                                    .keys = infos_of(keys_of_all)}};
+  for (const SolutionInfo& info : catalogue.solutions) {
+    const auto& of_solution = keys[std::string(info.name)] = joined({solution}, keys_of_choice<ExactSpec>(info));
+    tables.push_back({.path = "exact",
+                      .help = info.description,
+                      .choice_key = "solution",
+                      .choice = info.name,
+                      .keys = infos_of(of_solution)});
+  }
+  tables[0].read = [&catalogue, solution, keys_of_all, formulas, keys](const TableInfo& self, const toml::table& root,
+                                                                       Scene& scene, Reading& reading) {
+    for (const FoundTable& found : find_tables(self, root, reading)) {
+      const toml::node* const chosen = found.table.get("solution");
+      if (!chosen) {
+        read_keys(found, self, keys_of_all, &scene.exact, reading);
+        continue;
+      }
+      solution.read(&scene.exact, {*chosen, found.path + ".solution", reading}, solution.info);
+      if (scene.exact.solution.empty()) continue;  // which other keys belong here is not known
+      const std::vector<Key> of_solution = joined(keys.at(scene.exact.solution), formulas);
+      TableInfo told = self;
+      told.keys = infos_of(of_solution);
+      read_keys(found, told, of_solution, &scene.exact, reading);
+      set_defaults(scene.exact, *catalogue.solution(scene.exact.solution), found, reading);
+    }
+  };
+  return tables;
+}
+
+}  // namespace stillpoint
