@@ -1,11 +1,12 @@
-#include "simulation/watch/left_in_points.hpp"
-
+// The traces that a violent way to rest in many phases leaves in the points: stresses and positions that no function of
+// the grid feels, and that no motion after it takes away.
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "simulation/advice/notes.hpp"
+#include "simulation/watch/watchers.hpp"
 
 namespace stillpoint {
 namespace {
@@ -56,33 +57,39 @@ std::string null_space_note(const Problem& problem, const LagrangianPhase& phase
                      null_space_stress, remedy);
 }
 
+class LeftInPoints : public Watcher {
+ public:
+  /// Takes an equilibrium back if a wall has pushed a part of the body out of itself at once, by a good part of a cell;
+  /// doubts it if much of the stresses is not felt by the grid.
+  void confirm(RunState& run, Verdict& verdict) override {
+    const LagrangianPhase& phase = *run.model.phase;
+    if (!phase.info().updated_lagrangian) return;
+    if (const std::string fault = fault_of_push(run.scene, phase.supports().wall_reactions(run.t)); !fault.empty()) {
+      verdict = {RunStatus::step_limit, fmt::format("no equilibrium: {}; it ended with {}", fault, verdict.reason)};
+      return;
+    }
+    const double unfelt = phase.fields().null_space_stress(run.t, run.motion->u());
+    if (const std::string note = null_space_note(run.scene, phase, unfelt); !note.empty())
+      verdict.reason += "; but " + note;
+  }
+  void fill_state(Summary& summary, RunState& run) override {
+    LagrangianPhase& phase = *run.model.phase;
+    if (!phase.info().updated_lagrangian) return;
+    for (const std::string& note : notes_on_late_walls(run.scene, phase.supports().wall_reactions(run.t)))
+      add_note(summary, note);
+    const auto transfer = phase.control().transfer_errors();
+    summary.mass_error = transfer.mass;
+    summary.momentum_error = transfer.momentum;
+    summary.angular_momentum_error = transfer.angular_momentum;
+    summary.added_mass = transfer.added_mass;
+    summary.null_space_stress = phase.fields().null_space_stress(run.t, run.motion->u());
+    add_note(summary, null_space_note(run.scene, phase, *summary.null_space_stress));
+    add_note(summary, lost_motion_note(phase, run.t, run.motion->u(), run.phases));
+  }
+};
+
 }  // namespace
 
-void LeftInPoints::confirm(RunState& run, Verdict& verdict) {
-  const LagrangianPhase& phase = *run.model.phase;
-  if (!phase.info().updated_lagrangian) return;
-  if (const std::string fault = fault_of_push(run.scene, phase.supports().wall_reactions(run.t)); !fault.empty()) {
-    verdict = {RunStatus::step_limit, fmt::format("no equilibrium: {}; it ended with {}", fault, verdict.reason)};
-    return;
-  }
-  const double unfelt = phase.fields().null_space_stress(run.t, run.motion->u());
-  if (const std::string note = null_space_note(run.scene, phase, unfelt); !note.empty())
-    verdict.reason += "; but " + note;
-}
-
-void LeftInPoints::fill_state(Summary& summary, RunState& run) {
-  LagrangianPhase& phase = *run.model.phase;
-  if (!phase.info().updated_lagrangian) return;
-  for (const std::string& note : notes_on_late_walls(run.scene, phase.supports().wall_reactions(run.t)))
-    add_note(summary, note);
-  const auto transfer = phase.control().transfer_errors();
-  summary.mass_error = transfer.mass;
-  summary.momentum_error = transfer.momentum;
-  summary.angular_momentum_error = transfer.angular_momentum;
-  summary.added_mass = transfer.added_mass;
-  summary.null_space_stress = phase.fields().null_space_stress(run.t, run.motion->u());
-  add_note(summary, null_space_note(run.scene, phase, *summary.null_space_stress));
-  add_note(summary, lost_motion_note(phase, run.t, run.motion->u(), run.phases));
-}
+std::unique_ptr<Watcher> watch_left_in_points() { return std::make_unique<LeftInPoints>(); }
 
 }  // namespace stillpoint

@@ -1,10 +1,14 @@
-#include "simulation/watch/single_phase.hpp"
-
+// A body that yields in a single phase, whose grid and weights are those of its start: beyond its limit load no
+// equilibrium is left, and the residual ends at the share of the load that it does not bear; but the frozen grid
+// stiffens as it is squeezed, and bears any load in the end. So the strain tells how far the answer can be trusted. A
+// hyperelastic body is computed rightly at any strain in one phase.
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "simulation/watch/watchers.hpp"
 
 namespace stillpoint {
 namespace {
@@ -40,25 +44,30 @@ std::string note_on_single_phase(std::optional<double> strain) {
       100 * *strain);
 }
 
+class SinglePhase : public Watcher {
+ public:
+  /// Takes an equilibrium back if the body has gone nearly as far as its own size, and doubts one that goes some way.
+  void confirm(RunState& run, Verdict& verdict) override {
+    const LagrangianPhase& phase = *run.model.phase;
+    const auto most = strain_in_single_phase(phase, run.t, run.motion->u());
+    const std::string said = most ? note_on_single_phase(most->strain) : "";
+    if (said.empty()) return;
+    if (most->strain <= largest_single_phase_strain) {
+      verdict.reason += "; but " + said;
+      return;
+    }
+    verdict = {RunStatus::step_limit, fmt::format("no equilibrium: {}; {} is strained most; it ended with {}", said,
+                                                  to_string(phase.diagnosis().of_point(most->point)), verdict.reason)};
+  }
+  void fill_state(Summary& summary, RunState& run) override {
+    if (const auto most = strain_in_single_phase(*run.model.phase, run.t, run.motion->u()))
+      summary.single_phase_strain = most->strain;
+    add_note(summary, note_on_single_phase(summary.single_phase_strain));
+  }
+};
+
 }  // namespace
 
-void SinglePhase::confirm(RunState& run, Verdict& verdict) {
-  const LagrangianPhase& phase = *run.model.phase;
-  const auto most = strain_in_single_phase(phase, run.t, run.motion->u());
-  const std::string said = most ? note_on_single_phase(most->strain) : "";
-  if (said.empty()) return;
-  if (most->strain <= largest_single_phase_strain) {
-    verdict.reason += "; but " + said;
-    return;
-  }
-  verdict = {RunStatus::step_limit, fmt::format("no equilibrium: {}; {} is strained most; it ended with {}", said,
-                                                to_string(phase.diagnosis().of_point(most->point)), verdict.reason)};
-}
-
-void SinglePhase::fill_state(Summary& summary, RunState& run) {
-  if (const auto most = strain_in_single_phase(*run.model.phase, run.t, run.motion->u()))
-    summary.single_phase_strain = most->strain;
-  add_note(summary, note_on_single_phase(summary.single_phase_strain));
-}
+std::unique_ptr<Watcher> watch_single_phase() { return std::make_unique<SinglePhase>(); }
 
 }  // namespace stillpoint
