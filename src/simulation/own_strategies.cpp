@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "base/growing_table.hpp"
+#include "base/registry.hpp"
 #include "base/text.hpp"
 #include "plan/catalogue.hpp"
 #include "solvers/relaxation/relaxations.hpp"

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "base/growing_table.hpp"
 #include "base/parallel_loop.hpp"
+#include "base/registry.hpp"
 #include "system/put_damping.hpp"
 
 namespace stillpoint {
@@ -116,14 +116,10 @@ void require_alpha(std::string_view name, double alpha) {
 }
 void require_c(std::string_view name, double c) { require(c >= 0 && std::isfinite(c), name, "c >= 0", c); }
 
-/// A damping for scenes, and the function that makes it.
-struct Row {
-  StrategyInfo about;
-  std::function<std::unique_ptr<Damping>(double c, double alpha)> make;
-};
+using Make = std::function<std::unique_ptr<Damping>(double c, double alpha)>;
 
-GrowingTable<Row>& table() {
-  static GrowingTable<Row> all({
+Registry<StrategyInfo, Make>& registry() {
+  static Registry<StrategyInfo, Make> all({
       {{.name = "none", .equation = "M a = Q", .source = "", .damps = false},
        [](double, double) -> std::unique_ptr<Damping> { return std::make_unique<None>(); }},
       {{.name = "viscous",
@@ -175,43 +171,23 @@ GrowingTable<Row>& table() {
   return all;
 }
 
-const std::vector<Row>& rows() { return table().rows(); }
-std::string_view name_of(const Row& row) { return row.about.name; }
-std::string_view name_of(const StrategyInfo& info) { return info.name; }
-
-GrowingTable<StrategyInfo>& infos() {
-  static GrowingTable<StrategyInfo> all([] {
-    std::vector<StrategyInfo> of_rows;
-    for (const Row& row : rows()) of_rows.push_back(row.about);
-    return of_rows;
-  }());
-  return all;
-}
-
 }  // namespace
 
-const std::vector<StrategyInfo>& dampings() { return infos().rows(); }
+const std::vector<StrategyInfo>& dampings() { return registry().infos(); }
 
 void put_damping(const StrategyInfo& about, double stiffness_factor, OwnDampingForce force) {
-  const auto same = [&](const auto& row) { return name_of(row) == about.name; };
-  infos();  // has to be made from the rows before the new one
-  table().put({about,
-               [=, force = std::move(force)](double, double alpha) -> std::unique_ptr<Damping> {
-                 return std::make_unique<Own>(force, alpha, stiffness_factor);
-               }},
-              same);
-  infos().put(about, same);
+  registry().put(about, [=, force = std::move(force)](double, double alpha) -> std::unique_ptr<Damping> {
+    return std::make_unique<Own>(force, alpha, stiffness_factor);
+  });
 }
 
 bool is_undamped(std::string_view strategy) {
-  const auto row = std::ranges::find(rows(), strategy, [](const Row& r) { return r.about.name; });
-  return row != rows().end() && !row->about.damps;
+  const auto row = std::ranges::find(dampings(), strategy, &StrategyInfo::name);
+  return row != dampings().end() && !row->damps;
 }
 
 std::unique_ptr<Damping> make_damping(std::string_view name, double c, double alpha) {
-  for (const Row& row : rows()) {
-    if (row.about.name == name) return row.make(c, alpha);
-  }
+  if (const Make make = registry().maker(name)) return make(c, alpha);
   throw std::invalid_argument(fmt::format("there is no damping '{}'", name));
 }
 

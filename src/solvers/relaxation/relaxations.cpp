@@ -10,20 +10,15 @@
 
 #include <fmt/format.h>
 
-#include "base/growing_table.hpp"
+#include "base/registry.hpp"
 
 namespace stillpoint {
 namespace {
 
 using Make = std::function<std::unique_ptr<Stepper>(const RelaxationOptions&, RelaxationSystem&)>;
 
-struct Row {
-  RelaxationInfo info;
-  Make make;
-};
-
-GrowingTable<Row>& table() {
-  static GrowingTable<Row> all({
+Registry<RelaxationInfo, Make>& registry() {
+  static Registry<RelaxationInfo, Make> all({
       {{.about = {.name = "kinetic",
                   .equation = "M a = Q, v = 0 at every peak of v'Mv/2",
                   .source = "Cundall 1976; Barnes 1999",
@@ -95,28 +90,14 @@ GrowingTable<Row>& table() {
   return all;
 }
 
-const std::vector<Row>& rows() { return table().rows(); }
-
-GrowingTable<RelaxationInfo>& infos() {
-  static GrowingTable<RelaxationInfo> all([] {
-    std::vector<RelaxationInfo> of_rows;
-    for (const Row& row : rows()) of_rows.push_back(row.info);
-    return of_rows;
-  }());
-  return all;
-}
-
 }  // namespace
 
-const std::vector<RelaxationInfo>& relaxations() { return infos().rows(); }
+const std::vector<RelaxationInfo>& relaxations() { return registry().infos(); }
 
 void put_relaxation(const RelaxationInfo& info, MakeOwnRelaxation make) {
-  infos();  // has to be made from the rows before the new one
-  table().put(
-      {info, [make = std::move(make)](const RelaxationOptions& options,
-                                      RelaxationSystem& system) { return make_own_relaxation(options, system, make); }},
-      [&](const Row& row) { return row.info.about.name == info.about.name; });
-  infos().put(info, [&](const RelaxationInfo& other) { return other.about.name == info.about.name; });
+  registry().put(info, [make = std::move(make)](const RelaxationOptions& options, RelaxationSystem& system) {
+    return make_own_relaxation(options, system, make);
+  });
 }
 
 const RelaxationInfo* find_relaxation(std::string_view name) {
@@ -128,9 +109,7 @@ std::unique_ptr<Stepper> make_relaxation(const RelaxationOptions& options, Relax
   if (!(options.max_step > 0) || !std::isfinite(options.max_step)) {
     throw std::invalid_argument(fmt::format("a relaxation's max_step must be > 0, found {}", options.max_step));
   }
-  for (const Row& row : rows()) {
-    if (row.info.about.name == options.name) return row.make(options, system);
-  }
+  if (const Make make = registry().maker(options.name)) return make(options, system);
   throw std::invalid_argument(fmt::format("there is no relaxation '{}'", options.name));
 }
 

@@ -4,11 +4,19 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
 
-#include "base/growing_table.hpp"
+#include <fmt/format.h>
+
+#include "base/registry.hpp"
+#include "base/text.hpp"
 
 namespace stillpoint {
 namespace {
+
+using OfStates = std::map<StressState, MakeLaw>;
 
 constexpr const char* fluidity = "fluidity";
 
@@ -81,14 +89,41 @@ std::vector<LawInfo> built_in() {
   };
 }
 
-GrowingTable<LawInfo>& table() {
-  static GrowingTable<LawInfo> laws(built_in());
+// The laws of this library are compiled in: there is nothing that makes them.
+Registry<LawInfo, OfStates>& registry() {
+  static Registry<LawInfo, OfStates> laws([] {
+    std::vector<Registry<LawInfo, OfStates>::Row> rows;
+    for (const LawInfo& law : built_in()) rows.push_back({law, {}});
+    return rows;
+  }());
   return laws;
+}
+
+void check_parameters(const OwnLaw& about) {
+  std::set<std::string> taken = {"law", "rho"};
+  for (const OwnParameter& parameter : about.parameters) {
+    if (parameter.name.empty() || !taken.insert(parameter.name).second)
+      throw std::invalid_argument(
+          fmt::format("the law '{}' has two parameters '{}', or one without a name", about.name, parameter.name));
+    if (!(parameter.lower < parameter.upper))
+      throw std::invalid_argument(fmt::format("the parameter '{}' of the law '{}' has no value between {} and {}",
+                                              parameter.name, about.name, parameter.lower, parameter.upper));
+  }
+}
+
+LawInfo row_of(const OwnLaw& about, const OfStates& of_states) {
+  LawInfo info{kept_for_good(about.name), kept_for_good(about.equation), kept_for_good(about.source), {}, {}};
+  for (const auto& [state, make] : of_states) info.states.push_back(state);
+  for (const OwnParameter& p : about.parameters)
+    info.parameters.push_back({kept_for_good(p.name), kept_for_good(p.unit), kept_for_good(p.meaning), p.lower, p.upper,
+                               false, !p.fallback, p.fallback.value_or(0)});
+  info.parameters.push_back(density);
+  return info;
 }
 
 }  // namespace
 
-const std::vector<LawInfo>& material_laws() { return table().rows(); }
+const std::vector<LawInfo>& material_laws() { return registry().infos(); }
 
 // A user-defined law may have a parameter of this name, but has no history.
 bool is_viscous(const MaterialSpec& material) {
@@ -103,8 +138,22 @@ MaterialSpec rate_independent(MaterialSpec material) {
   return material;
 }
 
-void put_law(const LawInfo& about) {
-  table().put(about, [&](const LawInfo& other) { return other.name == about.name; });
+void add_law(const OwnLaw& about, const OfStates& of_states) {
+  if (!is_plain_word(about.name))
+    throw std::invalid_argument(
+        fmt::format("a law cannot be called '{}'; expected {}", about.name, what_a_plain_word_is));
+  if (of_states.empty()) throw std::invalid_argument(fmt::format("the law '{}' has no stress state", about.name));
+  check_parameters(about);
+  const bool is_known = std::ranges::find(material_laws(), about.name, &LawInfo::name) != material_laws().end();
+  if (is_known && registry().maker(about.name).empty())
+    throw std::invalid_argument(fmt::format("'{}' is a law of this library; expected another name", about.name));
+  registry().put(row_of(about, of_states), of_states);
+}
+
+std::shared_ptr<const LawAnswers> own_law_answers(const std::string& law, StressState state,
+                                                  const LawParameters& parameters) {
+  const OfStates of_states = registry().maker(law);
+  return of_states.empty() ? nullptr : of_states.at(state)(parameters);
 }
 
 }  // namespace stillpoint

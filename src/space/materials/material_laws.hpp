@@ -15,9 +15,6 @@ namespace stillpoint {
 /// All laws, including those that the program has added.
 const std::vector<LawInfo>& material_laws();
 
-/// Adds a row, or replaces the one of the same name.
-void put_law(const LawInfo& about);
-
 /// Whether a material stressed beyond its strength flows at a finite rate, so that the answer depends on time.
 bool is_viscous(const MaterialSpec& material);
 /// The same material without viscosity, which gives its long-term strength.
