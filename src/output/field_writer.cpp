@@ -160,115 +160,88 @@ void remove_quietly(const fs::path& path) {
 
 }  // namespace
 
-// Each frame has a file of its own, with its text for ParaView beside it. These are not touched again before all of
-// them are joined: whatever happens then, they are there.
-class FieldWriter::Files {
- public:
-  Files(const fs::path& folder, std::size_t frames) : folder_(folder), frames_(frames) {
-    if (frames == 0) fs::remove_all(parts());
-    fs::create_directories(parts());
-    // A run that is killed while it removes the parts may leave only one of a frame's two files.
-    for (std::size_t k = 0; k < frames; ++k) {
-      if (!fs::exists(part(k)) || !fs::exists(part(k).replace_extension(".xdmf"))) split(k);
-    }
+FieldWriter::FieldWriter(const fs::path& folder, std::size_t frames) : folder_(folder), frames_(frames) {
+  if (frames == 0) fs::remove_all(parts());
+  fs::create_directories(parts());
+  // A run that is killed while it removes the parts may leave only one of a frame's two files.
+  for (std::size_t k = 0; k < frames; ++k) {
+    if (!fs::exists(part(k)) || !fs::exists(part(k).replace_extension(".xdmf"))) split(k);
   }
-
-  void add(const FieldFrame& frame) {
-    const fs::path partial = partial_name(part(frames_));
-    try {
-      Hdf5File file(partial);
-      const std::string text = write(frame, "/" + frame_name(frames_), file);
-      file.close();
-      AtomicFile xdmf(part(frames_).replace_extension(".xdmf"));
-      xdmf.write(text);
-      xdmf.finish();
-    } catch (...) {
-      remove_quietly(partial);
-      throw;
-    }
-    fs::rename(partial, part(frames_));
-    ++frames_;
-  }
-
-  void finish() {
-    const fs::path whole = folder_ / "fields.h5";
-    try {
-      join(partial_name(whole));
-      AtomicFile xdmf(folder_ / "fields.xdmf");
-      xdmf.write(xdmf_head);
-      for (std::size_t k = 0; k < frames_; ++k) xdmf.write(text_of(part(k).replace_extension(".xdmf")));
-      xdmf.write(foot);
-      fs::rename(partial_name(whole), whole);  // before fields.xdmf, which refers to it
-      xdmf.finish();
-    } catch (...) {
-      remove_quietly(partial_name(whole));
-      throw;
-    }
-    remove_quietly(parts());
-  }
-
-  std::size_t frames() const { return frames_; }
-
- private:
-  fs::path parts() const { return folder_ / "fields.partial"; }
-  fs::path part(std::size_t k) const { return parts() / (frame_name(k) + ".h5"); }
-
-  void join(const fs::path& name) const {
-    Hdf5File whole(name);
-    whole.make_group("/vertex");
-    std::set<std::string> vertices;
-    for (std::size_t k = 0; k < frames_; ++k) {
-      const Hdf5File of_frame(Hdf5File::Existing{part(k)});
-      whole.copy(of_frame, "/" + frame_name(k));
-      for (const std::string& points : of_frame.names_in("/vertex")) {
-        if (vertices.insert(points).second) whole.copy(of_frame, "/vertex/" + points);
-      }
-    }
-    whole.close();
-  }
-
-  // Takes frame k out of the joined files again, for a run that has joined its frames and is continued.
-  void split(std::size_t k) const {
-    const std::string begin = grid_begin(frame_name(k)), xdmf = text_of(folder_ / "fields.xdmf");
-    const std::size_t from = xdmf.find(begin), to = xdmf.find(grid_end, std::min(from, xdmf.size()));
-    if (to == std::string::npos)
-      throw StateError(fmt::format("{}: frame {} is not there; the run goes on after {} of them",
-                                   (folder_ / "fields.xdmf").string(), k, frames_));
-    AtomicFile text(part(k).replace_extension(".xdmf"));
-    text.write(std::string_view(xdmf).substr(from, to + grid_end.size() - from));
-    text.finish();
-    const Hdf5File whole(Hdf5File::Existing{folder_ / "fields.h5"});
-    const fs::path partial = partial_name(part(k));
-    Hdf5File of_frame(partial);
-    of_frame.make_group("/vertex");
-    of_frame.copy(whole, "/" + frame_name(k));
-    const std::size_t vertex = xdmf.find("/vertex/", from);
-    of_frame.copy(whole, xdmf.substr(vertex, xdmf.find('<', vertex) - vertex));
-    of_frame.close();
-    fs::rename(partial, part(k));
-  }
-
-  fs::path folder_;
-  std::size_t frames_;
-};
-
-FieldWriter::FieldWriter(const std::filesystem::path& folder, std::size_t frames)
-    : files_(std::make_unique<Files>(folder, frames)) {}
-
-FieldWriter::~FieldWriter() = default;
-
-void FieldWriter::add(const FieldFrame& frame) {
-  if (!files_) throw std::logic_error("add() after finish()");
-  validate(frame);
-  files_->add(frame);
 }
 
-std::size_t FieldWriter::frames() const { return files_ ? files_->frames() : 0; }
+fs::path FieldWriter::part(std::size_t k) const { return parts() / (frame_name(k) + ".h5"); }
+
+void FieldWriter::add(const FieldFrame& frame) {
+  if (finished_) throw std::logic_error("add() after finish()");
+  validate(frame);
+  const fs::path partial = partial_name(part(frames_));
+  try {
+    Hdf5File file(partial);
+    const std::string text = write(frame, "/" + frame_name(frames_), file);
+    file.close();
+    AtomicFile xdmf(part(frames_).replace_extension(".xdmf"));
+    xdmf.write(text);
+    xdmf.finish();
+  } catch (...) {
+    remove_quietly(partial);
+    throw;
+  }
+  fs::rename(partial, part(frames_));
+  ++frames_;
+}
 
 void FieldWriter::finish() {
-  if (!files_) return;
-  files_->finish();
-  files_.reset();
+  if (finished_) return;
+  const fs::path whole = folder_ / "fields.h5";
+  try {
+    join(partial_name(whole));
+    AtomicFile xdmf(folder_ / "fields.xdmf");
+    xdmf.write(xdmf_head);
+    for (std::size_t k = 0; k < frames_; ++k) xdmf.write(text_of(part(k).replace_extension(".xdmf")));
+    xdmf.write(foot);
+    fs::rename(partial_name(whole), whole);  // before fields.xdmf, which refers to it
+    xdmf.finish();
+  } catch (...) {
+    remove_quietly(partial_name(whole));
+    throw;
+  }
+  remove_quietly(parts());
+  finished_ = true;
+}
+
+void FieldWriter::join(const fs::path& name) const {
+  Hdf5File whole(name);
+  whole.make_group("/vertex");
+  std::set<std::string> vertices;
+  for (std::size_t k = 0; k < frames_; ++k) {
+    const Hdf5File of_frame(Hdf5File::Existing{part(k)});
+    whole.copy(of_frame, "/" + frame_name(k));
+    for (const std::string& points : of_frame.names_in("/vertex")) {
+      if (vertices.insert(points).second) whole.copy(of_frame, "/vertex/" + points);
+    }
+  }
+  whole.close();
+}
+
+// Takes frame k out of the joined files again, for a run that has joined its frames and is continued.
+void FieldWriter::split(std::size_t k) const {
+  const std::string begin = grid_begin(frame_name(k)), xdmf = text_of(folder_ / "fields.xdmf");
+  const std::size_t from = xdmf.find(begin), to = xdmf.find(grid_end, std::min(from, xdmf.size()));
+  if (to == std::string::npos)
+    throw StateError(fmt::format("{}: frame {} is not there; the run goes on after {} of them",
+                                 (folder_ / "fields.xdmf").string(), k, frames_));
+  AtomicFile text(part(k).replace_extension(".xdmf"));
+  text.write(std::string_view(xdmf).substr(from, to + grid_end.size() - from));
+  text.finish();
+  const Hdf5File whole(Hdf5File::Existing{folder_ / "fields.h5"});
+  const fs::path partial = partial_name(part(k));
+  Hdf5File of_frame(partial);
+  of_frame.make_group("/vertex");
+  of_frame.copy(whole, "/" + frame_name(k));
+  const std::size_t vertex = xdmf.find("/vertex/", from);
+  of_frame.copy(whole, xdmf.substr(vertex, xdmf.find('<', vertex) - vertex));
+  of_frame.close();
+  fs::rename(partial, part(k));
 }
 
 }  // namespace stillpoint

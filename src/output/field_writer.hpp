@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,19 +39,26 @@ class FieldWriter {
   /// frames: the number of frames that a continued run keeps; later ones are written anew. Throws StateError if they
   /// are absent.
   explicit FieldWriter(const std::filesystem::path& folder, std::size_t frames = 0);
-  ~FieldWriter();
   FieldWriter(const FieldWriter&) = delete;
   FieldWriter& operator=(const FieldWriter&) = delete;
 
   /// Throws std::invalid_argument for a frame whose parts do not have the shapes above; nothing is written then.
   void add(const FieldFrame& frame);
-  std::size_t frames() const;
+  std::size_t frames() const { return finished_ ? 0 : frames_; }
   /// Joins the frames. Has to be called at the end of every run, also of one that failed.
   void finish();
 
  private:
-  class Files;
-  std::unique_ptr<Files> files_;  // null after finish()
+  // Each frame has a file of its own, with its text for ParaView beside it. These are not touched again before all of
+  // them are joined: whatever happens then, they are there.
+  std::filesystem::path parts() const { return folder_ / "fields.partial"; }
+  std::filesystem::path part(std::size_t k) const;
+  void join(const std::filesystem::path& name) const;
+  void split(std::size_t k) const;
+
+  std::filesystem::path folder_;
+  std::size_t frames_;
+  bool finished_ = false;
 };
 
 }  // namespace stillpoint
