@@ -1,6 +1,7 @@
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -11,21 +12,10 @@
 namespace stillpoint {
 
 std::string_view to_string(StressState state) {
-  switch (state) {
-    case StressState::uniaxial_stress:
-      return "uniaxial-stress";
-    case StressState::uniaxial_strain:
-      return "uniaxial-strain";
-    case StressState::plane_strain:
-      return "plane-strain";
-    case StressState::plane_stress:
-      return "plane-stress";
-    case StressState::axisymmetric:
-      return "axisymmetric";
-    case StressState::space:
-      return "space";
-  }
-  return "";
+  constexpr std::array words = {"uniaxial-stress", "uniaxial-strain", "plane-strain",
+                                "plane-stress",    "axisymmetric",    "space"};  // in the order of StressState
+  const auto k = static_cast<std::size_t>(state);
+  return k < words.size() ? words[k] : "";
 }
 
 Location Scene::location(const std::string& key) const {

@@ -1,6 +1,7 @@
 // A row of a comparison: its names, and its evaluations relative to the Chebyshev estimate.
 #include <stillpoint/compare.hpp>
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,23 +9,10 @@
 namespace stillpoint {
 
 std::string to_string(ComparedStatus status) {
-  switch (status) {
-    case ComparedStatus::converged:
-      return "converged";
-    case ComparedStatus::stalled:
-      return "stalled";
-    case ComparedStatus::unfinished:
-      return "unfinished";
-    case ComparedStatus::inaccurate:
-      return "inaccurate";
-    case ComparedStatus::diverged:
-      return "diverged";
-    case ComparedStatus::refused:
-      return "refused";
-    case ComparedStatus::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
+  constexpr std::array words = {"converged", "stalled", "unfinished", "inaccurate",
+                                "diverged",  "refused", "interrupted"};  // in the order of ComparedStatus
+  const auto k = static_cast<std::size_t>(status);
+  return k < words.size() ? words[k] : "unknown";
 }
 
 std::string ComparedRun::label() const {

@@ -56,12 +56,6 @@ std::string csv(const std::vector<ConvergenceStudy>& series) {
   return text;
 }
 
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number(value));
-  return list;
-}
-
 Json json(const ConvergenceStudy& study) {
   Json refined = Json::array(), levels = Json::array(), orders = Json::object(), quantities = Json::object(),
        sources = Json::array();

@@ -19,11 +19,6 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 // NaN is null in JSON; every other number is restored bit by bit.
-Json list_of(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number(value));
-  return list;
-}
 double number_of(const Json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
@@ -59,10 +54,10 @@ Json json_of(const LevelRun& run) {
           {"norms", list_of(run.norms)},
           {"no_energy", run.no_energy},
           {"probes", list_of(run.probes)},
-          {"probe_errors", list_of(run.probe_errors)},
-          {"u", list_of(run.u)},
-          {"stress", list_of(run.stress)},
-          {"volume", list_of(run.volume)},
+          {"probe_errors", numbers(run.probe_errors)},
+          {"u", numbers(run.u)},
+          {"stress", numbers(run.stress)},
+          {"volume", numbers(run.volume)},
           {"notes", run.notes}};
 }
 
