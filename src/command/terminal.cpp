@@ -62,22 +62,30 @@ void watch_for_interrupt() {
   std::thread(wait_for_signals, heeded).detach();
 }
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+StatusLine::StatusLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+bool StatusLine::is_due(double wall_s) {
+  if (!terminal_ && wall_s < next_plain_line_) return false;
+  next_plain_line_ = wall_s + 10;
+  return true;
+}
+
+void StatusLine::print(const std::string& text) {
+  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", text, terminal_ ? "" : "\n");
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void StatusLine::finish() const {
+  if (terminal_ && shown_) fmt::print(stderr, "\r\033[K");
+}
 
 void ProgressLine::show(const Progress& p) {
   start_residual_ = std::max(start_residual_, p.residual);
   lately_.emplace_back(p.wall_s, p.residual);
   while (lately_.front().first < p.wall_s / 2) lately_.pop_front();
-  if (!terminal_ && p.wall_s < next_plain_line_) return;
-  next_plain_line_ = p.wall_s + 10;
-  const std::string line = fmt::format("t = {:.4g}  steps {}  residual {:.2e}{}", p.t, p.steps, p.residual, outlook(p));
-  if (terminal_) {
-    fmt::print(stderr, "\r\033[K{}", line);
-  } else {
-    fmt::print(stderr, "{}\n", line);
-  }
-  std::fflush(stderr);
-  shown_ = true;
+  if (!is_due(p.wall_s)) return;
+  print(fmt::format("t = {:.4g}  steps {}  residual {:.2e}{}", p.t, p.steps, p.residual, outlook(p)));
 }
 
 // For a residual that does not fall no remaining time can be given.
@@ -95,8 +103,12 @@ std::string ProgressLine::outlook(const Progress& p) const {
   return done + fmt::format("  about {:.0f} s left", (p.wall_s - since) * to_fall / fallen);
 }
 
-void ProgressLine::finish() {
-  if (terminal_ && shown_) fmt::print(stderr, "\r\033[K");
+void CountLine::show(const StudyProgress& p) {
+  if (!is_due(p.wall_s)) return;
+  std::string left;
+  if (p.done > 0 && p.done < p.total)
+    left = fmt::format("  about {:.0f} s left", p.wall_s * (p.total - p.done) / p.done);
+  print(fmt::format("[{}/{}] {}{}", p.done, p.total, p.doing, left));
 }
 
 }  // namespace stillpoint::command

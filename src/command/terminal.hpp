@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/simulation.hpp>
+#include <stillpoint/study_progress.hpp>
 
 #include <deque>
 #include <string>
@@ -9,21 +10,39 @@
 
 namespace stillpoint::command {
 
-class ProgressLine {
+class StatusLine {
  public:
-  ProgressLine();
-  void show(const Progress& progress);
   /// Clears the line on a terminal.
-  void finish();
+  void finish() const;
+
+ protected:
+  StatusLine();
+  /// Whether a line is to be printed after so much wall time [s], since the last one elsewhere was 10 s ago.
+  bool is_due(double wall_s);
+  void print(const std::string& text);
+
+ private:
+  bool terminal_;
+  bool shown_ = false;
+  double next_plain_line_ = 10;  // [s]
+};
+
+/// Of a run.
+class ProgressLine : public StatusLine {
+ public:
+  void show(const Progress& progress);
 
  private:
   std::string outlook(const Progress& progress) const;
 
-  bool terminal_;
-  bool shown_ = false;
-  double next_plain_line_ = 10;  // [s]
   double start_residual_ = 0;
   std::deque<std::pair<double, double>> lately_;  // wall time [s] and residual, over the last half of the run
+};
+
+/// Of a study: "[3/40] what is done  about 12 s left".
+class CountLine : public StatusLine {
+ public:
+  void show(const StudyProgress& progress);
 };
 
 /// Whether Ctrl-C was pressed since watch_for_interrupt(), or SIGTERM or SIGHUP was received; a second signal ends the
