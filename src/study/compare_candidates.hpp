@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/compare.hpp>
+#include <stillpoint/scene.hpp>
 
 #include <string>
 #include <vector>
