@@ -1,9 +1,7 @@
 // What Saint-Venant's bars along x share: checks, and terms of their series.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -16,16 +14,10 @@ namespace stillpoint {
 /// axis.
 inline std::optional<SolutionFault> fault_of_extent(const Problem& problem, const char* key, std::size_t axis,
                                                     double from, double size) {
-  constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
-  double low = infinity, high = -infinity;
-  for (const BodySpec& body : problem.bodies) {
-    if (!body.file.empty() || body.min.size() <= axis || body.max.size() <= axis) return std::nullopt;
-    low = std::min(low, body.min[axis]);
-    high = std::max(high, body.max[axis]);
-  }
-  if (std::abs(low - from) <= rounding * size && std::abs(high - from - size) <= rounding * size) return std::nullopt;
-  return SolutionFault{key, fmt::format("the body reaches from {:g} to {:g} along {}, the bar from {:g} to {:g}", low,
-                                        high, "xyz"[axis], from, from + size)};
+  const auto extent = extent_along(problem, axis);
+  if (!extent || reaches(*extent, from, size)) return std::nullopt;
+  return SolutionFault{key, fmt::format("the body reaches from {:g} to {:g} along {}, the bar from {:g} to {:g}",
+                                        extent->first, extent->second, "xyz"[axis], from, from + size)};
 }
 
 /// Checks the section |y − y0| ≤ depth/2, |z − z0| ≤ width/2.

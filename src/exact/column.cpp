@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -105,21 +104,13 @@ class Column final : public ExactSolution {
 
 // Checks that the body is the column that the parameters describe: boxes and polygons from its base to its top.
 std::optional<SolutionFault> fault_of_height(const Problem& problem) {
-  constexpr double rounding = 1e-9, infinity = std::numeric_limits<double>::infinity();
-  const std::size_t vertical = dimension_info(problem.dim).vertical;
   const double base = parameter(problem, "base"), height = parameter(problem, "height");
-  double low = infinity, high = -infinity;
-  for (const BodySpec& body : problem.bodies) {
-    if (!body.file.empty() || body.min.size() <= vertical || body.max.size() <= vertical) return std::nullopt;
-    low = std::min(low, body.min[vertical]);
-    high = std::max(high, body.max[vertical]);
-  }
-  if (std::abs(low - base) <= rounding * height && std::abs(high - base - height) <= rounding * height)
-    return std::nullopt;
+  const auto extent = extent_along(problem, dimension_info(problem.dim).vertical);
+  if (!extent || reaches(*extent, base, height)) return std::nullopt;
   return SolutionFault{
       "height", fmt::format("the body reaches from {:g} to {:g}, the column from {:g} to {:g}; give its base and "
                             "height",
-                            low, high, base, base + height)};
+                            extent->first, extent->second, base, base + height)};
 }
 
 std::optional<SolutionFault> column_fault(const Problem& problem) {
@@ -145,9 +136,7 @@ KnownSolution column_solution() {
                                    any_parameter("base", "m", "position of the base along the column")},
                     .laws = {kColumnLaws[0].name, kColumnLaws[1].name, kColumnLaws[2].name},
                     .fault = column_fault},
-          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<Column>(problem);
-          }};
+          .make = make_solution<Column>};
 }
 
 }  // namespace stillpoint

@@ -93,9 +93,7 @@ KnownSolution elastica_solution() {
                                any_parameter("x0", "m", "of the clamped end"), any_parameter("y0", "m", "of the axis")},
                 .has_stress = false,
                 .fault = elastica_fault},
-      .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-        return std::make_unique<Elastica>(problem);
-      }};
+      .make = make_solution<Elastica>};
 }
 
 }  // namespace stillpoint

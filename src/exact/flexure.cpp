@@ -108,9 +108,7 @@ KnownSolution flexure_solution() {
                                any_parameter("x0", "m", "of the root"), any_parameter("y0", "m", "of the axis"),
                                any_parameter("z0", "m", "likewise")},
                 .fault = flexure_fault},
-      .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-        return std::make_unique<Flexure>(problem);
-      }};
+      .make = make_solution<Flexure>};
 }
 
 }  // namespace stillpoint

@@ -71,9 +71,7 @@ KnownSolution kirsch_solution() {
                                    any_parameter("tension_y", "Pa", "along y"),
                                    any_parameter("x0", "m", "of its centre"), any_parameter("y0", "m", "likewise")},
                     .fault = kirsch_fault},
-          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<Kirsch>(problem);
-          }};
+          .make = make_solution<Kirsch>};
 }
 
 }  // namespace stillpoint

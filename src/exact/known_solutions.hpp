@@ -15,6 +15,11 @@ struct KnownSolution {
   std::unique_ptr<ExactSolution> (*make)(const Problem& problem);
 };
 
+template <class Solution>
+std::unique_ptr<ExactSolution> make_solution(const Problem& problem) {
+  return std::make_unique<Solution>(problem);
+}
+
 const std::vector<KnownSolution>& known_solutions();
 
 // The rows:

@@ -90,9 +90,7 @@ KnownSolution lame_cylinder_solution() {
                                    any_parameter("x0", "m", "of the centre, in a plane"),
                                    any_parameter("y0", "m", "likewise")},
                     .fault = lame_cylinder_fault},
-          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<LameCylinder>(problem);
-          }};
+          .make = make_solution<LameCylinder>};
 }
 
 }  // namespace stillpoint

@@ -4,10 +4,13 @@
 #include <stillpoint/catalogue.hpp>
 #include <stillpoint/problem.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace stillpoint {
 
@@ -51,6 +54,23 @@ inline std::optional<SolutionFault> fault_of_centre(const Problem& problem) {
       return SolutionFault{.key = key, .message = "an axisymmetric scene has its axis at r = 0; leave this out"};
   }
   return std::nullopt;
+}
+
+/// The lower and the upper end of all bodies along an axis; empty if they are no boxes or polygons.
+inline std::optional<std::pair<double, double>> extent_along(const Problem& problem, std::size_t axis) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low = infinity, high = -infinity;
+  for (const BodySpec& body : problem.bodies) {
+    if (!body.file.empty() || body.min.size() <= axis || body.max.size() <= axis) return std::nullopt;
+    low = std::min(low, body.min[axis]);
+    high = std::max(high, body.max[axis]);
+  }
+  return std::pair(low, high);
+}
+/// Whether such an extent is that from `from` to `from + size`.
+inline bool reaches(const std::pair<double, double>& extent, double from, double size) {
+  constexpr double rounding = 1e-9;
+  return std::abs(extent.first - from) <= rounding * size && std::abs(extent.second - from - size) <= rounding * size;
 }
 
 // Rows of parameters:

@@ -116,9 +116,7 @@ KnownSolution radial_mode_solution() {
                                    any_parameter("y0", "m", "likewise")},
                     .choices = {{"edge", "whether the outer edge is free or held", {"free", "held"}, "free"}},
                     .fault = radial_mode_fault},
-          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<RadialMode>(problem);
-          }};
+          .make = make_solution<RadialMode>};
 }
 
 }  // namespace stillpoint

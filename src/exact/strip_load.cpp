@@ -92,9 +92,7 @@ KnownSolution strip_load_solution() {
                                                       "displacements are relative to it"),
                                    any_parameter("x0", "m", "of the middle of the strip"),
                                    any_parameter("surface", "m", "its height, y")}},
-          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<StripLoad>(problem);
-          }};
+          .make = make_solution<StripLoad>};
 }
 
 }  // namespace stillpoint

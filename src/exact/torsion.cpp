@@ -89,9 +89,7 @@ KnownSolution torsion_solution() {
                                    any_parameter("x0", "m", "of the section that does not turn"),
                                    any_parameter("y0", "m", "of the axis"), any_parameter("z0", "m", "likewise")},
                     .fault = fault_of_section},
-          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<Torsion>(problem);
-          }};
+          .make = make_solution<Torsion>};
 }
 
 }  // namespace stillpoint

@@ -102,9 +102,7 @@ KnownSolution vortex_solution() {
                                    any_parameter("x0", "m", "of its centre"), any_parameter("y0", "m", "likewise")},
                     .laws = {"neo-hookean"},
                     .fault = vortex_fault},
-          .make = [](const Problem& problem) -> std::unique_ptr<ExactSolution> {
-            return std::make_unique<Vortex>(problem);
-          }};
+          .make = make_solution<Vortex>};
 }
 
 }  // namespace stillpoint
