@@ -9,7 +9,7 @@
 
 #include "command/commands.hpp"
 #include "plan/catalogue.hpp"
-#include "scene/input/key_reference.hpp"
+#include "scene/input/read_scene.hpp"
 
 namespace stillpoint::command {
 namespace {

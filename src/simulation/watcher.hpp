@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulation/run_state.hpp"
+#include "simulation/watcher.hpp"
 
 namespace stillpoint {
 
@@ -56,5 +57,11 @@ struct Watched {
 
 /// All watchers of a run, which outlives them, in the order in which they are asked.
 std::vector<Watched> make_watchers(RunState& run);
+
+// Those that nobody but the list knows, each from a file of its own:
+std::unique_ptr<Watcher> watch_single_phase();
+std::unique_ptr<Watcher> watch_left_in_points();
+std::unique_ptr<Watcher> watch_rate_share(const RunState& run);
+std::unique_ptr<Watcher> watch_plastic_path(const RunState& run);
 
 }  // namespace stillpoint

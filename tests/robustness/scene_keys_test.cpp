@@ -12,8 +12,8 @@
 
 #include "files.hpp"
 #include "plan/catalogue.hpp"
-#include "scene/input/key_reference.hpp"
 #include "scene/input/keys.hpp"
+#include "scene/input/read_scene.hpp"
 
 using namespace stillpoint;
 using stillpoint::test::contents;

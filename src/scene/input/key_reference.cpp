@@ -1,5 +1,3 @@
-#include "scene/input/key_reference.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "base/json.hpp"
 #include "scene/input/keys.hpp"
+#include "scene/input/read_scene.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,4 +1,4 @@
-// Reads a scene from a TOML file.
+// Reads a scene from a TOML file, and tells the keys that there are.
 #pragma once
 
 #include <stillpoint/catalogue.hpp>
@@ -23,5 +23,12 @@ Scene read_again(const Scene& scene, const std::vector<std::string>& more, const
 
 /// The same of a program's own problem, see resolve().
 Problem resolved(Problem problem, const Catalogue& catalogue);
+
+/// The keys in a list for the terminal.
+std::string key_list(const Catalogue& catalogue);
+/// In Markdown: the second half of problems/README.md, after a head that is written by hand.
+std::string key_reference(const Catalogue& catalogue);
+/// In a JSON schema for editors.
+std::string key_schema(const Catalogue& catalogue);
 
 }  // namespace stillpoint

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "simulation/advice/notes.hpp"
-#include "simulation/watch/watchers.hpp"
+#include "simulation/watcher.hpp"
 
 namespace stillpoint {
 namespace {

@@ -29,7 +29,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
-#include "simulation/watch/watchers.hpp"
+#include "simulation/watcher.hpp"
 
 namespace stillpoint {
 namespace {

@@ -21,7 +21,7 @@
 #include "base/parallel_loop.hpp"
 #include "plan/catalogue.hpp"
 #include "scene/driven_motion.hpp"
-#include "simulation/watch/watchers.hpp"
+#include "simulation/watcher.hpp"
 
 namespace stillpoint {
 namespace {

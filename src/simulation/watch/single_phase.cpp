@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "simulation/watch/watchers.hpp"
+#include "simulation/watcher.hpp"
 
 namespace stillpoint {
 namespace {

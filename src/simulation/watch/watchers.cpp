@@ -1,7 +1,5 @@
 // The list of all watchers. Its order decides which of two that end a run at the same step is heard, and in which order
 // notes stand in a summary.
-#include "simulation/watch/watchers.hpp"
-
 #include <utility>
 
 #include "simulation/advice/mechanism.hpp"
@@ -11,6 +9,7 @@
 #include "simulation/watch/limit_load.hpp"
 #include "simulation/watch/monitor.hpp"
 #include "simulation/watch/standstill.hpp"
+#include "simulation/watcher.hpp"
 
 namespace stillpoint {
 namespace {
