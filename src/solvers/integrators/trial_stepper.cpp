@@ -45,7 +45,7 @@ StepReport TrialStepper::step(double t_stop) {
     Attempt tried = attempt(t_, *y_, h, t_stop, *trial_);
     if (tried.status == StepReport::Status::ok) {
       const bool finite = is_finite(tried);
-      if (finite && keeps_clear) return accept(tried);
+      if (finite && keeps_clear) return take(tried);
       refused();
       if (finite) {
         keeps_clear = true;
@@ -101,7 +101,7 @@ bool TrialStepper::is_finite(const Attempt& attempt) const {
   return std::isfinite(attempt.keeps_v ? dot(*trial_u_, *trial_u_) : dot(*trial_, *trial_));
 }
 
-StepReport TrialStepper::accept(const Attempt& attempt) {
+StepReport TrialStepper::take(const Attempt& attempt) {
   if (attempt.keeps_v) {
     copy(*trial_u_, *u_);
   } else {

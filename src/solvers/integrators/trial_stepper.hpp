@@ -65,7 +65,7 @@ class TrialStepper : public Stepper {
 
  private:
   bool is_finite(const Attempt& attempt) const;
-  StepReport accept(const Attempt& attempt);
+  StepReport take(const Attempt& attempt);
   std::string message_of(const Attempt& tried, int halvings) const;
 
   IntegratorOptions options_;
