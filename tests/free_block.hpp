@@ -8,7 +8,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace stillpoint::testing {
+namespace stillpoint::test {
 
 /// 5 × 2 cells of 0.25 m with four points each, in a grid of 9 × 4. No supports, no gravity, no damping.
 inline Scene free_block(const std::vector<std::string>& overrides = {}) {
@@ -48,4 +48,4 @@ inline Scene free_soil(std::vector<std::string> overrides = {}) {
   return free_block(overrides);
 }
 
-}  // namespace stillpoint::testing
+}  // namespace stillpoint::test

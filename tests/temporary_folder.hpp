@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-namespace stillpoint::testing {
+namespace stillpoint::test {
 
 class TemporaryFolder {
  public:
@@ -38,4 +38,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace stillpoint::testing
+}  // namespace stillpoint::test

@@ -30,7 +30,7 @@ void read(const std::filesystem::path& file, std::size_t dim) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const testing::TemporaryFolder folder;
+  static const test::TemporaryFolder folder;
   const auto file = folder.write("points.csv", text_of(data, size));
   read(file, 1);
   read(file, 2);

@@ -10,7 +10,7 @@ using namespace stillpoint;
 using namespace stillpoint::fuzz;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const testing::TemporaryFolder folder;
+  static const test::TemporaryFolder folder;
   const auto file = folder.write("body.stl", text_of(data, size));
   std::vector<Mistake> problems;
   const std::vector<Facet> facets = read_stl_file(file, problems);

@@ -12,7 +12,7 @@
 
 using namespace stillpoint;
 using Catch::Contains;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

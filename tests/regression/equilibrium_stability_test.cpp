@@ -16,7 +16,7 @@
 
 using namespace stillpoint;
 using Catch::Contains;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 using Kind = EquilibriumStability::Kind;
 
 namespace {

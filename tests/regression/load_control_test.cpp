@@ -111,7 +111,7 @@ TEST_CASE(
   const std::vector<std::string> set = {"phase.max_motion=0.02", "load.displacement=0.2*t/0.2", "stop.time=0.2",
                                         "material.clay.E=1e6",   "checkpoint.every_steps=100",  "output.every=0.01"};
   const Scene scene = scenes::load("footing_limit", set);
-  const stillpoint::testing::TemporaryFolder whole, broken;
+  const stillpoint::test::TemporaryFolder whole, broken;
   const Summary unbroken = run(scene, {.out = whole.path()});
   REQUIRE(unbroken.phases > 3);
   CHECK(unbroken.load.value().factor > 1);

@@ -18,7 +18,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 Summary run_text(const std::string& text, const std::vector<std::string>& set = {}) {
-  const stillpoint::testing::TemporaryFolder folder;
+  const stillpoint::test::TemporaryFolder folder;
   return run(load_scene(folder.write("scene.toml", text), set), {.threads = 1});
 }
 

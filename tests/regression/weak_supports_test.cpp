@@ -17,7 +17,7 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 using namespace stillpoint;
 using stillpoint::test::contents;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 TEST_CASE("a checkpoint that is not whole is refused with what is wrong, and so is a foreign one") {

@@ -12,12 +12,12 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::BadScene;
-using stillpoint::testing::broken;
-using stillpoint::testing::check_each;
-using stillpoint::testing::kGoodScene;
-using stillpoint::testing::problems_of;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::BadScene;
+using stillpoint::test::broken;
+using stillpoint::test::check_each;
+using stillpoint::test::kGoodScene;
+using stillpoint::test::problems_of;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include "triangles.hpp"
 
 using namespace stillpoint;
-using namespace stillpoint::testing;
+using namespace stillpoint::test;
 using Catch::Matchers::Contains;
 
 namespace {

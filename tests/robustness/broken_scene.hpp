@@ -11,7 +11,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace stillpoint::testing {
+namespace stillpoint::test {
 
 /// Line 1 is [constants]; the tests below know the lines by number.
 inline const std::string kGoodScene = R"([constants]
@@ -140,4 +140,4 @@ inline void check_each(const std::vector<BadScene>& scenes, const std::string& g
   }
 }
 
-}  // namespace stillpoint::testing
+}  // namespace stillpoint::test

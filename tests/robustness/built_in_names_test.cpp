@@ -14,7 +14,7 @@ using namespace stillpoint;
 namespace {
 
 std::string refusal(const std::string& constants, const std::vector<std::string>& overrides = {}) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("scene.toml", "dim = 1\n[constants]\n" + constants);
   try {
     load_scene(file, overrides);

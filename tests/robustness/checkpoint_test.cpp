@@ -17,7 +17,7 @@
 using namespace stillpoint;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {

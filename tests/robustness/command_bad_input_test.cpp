@@ -11,9 +11,9 @@
 #include "broken_scene.hpp"
 #include "temporary_folder.hpp"
 
-using stillpoint::testing::broken;
-using stillpoint::testing::kGoodScene;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::broken;
+using stillpoint::test::kGoodScene;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -19,7 +19,7 @@ using namespace stillpoint;
 using Catch::Matchers::Contains;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

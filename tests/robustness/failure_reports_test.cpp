@@ -38,7 +38,7 @@ std::string refusal(const LagrangianPhase& phase, std::vector<double> u) {
 }  // namespace
 
 TEST_CASE("a state that cannot be evaluated is told with its time, step, point, cell, det f and a remedy") {
-  const stillpoint::testing::TemporaryFolder folder;
+  const stillpoint::test::TemporaryFolder folder;
   for (const char* method : {"leapfrog", "symplectic-euler", "erk:rk4", "gsl:rk4"}) {
     const Summary s = run(bar(crushed(method)), {.out = folder.path()});
     CAPTURE(method, s.reason);
@@ -71,7 +71,7 @@ TEST_CASE("of several points that are inside out the one is named that is so mos
 }
 
 TEST_CASE("a motion too far for one phase is told with the node that goes furthest") {
-  const Model model = make_model(stillpoint::testing::free_block());
+  const Model model = make_model(stillpoint::test::free_block());
   std::vector<double> u(model.phase->size(), 0.0);
   u[3] = 1;
   const std::string said = refusal(*model.phase, u);

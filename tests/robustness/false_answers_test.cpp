@@ -75,7 +75,7 @@ TEST_CASE("a damping of any size leaves leapfrog the step of the highest frequen
 }
 
 TEST_CASE("points on grid lines, whose gradients alone reach the nodes across, hold nothing still") {
-  const stillpoint::testing::TemporaryFolder folder;
+  const stillpoint::test::TemporaryFolder folder;
   const std::string points = folder.write("points.csv", "x,volume\n1,1\n2,1\n3,1\n").string();
   // Three points on the lines of a grid, with nothing that holds them.
   const Scene scene = load_scene(folder.write("scene.toml", R"(dim = 1
@@ -98,7 +98,7 @@ TEST_CASE("a residual that is small beside the stiff part's forces alone is no e
   // E = 1 on [0, 5] and 1e7 on [5, 10], pushed at 6 and pulled back at 9, and by 1e-6 at the end: that alone stretches
   // the soft part.
   const auto soft_and_stiff = [](const std::string& way, const std::vector<std::string>& more = {}) {
-    const stillpoint::testing::TemporaryFolder folder;
+    const stillpoint::test::TemporaryFolder folder;
     std::vector<std::string> set = {way};
     set.insert(set.end(), more.begin(), more.end());
     return run(load_scene(folder.write("scene.toml", R"(dim = 1

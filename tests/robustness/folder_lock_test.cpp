@@ -41,7 +41,7 @@ Answer answer(const std::vector<std::string>& arguments, const std::filesystem::
 }  // namespace
 
 TEST_CASE("a second run into a folder, new or resumed, is refused with the number of the first, which goes on") {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto out = folder.path() / "out";
   Child first(run_of("column", endless, out));
   REQUIRE(first.wait_until([&] { return std::filesystem::exists(out / "checkpoint.h5"); }));
@@ -61,7 +61,7 @@ TEST_CASE("a second run into a folder, new or resumed, is refused with the numbe
 }
 
 TEST_CASE("a lock that a process has left that was killed is no obstacle, to a new run or to one that resumes") {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto out = folder.path() / "out";
   {
     Child first(run_of("column", endless, out));
@@ -79,7 +79,7 @@ TEST_CASE("a lock that a process has left that was killed is no obstacle, to a n
 }
 
 TEST_CASE("a thread shares the lock that it has, and any other is refused") {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   auto first = lock_folder(folder.path());
   auto second = lock_folder(folder.path() / "." / "");
   bool refused = false;
@@ -102,7 +102,7 @@ TEST_CASE("a thread shares the lock that it has, and any other is refused") {
 }
 
 TEST_CASE("settings do not go with a run that is resumed") {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto out = folder.path() / "out";
   const Answer first = answer(run_of("column", {"stop.steps=50", "checkpoint.every_steps=20"}, out), folder.path());
   REQUIRE(first.status == 3);

@@ -19,7 +19,7 @@ struct Answer {
   std::string said;
 };
 
-Answer into(const std::string& device, const std::string& arguments, const testing::TemporaryFolder& folder) {
+Answer into(const std::string& device, const std::string& arguments, const test::TemporaryFolder& folder) {
   const std::string messages = (folder.path() / "messages").string();
   const int status =
       std::system(fmt::format("'{}' {} > {} 2> '{}'", STILLPOINT_BINARY, arguments, device, messages).c_str());
@@ -29,7 +29,7 @@ Answer into(const std::string& device, const std::string& arguments, const testi
 }  // namespace
 
 TEST_CASE("every command whose output finds no room ends with status 4 and says so") {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string bar = STILLPOINT_PROBLEMS "/bar.toml", out = (folder.path() / "out").string();
   for (const std::string& command :
        {fmt::format("run {} --out {}", bar, out), std::string("list"), std::string("list keys --format schema"),

@@ -11,7 +11,7 @@ namespace {
 // A light point in flight above a heavy bed, with its material's stiffness: no function has much of the inertia that
 // its frequency asks for.
 Summary flight(const std::string& rho, const std::string& place) {
-  const stillpoint::testing::TemporaryFolder folder;
+  const stillpoint::test::TemporaryFolder folder;
   return run(load_scene(folder.write("flight.toml", R"(dim = 2
 grid = {min = [0, 0], max = [2, 2], cells = [8, 8], basis = "linear"}
 material.bed = {law = "drucker-prager", E = 1e6, nu = 0.3, rho = 1800, phi = 35}

@@ -17,7 +17,7 @@ using namespace stillpoint;
 using stillpoint::test::Child;
 using stillpoint::test::contents;
 using stillpoint::test::run_of;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 TEST_CASE("cells, points, unknowns and bytes a point are known before a body is placed") {

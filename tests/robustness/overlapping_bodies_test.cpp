@@ -2,8 +2,8 @@
 #include "robustness/broken_scene.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::problems_of;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::problems_of;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

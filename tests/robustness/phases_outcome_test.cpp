@@ -14,9 +14,9 @@
 #include "simulation/setup/model.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::free_block;
-using stillpoint::testing::free_soil;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::free_block;
+using stillpoint::test::free_soil;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -14,7 +14,7 @@ using namespace stillpoint;
 using scenes::bar;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -16,11 +16,11 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::broken;
 using stillpoint::test::contents;
-using stillpoint::testing::broken;
-using stillpoint::testing::kGoodPlane;
-using stillpoint::testing::kGoodScene;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::kGoodPlane;
+using stillpoint::test::kGoodScene;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -17,7 +17,7 @@ using stillpoint::test::Child;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
 using stillpoint::test::run_of;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {

@@ -13,7 +13,7 @@
 
 using namespace stillpoint;
 using Catch::Contains;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

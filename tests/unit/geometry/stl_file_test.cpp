@@ -12,7 +12,7 @@
 using namespace stillpoint;
 using namespace stillpoint::test;
 using Catch::Matchers::Contains;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -11,7 +11,7 @@
 
 using namespace stillpoint;
 using scenes::probe;
-using stillpoint::testing::free_block;
+using stillpoint::test::free_block;
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 using namespace stillpoint;
 using namespace stillpoint::test;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

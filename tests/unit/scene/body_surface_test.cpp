@@ -10,7 +10,7 @@
 
 using namespace stillpoint;
 using namespace stillpoint::test;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

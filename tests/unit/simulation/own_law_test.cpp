@@ -165,7 +165,7 @@ TEST_CASE("an exact solution does not go with a law that a program adds without 
   const std::size_t begin = scene.find("[material.steel]"), end = scene.find("[[support]]");
   REQUIRE(end > begin);
   scene.replace(begin, end - begin, "[material.steel]\nlaw = \"of-one-modulus\"\nmu = 1.0\nrho = 1.0\n\n");
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   try {
     load_scene(folder.write("torsion.toml", scene).string(), {"mass.kind=lumped"});
     FAIL("accepted");

@@ -24,7 +24,7 @@ std::vector<double> copy_of(ConstVec values) { return {values.begin(), values.en
 }  // namespace
 
 TEST_CASE("a simulation that is stepped comes to the bits of one that is run, through many phases") {
-  const Scene scene = testing::free_block({"initial.v=['1 + 0.5*(x - 1.125)', 0]"});
+  const Scene scene = test::free_block({"initial.v=['1 + 0.5*(x - 1.125)', 0]"});
   Simulation stepped(scene), whole(scene);
   while (!stepped.done()) stepped.step();
   whole.run();
@@ -68,7 +68,7 @@ TEST_CASE("fields at the points have their shapes, and another name is refused")
 
 TEST_CASE("every static solver runs a scene to its equilibrium with the outputs of any run") {
   for (const StaticMethodInfo& method : catalogue().static_methods) {
-    const testing::TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const Summary s = run(scenes::load("neo_hookean_bar", {"solve.method=" + std::string(method.name)}),
                           {.out = folder.path() / "out"});
     CAPTURE(method.name, s.reason);

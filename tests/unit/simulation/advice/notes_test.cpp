@@ -10,7 +10,7 @@
 
 using namespace stillpoint;
 using Catch::Contains;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

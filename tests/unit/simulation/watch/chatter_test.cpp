@@ -20,7 +20,7 @@ constexpr double cell = 0.25, way = 0.1;
 /// The number of the phase after which a body that stays is said to chatter, of 5000; 0: never.
 template <class Residual>
 int chatters_after(const Residual& residual_after) {
-  const auto phase = make_phase(stillpoint::testing::free_block());
+  const auto phase = make_phase(stillpoint::test::free_block());
   Chatter chatter;
   for (int k = 1; k <= 5000; ++k) {
     if (chatter.take(*phase, way, residual_after(k), cell)) return k;
@@ -41,7 +41,7 @@ TEST_CASE("a body does not chatter while its residual comes down") {
 }
 
 TEST_CASE("a body does not chatter while its points move on") {
-  const Scene scene = stillpoint::testing::free_block({"initial.v=[1, 0]", "stop.time=0.4"});
+  const Scene scene = stillpoint::test::free_block({"initial.v=[1, 0]", "stop.time=0.4"});
   Simulation simulation(scene, {.records = false, .stops = false});
   Chatter chatter;
   for (int k = 0; k < 200; ++k) {  // 1.6 cells, on a way of 120
@@ -51,7 +51,7 @@ TEST_CASE("a body does not chatter while its points move on") {
 }
 
 TEST_CASE("what chatters is said with its way, its residuals and what to change") {
-  const auto phase = make_phase(stillpoint::testing::free_block());
+  const auto phase = make_phase(stillpoint::test::free_block());
   Chatter chatter;
   CHECK_FALSE(chatter.take(*phase, 200, 2e-6, cell));
   const auto said = chatter.take(*phase, 200, 3e-6, cell);

@@ -30,7 +30,7 @@ TEST_CASE("each watcher has a part of its own in a checkpoint") {
 }
 
 TEST_CASE("a run that is not to stop goes on, whatever its watchers see") {
-  Simulation simulation(testing::free_block({"stop.steps=3"}), {.records = false, .stops = false});
+  Simulation simulation(test::free_block({"stop.steps=3"}), {.records = false, .stops = false});
   for (int k = 0; k < 10; ++k) CHECK(simulation.step() == RunStatus::running);
   CHECK(simulation.reason().empty());
 }
@@ -51,7 +51,7 @@ TEST_CASE("figures are measured once a state, and again when it has changed") {
 }
 
 TEST_CASE("a run that has failed says when, after how many steps and in which phase") {
-  RunState run(testing::free_block(), {.records = false});
+  RunState run(test::free_block(), {.records = false});
   run.begin_phase(run.model.u, run.model.v);
   const Verdict verdict = run.failed("a point was lost");
   CHECK(verdict.ends());

@@ -439,7 +439,7 @@ TEST_CASE(
     check(chain, kappa);
   }
   SECTION("a plane block that is bent and stretched") {
-    const testing::TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const Scene scene = load_scene(folder.write("block.toml", R"(dim = 2
 [grid]
 min = [0, 0]
@@ -732,7 +732,7 @@ fields = ["u.y", "stress.yy", "stress.xx"]
 )";
 
 TEST_CASE("a static iteration is one implicit increment of the law, committed at its end", "[strategies]") {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("block.toml", yielding_block);
   Values u_y;
   for (const std::string strategy : {"cg", "lbfgs"}) {
@@ -751,7 +751,7 @@ TEST_CASE("a static iteration is one implicit increment of the law, committed at
 
 TEST_CASE("what a strategy has found goes on from phase to phase, even where each step is one", "[strategies]") {
   // fire needs a direction that lasts: it takes phases of a few steps.
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("column.toml", R"(dim = 2
 [grid]
 min = [0, 0]
@@ -792,7 +792,7 @@ steps = 3000
 }
 
 TEST_CASE("every dynamic strategy relaxes a block that yields", "[strategies]") {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("block.toml", yielding_block);
   for (const std::string& strategy : iterations) {
     if (catalogue().static_method(strategy)) continue;

@@ -20,7 +20,7 @@
 
 using namespace stillpoint;
 using Catch::Matchers::WithinAbs;
-using stillpoint::testing::free_block;
+using stillpoint::test::free_block;
 
 namespace {
 

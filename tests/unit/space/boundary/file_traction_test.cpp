@@ -40,7 +40,7 @@ class FileBody {
   }
 
  private:
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_;
 };
 

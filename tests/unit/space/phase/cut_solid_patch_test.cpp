@@ -10,7 +10,7 @@
 #include "triangles.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

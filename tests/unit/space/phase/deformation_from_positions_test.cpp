@@ -13,8 +13,8 @@
 
 using namespace stillpoint;
 using Catch::Contains;
-using stillpoint::testing::free_block;
-using stillpoint::testing::free_soil;
+using stillpoint::test::free_block;
+using stillpoint::test::free_soil;
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include "scenes.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::free_block;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::free_block;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

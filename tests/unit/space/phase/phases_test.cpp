@@ -21,9 +21,9 @@
 #include "space/points/point_order.hpp"
 
 using namespace stillpoint;
-using stillpoint::testing::free_block;
-using stillpoint::testing::free_soil;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::free_block;
+using stillpoint::test::free_soil;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

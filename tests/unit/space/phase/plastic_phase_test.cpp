@@ -18,7 +18,7 @@
 
 using namespace stillpoint;
 using stillpoint::test::contents;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 

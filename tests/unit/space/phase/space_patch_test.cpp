@@ -15,7 +15,7 @@
 
 using namespace stillpoint;
 using Catch::Matchers::WithinAbs;
-using stillpoint::testing::TemporaryFolder;
+using stillpoint::test::TemporaryFolder;
 
 namespace {
 
