@@ -25,6 +25,19 @@ TEST_CASE("Cundall's damping opposes the motion by a share of the force, either 
   CHECK(damping->stiffness_factor() == 1.5);
 }
 
+TEST_CASE(
+    "combined damping acts in full where the force falls and not at all where it grows with the motion "
+    "[FLAC, combined damping]",
+    "[strategies]") {
+  const auto damping = make_damping("combined", 0, 0.8);
+  const std::vector<double> v = {1, 1, -1, -1, 0}, last = {20, 5, 20, 5, 10};
+  std::vector<double> Q = {10, 10, 10, 10, 10};
+  damping->add_local_since(v, last, Q);
+  const std::vector<double> expected = {2, 10, 10, 18, 10};
+  for (std::size_t i = 0; i < 5; ++i) CHECK(Q[i] == Approx(expected[i]));
+  CHECK(damping->stiffness_factor() == Approx(1.8));
+}
+
 TEST_CASE("linear strategies say their C: viscous c M, identity c I") {
   CHECK(make_damping("viscous", 0.3, 0)->linear().mass == 0.3);
   CHECK(make_damping("viscous", 0.3, 0)->linear().identity == 0);

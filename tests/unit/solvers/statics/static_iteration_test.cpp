@@ -1,6 +1,4 @@
-// What cg and lbfgs do where the whole load is too much at once, and which of their states laws remember.
-#include <stillpoint/state_norms.hpp>
-
+// What cg and lbfgs do where points remember, and where the whole load is too much at once.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,7 +8,11 @@
 #include <catch2/catch.hpp>
 
 #include "chain.hpp"
+#include "scenes.hpp"
 #include "solvers/statics/static_methods.hpp"
+#include "temporary_folder.hpp"
+#include "way_to_rest.hpp"
+#include "yielding_block.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
@@ -58,7 +60,7 @@ Ended iterate(SemiDiscrete& system, const std::string& method, int load_steps = 
   Vector y = VectorSpace().make(2);
   solver->start(0, y);
   std::string failure;
-  for (int k = 0; k < 1000 && failure.empty() && !(StateNorms(relaxing).last_residual() <= 1e-9); ++k) {
+  for (int k = 0; k < 1000 && failure.empty() && !(relaxing.last_residual() <= 1e-9); ++k) {
     const StepReport report = solver->step(1e9);
     if (report.status != StepReport::Status::ok) failure = report.message + "!";
   }
@@ -66,6 +68,24 @@ Ended iterate(SemiDiscrete& system, const std::string& method, int load_steps = 
 }
 
 }  // namespace
+
+TEST_CASE("a static iteration is one implicit increment of the law, committed at its end", "[strategies]") {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("block.toml", test::yielding_block);
+  std::vector<double> u_y;
+  for (const std::string strategy : {"cg", "lbfgs"}) {
+    const Summary summary = run(load_scene(file, {test::override_of(strategy)}));
+    CAPTURE(strategy, summary.reason, summary.rhs_evaluations);
+    CHECK(summary.status == RunStatus::equilibrium);
+    CHECK(scenes::probe(summary, "middle", "stress.yy") == Approx(-28).epsilon(0.2));  // 0 had it not been committed
+    u_y.push_back(scenes::probe(summary, "middle", "u.y"));
+  }
+  // The increment has one solution; motions, which commit on their way, end 1e-4 beside it, each elsewhere.
+  CHECK(u_y[0] == Approx(u_y[1]).epsilon(1e-6));
+  const Summary moving = run(load_scene(file, {"damping.strategy=kinetic"}));
+  CHECK(scenes::probe(moving, "middle", "u.y") == Approx(u_y[0]).epsilon(1e-2));
+  CHECK(scenes::probe(moving, "middle", "u.y") != Approx(u_y[0]).epsilon(1e-5));
+}
 
 TEST_CASE("an increment of the load that the line search cannot follow is halved until it can, each remembered") {
   for (const char* method : {"cg", "lbfgs"}) {
@@ -102,36 +122,4 @@ TEST_CASE("a load that nothing can carry fails with the load factor that was rea
     CHECK(end.u <= 1 + 1e-9);  // what it had in equilibrium is kept
     CHECK(end.u >= 0.98);
   }
-}
-
-TEST_CASE("laws remember each step of a march, and of a static solver the end alone") {
-  const auto damping = no_damping();
-  Vector y = VectorSpace().make(2);
-  const auto take_step = [&y](Stepper& stepper) {
-    stepper.start(0, y);
-    stepper.accept(0);
-    const StepReport report = stepper.step(1e9);
-    REQUIRE(report.status == StepReport::Status::ok);
-    stepper.accept(report.t);
-    return report.t;
-  };
-  for (const char* method : {"cg", "lbfgs"}) {
-    CAPTURE(method);
-    Reluctant system(/*load=*/1, /*reach=*/10);
-    RelaxationSystem relaxing(system, *damping);
-    const auto solver = make_static_method({.name = method, .max_step = 1, .tolerance = 1e-9}, relaxing);
-    const double t = take_step(*solver);
-    CHECK_FALSE(solver->moves());
-    CHECK(system.remembered.empty());
-    solver->finish(t);
-    CHECK(system.remembered == std::vector{y.span()[0]});
-  }
-  Reluctant system(/*load=*/1, /*reach=*/10);
-  RelaxationSystem relaxing(system, *damping);
-  const auto march = make_integrator({.max_step = 0.1}, relaxing);
-  std::ranges::fill(y.span(), 0.0);
-  const double t = take_step(*march);
-  CHECK(march->moves());
-  march->finish(t);
-  CHECK(system.remembered == std::vector{0.0, y.span()[0]});
 }
