@@ -1,10 +1,10 @@
 // Scenes of two dimensions: every key once, defaults, and what --set changes.
 #include <stillpoint/scene.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -262,60 +262,6 @@ TEST_CASE("a transfer given by --set replaces the file's, with the keys that bel
   CHECK_THROWS_AS(load_slope({"phase.flip_share=0.5", "phase.transfer=apic"}), SceneError);
 }
 
-TEST_CASE("a body may be a polygon, whose corners on grid lines but for rounding are moved onto them") {
-  const Scene scene = load_block("", R"([body]
-material = "rubber"
-polygon = [[0, 0], ["1.5 + 1e-9", 0.25], [0.5, 1]]
-)");
-  const BodySpec& body = scene.bodies.at(0);
-  CHECK(body.polygon == std::vector<std::vector<double>>{{0, 0}, {1.5, 0.25}, {0.5, 1}});
-  CHECK(body.min == std::vector{0.0, 0.0});
-  CHECK(body.max == std::vector{1.5, 1.0});
-}
-
-TEST_CASE("there may be several bodies of several materials, and one of them may say the state") {
-  const Scene scene = load_block("", R"([[body]]
-material = "rubber"
-max = [2, 0.5]
-[[body]]
-material = "foam"
-min = [0, 0.5]
-state = "axisymmetric"
-[material.foam]
-law = "hencky"
-E = 1e4
-rho = 30
-)");
-  REQUIRE(scene.bodies.size() == 2);
-  CHECK(scene.bodies.at(0).max == std::vector{2.0, 0.5});
-  CHECK(scene.bodies.at(1).min == std::vector{0.0, 0.5});
-  CHECK(scene.bodies.at(1).material == "foam");
-  CHECK(scene.state == StressState::axisymmetric);
-}
-
-TEST_CASE("a file of points is found beside the scene, and its points span the body's box") {
-  const TemporaryFolder folder;
-  folder.write("points.csv", "x,y,volume\n0.25,0.5,0.1\n1,0.75,0.1\n");
-  const auto file = folder.write("scene.toml", R"(
-dim = 2
-[grid]
-min = [0, 0]
-max = [2, 1]
-cells = [4, 2]
-[body]
-file = "points.csv"
-material = "rubber"
-[material.rubber]
-law = "neo-hookean"
-E = 1e6
-rho = 1000
-)");
-  const Scene scene = load_scene(file);
-  CHECK(scene.bodies.at(0).file == folder.path() / "points.csv");
-  CHECK(scene.bodies.at(0).min == std::vector{0.25, 0.5});
-  CHECK(scene.bodies.at(0).max == std::vector{1.0, 0.75});
-}
-
 TEST_CASE("in one dimension faces, walls and phases are there as well") {
   const TemporaryFolder folder;
   const Scene scene = load_scene(folder.write("bar.toml", R"(
@@ -343,13 +289,4 @@ face = "right"
   CHECK(scene.supports.at(0).face == Face::left);
   CHECK(scene.walls.at(0).face == Face::right);
   CHECK(scene.phase.max_motion == 0.1);
-}
-
-TEST_CASE("the fields of a point have a component each in two dimensions") {
-  CHECK(probe_fields(1) == std::vector<std::string>{"u", "v", "strain", "stress"});
-  const auto fields = probe_fields(2);
-  for (const char* field : {"u.x", "u.y", "v.x", "v.y", "stress.xx", "stress.yy", "stress.zz", "stress.xy", "strain.xx",
-                            "strain.xy", "strain.yx", "strain.yy", "plastic_strain"})
-    CHECK(std::find(fields.begin(), fields.end(), field) != fields.end());
-  CHECK(fields.size() == 13);
 }

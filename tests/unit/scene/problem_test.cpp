@@ -2,6 +2,7 @@
 #include <stillpoint/scene.hpp>
 #include <stillpoint/simulation.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -88,4 +89,13 @@ TEST_CASE("a run of a changed problem is the run of a scene that says so") {
   written.run();
   REQUIRE(changed.u().size() == written.u().size());
   for (std::size_t i = 0; i < changed.u().size(); ++i) CHECK(changed.u()[i] == written.u()[i]);
+}
+
+TEST_CASE("the fields of a point have a component each in two dimensions") {
+  CHECK(probe_fields(1) == std::vector<std::string>{"u", "v", "strain", "stress"});
+  const auto fields = probe_fields(2);
+  for (const char* field : {"u.x", "u.y", "v.x", "v.y", "stress.xx", "stress.yy", "stress.zz", "stress.xy", "strain.xx",
+                            "strain.xy", "strain.yx", "strain.yy", "plastic_strain"})
+    CHECK(std::ranges::find(fields, field) != fields.end());
+  CHECK(fields.size() == 13);
 }

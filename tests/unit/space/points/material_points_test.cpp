@@ -1,87 +1,18 @@
-#include "space/points/material_points.hpp"
-
+// Points of boxes and polygons, cell by cell: their number, their places and their volumes.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstddef>
 #include <numbers>
-#include <numeric>
+#include <vector>
 
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
 
 #include "geometry/polygon.hpp"
 #include "largest.hpp"
-#include "temporary_folder.hpp"
+#include "space/points/placed_bodies.hpp"
 
 using namespace stillpoint;
-using stillpoint::test::TemporaryFolder;
-
-namespace {
-
-// [0, 4] × [0, 2] in 8 × 3 cells.
-const Grid<2> kGrid{Axis::uniform(0, 4, 8), Axis::uniform(0, 2, 3)};
-
-BodySpec box(std::vector<double> min, std::vector<double> max) {
-  BodySpec body;
-  body.min = std::move(min);
-  body.max = std::move(max);
-  body.points_per_cell = {2, 2};
-  return body;
-}
-
-BodySpec polygon(std::vector<std::vector<double>> corners) {
-  BodySpec body = box({4, 2}, {0, 0});
-  std::vector<double> low = body.min, high = body.max;
-  for (const auto& corner : corners) {
-    for (std::size_t d = 0; d < 2; ++d) {
-      low[d] = std::min(low[d], corner[d]);
-      high[d] = std::max(high[d], corner[d]);
-    }
-  }
-  body.min = low;
-  body.max = high;
-  body.polygon = std::move(corners);
-  return body;
-}
-
-BodySpec from_file(const std::filesystem::path& file) {
-  BodySpec body;
-  body.file = file;
-  return body;
-}
-
-MaterialPoints<2> place(const BodySpec& body, StressState state = StressState::plane_strain, double density = 1) {
-  return place_body<2>(body, kGrid, density, state).points;
-}
-
-double volume_of(const MaterialPoints<2>& points) {
-  return std::accumulate(points.volume.begin(), points.volume.end(), 0.0);
-}
-
-/// Points lie in the cells that list them, cells ascend, and none is empty.
-void check_cells(const MaterialPoints<2>& points) {
-  REQUIRE(points.cell_begin.size() == points.cell.size() + 1);
-  REQUIRE(static_cast<std::size_t>(points.cell_begin.back()) == points.size());
-  CHECK(std::adjacent_find(points.cell.begin(), points.cell.end(), std::greater_equal<>()) == points.cell.end());
-  for (std::size_t k = 0; k < points.cell.size(); ++k) {
-    CHECK(points.cell_begin[k] < points.cell_begin[k + 1]);
-    for (int p = points.cell_begin[k]; p < points.cell_begin[k + 1]; ++p)
-      CHECK(kGrid.cell_number(kGrid.cell_of(points.position(static_cast<std::size_t>(p)))) == points.cell[k]);
-  }
-}
-
-std::vector<std::string> problems_of(const std::filesystem::path& file) {
-  std::vector<std::string> found;
-  try {
-    place(from_file(file));
-  } catch (const SceneError& error) {
-    for (const Mistake& problem : error.problems())
-      found.push_back(fmt::format("{}:{} {}", problem.where.line, problem.where.column, problem.message));
-  }
-  return found;
-}
-
-}  // namespace
+using namespace stillpoint::test;
 
 TEST_CASE("a box has its points in every cell that it reaches, and its volume and mass") {
   BodySpec body = box({0.25, 0}, {2.5, 1});  // half of the first and of the second row's cells
@@ -217,49 +148,6 @@ TEST_CASE("a polygon's cut cells are reported by the degree that they integrate,
   CHECK(xy == Approx(twice_area / 24 * (sum_x * sum_y + sum_xy)).epsilon(1e-12));
 }
 
-TEST_CASE("jitter moves every point by at most its share of half the spacing, so that each stays in its cell") {
-  for (const Placement placement : {Placement::uniform, Placement::gauss}) {
-    BodySpec body = box({0, 0}, {4, 2});
-    body.placement = placement;
-    body.points_per_cell = {3, 2};
-    const auto regular = place(body);
-    body.jitter = 0.999;
-    const auto jittered = place(body);
-    check_cells(jittered);
-    CHECK(volume_of(jittered) == Approx(8).epsilon(1e-12));
-    Largest farthest;
-    for (std::size_t p = 0; p < regular.size(); ++p)
-      farthest.take_magnitude(jittered.position(p)[0] - regular.position(p)[0]);
-    // Half the spacing; of three Gauss points the middle one has more room, 0.387 of half a cell.
-    const double room = placement == Placement::uniform ? 0.5 / 3 / 2 : 0.25 * std::sqrt(0.6) / 2;
-    CHECK(farthest.value() < room);
-    CHECK(farthest.value() > 0.95 * room);
-    // Neighbours keep their order.
-    for (std::size_t p = 0; p + 1 < jittered.size(); ++p)
-      if (p % 3 != 2) CHECK(jittered.position(p)[0] < jittered.position(p + 1)[0]);
-
-    body.jitter = 0.1;
-    const auto little = place(body);
-    for (std::size_t p = 0; p < regular.size(); ++p)
-      CHECK(std::abs(little.position(p)[0] - regular.position(p)[0]) <= 0.1 * room);
-  }
-}
-
-TEST_CASE("jittered and random points are the same for the same seed, and others for another") {
-  for (const bool random : {true, false}) {
-    BodySpec body = box({0, 0}, {4, 2});
-    if (random) body.placement = Placement::random;
-    if (!random) body.jitter = 0.5;
-    const auto first = place(body), again = place(body);
-    body.seed = 2;
-    const auto other = place(body);
-    CHECK(first.x == again.x);
-    CHECK(first.volume == again.volume);
-    CHECK_FALSE(first.x[0] == other.x[0]);
-    CHECK_FALSE(first.x[1] == other.x[1]);
-  }
-}
-
 TEST_CASE("the points of a full circle sum to the exact volume of a cylinder and of a pipe") {
   const double pi = std::numbers::pi;
   for (const double inner : {0.0, 0.75}) {
@@ -276,69 +164,4 @@ TEST_CASE("the points of a full circle sum to the exact volume of a cylinder and
   CHECK(volume_of(place(cone, StressState::axisymmetric)) == Approx(pi * 16 * 2 / 3).epsilon(0.03));
   cone.placement = Placement::gauss;
   CHECK(volume_of(place(cone, StressState::axisymmetric)) == Approx(pi * 16 * 2 / 3).epsilon(1e-12));
-}
-
-TEST_CASE("points written to a file and read back are the same to the bit, whatever the order of lines and columns") {
-  BodySpec body = box({0, 0}, {4, 2});
-  body.placement = Placement::random;
-  body.volumes = VolumeRule::equal;
-  const auto written = place(body, StressState::plane_strain, 3);
-  const TemporaryFolder folder;
-  std::string text = "# random points\nvolume, y, x\n\n";
-  for (std::size_t p = written.size(); p-- > 0;)
-    text +=
-        fmt::format("{:.17g},{:.17g},\t{:.17g} # point {}\r\n", written.volume[p], written.x[1][p], written.x[0][p], p);
-  const auto placed = place_body<2>(from_file(folder.write("points.csv", text)), kGrid, 3, StressState::axisymmetric);
-  const auto& read = placed.points;
-  check_cells(read);
-  CHECK(read.cell == written.cell);
-  CHECK(read.cell_begin == written.cell_begin);
-  // In a cell they are in the file's order, here the other way round.
-  for (std::size_t k = 0; k < read.cell.size(); ++k) {
-    for (int p = read.cell_begin[k]; p < read.cell_begin[k + 1]; ++p) {
-      const auto here = static_cast<std::size_t>(p);
-      const auto there = static_cast<std::size_t>(read.cell_begin[k] + read.cell_begin[k + 1] - 1 - p);
-      CHECK(read.position(here) == written.position(there));
-      CHECK(read.volume[here] == written.volume[there]);
-      CHECK(read.mass[here] == written.mass[there]);
-    }
-  }
-}
-
-TEST_CASE("points on a line come from a file in order of place") {
-  const TemporaryFolder folder;
-  const Grid<1> line{Axis::uniform(0, 4, 2)};
-  const auto file = folder.write("points.csv", "x,volume\n3,1\n1.5,2\n0.5,3\n2,4\n");
-  const auto points = place_body<1>(from_file(file), line, 1, StressState::uniaxial_stress).points;
-  CHECK(points.x[0] == std::vector{0.5, 1.5, 2.0, 3.0});
-  CHECK(points.volume == std::vector{3.0, 2.0, 4.0, 1.0});
-  CHECK(points.cell_begin == std::vector{0, 2, 4});
-}
-
-TEST_CASE("what is wrong with a file of points is said with its line and column, all at once") {
-  using Found = std::vector<std::string>;
-  const TemporaryFolder folder;
-  const auto found_in = [&](const std::string& text) { return problems_of(folder.write("points.csv", text)); };
-  CHECK(found_in("x,y,volume\n1,1,1\n").empty());
-  CHECK(found_in("\xEF\xBB\xBFx,y,volume\n1,1,+1e0\n").empty());  // a byte order mark
-  CHECK(problems_of(folder.path() / "none.csv") == Found{"0:0 there is no such file"});
-  CHECK(problems_of(folder.path()) == Found{"0:0 is not a file of points"});
-  CHECK(problems_of("/dev/zero") == Found{"0:0 is not a file of points"});
-  CHECK(found_in("") == Found{"0:0 is empty: expected a line with the columns x, y, volume"});
-  CHECK(found_in("x,y,volume\n# none\n") == Found{"0:0 holds no points"});
-  CHECK(found_in("x,y\n1,1\n") == Found{"1:1 the column 'volume' is missing; expected x, y, volume"});
-  CHECK(found_in("x,volume,z\n1,1,1\n") == Found{"1:10 unknown column 'z'; expected one of x, y, volume"});
-  CHECK(found_in("x,y,volme\n1,1,1\n") == Found{"1:5 unknown column 'volme'; did you mean 'volume'?"});
-  CHECK(found_in("x,y,volume,x\n1,1,1,1\n") == Found{"1:12 the column 'x' is there already"});
-  CHECK(found_in("x,y,volume\n1,1\n1,1,1,1\n1,,1\n1,1e999,1\n nan,1,0\n5,1,-1\n") ==
-        Found{"2:1 expected 3 values, found 2", "3:1 expected 3 values, found 4",
-              "4:3 y: expected a finite number, found ''", "5:3 y: expected a finite number, found '1e999'",
-              "6:2 x: expected a finite number, found 'nan'", "6:8 volume: must be greater than 0, not 0",
-              "7:1 x = 5 lies outside the grid, 0 to 4", "7:5 volume: must be greater than 0, not -1"});
-
-  std::string wrong = "x,y,volume\n";
-  for (int k = 0; k < 100; ++k) wrong += "a;b;c\n";
-  const Found many = found_in(wrong);
-  REQUIRE(many.size() == 21);
-  CHECK(many.back() == "22:1 from here on, more is wrong than is listed");
 }
