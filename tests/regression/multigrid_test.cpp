@@ -1,43 +1,26 @@
 // A mass whose inverse is a cycle of multigrid: steps that do not grow with the body, the same equilibrium, and an
 // error bound in the norm of the strain energy.
-#include "linalg/multigrid.hpp"
-
-#include <stillpoint/stillpoint.hpp>
-
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include <Eigen/SparseCore>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "largest.hpp"
 #include "linalg/sparse_cholesky.hpp"
+#include "multigrid_runs.hpp"
 #include "scenes.hpp"
 #include "simulation/parts.hpp"
-#include "simulation/setup/model.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
+using namespace stillpoint::test;
 using Catch::Matchers::Contains;
 
 namespace {
-
-std::vector<std::string> block(int cells, std::vector<std::string> others = {}) {
-  const std::string n = std::to_string(cells);
-  others.insert(others.begin(), {"constants.nu=0.3", "grid.basis=linear", "grid.cells=[" + n + "," + n + "]",
-                                 "stop.residual=1e-6", "mass.kind=multigrid"});
-  return others;
-}
-
-Simulation run(const std::string& problem, const std::vector<std::string>& set) {
-  Simulation simulation(scenes::load(problem, set));
-  simulation.run();
-  CAPTURE(simulation.reason());
-  CHECK(simulation.status() == RunStatus::equilibrium);
-  return simulation;
-}
 
 /// u of K u = F, by another factorisation.
 std::vector<double> equilibrium(const LagrangianPhase& phase) {
@@ -60,9 +43,6 @@ double true_distance(const Simulation& simulation) {
   for (std::size_t i = 0; i < e.size(); ++i) of_error += e[i] * Ke[i], of_u += u[i] * Ku[i];
   return std::sqrt(of_error / of_u);
 }
-
-#define REQUIRE_MULTIGRID() \
-  if (!multigrid_is_missing().empty()) return
 
 }  // namespace
 
@@ -183,45 +163,6 @@ TEST_CASE("quadratic and cubic functions come to rest by a multigrid mass as lin
   CHECK(largest_difference(simulation.u(), u) < 1e-4 * largest_magnitude(u));
 }
 
-TEST_CASE(
-    "auto takes a multigrid mass for a large linear body that leaves the mass open, says so, and not for a small") {
-  REQUIRE_MULTIGRID();
-  const auto model = [](const std::vector<std::string>& set) {
-    std::vector<std::string> all = {"constants.nu=0.3", "grid.basis=linear", "damping.strategy=auto"};
-    all.insert(all.end(), set.begin(), set.end());
-    return make_model(scenes::load("incompressible", all));
-  };
-  const Model large = model({"grid.cells=[224,224]"});
-  REQUIRE(large.multigrid);
-  CHECK(std::ranges::any_of(large.notes, [](const std::string& n) { return n.starts_with("auto takes mass.kind"); }));
-  CHECK_FALSE(model({"grid.cells=[64,64]"}).multigrid);
-  CHECK_FALSE(model({"grid.cells=[224,224]", "mass.kind=lumped"}).multigrid);
-  CHECK_FALSE(model({"grid.cells=[224,224]", "mass.scaling=gershgorin"}).multigrid);
-  CHECK_FALSE(model({"grid.cells=[224,224]", "stop.residual=0", "stop.time=1"}).multigrid);
-}
-
-TEST_CASE(
-    "auto takes a multigrid mass for a long beam that may turn, and not for a short one or where points remember") {
-  REQUIRE_MULTIGRID();
-  const auto takes = [](const std::vector<std::string>& set) {
-    std::vector<std::string> all = {"grid.cells=[640,8]", "damping.strategy=auto"};
-    all.insert(all.end(), set.begin(), set.end());
-    return make_model(scenes::load("cantilever", all)).multigrid != nullptr;
-  };
-  CHECK(takes({}));
-  CHECK_FALSE(takes({"grid.cells=[160,8]"}));
-  CHECK_FALSE(takes({"material.beam={law='drucker-prager', E=12, nu=0, rho=1, phi=0, c=1}", "phase.max_motion=none"}));
-  CHECK_FALSE(takes({"phase.max_motion=0.5"}));
-}
-
-TEST_CASE("auto keeps a lumped mass for a large linear body that its supports do not hold") {
-  CHECK_FALSE(
-      make_model(scenes::load("incompressible",
-                              {"constants.nu=0.3", "grid.basis=linear", "grid.cells=[224,224]", "damping.strategy=auto",
-                               "body_force.value=[-0.1,0.0]", "support=[{face='left', kind='roller'}]"}))
-          .multigrid);
-}
-
 TEST_CASE("what finds rest by a motion does so with a multigrid mass in a few dozen evaluations, in any body") {
   REQUIRE_MULTIGRID();
   const auto [strategy, method, most] = GENERATE(table<std::string, std::string, long>({
@@ -265,23 +206,6 @@ TEST_CASE(
   CHECK(largest_difference(multigrid.u(), factor.u()) < 1e-6 * largest_magnitude(factor.u()));
 }
 
-TEST_CASE(
-    "critical damping with a multigrid mass keeps up with auto where volume is hardly lost, and a note says why") {
-  REQUIRE_MULTIGRID();
-  // ω₁ by the Ritz value that settles first took 13 times the evaluations of auto.
-  const auto dilatation = GENERATE(as<std::string>(), "phase.dilatation=cells", "phase.dilatation=points");
-  const auto run_by = [&](const char* strategy) {
-    return run("incompressible", block(24, {"constants.nu=0.4999", dilatation, strategy}));
-  };
-  Simulation viscous = run_by("damping.strategy=viscous");
-  const Simulation by_auto = run_by("damping.strategy=auto");
-  CAPTURE(dilatation, by_auto.evaluations());
-  CHECK(2 * viscous.evaluations() <= 5 * by_auto.evaluations());
-  CHECK(std::ranges::any_of(viscous.summary().notes, [](const std::string& n) {
-    return n.find("nearly incompressible") != std::string::npos && n.find("lambda/mu") != std::string::npos;
-  }));
-}
-
 TEST_CASE("cells that the border cuts to a billionth of them take no more than 40 evaluations with a multigrid mass") {
   REQUIRE_MULTIGRID();
   const std::string basis = GENERATE("linear", "quadratic"), strategy = GENERATE("viscous", "auto");
@@ -295,28 +219,4 @@ TEST_CASE("cells that the border cuts to a billionth of them take no more than 4
     const std::vector<double> u = equilibrium(cut.parts().phase);
     CHECK(largest_difference(cut.u(), u) < 1e-5 * largest_magnitude(u));
   }
-}
-
-TEST_CASE("points that remember are refused a motion with a multigrid mass, and told what takes them") {
-  REQUIRE_MULTIGRID();
-  CHECK_THROWS_WITH(make_model(scenes::load("footing", {"mass.kind=multigrid"})),
-                    Contains("mass.kind") && Contains("newton-cg"));
-}
-
-TEST_CASE(
-    "a multigrid mass is refused with the reason where a motion means something, and where nothing can be done "
-    "with an inverse") {
-  const auto refusal = [](const std::vector<std::string>& set) {
-    std::vector<std::string> all = {"mass.kind=multigrid"};
-    all.insert(all.end(), set.begin(), set.end());
-    return scenes::refusal("incompressible", all);
-  };
-  CHECK_THAT(refusal({"stop.residual=0", "stop.time=1"}), Contains("mass.kind") && Contains("fictitious inertia"));
-  CHECK_THAT(refusal({"damping.strategy=one-sided"}), Contains("takes each by itself"));
-  CHECK_THAT(refusal({"damping.strategy=fire"}), Contains("products with M"));
-  CHECK_THAT(refusal({"damping.strategy=adaptive", "damping.quotient=diagonal"}), Contains("damping.quotient"));
-  CHECK_THAT(refusal({"grid.basis=hermite"}), Contains("basis of values"));
-  CHECK_THAT(refusal({"mass.scaling=gershgorin"}), Contains("needs mass.kind = \"lumped\""));
-  CHECK(refusal({"damping.strategy=viscous"}).empty());
-  CHECK_THAT(scenes::refusal("slope", {"mass.kind=multigrid"}), Contains("mass.kind"));
 }
