@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/json.hpp"
 
@@ -10,6 +11,8 @@ namespace stillpoint::test {
 
 /// All bytes of a file; throws std::runtime_error if it cannot be read.
 std::string contents(const std::filesystem::path& file);
+std::vector<std::string> lines_of(const std::string& text);
+inline std::vector<std::string> lines(const std::filesystem::path& file) { return lines_of(contents(file)); }
 Json parsed(const std::string& json);
 inline Json json_of(const std::filesystem::path& file) { return parsed(contents(file)); }
 

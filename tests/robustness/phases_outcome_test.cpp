@@ -2,7 +2,6 @@
 #include <stillpoint/stillpoint.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -16,18 +15,8 @@
 using namespace stillpoint;
 using stillpoint::test::free_block;
 using stillpoint::test::free_soil;
+using stillpoint::test::lines;
 using stillpoint::test::TemporaryFolder;
-
-namespace {
-
-std::string last_line(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line, last;
-  while (std::getline(stream, line)) last = line;
-  return last;
-}
-
-}  // namespace
 
 TEST_CASE("a material point that leaves the grid ends the run as failed, with its number, and the files are kept") {
   const TemporaryFolder folder;
@@ -41,7 +30,7 @@ TEST_CASE("a material point that leaves the grid ends the run as failed, with it
   CHECK(s.t == Approx(0.325).margin(0.026));
   CHECK(s.phases > 5);
   CHECK(std::filesystem::exists(folder.path() / "summary.json"));
-  CHECK(std::stod(last_line(folder.path() / "history.csv")) == s.t);
+  CHECK(std::stod(lines(folder.path() / "history.csv").back()) == s.t);
   // What is reported is the state in which the run ended: the body moved at 1 m/s.
   CHECK(scenes::probe(s, "p", "u.y") == Approx(s.t).epsilon(1e-6));
 }
@@ -61,7 +50,7 @@ TEST_CASE("a phase that cannot begin ends the run as failed, with the reason, an
   const Json summary = stillpoint::test::json_of(folder.path() / "summary.json");
   CHECK(summary["status"] == "failed");
   CHECK(summary["residual"].is_null());
-  CHECK(std::stod(last_line(folder.path() / "history.csv")) == Approx(s.t).margin(0.011));  // a row each 0.01 s
+  CHECK(std::stod(lines(folder.path() / "history.csv").back()) == Approx(s.t).margin(0.011));  // a row each 0.01 s
   CHECK(std::filesystem::exists(folder.path() / "fields.h5"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "fields.h5.partial"));
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@ using stillpoint::test::broken;
 using stillpoint::test::contents;
 using stillpoint::test::kGoodPlane;
 using stillpoint::test::kGoodScene;
+using stillpoint::test::lines_of;
 using stillpoint::test::TemporaryFolder;
 
 namespace {
@@ -47,13 +47,6 @@ std::string with_bytes_changed(std::string text, Random& random) {
     }
   }
   return text;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 /// Lines removed, doubled or swapped.
