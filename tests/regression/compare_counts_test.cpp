@@ -59,7 +59,7 @@ TEST_CASE("on the chain Chebyshev costs 727 evaluations, critical damping 928 an
   CHECK(evaluations(c, "chebyshev") == Approx(727).epsilon(0.01));
   CHECK(evaluations(c, "viscous 0.9") == Approx(927).epsilon(0.01));
   CHECK(row(c, "viscous 0.9").first_evaluations == evaluations(c, "viscous 0.9"));
-  // 350 here, and 309 in strategies_test.cpp with a step 10⁻⁴ longer: peaks are seen at whole steps only.
+  // 350 here, and 309 in kinetic_test.cpp with a step 10⁻⁴ longer: peaks are seen at whole steps only.
   CHECK(evaluations(c, "kinetic 0.9") == Approx(330).epsilon(0.08));
 }
 
