@@ -1,4 +1,4 @@
-// What is certified about the distance to equilibrium is compared with: the equilibrium, and M-norms of the error.
+// What certified distances are compared with: the equilibrium, and M-norms of the error.
 #pragma once
 
 #include <stillpoint/static_solution.hpp>

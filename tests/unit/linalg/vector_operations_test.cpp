@@ -86,7 +86,7 @@ TEST_CASE("vector operations entry by entry agree with plain loops", "[vector]")
     N_VAddConst(X, 0.5, Z);
     CHECK(equals(z, [&](std::size_t i) { return x[i] + 0.5; }));
     N_VLinearSum(0.5, X, 1, Y, Y);  // in place
-    const Values y_before = random_values(n, 2);
+    const Values y_before = random_values(n, 2, 2);
     CHECK(std::abs(y[n - 1] - (0.5 * x[n - 1] + y_before[n - 1])) < 1e-15);
   }
 }
@@ -122,7 +122,7 @@ TEST_CASE("linear combinations of any number of vectors agree with plain loops, 
       Values c;
       for (int k = 0; k < count; ++k) {
         vectors.push_back(space.make(n));
-        std::ranges::copy(random_values(n, static_cast<unsigned>(k)), vectors.back().span().begin());
+        std::ranges::copy(random_values(n, 2, static_cast<unsigned>(k)), vectors.back().span().begin());
         X.push_back(vectors.back().handle());
         c.push_back(k % 3 == 1 ? 0 : 1.0 / (k + 1));
       }
@@ -170,7 +170,7 @@ TEST_CASE("products of one vector with several in one pass have the bits of each
     std::vector<Vector> all;
     for (unsigned seed = 0; seed < 11; ++seed) {
       Vector& v = all.emplace_back(space.make(n));
-      std::ranges::copy(random_values(n, seed + 1), v.span().begin());
+      std::ranges::copy(random_values(n, 2, seed + 1), v.span().begin());
     }
     const auto few = stillpoint::dots(all[0], all[0], all[1], all[2]);
     for (std::size_t k = 0; k < few.size(); ++k) CHECK(few[k] == stillpoint::dot(all[0], all[k]));
@@ -202,7 +202,7 @@ TEST_CASE("reductions give the same bits for one and for two threads", "[vector]
 }
 
 TEST_CASE("the bits of a sum do not depend on where in memory its vectors lie", "[vector]") {
-  const Values values = random_values(100'000, 3);
+  const Values values = random_values(100'000, 2, 3);
   Values padded(values.size() + 8);
   VectorSpace space;
   Values sums;

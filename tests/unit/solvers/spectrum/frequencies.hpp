@@ -1,4 +1,4 @@
-// What the tests of frequencies share: chains, dense matrices as systems, and what Eigen's dense solver says of them.
+// What the tests of frequencies share: chains, systems of dense matrices, and the frequencies by Eigen's dense solver.
 #pragma once
 
 #include <stillpoint/spectrum.hpp>
