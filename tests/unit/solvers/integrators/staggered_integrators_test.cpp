@@ -142,29 +142,6 @@ TEST_CASE("leapfrog with identity damping may change its step between calls", "[
 
 }  // namespace
 
-TEST_CASE("of a long vector, in one pass over memory, the damped force is what it is in two") {
-  const auto* strategy = GENERATE("none", "one-sided", "cundall", "combined");
-  CAPTURE(strategy);
-  constexpr std::size_t n = 20'001;  // several threads, pieces, and a last one that is not whole
-  test::Chain chain({.n = n, .consistent = GENERATE(false, true), .load = 1e-3});
-  const auto damping = make_damping(strategy, 0, 0.4);
-  RelaxationSystem system(chain, *damping);
-  Values u(n), v(n), in_one(n), in_two(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    u[i] = std::sin(0.7 * static_cast<double>(i));
-    v[i] = std::sin(1.3 * static_cast<double>(i));
-  }
-  for (const bool remembered : {false, true}) {
-    REQUIRE(system.out_of_balance(0, u, in_two));
-    if (remembered) system.remember_force();
-    for (double& x : u) x *= 1.1;
-    REQUIRE(system.out_of_balance(0, u, in_two));
-    system.add_local_damping(v, in_two);
-    REQUIRE(system.damped_out_of_balance(0, u, v, in_one));
-    CHECK(in_one == in_two);
-  }
-}
-
 TEST_CASE("a mode of a long chain stays one, at every degree of freedom, under each method and treatment") {
   const auto [method, treatment] =
       GENERATE(table<std::string, DampingTreatment>({{"leapfrog", DampingTreatment::averaged},
