@@ -45,8 +45,15 @@ struct VariedScene {
   Scene scene;
   std::vector<std::string> varied;  // the last of its overrides: those that differ from series to series
 };
-/// The settings of each series, "key=value" as for --set: one for each value of the key that varies, or for each pair
-/// of values of two keys. vary: a key with its values each, "grid.basis=linear,quadratic". Throws SceneError.
+/// A key of the scene and the values that it takes, each of which gives a series of levels.
+struct Variation {
+  std::string key;
+  std::vector<std::string> values;  // as for --set
+};
+/// Reads a variation such as "grid.basis=linear,quadratic". Throws SceneError.
+Variation variation_of(const std::string& text);
+/// The settings of each series, "key=value" as for --set: one for each value of the variation, or for each pair of
+/// values of two. Throws SceneError.
 std::vector<std::vector<std::string>> settings_of_series(const std::vector<std::string>& vary);
 
 struct ConvergenceLevel {
@@ -116,7 +123,9 @@ std::vector<ConvergenceStudy> converge_varied(const std::vector<VariedScene>& sc
 
 /// The text of converge.json: all series, as a list if something varies.
 std::string to_json(const std::vector<ConvergenceStudy>& series);
-/// Writes converge.csv, with a column for each varied key, converge.json and report.html into a folder.
+/// Writes converge.csv, converge.json and report.html into a folder.
+void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder);
+/// Writes all series, with a column for each varied key and a list of series.
 void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder);
 
 }  // namespace stillpoint

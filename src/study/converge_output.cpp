@@ -123,6 +123,8 @@ Json json(const std::vector<ConvergenceStudy>& series) {
 
 std::string to_json(const std::vector<ConvergenceStudy>& series) { return json(series).dump(1) + "\n"; }
 
+void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder) { write_studies({study}, folder); }
+
 void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder) {
   const ConvergenceStudy& first = series.front();
   write_file(folder / "converge.csv", csv(series));

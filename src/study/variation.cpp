@@ -8,12 +8,6 @@
 namespace stillpoint {
 namespace {
 
-/// A key of the scene and the values that it takes, as for --set.
-struct Variation {
-  std::string key;
-  std::vector<std::string> values;
-};
-
 // Splits at the commas that are in no array, table or string.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
@@ -38,6 +32,8 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
+}  // namespace
+
 Variation variation_of(const std::string& text) {
   const std::size_t equals = text.find('=');
   Variation variation;
@@ -50,22 +46,16 @@ Variation variation_of(const std::string& text) {
   return variation;
 }
 
-std::vector<Variation> variations_of(const std::vector<std::string>& texts) {
+std::vector<std::vector<std::string>> settings_of_series(const std::vector<std::string>& vary) {
   std::vector<Variation> varied;
-  for (const std::string& text : texts) {
+  for (const std::string& text : vary) {
     varied.push_back(variation_of(text));
     if (varied.size() > 2) throw_option_error("--vary", text, "is the third; expected two keys at most");
     if (varied.size() == 2 && varied.front().key == varied.back().key)
       throw_option_error("--vary", text, "is a key that is varied already; expected all its values at once");
   }
-  return varied;
-}
-
-}  // namespace
-
-std::vector<std::vector<std::string>> settings_of_series(const std::vector<std::string>& vary) {
   std::vector<std::vector<std::string>> all(1);
-  for (const Variation& variation : variations_of(vary)) {
+  for (const Variation& variation : varied) {
     std::vector<std::vector<std::string>> longer;
     for (const std::vector<std::string>& set : all) {
       for (const std::string& value : variation.values) {

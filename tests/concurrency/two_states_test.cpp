@@ -18,15 +18,15 @@ using namespace stillpoint;
 namespace {
 
 // Everything that a solver asks of a phase in one state.
-struct Evaluation {
+struct Answer {
   bool good = false;
   std::vector<double> F, R, K_du, reactions{}, stress{};
   SparseMatrix K{};
 };
 
-Evaluation evaluate(const LagrangianPhase& phase, double t, const std::vector<double>& u) {
+Answer evaluate(const LagrangianPhase& phase, double t, const std::vector<double>& u) {
   const std::size_t n = phase.size();
-  Evaluation of{.F = std::vector<double>(n), .R = std::vector<double>(n), .K_du = std::vector<double>(n)};
+  Answer of{.F = std::vector<double>(n), .R = std::vector<double>(n), .K_du = std::vector<double>(n)};
   const auto trial = phase.make_trial();
   phase.external_force(t, u, of.F);
   of.good = phase.internal_force(t, u, of.R, *trial);
@@ -38,7 +38,7 @@ Evaluation evaluate(const LagrangianPhase& phase, double t, const std::vector<do
   return of;
 }
 
-bool same_bits(const Evaluation& a, const Evaluation& b) {
+bool same_bits(const Answer& a, const Answer& b) {
   return a.good == b.good && a.F == b.F && a.R == b.R && a.K_du == b.K_du && a.reactions == b.reactions &&
          a.stress == b.stress && SparseMatrix(a.K - b.K).norm() == 0;
 }
@@ -58,7 +58,7 @@ TEST_CASE("two threads evaluate two states of one phase with the bits of a singl
     INFO(scene.title << ", dilatation " << static_cast<int>(phase->info().nonlinear));
     const std::vector<double> times{0.3, 0.7};
     std::vector<std::vector<double>> u;
-    std::vector<Evaluation> alone;
+    std::vector<Answer> alone;
     for (unsigned k = 0; k < 2; ++k) {
       u.push_back(test::random_values(phase->size(), 1e-4, k));
       alone.push_back(evaluate(*phase, times[k], u[k]));
@@ -85,7 +85,7 @@ TEST_CASE("a state that cannot be evaluated leaves nothing behind for the next o
     const auto phase = make_phase(scenes::load("cylinder", {"grid.cells=[8,8]", "material.steel.law=neo-hookean",
                                                             "grid.basis=quadratic", "phase.dilatation=" + dilatation}));
     const auto u = test::random_values(phase->size(), 1e-4, 1);
-    const Evaluation before = evaluate(*phase, 0, u);
+    const Answer before = evaluate(*phase, 0, u);
     REQUIRE(before.good);
     std::vector<double> R(phase->size());
     const std::vector<double> nowhere(phase->size(), std::numeric_limits<double>::quiet_NaN());

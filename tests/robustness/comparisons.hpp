@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "scenes.hpp"
+
 namespace stillpoint::test {
 
 inline Comparison compared(const std::string& problem, CompareOptions options,
                            const std::vector<std::string>& set = {}) {
   if (options.integrators.empty()) options.integrators = {"leapfrog"};
   if (options.threads == 0) options.threads = 1;  // tests run side by side
-  return compare(std::string(STILLPOINT_PROBLEMS) + "/" + problem + ".toml", set, options);
+  return compare(scenes::load(problem, set), options);
 }
 
 inline const ComparedRun& row(const Comparison& c, const std::string& label) {

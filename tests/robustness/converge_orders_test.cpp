@@ -108,7 +108,7 @@ TEST_CASE("without an exact solution probes are extrapolated: the stress at the 
   const std::filesystem::path file = without_exact("mms_bar", folder);
   const std::vector<std::string> set = {"grid.cells=8", "stop.residual=1e-11",
                                         "probe=[{name='end', at=1.0, fields=['stress']}]"};
-  const ConvergenceStudy study = converge(file, set, {.levels = 5, .finds_dominant = false});
+  const ConvergenceStudy study = converge(load_scene(file, set), {.levels = 5, .finds_dominant = false});
   CHECK(study.reference == "the finest level, and Richardson's extrapolation of the probes");
   CHECK(says(study, "expected [exact]"));
   const StudiedQuantity& end = quantity(study, "end.stress");
@@ -133,7 +133,7 @@ TEST_CASE("without an exact solution u and stress are compared at the same place
                                           is_bar ? "grid.cells=8" : "grid.cells=[4, 2]"};
     const ConvergeOptions options{.levels = 5, .finds_dominant = false};
     const ConvergenceStudy known = study_of(problem, set, options);
-    const ConvergenceStudy study = converge(without_exact(problem, folder), set, options);
+    const ConvergenceStudy study = converge(load_scene(without_exact(problem, folder), set), options);
     CAPTURE(problem, basis);
     CHECK(says(study, "expected [exact]"));
     const StudiedQuantity &u = quantity(study, "u_l2"), &stress = quantity(study, "stress_l2");

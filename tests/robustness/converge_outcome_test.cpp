@@ -22,9 +22,7 @@ using namespace stillpoint::test;
 namespace fs = std::filesystem;
 
 TEST_CASE("a level that is no scene is refused with the key of the scene's file that made it so") {
-  const auto study = [] {
-    converge(fs::path(STILLPOINT_PROBLEMS) / "block.toml", {}, {.levels = 4, .ratio = 100, .finds_dominant = false});
-  };
+  const auto study = [] { converge(scenes::load("block"), {.levels = 4, .ratio = 100, .finds_dominant = false}); };
   CHECK_THROWS_WITH(study(),
                     Catch::Contains("block.toml:14:9: grid.cells: ") && Catch::Contains("cells are more than"));
 }
@@ -129,11 +127,11 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
   const std::vector<std::string> set = {"grid.cells=8"};  // u and stress at places are kept, too
   int runs = 0;
   ConvergeOptions options{.levels = 4, .threads = 1};
-  const ConvergenceStudy unbroken = converge(file, set, options);
+  const ConvergenceStudy unbroken = converge(load_scene(file, set), options);
   options.keep = out;
   options.progress = [&](const StudyProgress&) { ++runs; };
   options.interrupted = [&] { return runs >= 2; };
-  const ConvergenceStudy broken = converge(file, set, options);
+  const ConvergenceStudy broken = converge(load_scene(file, set), options);
   CHECK(broken.interrupted);
   CHECK(broken.finished_runs == 2);
   CHECK(broken.levels[3].status == RunStatus::equilibrium);
@@ -142,7 +140,7 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
 
   options.interrupted = {};
   options.resumes = true;
-  ConvergenceStudy resumed = converge(file, set, options);
+  ConvergenceStudy resumed = converge(load_scene(file, set), options);
   CHECK_FALSE(resumed.interrupted);
   CHECK(resumed.levels[3].wall_s == broken.levels[3].wall_s);  // it was not run once more
   REQUIRE(resumed.quantities.size() == unbroken.quantities.size());
@@ -157,7 +155,7 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
 
   const auto refusal = [&](const fs::path& scene, const std::vector<std::string>& given) {
     try {
-      converge(scene, given, options);
+      converge(load_scene(scene, given), options);
     } catch (const StateError& error) {
       return std::string(error.what());
     }
@@ -172,7 +170,7 @@ TEST_CASE("a study that is interrupted keeps its finished runs, and goes on to t
   folder.write("out/level-2.json", "{\"of\": 1");
   CHECK_THAT(refusal(file, set), Catch::Contains("level-2.json: is damaged"));
   options.resumes = false;
-  CHECK(converge(file, set, options).finished_runs == unbroken.runs);
+  CHECK(converge(load_scene(file, set), options).finished_runs == unbroken.runs);
 }
 
 TEST_CASE("Ctrl-C ends a study with status 3 and the rows of its finished levels, which are on the disk before") {

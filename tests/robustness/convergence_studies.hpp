@@ -5,20 +5,20 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "files.hpp"
+#include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 namespace stillpoint::test {
 
 inline ConvergenceStudy study_of(const std::string& problem, const std::vector<std::string>& overrides,
                                  const ConvergeOptions& options) {
-  return converge(std::filesystem::path(STILLPOINT_PROBLEMS) / (problem + ".toml"), overrides, options);
+  return converge(scenes::load(problem, overrides), options);
 }
 
 inline const StudiedQuantity& quantity(const ConvergenceStudy& study, const std::string& name) {

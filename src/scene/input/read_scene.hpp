@@ -18,7 +18,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 /// none, and faults are told by their keys alone.
 Scene read_scene(const std::filesystem::path& file, std::string text, std::string name,
                  const std::vector<std::string>& overrides, const Catalogue& catalogue);
-/// A scene with more overrides laid over it, from its text.
+/// The same of a scene's own text, with more overrides laid over it.
 Scene read_again(const Scene& scene, const std::vector<std::string>& more, const Catalogue& catalogue);
 
 /// The same of a program's own problem, see resolve().

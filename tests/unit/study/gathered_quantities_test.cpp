@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
-#include "study/studied_quantities.hpp"
+#include "study/level_run.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;

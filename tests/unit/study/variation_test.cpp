@@ -8,7 +8,6 @@
 
 #include "free_block.hpp"
 #include "scenes.hpp"
-#include "study/error_sources.hpp"
 #include "study/refinement.hpp"
 
 using namespace stillpoint;

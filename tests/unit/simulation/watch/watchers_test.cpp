@@ -41,7 +41,7 @@ TEST_CASE("figures are measured once a state, and again when it has changed") {
   const double residual = run.measured.residual();
   CHECK(residual > 0);
   CHECK(run.measured.all().residual == residual);
-  while (run.motion->integrator->steps() < 10) run.t = run.motion->integrator->step(1e9).t;
+  while (run.motion->stepper->steps() < 10) run.t = run.motion->stepper->step(1e9).t;
   CHECK(run.measured.all().residual == residual);  // nobody has said that the state is another one
   CHECK(run.measured.last().kinetic_energy == 0);
   run.measured.discard();

@@ -28,15 +28,15 @@ TEST_CASE("auto learns the lowest frequency that its load drives, and keeps quie
   for (const double load : {1.0, 1e-3, 0.0}) {
     Oscillators system(load);
     Relaxing relaxing(system, {.strategy = "auto", .options = {.linear = true}}, 0.9 * 2 / std::sqrt(199.0));
-    CHECK_FALSE(relaxing.integrator->lowest_frequency());
+    CHECK_FALSE(relaxing.stepper->lowest_frequency());
     const double exact = std::sqrt(Oscillators::squared(load > 0 ? 0 : 1));
     CAPTURE(load);
     for (int k = 0; k < 16; ++k) {
       relaxing.step();
-      const auto known = relaxing.integrator->lowest_frequency();
+      const auto known = relaxing.stepper->lowest_frequency();
       if (known) CHECK(*known <= 1.02 * exact);
     }
-    REQUIRE(relaxing.integrator->lowest_frequency());
-    CHECK(*relaxing.integrator->lowest_frequency() == Approx(exact).epsilon(5e-3));
+    REQUIRE(relaxing.stepper->lowest_frequency());
+    CHECK(*relaxing.stepper->lowest_frequency() == Approx(exact).epsilon(5e-3));
   }
 }

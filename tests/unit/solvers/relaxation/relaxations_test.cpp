@@ -104,9 +104,9 @@ TEST_CASE("a step of a strategy allocates nothing", "[strategies]") {
     for (const std::string& strategy : iterations) {
       Chain chain({.n = 40, .consistent = consistent, .load = 0.01});
       Relaxing relaxing(chain, {.strategy = strategy, .options = {.omega_1 = 0.03}}, 0.5);
-      relaxing.integrator->step(1e6);
+      relaxing.stepper->step(1e6);
       const long before = allocation_count();
-      for (int k = 0; k < 30; ++k) relaxing.integrator->step(1e6);
+      for (int k = 0; k < 30; ++k) relaxing.stepper->step(1e6);
       const long allocated = allocation_count() - before;
       CAPTURE(strategy, consistent);
       CHECK(allocated == 0);

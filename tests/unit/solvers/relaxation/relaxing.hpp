@@ -74,11 +74,11 @@ struct Relaxing {
     IntegratorOptions stepping;
     stepping.method = way.method;
     stepping.max_step = max_step;
-    integrator = stepper_of(way.strategy, stepping, system, way.options);
-    integrator->start(0, state);
+    stepper = stepper_of(way.strategy, stepping, system, way.options);
+    stepper->start(0, state);
   }
   StepReport step() {
-    const StepReport report = integrator->step(1e9);
+    const StepReport report = stepper->step(1e9);
     INFO(report.message);
     REQUIRE(report.status == StepReport::Status::ok);
     return report;
@@ -88,7 +88,7 @@ struct Relaxing {
   RelaxationSystem system;
   Values y;
   Vector state;
-  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<Stepper> stepper;
 };
 
 /// ‖u − u*‖/‖u*‖

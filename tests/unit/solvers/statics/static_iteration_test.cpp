@@ -1,4 +1,6 @@
 // What cg and lbfgs do where points remember, and where the whole load is too much at once.
+#include <stillpoint/state_norms.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -60,7 +62,7 @@ Ended iterate(SemiDiscrete& system, const std::string& method, int load_steps = 
   Vector y = VectorSpace().make(2);
   solver->start(0, y);
   std::string failure;
-  for (int k = 0; k < 1000 && failure.empty() && !(relaxing.last_residual() <= 1e-9); ++k) {
+  for (int k = 0; k < 1000 && failure.empty() && !(StateNorms(relaxing).last_residual() <= 1e-9); ++k) {
     const StepReport report = solver->step(1e9);
     if (report.status != StepReport::Status::ok) failure = report.message + "!";
   }
@@ -122,4 +124,36 @@ TEST_CASE("a load that nothing can carry fails with the load factor that was rea
     CHECK(end.u <= 1 + 1e-9);  // what it had in equilibrium is kept
     CHECK(end.u >= 0.98);
   }
+}
+
+TEST_CASE("laws remember each step of a march, and of a static solver the end alone") {
+  const auto damping = no_damping();
+  Vector y = VectorSpace().make(2);
+  const auto take_step = [&y](Stepper& stepper) {
+    stepper.start(0, y);
+    stepper.accept(0);
+    const StepReport report = stepper.step(1e9);
+    REQUIRE(report.status == StepReport::Status::ok);
+    stepper.accept(report.t);
+    return report.t;
+  };
+  for (const char* method : {"cg", "lbfgs"}) {
+    CAPTURE(method);
+    Reluctant system(/*load=*/1, /*reach=*/10);
+    RelaxationSystem relaxing(system, *damping);
+    const auto solver = make_static_method({.name = method, .max_step = 1, .tolerance = 1e-9}, relaxing);
+    const double t = take_step(*solver);
+    CHECK_FALSE(solver->moves());
+    CHECK(system.remembered.empty());
+    solver->finish(t);
+    CHECK(system.remembered == std::vector{y.span()[0]});
+  }
+  Reluctant system(/*load=*/1, /*reach=*/10);
+  RelaxationSystem relaxing(system, *damping);
+  const auto march = make_integrator({.max_step = 0.1}, relaxing);
+  std::ranges::fill(y.span(), 0.0);
+  const double t = take_step(*march);
+  CHECK(march->moves());
+  march->finish(t);
+  CHECK(system.remembered == std::vector{0.0, y.span()[0]});
 }
