@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "geometry/box_tree.hpp"
 #include "geometry/gauss_rule.hpp"
 
 namespace stillpoint {
@@ -90,17 +91,6 @@ class ColumnRule {
   UnitRule along_, across_;
   SpaceRule rule_;
 };
-
-SpaceBox box_around(const Facet& triangle) {
-  SpaceBox box{triangle[0], triangle[0]};
-  for (const SpacePoint& corner : triangle) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      box.low[d] = std::min(box.low[d], corner[d]);
-      box.high[d] = std::max(box.high[d], corner[d]);
-    }
-  }
-  return box;
-}
 
 bool meet(const SpaceBox& a, const SpaceBox& b, std::size_t axis) {
   return a.low[axis] <= b.high[axis] && a.high[axis] >= b.low[axis];
