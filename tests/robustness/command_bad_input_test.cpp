@@ -1,52 +1,16 @@
 // The command on bad input: exit status 2, the reason on stderr, and no output folder.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
 
 #include "broken_scene.hpp"
-#include "temporary_folder.hpp"
+#include "command_run.hpp"
 
 using stillpoint::test::broken;
+using stillpoint::test::CommandRun;
 using stillpoint::test::kGoodScene;
-using stillpoint::test::TemporaryFolder;
 
 namespace {
-
-/// The end of one run of the command, in a folder that it may write into.
-struct CommandRun {
-  int status = -1;
-  std::string standard_error;
-  bool wrote = false;  // whether the output folder exists
-
-  /// arguments go through the shell; SCENE and OUT in them stand for the scene file and the output folder.
-  CommandRun(const std::string& scene, std::string arguments) {
-    const TemporaryFolder folder;
-    const auto file = folder.write("scene.toml", scene);
-    const auto out = folder.path() / "out";
-    const auto errors = folder.path() / "errors";
-    replace(arguments, "SCENE", file.string());
-    replace(arguments, "OUT", out.string());
-    const std::string line = std::string(STILLPOINT_BINARY) + " " + arguments + " >/dev/null 2>" + errors.string();
-    const int ended = std::system(line.c_str());
-    status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
-    std::ostringstream text;
-    text << std::ifstream(errors).rdbuf();
-    standard_error = text.str();
-    replace(standard_error, file.string(), "scene.toml");
-    wrote = std::filesystem::exists(out);
-  }
-
- private:
-  static void replace(std::string& text, const std::string& from, const std::string& to) {
-    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-      text.replace(at, from.size(), to);
-  }
-};
 
 void refuses(const CommandRun& run, const std::string& message) {
   CHECK(run.status == 2);
