@@ -11,7 +11,7 @@
 #include "command_run.hpp"
 #include "files.hpp"
 #include "plan/catalogue.hpp"
-#include "scene/input/key_reference.hpp"
+#include "scene/input/read_scene.hpp"
 #include "scenes.hpp"
 #include "simulation/setup/model.hpp"
 
