@@ -2,8 +2,10 @@
 #pragma once
 
 #include <stillpoint/converge.hpp>
+#include <stillpoint/scene.hpp>
 #include <stillpoint/summary.hpp>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
