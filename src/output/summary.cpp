@@ -1,6 +1,5 @@
 #include <stillpoint/summary.hpp>
 
-#include <array>
 #include <utility>
 
 #include "base/json.hpp"
@@ -8,11 +7,31 @@
 namespace stillpoint {
 
 std::string to_string(RunStatus status) {
-  constexpr std::array words = {"running",  "equilibrium", "unstable-equilibrium", "limit-load",  "stop-test",
-                                "end-time", "step-limit",  "time-limit",           "interrupted", "diverged",
-                                "failed"};  // in the order of RunStatus
-  const auto k = static_cast<std::size_t>(status);
-  return k < words.size() ? words[k] : "unknown";
+  switch (status) {
+    case RunStatus::running:
+      return "running";
+    case RunStatus::equilibrium:
+      return "equilibrium";
+    case RunStatus::unstable_equilibrium:
+      return "unstable-equilibrium";
+    case RunStatus::limit_load:
+      return "limit-load";
+    case RunStatus::stop_test:
+      return "stop-test";
+    case RunStatus::end_time:
+      return "end-time";
+    case RunStatus::step_limit:
+      return "step-limit";
+    case RunStatus::time_limit:
+      return "time-limit";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::failed:
+      return "failed";
+  }
+  return "unknown";
 }
 
 namespace {

@@ -1,7 +1,6 @@
 #include <stillpoint/scene.hpp>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -12,10 +11,21 @@
 namespace stillpoint {
 
 std::string_view to_string(StressState state) {
-  constexpr std::array words = {"uniaxial-stress", "uniaxial-strain", "plane-strain",
-                                "plane-stress",    "axisymmetric",    "space"};  // in the order of StressState
-  const auto k = static_cast<std::size_t>(state);
-  return k < words.size() ? words[k] : "";
+  switch (state) {
+    case StressState::uniaxial_stress:
+      return "uniaxial-stress";
+    case StressState::uniaxial_strain:
+      return "uniaxial-strain";
+    case StressState::plane_strain:
+      return "plane-strain";
+    case StressState::plane_stress:
+      return "plane-stress";
+    case StressState::axisymmetric:
+      return "axisymmetric";
+    case StressState::space:
+      return "space";
+  }
+  return "";
 }
 
 Location Scene::location(const std::string& key) const {

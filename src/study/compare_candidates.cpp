@@ -3,7 +3,6 @@
 #include <stillpoint/compare.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -182,10 +181,23 @@ Scene scene_of(const ComparedRun& run, const Scene& scene) {
 }
 
 std::string to_string(ComparedStatus status) {
-  constexpr std::array words = {"converged", "stalled", "unfinished", "inaccurate",
-                                "diverged",  "refused", "interrupted"};  // in the order of ComparedStatus
-  const auto k = static_cast<std::size_t>(status);
-  return k < words.size() ? words[k] : "unknown";
+  switch (status) {
+    case ComparedStatus::converged:
+      return "converged";
+    case ComparedStatus::stalled:
+      return "stalled";
+    case ComparedStatus::unfinished:
+      return "unfinished";
+    case ComparedStatus::inaccurate:
+      return "inaccurate";
+    case ComparedStatus::diverged:
+      return "diverged";
+    case ComparedStatus::refused:
+      return "refused";
+    case ComparedStatus::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
 }
 
 std::string ComparedRun::label() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,9 +14,11 @@
 namespace stillpoint {
 namespace {
 
-// In the order of Refinement: its names, and the sources of error that it reduces.
-constexpr std::array<std::string_view, 5> names = {"h", "points", "step", "rtol", "motion"};
-constexpr std::array<std::string_view, 5> sources = {"space", "quadrature", "time", "time", "phases"};
+constexpr std::array<std::pair<Refinement, std::string_view>, 5> names = {{{Refinement::h, "h"},
+                                                                           {Refinement::points, "points"},
+                                                                           {Refinement::step, "step"},
+                                                                           {Refinement::rtol, "rtol"},
+                                                                           {Refinement::motion, "motion"}}};
 
 std::vector<int> times(const std::vector<int>& counts, double factor) {
   std::vector<int> finer;
@@ -39,11 +42,13 @@ Settings more_points(const Problem& problem, double factor) {
 
 }  // namespace
 
-std::string to_string(Refinement refinement) { return std::string(names.at(static_cast<std::size_t>(refinement))); }
+std::string to_string(Refinement refinement) {
+  return std::string(std::ranges::find(names, refinement, &std::pair<Refinement, std::string_view>::first)->second);
+}
 
 std::optional<Refinement> refinement_of(std::string_view name) {
-  const auto found = std::ranges::find(names, name);
-  return found == names.end() ? std::nullopt : std::optional(static_cast<Refinement>(found - names.begin()));
+  const auto found = std::ranges::find(names, name, &std::pair<Refinement, std::string_view>::second);
+  return found == names.end() ? std::nullopt : std::optional(found->first);
 }
 
 Settings refined(const Problem& problem, Refinement refinement, double factor) {
@@ -96,12 +101,23 @@ double size_of(const Problem& problem, Refinement refinement, double step) {
 
 bool is_transient(const Problem& problem) { return !problem.solve.is_static() && !problem.stop.wants_equilibrium(); }
 
-std::string source_of(Refinement refinement) { return std::string(sources.at(static_cast<std::size_t>(refinement))); }
+std::string source_of(Refinement refinement) {
+  switch (refinement) {
+    case Refinement::h:
+      return "space";
+    case Refinement::points:
+      return "quadrature";
+    case Refinement::motion:
+      return "phases";
+    default:
+      return "time";
+  }
+}
 
 std::vector<RefinedSource> other_sources(const Problem& problem, const std::vector<Refinement>& refine) {
-  std::vector<RefinedSource> others;
+  std::vector<RefinedSource> sources;
   const auto is_refined = [&](Refinement r) { return std::ranges::find(refine, r) != refine.end(); };
-  const auto add = [&](Refinement r, double factor) { others.push_back({source_of(r), refined(problem, r, factor)}); };
+  const auto add = [&](Refinement r, double factor) { sources.push_back({source_of(r), refined(problem, r, factor)}); };
   const bool fills_bodies = std::ranges::all_of(problem.bodies, [](const BodySpec& body) { return body.file.empty(); });
   if (!is_refined(Refinement::h)) add(Refinement::h, 2);
   if (!is_refined(Refinement::points) && fills_bodies) add(Refinement::points, 2);
@@ -117,11 +133,11 @@ std::vector<RefinedSource> other_sources(const Problem& problem, const std::vect
   if (problem.stop.wants_equilibrium() && problem.stop.residual > 0) {
     constexpr double tighter = 100, tightest = 1e-12;
     const double residual = std::max(tightest, problem.stop.residual / tighter);
-    others.push_back({"the relaxation's stop",
-                      {{fmt::format("stop.residual={:.3g}", residual),
-                        [residual](Problem& finer) { finer.stop.residual = residual; }}}});
+    sources.push_back({"the relaxation's stop",
+                       {{fmt::format("stop.residual={:.3g}", residual),
+                         [residual](Problem& finer) { finer.stop.residual = residual; }}}});
   }
-  return others;
+  return sources;
 }
 
 }  // namespace stillpoint
