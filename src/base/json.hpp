@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -19,6 +20,9 @@ inline Json numbers(const std::vector<double>& values) {
   for (const double value : values) list.push_back(number(value));
   return list;
 }
+
+/// The text of a file that holds it.
+inline std::string file_text(const Json& json) { return json.dump(1) + "\n"; }
 
 /// The versions of the program and of the libraries that its results depend on, by name.
 Json versions_of_libraries();

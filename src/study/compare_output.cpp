@@ -94,14 +94,15 @@ Json json(const Comparison& c) {
 
 }  // namespace
 
-std::string to_json(const Comparison& comparison) { return json(comparison).dump(1) + "\n"; }
+std::string to_json(const Comparison& comparison) { return file_text(json(comparison)); }
 
 void write_comparison(const Comparison& comparison, const std::filesystem::path& folder) {
   write_file(folder / "compare.csv", csv(comparison));
-  write_file(folder / "compare.json", to_json(comparison));
+  const Json whole = json(comparison);
+  write_file(folder / "compare.json", file_text(whole));
   const std::string page = report_page(comparison.title.empty() ? comparison.scene : comparison.title,
                                        {{"kind", "compare"},
-                                        {"comparison", json(comparison)},
+                                        {"comparison", whole},
                                         {"scene", {{"text", comparison.scene_text}, {"set", comparison.overrides}}}});
   write_file(folder / report_name, page);
 }

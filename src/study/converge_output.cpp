@@ -121,18 +121,18 @@ Json json(const std::vector<ConvergenceStudy>& series) {
 
 }  // namespace
 
-std::string to_json(const std::vector<ConvergenceStudy>& series) { return json(series).dump(1) + "\n"; }
+std::string to_json(const std::vector<ConvergenceStudy>& series) { return file_text(json(series)); }
 
 void write_study(const ConvergenceStudy& study, const std::filesystem::path& folder) { write_studies({study}, folder); }
 
 void write_studies(const std::vector<ConvergenceStudy>& series, const std::filesystem::path& folder) {
   const ConvergenceStudy& first = series.front();
   write_file(folder / "converge.csv", csv(series));
-  write_file(folder / "converge.json", to_json(series));
-  const std::string page = report_page(first.title.empty() ? first.scene : first.title,
-                                       {{"kind", "converge"},
-                                        {"study", json(series)},
-                                        {"scene", {{"text", first.scene_text}, {"set", first.overrides}}}});
+  const Json whole = json(series);
+  write_file(folder / "converge.json", file_text(whole));
+  const std::string page = report_page(
+      first.title.empty() ? first.scene : first.title,
+      {{"kind", "converge"}, {"study", whole}, {"scene", {{"text", first.scene_text}, {"set", first.overrides}}}});
   write_file(folder / report_name, page);
 }
 

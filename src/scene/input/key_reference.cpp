@@ -211,7 +211,7 @@ std::string key_schema(const Catalogue& catalogue) {
                                                   : one;
     if (!table.needed_for.empty()) schema["required"].push_back(path);
   }
-  return schema.dump(1) + "\n";
+  return file_text(schema);
 }
 
 }  // namespace stillpoint
