@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
-#include <iterator>
 #include <list>
 #include <map>
 #include <mutex>
@@ -24,9 +23,11 @@ class Registry {
     Make make;
   };
   explicit Registry(const std::vector<Row>& built_in) {
-    editions_.emplace_back();
-    for (const Row& row : built_in) put(row.info, row.make);
-    editions_.erase(editions_.begin(), std::prev(editions_.end()));
+    std::vector<Info>& infos = editions_.emplace_back();
+    for (const Row& row : built_in) {
+      infos.push_back(row.info);
+      makers_.emplace(name_of(row.info), row.make);
+    }
   }
 
   /// The properties of all rows as they are now. A vector that was returned is never changed or freed, whatever is

@@ -8,6 +8,14 @@
 #include "system/force_scale.hpp"
 
 namespace stillpoint {
+namespace {
+
+// Q = F − R
+void take_difference(const Evaluation& of, Vec Q) {
+  for_each_index(Q.size(), [=, F = of.F.span().data(), R = of.R.span().data()](std::size_t i) { Q[i] = F[i] - R[i]; });
+}
+
+}  // namespace
 
 RelaxationSystem::RelaxationSystem(SemiDiscrete& system, const Damping& damping, const VectorSpace& vectors,
                                    const Mass* fictitious)
@@ -108,15 +116,13 @@ bool RelaxationSystem::balance(double t, ConstVec u, Vec Q) {
 }
 
 void RelaxationSystem::last_out_of_balance(double t, Vec Q) const {
-  const ConstVec F = last_.F.span(), R = last_.R.span();
-  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
+  take_difference(last_, Q);
   system_.add_support_inertia(t, linear_.mass, Q);
   if (const Contact* contact = system_.contact()) contact->add_force(t, linear_, Q);
 }
 
 void RelaxationSystem::last_static_balance(Vec Q) const {
-  const ConstVec F = last_.F.span(), R = last_.R.span();
-  for_each_index(Q.size(), [=](std::size_t i) { Q[i] = F[i] - R[i]; });
+  take_difference(last_, Q);
   if (const Contact* contact = system_.contact()) contact->add_force(last_.t, linear_, Q);
 }
 

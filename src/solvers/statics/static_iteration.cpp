@@ -49,8 +49,8 @@ TrialStepper::Attempt StaticIteration::attempt(double t, Vector& y, double h, do
   const Vec u_new = first_half(trial.span());
   std::ranges::copy(u, u_new.begin());
   std::ranges::fill(second_half(trial.span()), 0.0);
-  moves_ = dot(Q_, z_) > 0;
-  if (!moves_) return {.h = h};  // in balance to the last bit
+  went_downhill_ = dot(Q_, z_) > 0;
+  if (!went_downhill_) return {.h = h};  // in balance to the last bit
   if (makes_no_way() && begin_half(t, u_new)) return {.h = h};
   if (search(t, u_new)) return {.h = h};
   forget();  // the remembered steps may have been useless: next straight downhill
@@ -111,7 +111,7 @@ bool StaticIteration::search(double t, Vec u_new) {
 }
 
 void StaticIteration::accepted() {
-  if (!moves_) return;
+  if (!went_downhill_) return;
   std::swap(Q_, next_Q_);
   system().mass().solve(Q_.span(), z_.span());
   moved(alpha_);
@@ -161,7 +161,7 @@ bool StaticIteration::begin_half(double t, Vec u_new) {
   std::ranges::copy(std::as_const(u_begin_).span(), u_new.begin());
   if (!evaluate(t, u_new, Q_)) return false;
   begin_increment(load_.to(), u_new);
-  moves_ = false;
+  went_downhill_ = false;
   return true;
 }
 

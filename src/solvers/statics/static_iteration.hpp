@@ -2,8 +2,7 @@
 // search.
 //
 // A step is a new iterate, v is 0, and a pseudo-time advances by the step given so that output rows and limits work as
-// for marches. The load comes in increments (LoadIncrements): the
-// out-of-balance force is
+// for marches. The load comes in increments (LoadIncrements): the out-of-balance force is
 //
 //   Q_s(u) = Q(u) − (1 − s) Q(u₀),   Q = F − R,   s from 0 at u₀, the state at the start, to 1
 //
@@ -73,7 +72,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   double alpha_ = 0;
   double unbalanced_at_begin_ = 0;               // ‖Q_s‖ at the same place [N]
   long steps_of_first_ = 0, steps_of_this_ = 0;  // steps of the first increment (0 before its end) and of this one
-  bool moves_ = false;
+  bool went_downhill_ = false;  // the last attempt: neither was it in balance to the last bit, nor did it go back
 };
 
 }  // namespace stillpoint
