@@ -8,25 +8,13 @@
 #include <catch2/catch.hpp>
 
 #include "files.hpp"
+#include "partial_files.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using namespace stillpoint::test;
 using scenes::bar;
-
-namespace {
-
-bool is_stepping(const std::filesystem::path& out) { return std::filesystem::exists(out / "history.csv.partial"); }
-
-bool leftovers(const std::filesystem::path& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".partial") return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 TEST_CASE("a run writes its summary and history whole, with every key of the contract") {
   const TemporaryFolder folder;

@@ -10,6 +10,7 @@
 
 #include "child.hpp"
 #include "files.hpp"
+#include "partial_files.hpp"
 #include "scenes.hpp"
 #include "simulation/setup/model.hpp"
 #include "temporary_folder.hpp"
@@ -30,15 +31,6 @@ std::vector<std::string> crushed() {
           "output.every=1000",
           "stop.time=20",
           "stop.residual=0"};
-}
-
-bool is_stepping(const std::filesystem::path& out) { return std::filesystem::exists(out / "history.csv.partial"); }
-
-bool leftovers(const std::filesystem::path& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".partial") return true;
-  }
-  return false;
 }
 
 }  // namespace

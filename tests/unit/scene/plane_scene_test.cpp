@@ -8,9 +8,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "scene/little_block.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::load_block;
 using stillpoint::test::TemporaryFolder;
 
 namespace {
@@ -94,24 +96,6 @@ at = [6, 3]
 fields = ["u.x", "v.y", "stress.zz", "strain.yx", "plastic_strain"]
 )"),
                     overrides);
-}
-
-/// An elastic block that says as little as it can, with more text after it.
-Scene load_block(const std::string& after = "", const std::string& body = "", const std::string& law = "neo-hookean") {
-  const TemporaryFolder folder;
-  return load_scene(folder.write("block.toml", R"(
-dim = 2
-[grid]
-min = [0, 0]
-max = [2, 1]
-cells = [4, 2]
-[material.rubber]
-law = ")" + law + R"("
-E = 1e6
-nu = 0.3
-rho = 1000
-)" + (law == "drucker-prager" ? "phi = 30\n" : "") +
-                                                   (body.empty() ? "[body]\nmaterial = \"rubber\"\n" : body) + after));
 }
 
 }  // namespace
