@@ -1,8 +1,9 @@
-// The specifications of supports, walls and loads, as a scene gives them.
+// The specifications of supports, walls, rigid bodies and loads, as a scene gives them.
 #pragma once
 
 #include <stillpoint/choice.hpp>
 #include <stillpoint/expression.hpp>
+#include <stillpoint/rigid_spec.hpp>
 #include <stillpoint/scene_options.hpp>
 
 #include <optional>
@@ -65,6 +66,7 @@ struct LoadSpec {               // [load]: proportional loads, scaled so as to r
 struct BoundarySpecs {
   std::vector<SupportSpec> supports;
   std::vector<WallSpec> walls;
+  std::vector<RigidSpec> rigid;
   std::vector<PointForceSpec> forces;
   std::vector<TractionSpec> tractions;
   std::vector<Expression> body_force;  // formulas of x, y, z, t; per mass [m/s²]; empty: none
@@ -82,6 +84,10 @@ struct BoundarySpecs {
     };
     for (std::size_t k = 0; k < supports.size(); ++k) visit(key("support", k, "u"), supports[k].motion);
     for (std::size_t k = 0; k < walls.size(); ++k) visit(key("wall", k, "motion"), walls[k].motion);
+    for (std::size_t k = 0; k < rigid.size(); ++k) {
+      for (const Expression& component : rigid[k].motion) visit(key("rigid", k, "motion"), component);
+      for (const Expression& component : rigid[k].rotation) visit(key("rigid", k, "rotation"), component);
+    }
     for (std::size_t k = 0; k < forces.size(); ++k)
       for (const Expression& component : forces[k].value) visit(key("force", k, "value"), component);
     for (std::size_t k = 0; k < tractions.size(); ++k) {

@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -39,14 +38,8 @@ struct PointOutline {                                     // outline of a body o
   double spacing = 0;                                     // the widest spacing of the points [m]
 };
 
-class TriangleSolid;
-
-struct StlSolid {                              // contents of an STL file
-  std::filesystem::path file;                  // the file
-  std::shared_ptr<const TriangleSolid> solid;  // the solid, shared by all bodies and copies of the scene
-};
-
-struct BodySpec {  // [body], or several [[body]]: material points in a shape or from a file
+struct BodySpec {    // [body], or several [[body]]: material points in a shape or from a file
+  std::string name;  // by which contacts name it; empty: none
   // The box [m], inside the grid; of another shape the part of its bounding box inside the grid.
   Choice<std::vector<double>> min, max;
   // Shapes other than the box:
@@ -115,9 +108,9 @@ struct DampingSpec {  // [damping]
 struct IntegratorSpec {  // [integrator]
   std::string method = "leapfrog";
   DampingTreatment treatment = DampingTreatment::automatic;
-  std::optional<double> step;            // [s]
-  double step_fraction = 0.9;            // share of the critical step, if step is not given; the cap of an adaptive
-                                         // step
+  std::optional<double> step;  // [s]
+  // The share of the critical step, if step is not given; the cap of an adaptive step.
+  Choice<double> step_fraction = Choice<double>::open(0.9);
   std::optional<double> rtol;            // if given, the step is adaptive
   std::optional<double> atol_u, atol_v;  // [m], [m/s]; default: rtol times the scene's own scale
   std::string unstable_reason;           // why a step past the critical one is intended

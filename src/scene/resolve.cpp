@@ -79,11 +79,24 @@ class Resolution {
     for (std::size_t k = 0; k < problem_.bodies.size(); ++k) resolve_body(k);
     if (has_grid_) resolve_positions();
     resolve_phases(problem_, catalogue_);
+    resolve_step();
     if (has_grid_) problem_.damping.alpha.take(usual_alpha(problem_), "by how loads and walls move");
     return std::move(mistakes_);
   }
 
  private:
+  // Each surface point that closes makes the body stiffer by as much as a cell: near the critical step a damped motion
+  // would open and close it for ever.
+  void resolve_step() {
+    constexpr double with_contact = 0.8;
+    Choice<double>& fraction = problem_.integrator.step_fraction;
+    if (problem_.rigid.empty()) {
+      fraction.take(IntegratorSpec().step_fraction);
+    } else {
+      fraction.take(with_contact, "rigid bodies touch the body");
+    }
+  }
+
   void resolve_body(std::size_t k) {
     BodySpec& body = problem_.bodies[k];
     const GridSpec& grid = problem_.grid;

@@ -69,7 +69,7 @@ void check_integrator(SceneCheck& check, const Scene& scene, const StrategyInfo*
   const IntegratorSpec& spec = scene.integrator;
   check.wrong_if(spec.step_fraction > 1 && spec.unstable_reason.empty(), "integrator.step_fraction",
                  "{} of the critical step is unstable; say in unstable_reason why you want it, or stay at or below 1",
-                 spec.step_fraction);
+                 spec.step_fraction.value());
   check.refuse_if(spec.step.has_value(), "integrator", {"step_fraction"},
                   "give either step or step_fraction, not both");
   const MethodInfo* const method = check.catalogue().method(spec.method);
