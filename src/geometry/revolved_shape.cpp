@@ -1,5 +1,6 @@
 #include "geometry/revolved_shape.hpp"
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -40,7 +41,7 @@ class RevolvedShape final : public RigidShape<3> {
 
 RigidShapePtr<3> revolved(RigidShapePtr<2> profile, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis) {
   if (!origin.allFinite()) throw std::invalid_argument("the origin of an axis is not finite");
-  if (!axis.allFinite() || !(axis.norm() > 0)) throw std::invalid_argument("an axis has no direction");
+  if (!std::isfinite(axis.norm()) || !(axis.norm() > 0)) throw std::invalid_argument("an axis has no direction");
   return std::make_shared<RevolvedShape>(std::move(profile), origin, axis);
 }
 
@@ -48,9 +49,9 @@ RigidShapePtr<3> cylinder(const Eigen::Vector3d& from, const Eigen::Vector3d& to
   return revolved(box<2>({-radius, 0}, {radius, (to - from).norm()}, rounding), from, to - from);
 }
 
-RigidShapePtr<3> cone(const Eigen::Vector3d& tip, const Eigen::Vector3d& direction, double half_angle,
-                      double rounding) {
-  return revolved(wedge({0, 0}, {0, 1}, half_angle, rounding), tip, direction);
+RigidShapePtr<3> cone(const Eigen::Vector3d& tip, const Eigen::Vector3d& direction, double half_angle, double rounding,
+                      double shaft_radius) {
+  return revolved(wedge({0, 0}, {0, 1}, half_angle, rounding, shaft_radius), tip, direction);
 }
 
 }  // namespace stillpoint

@@ -1,6 +1,8 @@
 // Rigid bodies of revolution: cylinder, cone, and any profile turned about an axis.
 #pragma once
 
+#include <limits>
+
 #include "geometry/rigid_shape.hpp"
 
 namespace stillpoint {
@@ -18,8 +20,8 @@ RigidShapePtr<3> revolved(RigidShapePtr<2> profile, const Eigen::Vector3d& origi
 /// from, to: the centres of the two end circles; rounding: of their edges, see box().
 RigidShapePtr<3> cylinder(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, double rounding = 0);
 
-/// The unbounded cone; for all arguments see wedge().
+/// The unbounded cone, or one that goes on as a shaft; for all arguments see wedge().
 RigidShapePtr<3> cone(const Eigen::Vector3d& tip, const Eigen::Vector3d& direction, double half_angle,
-                      double rounding = 0);
+                      double rounding = 0, double shaft_radius = std::numeric_limits<double>::infinity());
 
 }  // namespace stillpoint

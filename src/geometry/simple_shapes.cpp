@@ -1,11 +1,13 @@
 #include "geometry/simple_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -73,34 +75,59 @@ class Box final : public RigidShape<N> {
 
 class Wedge final : public RigidShape<2> {
  public:
-  Wedge(const Position& tip, const Position& direction, double half_angle, double rounding)
+  Wedge(const Position& tip, const Position& direction, double half_angle, double rounding, double shaft_radius)
       : direction_(direction.normalized()),
         across_(-direction_.y(), direction_.x()),
         tip_(tip + rounding / std::sin(half_angle) * direction_),
         sin_(std::sin(half_angle)),
         cos_(std::cos(half_angle)),
-        rounding_(rounding) {}
+        rounding_(rounding),
+        shaft_radius_(shaft_radius - rounding),
+        flank_length_(shaft_radius_ / sin_),
+        shoulder_(shaft_radius_ * cos_ / sin_) {}
 
-  Nearest<2> nearest(const Position& x) const override {
+  // Comparisons with NaN lead to a face.
+  Nearest<2> nearest(const Position& x) const override { return grown(nearest_of_shrunk(x), rounding_); }
+
+ private:
+  Nearest<2> nearest_of_shrunk(const Position& x) const {
     const Position offset = x - tip_, outwards = offset.dot(across_) < 0 ? -across_ : across_;
     const Position flank = cos_ * direction_ + sin_ * outwards, normal = cos_ * outwards - sin_ * direction_;
-    const Nearest<2> of_shrunk =
-        offset.dot(flank) >= 0
-            ? nearest_on_face<2>(offset.dot(normal), normal)
-            : nearest_on_feature<2>(offset, Matrix::Zero(), false, -direction_, rounding_of(tip_.lpNorm<1>()));
-    return grown(of_shrunk, rounding_);
+    const double along_flank = offset.dot(flank), s = offset.dot(direction_);
+    if (along_flank < 0) return nearest_on_corner(offset, -direction_);
+    if (along_flank > flank_length_ && s < shoulder_)
+      return nearest_on_corner(offset - shoulder_ * direction_ - shaft_radius_ * outwards,
+                               (normal + outwards).normalized());
+    const double from_flank = offset.dot(normal), from_shaft = offset.dot(outwards) - shaft_radius_;
+    return from_flank > from_shaft ? nearest_on_face<2>(from_flank, normal) : nearest_on_face<2>(from_shaft, outwards);
+  }
+  Nearest<2> nearest_on_corner(const Position& offset, const Position& normal_there) const {
+    return nearest_on_feature<2>(offset, Matrix::Zero(), false, normal_there, rounding_of(tip_.lpNorm<1>()));
+  }
+
+  Position direction_, across_;
+  Position tip_;  // of the shrunk wedge, as the rest
+  double sin_, cos_, rounding_;
+  double shaft_radius_, flank_length_;  // infinite: it has no shaft
+  double shoulder_;                     // the distance along the direction from the tip to where the shaft begins
+};
+
+class Outside final : public RigidShape<2> {
+ public:
+  explicit Outside(RigidShapePtr<2> shape) : shape_(std::move(shape)) {}
+  Nearest<2> nearest(const Position& x) const override {
+    const Nearest<2> of_shape = shape_->nearest(x);
+    return {-of_shape.distance, -of_shape.normal, -of_shape.hessian};
   }
 
  private:
-  Position direction_, across_;
-  Position tip_;  // of the shrunk wedge
-  double sin_, cos_, rounding_;
+  RigidShapePtr<2> shape_;
 };
 
-/// True for a vector that has a direction.
+/// True for a vector that has a direction. One whose square is no number has none that can be computed.
 template <class Direction>
 bool is_direction(const Direction& direction) {
-  return direction.allFinite() && direction.norm() > 0;
+  return std::isfinite(direction.norm()) && direction.norm() > 0;
 }
 
 void require(bool right, const std::string& otherwise) {
@@ -136,15 +163,18 @@ RigidShapePtr<N> box(const Eigen::Vector<double, N>& low, const Eigen::Vector<do
   return std::make_shared<Box<N>>(low, high, rounding);
 }
 
-RigidShapePtr<2> wedge(const Eigen::Vector2d& tip, const Eigen::Vector2d& direction, double half_angle,
-                       double rounding) {
+RigidShapePtr<2> wedge(const Eigen::Vector2d& tip, const Eigen::Vector2d& direction, double half_angle, double rounding,
+                       double shaft_radius) {
   require(tip.allFinite(), "the tip is not finite");
   require(is_direction(direction), "the direction from the tip is none");
   require(half_angle > 0 && half_angle < std::numbers::pi / 2,
           fmt::format("the half angle {} is not between 0 and pi/2", half_angle));
-  require_rounding(rounding, std::numeric_limits<double>::max());
-  return std::make_shared<Wedge>(tip, direction, half_angle, rounding);
+  require(shaft_radius > 0, fmt::format("the radius {} of the shaft is not positive", shaft_radius));
+  require_rounding(rounding, std::min(shaft_radius, std::numeric_limits<double>::max()));
+  return std::make_shared<Wedge>(tip, direction, half_angle, rounding, shaft_radius);
 }
+
+RigidShapePtr<2> outside_of(RigidShapePtr<2> shape) { return std::make_shared<Outside>(std::move(shape)); }
 
 template RigidShapePtr<2> half_space(const Eigen::Vector2d&, const Eigen::Vector2d&);
 template RigidShapePtr<3> half_space(const Eigen::Vector3d&, const Eigen::Vector3d&);

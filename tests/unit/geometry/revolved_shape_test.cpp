@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
 #include "geometry/polygon_shape.hpp"
@@ -47,6 +48,17 @@ TEST_CASE("a cone, sharp or rounded, has the signed distance of its flank and ti
     return inside(x) && ((x - tip).dot(a) >= tangent || (x - tip - centre * a).norm() <= r);
   });
   CHECK(cone(tip, a, beta, r)->nearest(tip).distance == Approx(r).epsilon(1e-13));
+}
+
+TEST_CASE("a cone with a shaft has the signed distance of both together") {
+  constexpr double beta = std::numbers::pi / 6, R = 0.4;
+  const Vector3d tip(0.1, -0.2, 0.3), a = Vector3d(1, 2, -2) / 3;
+  check_shape(*cone(tip, a, beta, 0, R), 1.2, [&](const Vector3d& x) {
+    const double s = (x - tip).dot(a), across = (x - tip - s * a).norm();
+    return across * std::cos(beta) <= s * std::sin(beta) && across <= R;
+  });
+  const Vector3d beside = tip + 100 * a + 0.5 * a.unitOrthogonal();
+  CHECK(cone(tip, a, beta, 0.1, R)->nearest(beside).distance == Approx(0.1).epsilon(1e-12));
 }
 
 TEST_CASE("a disc turned about an axis through its centre is a sphere, on the axis too") {

@@ -101,6 +101,41 @@ TEST_CASE(
   CHECK(shape->nearest(on_flank).normal.isApprox(Vector2d(-std::sin(beta), std::cos(beta)), 1e-14));
 }
 
+TEST_CASE("a wedge with a shaft, sharp or rounded, has the signed distance of its flanks, shoulders and sides") {
+  constexpr double beta = std::numbers::pi / 6, R = 0.4, r = 0.15;
+  const auto inside = [](const Vector2d& x) { return in_wedge(x, beta) && std::abs(x[0]) <= R; };
+  check_shape(*wedge({0, 0}, {0, 1}, beta, 0, R), 1.5, inside);
+  const double to_tip = r / std::sin(beta), to_shoulder = to_tip + (R - r) / std::tan(beta);
+  check_shape(*wedge({0, 0}, {0, 1}, beta, r, R), 1.5, [&](const Vector2d& x) {
+    const Vector2d from_tip(x[0], x[1] - to_tip), from_shoulder(std::abs(x[0]) - (R - r), x[1] - to_shoulder);
+    const bool at_tip = x[1] < to_tip - r * std::sin(beta);
+    const bool at_shoulder =
+        from_shoulder.y() < 0 && std::sin(beta) * from_shoulder.x() + std::cos(beta) * from_shoulder.y() > 0;
+    return inside(x) && (!at_tip || from_tip.norm() <= r) && (!at_shoulder || from_shoulder.norm() <= r);
+  });
+}
+
+TEST_CASE("a shaft has no end, and a wedge with a shaft that is wide enough is one without") {
+  constexpr double beta = std::numbers::pi / 6;
+  const auto shape = wedge({1, 2}, {1, 0}, beta, 0.1, 0.5);
+  CHECK(shape->nearest({1e6, 2.75}).distance == Approx(0.25).epsilon(1e-14));
+  CHECK(shape->nearest({1e6, 2.75}).normal == Vector2d(0, 1));
+  CHECK(shape->nearest({1e6, 1.75}).distance == Approx(-0.25).epsilon(1e-14));
+  CHECK(wedge({1, 2}, {1, 0}, beta, 0.5, 0.5)->nearest({1e6, 2}).distance == -0.5);  // a rounded bar
+  const auto wide = wedge({1, 2}, {1, 0}, beta, 0.1, 1e6), free = wedge({1, 2}, {1, 0}, beta, 0.1);
+  Largest off;
+  for (const Vector2d& x : positions_by_chance<2>(100, 5)) {
+    off.take_magnitude(wide->nearest(x).distance - free->nearest(x).distance);
+    off.take((wide->nearest(x).normal - free->nearest(x).normal).norm());
+  }
+  CHECK(off.value() == 0);
+}
+
+TEST_CASE("what is outside a wedge has the signed distance of the notch") {
+  constexpr double beta = std::numbers::pi / 6;
+  check_shape(*outside_of(wedge({0, 0}, {0, 1}, beta)), 1.5, [](const Vector2d& x) { return !in_wedge(x, beta); });
+}
+
 TEST_CASE("there is no shape of no direction, no size or too large a rounding, and the error says which") {
   CHECK_THROWS_WITH(half_space<2>({0, 0}, {0, 0}), Contains("the normal of a half-space has no direction"));
   CHECK_THROWS_WITH(half_space<3>({0, kNaN, 0}, {0, 0, 1}), Contains("the point of a half-space is not finite"));
@@ -113,5 +148,8 @@ TEST_CASE("there is no shape of no direction, no size or too large a rounding, a
   CHECK_THROWS_WITH(box<2>({0, 0}, {1, 3}, -0.1), Contains("the rounding -0.1"));
   CHECK_THROWS_WITH(wedge({0, 0}, {0, 0}, 1), Contains("direction"));
   CHECK_THROWS_WITH(wedge({0, kNaN}, {0, 1}, 1), Contains("the tip is not finite"));
+  CHECK_THROWS_WITH(wedge({0, 0}, {1e200, 0}, 1), Contains("direction"));
+  CHECK_THROWS_WITH(wedge({0, 0}, {0, 1}, 1, 0, 0), Contains("the radius 0 of the shaft is not positive"));
+  CHECK_THROWS_WITH(wedge({0, 0}, {0, 1}, 1, 0.3, 0.2), Contains("the rounding 0.3 is not between 0 and 0.2"));
   for (const double angle : {0.0, 1.6, kNaN}) CHECK_THROWS_WITH(wedge({0, 0}, {0, 1}, angle), Contains("half angle"));
 }
