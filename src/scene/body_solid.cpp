@@ -36,17 +36,18 @@ std::shared_ptr<const Solid> solid_of(const BodySpec& body) {
   throw std::logic_error("a solid of a body that is a box, or points from a file");
 }
 
-std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Mistake>& problems) {
-  if (body.from_stl.solid && body.from_stl.file == body.stl) return body.from_stl.solid;
+std::shared_ptr<const TriangleSolid> read_stl_solid(const std::filesystem::path& file, const StlSolid& known,
+                                                    std::vector<Mistake>& problems) {
+  if (known.solid && known.file == file) return known.solid;
   const std::size_t before = problems.size();
-  std::vector<Facet> triangles = read_stl_file(body.stl, problems);
+  std::vector<Facet> triangles = read_stl_file(file, problems);
   if (problems.size() > before) return nullptr;
   return std::make_shared<TriangleSolid>(std::move(triangles));
 }
 
 std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body) {
   std::vector<Mistake> problems;
-  auto solid = read_stl_solid(body, problems);
+  auto solid = read_stl_solid(body.stl, body.from_stl, problems);
   if (!solid) throw SceneError(std::move(problems));
   return solid;
 }

@@ -3,6 +3,7 @@
 
 #include <stillpoint/problem.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -27,10 +28,11 @@ inline Polygon outline_of(const BodySpec& body) {
 /// another body.
 std::shared_ptr<const Solid> solid_of(const BodySpec& body);
 
-/// The solid that the surface in the file body.stl encloses, from body.from_stl or read now; null with a problem if the
-/// file is wrong.
-std::shared_ptr<const TriangleSolid> read_stl_solid(const BodySpec& body, std::vector<Mistake>& problems);
-/// The same; throws SceneError if the file is wrong.
+/// The solid that the surface in an STL file encloses: `known`, if that is of this file, or read now; null with a
+/// problem if the file is wrong.
+std::shared_ptr<const TriangleSolid> read_stl_solid(const std::filesystem::path& file, const StlSolid& known,
+                                                    std::vector<Mistake>& problems);
+/// That of the file body.stl; throws SceneError if the file is wrong.
 std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body);
 
 /// True for a body in space that is no box, so that cells may be partly inside it.

@@ -77,6 +77,9 @@ class Resolution {
     for (SupportSpec& support : problem_.supports) resolve_component(support);
     problem_.mass.kind.take(problem_.dim == 1 ? MassKind::consistent : MassKind::lumped, "by dim");
     for (std::size_t k = 0; k < problem_.bodies.size(); ++k) resolve_body(k);
+    for (std::size_t k = 0; k < problem_.rigid.size(); ++k)
+      if (RigidSpec& rigid = problem_.rigid[k]; !rigid.stl.empty())
+        rigid.from_stl = triangles_in(rigid.stl, rigid.from_stl, FileMistake::Owner::rigid, k);
     if (has_grid_) resolve_positions();
     resolve_phases(problem_, catalogue_);
     resolve_step();
@@ -105,7 +108,7 @@ class Resolution {
     body.min.take(grid.min, "that of the grid");
     body.max.take(grid.max, "that of the grid");
     if (!body.file.empty()) return read_points(k);
-    if (!body.stl.empty()) read_triangles(k);
+    if (!body.stl.empty()) body.from_stl = triangles_in(body.stl, body.from_stl, FileMistake::Owner::body, k);
     if (!has_grid_) return;
     if (problem_.dim == 2 && !body.polygon.empty()) return resolve_polygon(body);
     resolve_box(body);
@@ -154,11 +157,12 @@ class Resolution {
     body.max.become(std::move(high));
   }
 
-  void read_triangles(std::size_t k) {
-    BodySpec& body = problem_.bodies[k];
+  StlSolid triangles_in(const std::filesystem::path& file, const StlSolid& known, FileMistake::Owner owner,
+                        std::size_t number) {
     std::vector<Mistake> found;
-    body.from_stl = {.file = body.stl, .solid = read_stl_solid(body, found)};
-    keep(k, "stl", found);
+    StlSolid triangles{.file = file, .solid = read_stl_solid(file, known, found)};
+    keep({owner, number, "stl", file, {}}, found);
+    return triangles;
   }
 
   void read_points(std::size_t k) {
@@ -179,11 +183,14 @@ class Resolution {
       body.max.become(std::move(max));
       take_outline(problem_, body, points);
     }
-    keep(k, "file", found);
+    keep({FileMistake::Owner::body, k, "file", body.file, {}}, found);
   }
 
-  void keep(std::size_t body, const char* key, std::vector<Mistake>& found) {
-    for (Mistake& mistake : found) mistakes_.push_back({body, key, std::move(mistake)});
+  void keep(FileMistake of_file, std::vector<Mistake>& found) {
+    for (Mistake& mistake : found) {
+      of_file.mistake = std::move(mistake);
+      mistakes_.push_back(of_file);
+    }
   }
 
   // Moves supports, forces and probes that miss the grid or a body by a sliver onto its border.

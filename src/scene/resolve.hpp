@@ -4,21 +4,28 @@
 #include <stillpoint/catalogue.hpp>
 #include <stillpoint/problem.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace stillpoint {
 
-/// A fault of a file that a body names.
+/// A fault of a file that a body or a rigid body names.
 struct FileMistake {
-  std::size_t body;
-  std::string key;  // the key of the body that names the file: "stl"
-  Mistake mistake;  // where.line 0: with the file as a whole
+  enum class Owner { body, rigid };
+
+  Owner owner;
+  std::size_t number;          // of the body or of the rigid body
+  std::string key;             // its key that names the file: "stl"
+  std::filesystem::path file;  // the file
+  Mistake mistake;             // where.line 0: with the file as a whole
+
+  bool is_of_body(std::size_t k) const { return owner == Owner::body && number == k; }
 };
 
 /// Makes each choice that is open, moves positions that miss a grid line, the grid or a body by a sliver onto it, and
-/// cuts the boxes of bodies to what lies in them. Files that bodies name are read. What is not in order stays as it is,
-/// for the checks to find; of files what is wrong is returned.
+/// cuts the boxes of bodies to what lies in them. Files that bodies and rigid bodies name are read. What is not in
+/// order stays as it is, for the checks to find; of files what is wrong is returned.
 std::vector<FileMistake> resolve(Problem& problem, const Catalogue& catalogue);
 
 // Its choices of [phase], in phase_choices.cpp:

@@ -72,6 +72,8 @@ void find_files(Scene& scene) {
   for (BodySpec& body : scene.bodies)
     for (std::filesystem::path* const file : {&body.file, &body.stl})
       if (!file->empty()) *file = scene.file.parent_path() / *file;
+  for (RigidSpec& rigid : scene.rigid)
+    if (!rigid.stl.empty()) rigid.stl = scene.file.parent_path() / rigid.stl;
 }
 
 /// A scene under overrides, with all that it may choose from.

@@ -37,12 +37,13 @@ bool check_polygon(SceneCheck& check, std::size_t k) {
   return inside && check_corners(check, k);
 }
 
-/// Reports what is wrong with the files that bodies name; a fault of a file as a whole is reported at the key.
+/// Reports what is wrong with the files that bodies and rigid bodies name; a fault of a file as a whole is reported at
+/// the key.
 void report_files(SceneCheck& check, const std::vector<FileMistake>& files) {
   for (const FileMistake& one : files) {
-    const BodySpec& body = check.scene().bodies[one.body];
-    const std::string name = (one.key == "stl" ? body.stl : body.file).string();
-    if (!check.wrong_if(one.mistake.where.line == 0, check.body_key(one.body, one.key), "{} {}", in_quotes(name),
+    const std::string table =
+        one.owner == FileMistake::Owner::body ? check.body_table(one.number) : fmt::format("rigid[{}]", one.number);
+    if (!check.wrong_if(one.mistake.where.line == 0, table + "." + one.key, "{} {}", in_quotes(one.file.string()),
                         one.mistake.message))
       check.add(one.mistake);
   }
@@ -123,7 +124,7 @@ void check_keys(SceneCheck& check, std::size_t k) {
 /// True if the body, in a grid that is in order, has a volume there.
 bool is_in_order(SceneCheck& check, std::size_t k, const std::vector<FileMistake>& files) {
   const BodySpec& body = check.scene().bodies[k];
-  if (!body.file.empty()) return std::ranges::find(files, k, &FileMistake::body) == files.end();
+  if (!body.file.empty()) return std::ranges::none_of(files, [k](const FileMistake& one) { return one.is_of_body(k); });
   if (check.scene().dim == 2 && check.given(check.body_key(k, "polygon"), !body.polygon.empty()))
     return check_polygon(check, k);
   return check_box(check, k) && (check.scene().dim != 3 || !has_shape_key(check, k) || check_solid(check, k));
