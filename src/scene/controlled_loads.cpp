@@ -43,6 +43,7 @@ Problem reference_loads(const Problem& problem) {
   Problem driven = with_loads(problem, [&](const std::string& name) { return is_driven(problem, name); });
   driven.supports.clear();
   driven.walls.clear();
+  driven.rigid.clear();
   return driven;
 }
 

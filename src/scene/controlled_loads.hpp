@@ -11,7 +11,8 @@ namespace stillpoint {
 /// "traction[0]", "force[2]", "body_force": the names of all loads that a scene has.
 std::vector<std::string> names_of_loads(const Problem& problem);
 
-/// The problem of a scene with a [load], with only the loads that it drives, and with no support or wall.
+/// The problem of a scene with a [load], with only the loads that it drives, and with no support, wall or rigid
+/// body.
 Problem reference_loads(const Problem& problem);
 /// The problem without the loads that [load] drives; unchanged if there is no [load].
 Problem without_reference_loads(const Problem& problem);

@@ -10,6 +10,11 @@ template <class Test>
 bool any_motion(const Problem& problem, const Test& test) {
   return std::ranges::any_of(problem.supports, [&](const SupportSpec& support) { return test(support.motion); }) ||
          std::ranges::any_of(problem.walls, [&](const WallSpec& wall) { return test(wall.motion); }) ||
+         std::ranges::any_of(problem.rigid,
+                             [&](const RigidSpec& rigid) {
+                               return std::ranges::any_of(rigid.motion, test) ||
+                                      std::ranges::any_of(rigid.rotation, test);
+                             }) ||
          (problem.load && test(problem.load->displacement));
 }
 

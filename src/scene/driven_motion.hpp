@@ -5,8 +5,8 @@
 
 namespace stillpoint {
 
-/// True if a support or a wall moves in time, or a displacement drives loads, and no equilibrium is asked for: the
-/// result is the forces during the motion.
+/// True if a support, a wall or a rigid body moves in time, or a displacement drives loads, and no equilibrium is asked
+/// for: the result is the forces during the motion.
 bool is_driven(const Problem& problem);
 
 /// True if that motion goes on up to the end, over more than one phase: the material flows as long as the run lasts.

@@ -179,6 +179,8 @@ std::vector<std::string> scenes_to_break() {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(STILLPOINT_PROBLEMS))
     if (entry.path().extension() == ".toml" && entry.path().stem() != "map" && entry.path().stem() != "ladder")
       scenes.push_back(contents(entry.path()));
+  for (const char* const rigid : {"rigid_plane.toml", "rigid_space.toml"})
+    scenes.push_back(contents(std::string(STILLPOINT_TEST_DATA) + "/fuzz/corpus/scene/" + rigid));
   std::sort(scenes.begin(), scenes.end());  // in one order on every machine
   return scenes;
 }

@@ -36,6 +36,7 @@ std::string example_of(const KeyInfo& key, int dim) {
     return count == 1 ? one : fmt::format("[{}]", fmt::join(std::vector(static_cast<std::size_t>(count), one), ", "));
   };
   if (key.shape == Shape::axes) return times(key.on_face ? dim - 1 : dim);
+  if (key.of_turn) return times(dim == 2 ? 1 : 3);
   if (key.shape == Shape::components) return times(dim == 1 ? 1 : dim == 2 ? 4 : 6);
   if (key.shape == Shape::list) return fmt::format("[{}]", one);
   if (key.shape == Shape::positions)
@@ -99,7 +100,7 @@ TEST_CASE("the reader takes every key of the table, with an example and with its
   for (const TableInfo& table : scene_tables(catalogue())) {
     for (const KeyInfo& key : table.keys) {
       for (const int dim : {1, 2, 3}) {
-        if (!key.is_in(dim) || key.name == "law" || key.name.starts_with('<')) continue;
+        if (!table.is_in(dim) || !key.is_in(dim) || key.name == "law" || key.name.starts_with('<')) continue;
         if (!table.choice.empty() && key.name == table.choice_key) continue;
         std::vector<std::string> values = {example_of(key, dim)};
         const auto words = key.words_in(dim);

@@ -50,6 +50,7 @@ void add_body(Tables& tables) {
       .add({"body", "material points in a box, in another shape or from a file; [body], or several [[body]]",
             Repeat::once_or_array, "a scene has a body with a material"},
            &Scene::bodies)
+      .key("name", &BodySpec::name, "by which a rigid body says which bodies it touches")
       .key("min", &BodySpec::min, "lower corner of a box, or in space of that in which another shape is cut off",
            {.unit = "m", .fallback = "that of the grid"})
       .key("max", &BodySpec::max, "upper corner, likewise", {.unit = "m", .fallback = "that of the grid"})

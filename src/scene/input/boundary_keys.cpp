@@ -37,6 +37,8 @@ void add_boundary(Tables& tables) {
       .key("friction", &WallSpec::friction, "Coulomb's coefficient; rough: no slip",
            {.range = kNotNegative, .words = {"rough"}}, [](WallSpec& wall) { wall.friction = kInfinity; });
 
+  add_rigid(tables);
+
   tables.add({"force", "a force at a position of the material, with which it moves", Repeat::array}, &Scene::forces)
       .key("at", &PointForceSpec::at, "position", {.unit = "m", .required = true})
       .key("value", &PointForceSpec::value, "components", {.unit = "N", .variables = "t", .required = true});

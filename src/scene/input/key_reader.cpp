@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "scene/dimensions.hpp"
 #include "scene/formula_parts.hpp"
 #include "scene/input/toml_source.hpp"
 
@@ -87,7 +88,10 @@ std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& 
   const std::size_t found = array ? array->size() : 1;
   const int dim = value.reading.dim;
   const bool of_tensor = key.of_stress && dim > 1;
-  const std::size_t coordinates = static_cast<std::size_t>(key.in_plane ? 2 : key.on_face ? dim - 1 : dim);
+  const std::size_t coordinates = key.of_turn ? dimension_info(dim).turns.size()
+                                              : static_cast<std::size_t>(key.in_plane  ? 2
+                                                                         : key.on_face ? dim - 1
+                                                                                       : dim);
   const std::size_t count = list ? found : !of_tensor ? coordinates : dim == 2 ? 4 : 6;
   if (!array && (list || nested)) {
     const char* const of = nested                          ? "coordinates"

@@ -116,11 +116,11 @@ Key key_of(std::string_view name, Access access, std::string_view help, const Ke
   info.name = name;
   info.help = help;
   info.kind = kind_of_type<typename Unwrapped<Member>::type>();
-  info.shape = Unwrapped<Member>::depth > 1    ? Shape::positions
-               : Unwrapped<Member>::depth == 0 ? Shape::one
-               : info.list                     ? Shape::list
-               : info.of_stress                ? Shape::components
-                                               : Shape::axes;
+  info.shape = Unwrapped<Member>::depth > 1     ? Shape::positions
+               : Unwrapped<Member>::depth == 0  ? Shape::one
+               : info.list                      ? Shape::list
+               : info.of_stress || info.of_turn ? Shape::components
+                                                : Shape::axes;
   if (Spec spec; info.fallback.empty() && !info.required) info.fallback = told_default(std::invoke(access, spec), info);
   return {std::move(info), [access, on_word](void* part, const Value& value, const KeyInfo& key) {
             Spec& spec = *static_cast<Spec*>(part);

@@ -136,7 +136,7 @@ Json schema_of(const TableInfo& table) {
 std::string key_list(const Catalogue& catalogue) {
   std::string text = "keys of a scene\n";
   for (const TableInfo& table : scene_tables(catalogue)) {
-    text += fmt::format("  {}: {}\n", told_heading(table), table.help);
+    text += fmt::format("  {}: {}{}\n", told_heading(table), table.help, told_dims(table.dims));
     for (const KeyInfo& key : table.keys) {
       if (!table.choice.empty() && key.name == table.choice_key) continue;
       const std::string fallback = told_default(key);
@@ -160,7 +160,8 @@ std::string key_reference(const Catalogue& catalogue) {
     text += fmt::format("\n### {}{}\n\n{}{}\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n",
                         table.path.empty() ? "The top of the file" : fmt::format("`{}`", table.heading()),
                         table.choice.empty() ? "" : fmt::format(" with `{} = \"{}\"`", table.choice_key, table.choice),
-                        escaped(std::string(table.help)), table.needed_for.empty() ? "" : ". Required");
+                        escaped(std::string(table.help) + told_dims(table.dims)),
+                        table.needed_for.empty() ? "" : ". Required");
     for (const KeyInfo& key : table.keys)
       if (table.choice.empty() || key.name != table.choice_key)
         text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, escaped(told_type(key)), key.unit,

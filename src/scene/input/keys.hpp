@@ -37,7 +37,8 @@ std::vector<Word> names_of(const auto& rows) {
 }
 
 enum class Kind { number, whole, formula, text };
-/// axes: one value for each coordinate, if there is one a plain value; components: likewise for those of a stress.
+/// axes: one value for each coordinate, if there is one a plain value; components: likewise for those of a stress or of
+/// a turn.
 enum class Shape { one, axes, components, list, positions };
 
 struct KeyInfo {
@@ -49,6 +50,7 @@ struct KeyInfo {
   bool required = false;
   bool list = false;       // any number of values, not one for each coordinate
   bool of_stress = false;  // one value for each component of a stress: xx; xx, yy, zz, xy; in space yz, zx besides
+  bool of_turn = false;    // one value for each turn of a rigid body: in the plane one, in space three
   bool on_face = false;    // one value for each axis but that of a face's normal
   bool in_plane = false;   // positions of two coordinates
   bool may_be_empty = false;
@@ -78,9 +80,11 @@ struct TableInfo {
   std::string_view choice_key{}, choice{};
   std::vector<KeyInfo> keys{};
   std::vector<std::string> tables{};  // the names of the tables below it
+  Dims dims = kAnyDim;                // of the scenes that may have it
   /// Reads all that the file says in such tables.
   std::function<void(const TableInfo& self, const toml::table& root, Scene& scene, Reading& reading)> read{};
 
+  bool is_in(int dim) const { return (dims & dims_of(dim)) != 0; }
   /// As a scene writes it: "[stop]", "[[support]]".
   std::string heading() const;
 };

@@ -45,8 +45,9 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
            {.range = kNotNegative, .unit = "1/s or kg/s", .words = {"critical"}, .fallback = "critical"})
       .key("alpha", &DampingSpec::alpha, "of a local damping: share of the out-of-balance force",
            {.range = kShare,
-            .fallback = "0.7; 0.05 if supports, walls or [load] move up to the end, over many phases and with no "
-                        "equilibrium asked for"})
+            .fallback =
+                "0.7; 0.05 if supports, walls, rigid bodies or [load] move up to the end, over many phases and with no "
+                "equilibrium asked for"})
       .key("peak", &DampingSpec::peak, "of the kinetic energy, in kinetic damping",
            {.words = {"half-step", "parabolic"}})
       .key("quotient", &DampingSpec::quotient, "Rayleigh's, for omega_1^2 of adaptive damping",

@@ -3,6 +3,14 @@
 #include <algorithm>
 
 namespace stillpoint {
+namespace {
+
+bool fits_a_column(const std::string& name) {
+  return std::ranges::none_of(
+      name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == ',' || c == '"'; });
+}
+
+}  // namespace
 
 void SceneCheck::one_of(const std::string& table, const Given& a, const Given& b, const std::string& both,
                         const std::string& neither) {
@@ -16,6 +24,17 @@ void SceneCheck::add_unknown(const std::string& key, const std::string& what, co
                              const std::string& name, const std::vector<std::string>& names) {
   add(key, names.empty() ? fmt::format("there is no {} {}; describe it in a table {}", what, in_quotes(name), heading)
                          : unknown_word("there is no " + what, name, names));
+}
+
+void SceneCheck::column_name(const std::string& name, const std::string& key) {
+  wrong_if(!fits_a_column(name), key,
+           "names a column of history.csv and cannot hold a comma, a quote or a control character");
+}
+
+void SceneCheck::contact_name(const std::string& name, const std::string& key) {
+  wrong_if(!fits_a_column(name) || name.find('+') != std::string::npos, key,
+           "cannot hold a comma, a quote, a + or a control character, since it stands in the names of columns of "
+           "history.csv, where + joins two that touch");
 }
 
 bool SceneCheck::inside(const std::vector<double>& position, const NamedBox& box, const std::string& key) {

@@ -75,18 +75,26 @@ class SceneCheck {
   /// Exactly one of two keys of a table is to be given.
   void one_of(const std::string& table, const Given& a, const Given& b, const std::string& both,
               const std::string& neither);
-  /// No two entries of an array of tables may have the same name; returns all names.
+  /// No two entries of an array of tables may have the same name; returns all names. what: an entry in words, if that
+  /// is not the table's name.
   template <class Spec>
-  std::set<std::string> unique_names(const std::string& table, const std::vector<Spec>& entries) {
+  std::set<std::string> unique_names(const std::string& table, const std::vector<Spec>& entries,
+                                     const std::string& what = "") {
     std::set<std::string> names;
     for (std::size_t k = 0; k < entries.size(); ++k)
       if (const std::string& name = entries[k].name; !name.empty() && !names.insert(name).second)
-        add(fmt::format("{}[{}].name", table, k), fmt::format("there is a {} {} already", table, in_quotes(name)));
+        add(fmt::format("{}[{}].name", table, k),
+            fmt::format("there is a {} {} already", what.empty() ? table : what, in_quotes(name)));
     return names;
   }
   /// Reports a name that is none of `names`. what: "wall"; heading: "[[wall]]", under which one is described.
   void add_unknown(const std::string& key, const std::string& what, const std::string& heading, const std::string& name,
                    const std::vector<std::string>& names);
+
+  /// Checks a name that becomes a part of a column of history.csv.
+  void column_name(const std::string& name, const std::string& key);
+  /// Checks the name of a body or a rigid body, which history.csv joins with that of another one that it touches.
+  void contact_name(const std::string& name, const std::string& key);
 
   /// True if a list, the value of a key, has two different positions.
   bool two_positions(const std::string& key, const std::vector<std::vector<double>>& list) {
@@ -138,10 +146,16 @@ void check_overlaps(SceneCheck& check);
 /// The number of material points if the bodies fill whole cells; 0 if that depends on the placement.
 long known_points(SceneCheck& check);
 void check_supports_and_walls(SceneCheck& check, bool grid);
+void check_rigid_bodies(SceneCheck& check);
+/// Checks that rigid body k has a shape.
+void check_rigid_shape(SceneCheck& check, std::size_t k);
 void check_loads(SceneCheck& check, const std::optional<NamedBox>& body);
 void check_exact(SceneCheck& check, bool bodies);
 void check_phases(SceneCheck& check, bool grid);
 void check_output(SceneCheck& check, const std::optional<NamedBox>& body);
+
+/// True for a motion that is none.
+inline bool rests(const Expression& motion) { return motion.constant() && motion({}, 0) == 0; }
 
 /// "linear, quadratic or cubic"
 std::string either(const std::vector<std::string>& words);

@@ -110,7 +110,13 @@ std::string TableInfo::heading() const {
 
 bool read_tables(const std::vector<TableInfo>& tables, const toml::table& root, Scene& scene, Reading& reading) {
   for (const TableInfo& info : tables) {
-    if (info.read) info.read(info, root, scene, reading);
+    if (info.read && info.is_in(scene.dim)) {
+      info.read(info, root, scene, reading);
+    } else if (info.read) {
+      for (const FoundTable& found : find_tables(info, root, reading))
+        reading.problem(location_of(found.table.source()), found.path,
+                        fmt::format("there is none in a scene with dim = {}", scene.dim));
+    }
     if (!info.path.empty()) continue;
     reading.dim = scene.dim;
     if (reading.wrong.contains("dim")) return false;

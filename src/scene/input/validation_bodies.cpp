@@ -145,6 +145,8 @@ std::optional<NamedBox> check_bodies(SceneCheck& check, bool grid, const std::ve
     check_keys(check, k);
     check_material(check, k);
   }
+  for (std::size_t k = 0; k < count; ++k) check.contact_name(scene.bodies[k].name, check.body_key(k, "name"));
+  check.unique_names("body", scene.bodies);
   for (const auto& [name, material] : scene.materials) check_dilation(check, material);
   if (grid) check_number_of_points(check, in_order);
 

@@ -10,15 +10,6 @@
 namespace stillpoint {
 namespace {
 
-/// Checks a name that becomes part of a column of history.csv.
-void check_name(SceneCheck& check, const std::string& name, const std::string& key) {
-  const bool printable = std::none_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == ',' || c == '"';
-  });
-  check.wrong_if(!printable, key,
-                 "names a column of history.csv and cannot hold a comma, a quote or a control character");
-}
-
 void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
   const int dim = check.scene().dim;
   const std::vector<std::string> known = probe.kind == ProbeKind::body ? body_fields(dim) : probe_fields(dim);
@@ -101,13 +92,13 @@ void check_probes(SceneCheck& check, const std::optional<NamedBox>& body) {
     if (body) check.inside(probe.at, probe.frame == ProbeFrame::material ? *body : check.grid_box(), key + ".at");
     check.wrong_if(points > 0 && probe.point.value_or(0) > points, key + ".point",
                    "there are {} material points, so {} is too large", points, probe.point.value_or(0));
-    check_name(check, probe.name, key + ".name");
+    check.column_name(probe.name, key + ".name");
     check_kind(check, probe, key);
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     const std::string& name = scene.walls[k].name;
     const std::string key = fmt::format("wall[{}].name", k);
-    check_name(check, name, key);
+    check.column_name(name, key);
     check.wrong_if(names.contains(name), key, "there is a probe {} already", in_quotes(name));
   }
 }

@@ -18,8 +18,6 @@ std::string for_one_phase(const PhaseSpec& phase) {
                      by_motion && by_strain ? " and " : "", by_strain ? "no phase.max_strain" : "");
 }
 
-bool rests(const Expression& motion) { return motion.constant() && motion({}, 0) == 0; }
-
 /// A wall that moves, or does not stand on its face, is on a grid line only if the grid follows it.
 void check_moving_walls(SceneCheck& check, const std::string& one_phase) {
   const Scene& scene = check.scene();

@@ -1,0 +1,130 @@
+// Checks of the rigid bodies: their names and motions, the bodies that they touch, and what they do not go with.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "scene/dimensions.hpp"
+#include "scene/input/scene_check.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// The checks of the motion of one rigid body, and of the bodies that it names.
+class RigidCheck {
+ public:
+  RigidCheck(SceneCheck& check, std::size_t k)
+      : check_(check), spec_(check.scene().rigid[k]), table_(fmt::format("rigid[{}]", k)) {}
+
+  void run() {
+    check_motion();
+    check_bodies();
+  }
+
+ private:
+  std::string key(const std::string& name) const { return table_ + "." + name; }
+
+  void check_formulas(const char* name, const std::vector<Expression>& formulas, std::size_t count) {
+    const std::string path = key(name);
+    if (formulas.empty() || !check_.sound(path) ||
+        check_.wrong_if(formulas.size() != count, path, "expected {} values, found {}", count, formulas.size()))
+      return;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::string one = fmt::format("{}[{}]", path, k);
+      if (!check_.wrong_if(formulas[k].uses_position(), one,
+                           "depends on the position, but a rigid body moves as a whole; expected a formula of t"))
+        check_.wrong_if(!std::isfinite(formulas[k]({}, 0)), one, "is {} at t = 0; expected a finite number",
+                        formulas[k]({}, 0));
+    }
+  }
+
+  void check_motion() {
+    const auto dim = static_cast<std::size_t>(check_.scene().dim);
+    check_formulas("motion", spec_.motion, dim);
+    check_formulas("rotation", spec_.rotation, dimension_info(check_.scene().dim).turns.size());
+    const bool turns = check_.given(key("rotation"), !spec_.rotation.empty());
+    const bool has_centre = check_.given(key("about"), !spec_.about.empty());
+    if (!check_.wrong_if(has_centre && !turns, key("about"), "goes with a rotation, of which it is the centre") &&
+        has_centre && check_.sound(key("about")))
+      check_.wrong_if(spec_.about.size() != dim, key("about"), "expected {} coordinates, found {}", dim,
+                      spec_.about.size());
+    if (check_.scene().state != StressState::axisymmetric) return;
+    check_.wrong_if(!spec_.motion.empty() && !rests(spec_.motion[0]), key("motion[0]"),
+                    "what is turned about the axis of symmetry moves along it alone; expected 0");
+    check_.wrong_if(turns, key("rotation"), "would turn the axis of symmetry away; leave it out");
+  }
+
+  void check_bodies() {
+    if (!check_.sound(key("bodies"))) return;
+    check_.wrong_if(spec_.bodies.empty() && check_.written(key("bodies")), key("bodies"),
+                    "names no body; leave it out to touch all");
+    std::vector<std::string> names;
+    for (const BodySpec& body : check_.scene().bodies)
+      if (!body.name.empty()) names.push_back(body.name);
+    for (std::size_t k = 0; k < spec_.bodies.size(); ++k) {
+      const std::string one = fmt::format("{}[{}]", key("bodies"), k), &name = spec_.bodies[k];
+      const auto here = spec_.bodies.begin() + static_cast<std::ptrdiff_t>(k);
+      if (check_.wrong_if(std::find(spec_.bodies.begin(), here, name) != here, one, "{} is there already",
+                          in_quotes(name)) ||
+          check_.wrong_if(names.empty(), one, "no body has a name; give one of them name = {}", in_quotes(name)))
+        continue;
+      if (std::ranges::find(names, name) == names.end()) check_.add_unknown(one, "body", "[[body]]", name, names);
+    }
+  }
+
+  SceneCheck& check_;
+  const RigidSpec& spec_;
+  std::string table_;
+};
+
+/// The names of rigid bodies stand in history.csv beside those of supports, walls and probes.
+void check_names(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  check.unique_names("rigid", scene.rigid, "rigid body");
+  for (std::size_t k = 0; k < scene.rigid.size(); ++k) {
+    const std::string table = fmt::format("rigid[{}]", k), key = table + ".name", &name = scene.rigid[k].name;
+    // A file without the key was told so as it was read.
+    if (check.wrong_if(name.empty() && check.sound(table) && check.sound(key), table, "the key 'name' is missing") ||
+        name.empty())
+      continue;
+    check.contact_name(name, key);
+    const auto taken = [&](const char* what, const auto& entries) {
+      const auto is_same = [&](const auto& entry) { return entry.name == name; };
+      check.wrong_if(std::ranges::any_of(entries, is_same), key, "there is a {} {} already", what, in_quotes(name));
+    };
+    taken("support", scene.supports);
+    taken("wall", scene.walls);
+    taken("probe", scene.probes);
+  }
+}
+
+/// What rigid bodies do not go with.
+void check_company(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  check.wrong_if(scene.mass.kind == MassKind::multigrid, "mass.kind",
+                 "'multigrid' does not know the stiffness of the contact with rigid bodies yet; take \"lumped\"");
+  check.wrong_if(scene.grid.basis == BasisKind::hermite && scene.dim == 2, "grid.basis",
+                 "'hermite' has slopes as unknowns, which no contact with rigid bodies acts on yet; take linear, "
+                 "quadratic or cubic");
+  check.wrong_if(scene.load.has_value(), "load",
+                 "a displacement that drives loads and rigid bodies cannot be had together yet; move the rigid bodies, "
+                 "or give the loads as formulas of t");
+}
+
+}  // namespace
+
+void check_rigid_bodies(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  if (scene.rigid.empty() ||
+      check.wrong_if(scene.dim == 1, "rigid[0]", "there is none in a scene with dim = {}", scene.dim))
+    return;
+  for (std::size_t k = 0; k < scene.rigid.size(); ++k) {
+    check_rigid_shape(check, k);
+    RigidCheck(check, k).run();
+  }
+  check_names(check);
+  check_company(check);
+}
+
+}  // namespace stillpoint
