@@ -13,10 +13,9 @@
 
 #include "base/work_pool.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "space/boundary/border_piece.hpp"
 #include "space/boundary/boundary_condition.hpp"
-#include "space/boundary/carried_point.hpp"
 #include "space/boundary/traction_pieces.hpp"
-#include "space/kernels/change_of_volume.hpp"
 
 namespace stillpoint {
 
@@ -33,7 +32,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
   Tractions(const Problem& problem, const GridOf& grid) : problem_(problem) {
     for (const TractionSpec& traction : problem.tractions) {
       TractionCutter<K>(problem, traction, grid).cut([&](const auto& x, double area, const auto& normal) {
-        add_piece(traction, x, area, normal);
+        pieces_.push_back({BorderPiece<K>::make(x, area, normal), &traction});
       });
     }
     check_values();
@@ -46,14 +45,8 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
       has_begun_ = true;
       return;
     }
-    for (Piece& piece : pieces_) {
-      const double reached = piece.at.freeze(cell_inside(piece, phase.grid), phase);
-      if (!(reached > 1e-12)) throw_scene_error("traction", "there is no material at this face");
-      // If some of the cell's functions have no material, the others take the whole force.
-      if (phase.functions.partition_of_unity()) {
-        for (Entry& entry : piece.at.entries) entry.w /= reached;
-      }
-    }
+    for (Piece& piece : pieces_)
+      if (!piece.freeze_in_single_phase(phase)) throw_scene_error("traction", "there is no material at this face");
   }
   bool varies() const override {
     return std::ranges::any_of(problem_.tractions, [](const TractionSpec& traction) {
@@ -93,7 +86,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
       if (!piece.traction->pressure) continue;
       const double p = values->of_piece[k][0];
       piece.at.for_free(phase.dofs, [&](const Entry& b, int j, int column, double share_b) {
-        const auto change = area_derivative(piece, u, b, j);
+        const auto change = piece.area_derivative(u, b, j);
         piece.at.for_free(phase.dofs, [&](const Entry& a, int i, int row, double share_a) {
           K_F.emplace_back(row, column, -p * change[i] * share_b * a.w * share_a);
         });
@@ -108,89 +101,17 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
   }
   // The pieces move with the body.
   void end_phase(const double* u) override {
-    for (Piece& piece : pieces_) {
-      piece.vector = deformed_area(piece, u);
-      piece.at.move(u);
-    }
+    for (Piece& piece : pieces_) piece.move(u);
   }
 
  private:
-  struct Piece {
+  struct Piece : BorderPiece<K> {
     const TractionSpec* traction;
-    Point<dim> X;  // undeformed position [m]
-    CarriedPoint<dim> at;
-    double area;                     // undeformed area [m²]
-    std::array<double, dim> vector;  // n da when the phase begins [m²]
   };
   struct Values {
     double t = std::numeric_limits<double>::quiet_NaN();  // when they hold [s]
     std::vector<std::array<double, dim>> of_piece;        // the traction, or the pressure, (pieces) [Pa]
   };
-
-  void add_piece(const TractionSpec& traction, const Point<dim>& x, double area, const Point<dim>& normal) {
-    CarriedPoint<dim> at{};
-    at.x = x;
-    Piece& piece = pieces_.emplace_back(Piece{.traction = &traction, .X = x, .at = at, .area = area, .vector = {}});
-    for (std::size_t d = 0; d < dim; ++d) piece.vector[d] = normal[d] * area;
-  }
-
-  // The cell on the body's side of the piece, which matters for a face on a grid line.
-  static std::array<int, dim> cell_inside(const Piece& piece, const GridOf& grid) {
-    constexpr double inwards = 1e-9;
-    Point<dim> inside = piece.at.x;
-    const auto here = grid.cell_of(inside);
-    for (int d = 0; d < dim; ++d) {
-      const auto& nodes = grid.axes[d].nodes;
-      const double h = nodes[static_cast<std::size_t>(here[d]) + 1] - nodes[static_cast<std::size_t>(here[d])];
-      inside[d] -= inwards * h * (piece.vector[d] > 0 ? 1 : piece.vector[d] < 0 ? -1 : 0);
-    }
-    return grid.cell_of(inside);
-  }
-
-  // The deformed area vector cof(f) n da; cof(f) = [f_yy, −f_yx; −f_xy, f_xx] in the plane, times f_θθ if axisymmetric.
-  std::array<double, dim> deformed_area(const Piece& piece, const double* u) const {
-    if constexpr (dim == 1) {
-      return piece.vector;
-    } else {
-      return times_normal(ChangeOfVolume<K>::cofactor(deformation(piece, u)), piece);
-    }
-  }
-  // The derivative of the deformed area by component j of a function.
-  std::array<double, dim> area_derivative(const Piece& piece, const double* u, const Entry& b, int j) const {
-    if constexpr (dim == 1) {
-      return {};
-    } else {
-      TensorOf<K> df{};
-      for (int i = 0; i < dim; ++i) df[dim * j + i] = b.dN[i];
-      if (j == 0 && has_hoop(piece)) df[hoop] = b.w / piece.at.x[0];
-      return times_normal(ChangeOfVolume<K>::cofactor_rate(deformation(piece, u), df), piece);
-    }
-  }
-
-  static constexpr std::size_t hoop = gradient_components(K) - 1;  // index of θθ, if axisymmetric
-  static bool has_hoop(const Piece& piece) { return K == Kinematics::axisymmetric && piece.at.x[0] > 0; }
-  static std::array<double, dim> times_normal(const TensorOf<K>& cofactor, const Piece& piece) {
-    std::array<double, dim> area{};
-    for (int i = 0; i < dim; ++i) {
-      for (int j = 0; j < dim; ++j) area[i] += cofactor[dim * i + j] * piece.vector[j];
-    }
-    return area;
-  }
-  // The deformation gradient f at a piece, with f_θθ = 1 on the axis.
-  static TensorOf<K> deformation(const Piece& piece, const double* u) {
-    TensorOf<K> f = plus_identity<K>({});
-    double u_r = 0;
-    for (const Entry& a : piece.at.entries) {
-      if (a.function < 0) continue;
-      const double* of_function = u + dim * a.function;
-      u_r += a.w * of_function[0];
-      for (int i = 0; i < dim; ++i) {
-        for (int j = 0; j < dim; ++j) f[dim * i + j] += of_function[i] * a.dN[j];
-      }
-    }
-    if (has_hoop(piece)) f[hoop] += u_r / piece.at.x[0];
-    return f;
-  }
 
   // The values of all pieces at t: a formula of t alone is evaluated once for all pieces of a traction, and a formula
   // of the position again only if t has changed and it depends on t.
@@ -235,7 +156,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
   std::array<double, dim> force_of(const Piece& piece, const std::array<double, dim>& value, const double* u) const {
     std::array<double, dim> force;
     if (piece.traction->pressure) {
-      force = deformed_area(piece, u);
+      force = piece.deformed_area(u);
       for (double& along : force) along *= -value[0];
     } else {
       for (int i = 0; i < dim; ++i) force[i] = value[i] * piece.area;
