@@ -28,7 +28,8 @@ class TrialState {
 /// consistent: the derivative of R(u). elastic: as if no point yielded, symmetric; frequencies and critical steps are
 /// those of K_e, since yielding only softens. stable: K_e without the directions in which stresses make a point
 /// unstable, positive semi-definite unless the dilatation is averaged: for a fictitious inertia, by matrix() alone.
-enum class Tangent { consistent, elastic, stable };
+/// stiffest: K_e with all contacts closed that may close, at least as large as K_e whichever do: for critical steps.
+enum class Tangent { consistent, elastic, stable, stiffest };
 
 /// The tangent stiffness K(u) = ∂R/∂u of internal_force() since the last commit, at t.
 class Tangents {

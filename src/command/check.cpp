@@ -56,6 +56,9 @@ void print_choices(const Scene& scene, const Plan& plan) {
       tell("phase.deformation", phase.deformation == DeformationRule::accumulated ? "accumulated" : "positions",
            phase.deformation);
   }
+  if (!plan.static_method && !scene.integrator.step)
+    tell("integrator.step_fraction", fmt::format("{:g}", scene.integrator.step_fraction.value()),
+         scene.integrator.step_fraction);
   if (plan.strategy && plan.strategy->uses("alpha"))
     tell("damping.alpha", fmt::format("{:g}", scene.damping.alpha.value()), scene.damping.alpha);
 }

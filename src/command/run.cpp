@@ -81,6 +81,7 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
     row("reaction of " + name, fmt::format("({:.9g}) N on the body", fmt::join(force, ", ")));
   for (const auto& [name, moment] : s.reaction_moments)
     row("moment of " + name, fmt::format("({:.9g}) N m about the origin", fmt::join(moment, ", ")));
+  for (const auto& [name, value] : s.contacts) row(name, fmt::format("{:.9g}", value));
   for (const SupportGap& weak : s.weak_supports) {
     row("weak " + weak.support,
         fmt::format("gives way by {:.3g} m at most, {:.2g} of the largest displacement", weak.gap, weak.share));

@@ -124,6 +124,7 @@ std::string to_json(const Summary& s) {
                      {"error", error},
                      {"reactions", by_support(s.reactions)},
                      {"reaction_moments", by_support(s.reaction_moments)},
+                     {"contacts", s.contacts},
                      {"weak_supports", weak_supports},
                      {"load", load},
                      {"probes", probes},

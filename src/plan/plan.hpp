@@ -45,8 +45,9 @@ struct Plan {
   const StaticMethodInfo* static_method = nullptr;  // in the place of any motion; null: there is one
   const RelaxationInfo* relaxation = nullptr;       // in the place of the integrator's step; null: a damping
 
-  bool remembers = false;         // whether some law has a history
-  bool nonlinear = false;         // whether some law is not linear
+  bool remembers = false;         // whether some law, or friction, has a history
+  bool nonlinear_law = false;     // whether some law is not linear
+  bool nonlinear = false;         // whether some law is not, or contacts open and close
   bool moves_on = false;          // whether phases end
   bool equilibrium_only = false;  // whether only equilibrium is asked for, under loads that stay: then inertia is free,
                                   // and velocities may be reset

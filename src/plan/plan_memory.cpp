@@ -74,7 +74,7 @@ double bytes_of_motion(const Problem& problem) {
 }
 
 double bytes_of_moments(const Problem& problem, const Plan& plan) {
-  if (!moments_stand_in_for_points(problem, plan.nonlinear)) return 0;
+  if (!moments_stand_in_for_points(problem, plan.nonlinear_law)) return 0;
   const double of_cell = problem.dim == 2 ? ElasticCells<2>::bytes_per_cell : ElasticCells<3>::bytes_per_cell;
   return of_cell * plan.size.cells / plan.size.points;
 }

@@ -2,16 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/parallel_loop.hpp"
+#include "base/text.hpp"
 
 namespace stillpoint {
+namespace {
+
+bool ends(double friction) { return friction > 0 && std::isfinite(friction); }
+
+}  // namespace
 
 GivingWay::GivingWay(const Problem& problem, const LagrangianPhase& phase) : phase_(phase) {
-  remembers_ = phase.history_dependent();
+  remembers_ = phase.info().remembers;
   yields_ = std::ranges::count(phase.info().history_names, plastic_strain_name) > 0;
   for (const WallSpec& wall : problem.walls) friction_.push_back(wall.friction);
-  has_friction_ = std::ranges::any_of(friction_, [](double mu) { return mu > 0 && std::isfinite(mu); });
+  for (const RigidSpec& rigid : problem.rigid) rigid_friction_.push_back(rigid.friction);
+  has_friction_ = std::ranges::any_of(friction_, ends) || std::ranges::any_of(rigid_friction_, ends);
   if (yields_) volumes_ = phase.fields().point_data().volumes;
 }
 
@@ -22,16 +30,34 @@ double GivingWay::plastic_strain() const {
   return sum_over(volumes_.size(), [&](std::size_t p) { return volumes_[p] * of_points[p]; });
 }
 
-std::vector<std::size_t> GivingWay::sliding_walls(double t) const {
+std::vector<std::string> GivingWay::slides_along(double t, ConstVec u) const {
+  if (!has_friction_) return {};
+  std::vector<std::string> along = sliding_walls(t);
+  std::ranges::move(sliding_rigid_bodies(t, u), std::back_inserter(along));
+  return along;
+}
+
+std::vector<std::string> GivingWay::sliding_walls(double t) const {
   constexpr double sliding_share = 0.95;  // of the largest |T|, as a node here and there may stick for a moment
-  std::vector<std::size_t> sliding;
-  if (!has_friction_) return sliding;
+  std::vector<std::string> sliding;
+  if (std::ranges::none_of(friction_, ends)) return sliding;
   const std::vector<WallReaction> walls = phase_.supports().wall_reactions(t);
   for (std::size_t k = 0; k < std::min(walls.size(), friction_.size()); ++k) {
     const double T = std::hypot(walls[k].shear[0], walls[k].shear[1]), N = std::abs(walls[k].normal);
-    if (friction_[k] > 0 && std::isfinite(friction_[k]) && N > 0 && T >= sliding_share * friction_[k] * N)
-      sliding.push_back(k);
+    if (ends(friction_[k]) && N > 0 && T >= sliding_share * friction_[k] * N)
+      sliding.push_back("wall " + in_quotes(walls[k].name));
   }
+  return sliding;
+}
+
+std::vector<std::string> GivingWay::sliding_rigid_bodies(double t, ConstVec u) const {
+  constexpr double sliding_share = 0.95;  // of the area
+  std::vector<std::string> sliding;
+  if (std::ranges::none_of(rigid_friction_, ends)) return sliding;
+  const std::vector<RigidReport> reports = phase_.supports().rigid_bodies(t, u);
+  for (std::size_t k = 0; k < std::min(reports.size(), rigid_friction_.size()); ++k)
+    if (ends(rigid_friction_[k]) && reports[k].slipping >= sliding_share)
+      sliding.push_back("rigid body " + in_quotes(reports[k].name));
   return sliding;
 }
 

@@ -1,9 +1,9 @@
-// A body gives way if points yield, or if the friction of a wall is used up.
+// A body gives way if points yield, or if the friction of a wall or of a rigid body is used up.
 #pragma once
 
 #include <stillpoint/problem.hpp>
 
-#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "space/phase/lagrangian_phase.hpp"
@@ -17,7 +17,7 @@ class GivingWay {
   /// The phase, which may be any of the run, outlives this object.
   GivingWay(const Problem& problem, const LagrangianPhase& phase);
 
-  /// True if the body can give way: a law remembers its path, or a wall has a friction with an end.
+  /// True if the body can give way: a law remembers its path, or a friction has an end.
   bool is_possible() const { return remembers_ || has_friction_; }
   /// True if a law has a plastic strain.
   bool yields() const { return yields_; }
@@ -28,12 +28,16 @@ class GivingWay {
   bool shows() const { return yields_ || has_friction_ || !remembers_; }
   /// Σ_p V_p γᵖ_p, with the volumes of the start; it only grows [m³]. 0 if laws have no plastic strain.
   double plastic_strain() const;
-  /// The walls along which the body slides at t: those with |T| = friction |N| in the last evaluation.
-  std::vector<std::size_t> sliding_walls(double t) const;
+  /// What the body slides along at (t, u), "wall 'floor'": walls with |T| = friction |N| in the last evaluation, and
+  /// rigid bodies along which all that touches them slips.
+  std::vector<std::string> slides_along(double t, ConstVec u) const;
 
  private:
+  std::vector<std::string> sliding_walls(double t) const;
+  std::vector<std::string> sliding_rigid_bodies(double t, ConstVec u) const;
+
   const LagrangianPhase& phase_;
-  std::vector<double> friction_;  // the friction of each wall
+  std::vector<double> friction_, rigid_friction_;  // the friction of each wall, and of each rigid body
   bool remembers_, yields_, has_friction_;
   std::vector<double> volumes_;
 };

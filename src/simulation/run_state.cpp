@@ -56,7 +56,7 @@ void RunState::begin_next_phase(ConstVec v0) {
 
 bool RunState::loads_settled() const {
   const Contact* const contact = model.phase->contact();
-  return schedule.settled(t) && (!contact || contact->is_settled());
+  return schedule.settled(t) && (!contact || contact->is_settled()) && contact_settled;
 }
 
 Verdict RunState::failed(const std::string& what) const {

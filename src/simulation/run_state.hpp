@@ -30,7 +30,8 @@ struct RunState {
   long evaluations() const { return earlier_evaluations + motion->system.evaluations(); }
   long rejected_steps() const { return earlier_rejected + motion->stepper->rejected_steps(); }
   double wall_s() const { return earlier_wall_s + wall.seconds(); }
-  /// True if all that acts on the body is what it will be at the end, walls that are still on their way included.
+  /// True if all that acts on the body is what it will be at the end, walls that are still on their way and multipliers
+  /// of contact included.
   bool loads_settled() const;
   /// The question whether the run is to end, as a function; empty if the run heeds no such request.
   std::function<bool()> asks_to_end();
@@ -57,7 +58,8 @@ struct RunState {
   long earlier_steps = 0, earlier_evaluations = 0, earlier_rejected = 0;  // in the phases before
   double stepping_s = 0, earlier_wall_s = 0;  // wall time of all steps, and of the runs that this one resumes [s]
 
-  std::string waits_for;              // the condition beside the residual that equilibrium waits for; empty: none
+  bool contact_settled = true;  // whether the multipliers of contact with rigid bodies are those of an equilibrium
+  std::string waits_for;        // the condition beside the residual that equilibrium waits for; empty: none
   std::optional<double> load_growth;  // the growth of driven loads, as LimitLoad measures it
 
  private:

@@ -49,6 +49,7 @@ HeldAxes driven_axes(const Problem& problem) {
     if (acts(support.motion)) driven[static_cast<std::size_t>(support.component)] = true;
   for (const WallSpec& wall : problem.walls)
     if (acts(wall.motion)) driven[static_cast<std::size_t>(axis_of(wall.face))] = true;
+  for (const RigidSpec& rigid : problem.rigid) add(rigid.motion);
   if (problem.state == StressState::axisymmetric) driven[0] = false;  // a ring holds itself
   return driven;
 }

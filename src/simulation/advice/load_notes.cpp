@@ -62,11 +62,16 @@ std::vector<Load> loads_of(const Problem& problem) {
   return loads;
 }
 
-// A problem is still if no support or wall moves or is displaced, and nothing moves or is deformed at the start.
+// A problem is still if no support, wall or rigid body moves or is displaced, and nothing moves or is deformed at the
+// start.
 bool is_still(const Problem& problem) {
   const auto stays = [](const auto& held) { return held.motion.constant() && held.motion({}, 0) == 0; };
+  const auto is_zero = [](const Expression& motion) { return motion.constant() && motion({}, 0) == 0; };
+  const auto rests = [&](const RigidSpec& rigid) {
+    return std::ranges::all_of(rigid.motion, is_zero) && std::ranges::all_of(rigid.rotation, is_zero);
+  };
   return std::ranges::all_of(problem.supports, stays) && std::ranges::all_of(problem.walls, stays) &&
-         problem.initial_u.empty() && problem.initial_v.empty();
+         std::ranges::all_of(problem.rigid, rests) && problem.initial_u.empty() && problem.initial_v.empty();
 }
 
 void note_loads(const Problem& problem, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
@@ -110,11 +115,13 @@ void note_supports(const Problem& problem, Notes& notes) {
   }
 }
 
-// A force along an axis may be borne if a wall stands or rubs against it, or if the body moves on to a support.
+// A force along an axis may be borne if a wall stands or rubs against it, if a rigid body is in its way, or if the body
+// moves on to a support.
 bool may_be_borne(const Problem& problem, const LagrangianPhase& phase, int axis, double force) {
   const auto supports = [&](const SupportSpec& support) {
     return support.component == axis || !support.holds_one_component();
   };
+  if (!problem.rigid.empty()) return true;
   if (phase.info().updated_lagrangian && std::ranges::any_of(problem.supports, supports)) return true;
   return std::ranges::any_of(problem.walls, [&](const WallSpec& wall) {
     return axis_of(wall.face) == axis ? is_upper(wall.face) == (force > 0) : wall.friction > 0;
@@ -154,7 +161,7 @@ void note_free_parts(const Problem& problem, const LagrangianPhase& phase, Const
                       along, force));
     }
   }
-  if (!problem.walls.empty()) return;  // that may hold it
+  if (!problem.walls.empty() || !problem.rigid.empty()) return;  // that may hold it
   constexpr std::size_t most_told = 4;
   for (std::size_t k = 0; k < balanced.size(); ++k) {
     if (k == most_told) {

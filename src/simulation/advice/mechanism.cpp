@@ -130,7 +130,8 @@ bool strains_nothing(const LagrangianPhase& phase, double t, ConstVec x, const P
 }  // namespace
 
 std::optional<Mechanism> find_mechanism(const LagrangianPhase& phase, double t, ConstVec u) {
-  if (phase.size() == 0 || phase.info().updated_lagrangian || phase.contact()) return std::nullopt;
+  if (phase.size() == 0 || phase.info().updated_lagrangian || phase.contact() || phase.info().may_touch)
+    return std::nullopt;
   if (phase.tangents().of_loads(t, u).nonZeros() > 0) return std::nullopt;
   std::vector<double> Q(phase.size()), R(phase.size());
   phase.external_force(t, u, Q);

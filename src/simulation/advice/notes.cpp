@@ -132,7 +132,7 @@ std::vector<std::string> quadrature_notes(const Problem& problem, const Lagrangi
 std::vector<std::string> phase_notes(const Problem& problem, const LagrangianPhase& phase) {
   std::vector<std::string> notes;
   if (!phase.info().updated_lagrangian) return notes;
-  if (!phase.history_dependent() && problem.phase.quadrature == Quadrature::points &&
+  if (!phase.info().remembers && problem.phase.quadrature == Quadrature::points &&
       !(problem.tractions.empty() && problem.forces.empty())) {
     notes.emplace_back(
         "where a loaded surface comes to cut cells the points next to it take a stress that is off by up to a quarter, "
@@ -140,7 +140,7 @@ std::vector<std::string> phase_notes(const Problem& problem, const LagrangianPha
         "phase.quadrature = \"domains\", or a single phase");
   }
   if (problem.grid.basis != BasisKind::linear) return notes;
-  if (!phase.history_dependent() && problem.phase.quadrature == Quadrature::points) {
+  if (!phase.info().remembers && problem.phase.quadrature == Quadrature::points) {
     notes.emplace_back(
         "points cross the cells of a linear basis from phase to phase, which lets an elastic column settle 6 to 9 % "
         "too far; a quadratic basis is within 0.3 %");

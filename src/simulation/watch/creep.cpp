@@ -89,7 +89,7 @@ void Creep::sample(double t, ConstVec u, bool settled) {
   for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_points[dim_ * stride_ * (k / dim_) + k % dim_];
   sum_t_ += t;
   ++samples_;
-  slid_ = slid_ || !giving_way_.sliding_walls(t).empty();
+  slid_ = slid_ || !giving_way_.slides_along(t, u).empty();
   if (t >= block_end_ - period_ / 8) close_block();
 }
 
@@ -159,10 +159,8 @@ std::string Creep::description(double t, ConstVec u) const {
       high[i] = std::max(high[i], x[dim_ * stride_ * k + i]);
     }
   }
-  std::string walls;
-  for (const std::size_t wall : giving_way_.sliding_walls(t))
-    walls += fmt::format("{} wall '{}'", walls.empty() ? "along" : " and", problem_.walls[wall].name);
-  if (!walls.empty()) walls += ", ";
+  const std::vector<std::string> sliding = giving_way_.slides_along(t, u);
+  const std::string along = sliding.empty() ? "" : fmt::format("along {}, ", fmt::join(sliding, " and "));
   const double q = way_left_.exponent();
   const std::string decay =
       q <= steady_exponent ? "which does not decay"
@@ -170,7 +168,7 @@ std::string Creep::description(double t, ConstVec u) const {
   return fmt::format(
       "it slides: {}{:.0f} % of the body, between ({:.3g}) and ({:.3g}), by {:.3g} m in the last {:.3g} s; "
       "fastest is {} at {:.3g} m/s, {}",
-      walls, 100 * static_cast<double>(moving) / static_cast<double>(points), fmt::join(low, ", "),
+      along, 100 * static_cast<double>(moving) / static_cast<double>(points), fmt::join(low, ", "),
       fmt::join(high, ", "), way_left_.way(), way_left_.span(),
       to_string(phase_.diagnosis().of_point(stride_ * fastest)), speed[fastest], decay);
 }

@@ -192,7 +192,7 @@ void StabilityTest::confirm(RunState& run, Verdict& verdict) {
   const bool is_local = !model.static_method && model.damping->is_local();
   const bool strays = is_local || (neutral && phase.info().nonlinear);
   const bool has_hourglasses = hourglass_note(run.scene).has_value();
-  if (strays && !phase.history_dependent() && (has_hourglasses || has_too_few_points(phase))) {
+  if (strays && !phase.info().remembers && (has_hourglasses || has_too_few_points(phase))) {
     verdict = {RunStatus::step_limit,
                fmt::format("no equilibrium: with {} the grid moves in ways that strain no point{}, which nothing "
                            "resists, and how far the body goes along them is by chance where strains are large or "

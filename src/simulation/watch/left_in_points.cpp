@@ -48,7 +48,7 @@ std::string fault_of_push(const Problem& problem, const std::vector<WallReaction
 // part, their stresses vary as fast as they like.
 std::string null_space_note(const Problem& problem, const LagrangianPhase& phase, double null_space_stress) {
   constexpr double negligible = 0.05;
-  if (phase.history_dependent() || null_space_stress <= negligible) return "";
+  if (phase.info().remembers || null_space_stress <= negligible) return "";
   const char* remedy = problem.grid.basis == BasisKind::linear ? "take a quadratic basis"
                        : problem.phase.deformation == DeformationRule::accumulated
                            ? "take phase.deformation = \"positions\""

@@ -28,7 +28,7 @@ Verdict LimitLoad::judge(RunState& run) {
   const Body body{.residual = measured.residual,
                   .kinetic_energy = measured.kinetic_energy,
                   .plastic_strain = giving_way.plastic_strain(),
-                  .slides = !giving_way.shows() || !giving_way.sliding_walls(run.t).empty()};
+                  .slides = !giving_way.shows() || !giving_way.slides_along(run.t, run.motion->u()).empty()};
   return reached(body) ? Verdict{RunStatus::limit_load, "the limit load: " + description()} : Verdict{};
 }
 

@@ -42,7 +42,7 @@ Monitor::Monitor(const RunState& run, Creep& creep) : Monitor(monitor_options(ru
 Verdict Monitor::judge(RunState& run) {
   Verdict verdict;
   if (due(run.t) || is_balanced_iterate(run)) verdict = test_equilibrium(run);
-  run.waits_for = waits_for_;
+  run.waits_for = run.contact_settled ? waits_for_ : "contact that does not penetrate";
   if (!verdict.ends()) verdict = {check_limits(run.t, run.steps()), reason_};
   if (verdict.status == RunStatus::equilibrium) {
     const std::string wrong = run.schedule.own_load_goes_on(run.t);

@@ -24,7 +24,7 @@ struct SinglePhaseStrain {
 
 // The strain at (t, u); empty if the points move on, or nothing remembers its path.
 std::optional<SinglePhaseStrain> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u) {
-  if (phase.info().updated_lagrangian || !phase.history_dependent()) return std::nullopt;
+  if (phase.info().updated_lagrangian || !phase.info().remembers) return std::nullopt;
   const auto components = static_cast<std::size_t>(phase.info().gradient_components);
   std::vector<double> gradient(components * phase.points());
   phase.fields().point_strain(t, u, gradient);

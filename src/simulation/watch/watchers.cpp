@@ -45,6 +45,7 @@ std::vector<Watched> make_watchers(RunState& run) {
   list.push_back({"single_phase", watch_single_phase()});
   list.push_back({"plastic_path", watch_plastic_path(run)});
   list.push_back({"rate_share", watch_rate_share(run)});
+  list.push_back({"multipliers", watch_multipliers(run)});
   list.push_back({"monitor", std::make_unique<Monitor>(run, *creep)});
   list.push_back({"mechanism", std::make_unique<MechanismWatch>(run)});
   list.push_back({"standstill", std::make_unique<Standstill>(run.model.integrator.max_step)});

@@ -20,6 +20,7 @@ class March : public TrialStepper {
     }
   }
   void finish(double /*t*/) final {}
+  void take_changed_forces(double t) final { begun(evaluate_anew(t, state())); }
 
  protected:
   using TrialStepper::TrialStepper;

@@ -112,7 +112,7 @@ FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, Cons
   // Above the spectrum σM − K is positive definite, so that a Cholesky factor serves: (K − σM)⁻¹ = −(σM − K)⁻¹.
   const double sigma = (1 + 1e-6) * bound.omega * bound.omega;
   const SparseCholesky factor(
-      SparseMatrix(sigma * system.mass().matrix() - system.tangents().matrix(Tangent::elastic, t, u)));
+      SparseMatrix(sigma * system.mass().matrix() - system.tangents().matrix(Tangent::stiffest, t, u)));
   if (!factor.positive_definite()) return {0, 0, watch.seconds(), false, "σM − K is not positive definite"};
   const LinearMap solve = [&](ConstVec b, Vec x) {
     factor.solve(b, x);

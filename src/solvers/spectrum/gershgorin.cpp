@@ -79,7 +79,7 @@ LowerBound lower_bound_of_scaled_mass(const Mass& mass) {
 FrequencyEstimate omega_max_bound_by_gershgorin(const SemiDiscrete& system, double t, ConstVec u) {
   const Stopwatch watch;
   const Mass& mass = system.mass();
-  const double G = largest(scaled_row_sums(system.tangents().matrix(Tangent::elastic, t, u), mass.diagonal()));
+  const double G = largest(scaled_row_sums(system.tangents().matrix(Tangent::stiffest, t, u), mass.diagonal()));
   if (!std::isfinite(G)) return {0, 0, watch.seconds(), false, "K is not finite"};
   if (mass.is_diagonal()) return {std::sqrt(G), 0, watch.seconds(), true, "ω² ≤ max Σ |K_ij|/√(M_ii M_jj)"};
   const auto [s, factorisations] = lower_bound_of_scaled_mass(mass);

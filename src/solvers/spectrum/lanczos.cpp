@@ -26,7 +26,7 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
   if (applications < 1) throw std::invalid_argument("Lanczos' method needs at least one application of K");
   const Stopwatch watch;
   const Mass& mass = system.mass();
-  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { system.tangents().apply(Tangent::elastic, t, u, x, Kx); };
+  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { system.tangents().apply(Tangent::stiffest, t, u, x, Kx); };
   const LinearMap solve_M = [&](ConstVec b, Vec x) { mass.solve(b, x); };
   const VectorSpace vectors;
   Vector x = vectors.make(system.size()), Mx = vectors.make(system.size());

@@ -37,7 +37,7 @@ double local_damping_gain(const SemiDiscrete& system, double t, ConstVec u, cons
   std::vector<double> x = start_vector(n), Kx(n), z(n), dKx(n), next(n);
   double omega_squared = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    system.tangents().apply(Tangent::elastic, t, u, x, Kx);
+    system.tangents().apply(Tangent::stiffest, t, u, x, Kx);
     mass.solve(Kx, z);
     double energy = 0, sum = 0;
     for (std::size_t i = 0; i < n; ++i) {

@@ -40,7 +40,7 @@ FrequencyEstimate omega_max_by_power_iteration(const SemiDiscrete& system, doubl
                                                const SpectrumOptions& options) {
   require_valid(options);
   const Stopwatch watch;
-  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { system.tangents().apply(Tangent::elastic, t, u, x, Kx); };
+  const LinearMap apply_K = [&](ConstVec x, Vec Kx) { system.tangents().apply(Tangent::stiffest, t, u, x, Kx); };
   const LinearMap solve_M = [&](ConstVec b, Vec x) { system.mass().solve(b, x); };
   const PowerIterationResult result =
       power_iteration(system.size(), apply_K, solve_M, options.tolerance, options.max_iterations);

@@ -12,7 +12,7 @@ namespace {
 
 class NewtonStep final : public WithoutTime<Stepper> {
  public:
-  NewtonStep(const NewtonOptions& options, RelaxationSystem& system) : WithoutTime(system), options_(options) {}
+  NewtonStep(const NewtonOptions& options, RelaxationSystem& system) : WithoutTime(system), options_(options), tolerance_(options.tolerance) {}
 
   void start(double t, Vector& y) override {
     t_ = t;
@@ -33,11 +33,13 @@ class NewtonStep final : public WithoutTime<Stepper> {
             .t = t_,
             .message = report.converged ? "Newton's method comes no nearer: " + report.reason : report.reason};
   }
+  void take_changed_forces(double /*t*/) override { options_.tolerance = tolerance_; }
   void set_max_step(double /*h*/) override {}
   void archive(const StateArchive& state) override { state("iterations", steps_); }
 
  private:
   NewtonOptions options_;
+  double tolerance_;  // of the first answer
   double t_ = 0;
 };
 

@@ -21,6 +21,7 @@ namespace stillpoint {
 
 class StaticIteration : public WithoutTime<TrialStepper> {
  public:
+  void take_changed_forces(double t) final { start(t, state()); }
   Known known() const final {
     return {.force = true, .acceleration = is_admissible() && load_.to() >= 1 ? z_.span() : ConstVec()};
   }

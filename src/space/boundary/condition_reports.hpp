@@ -38,6 +38,23 @@ struct WallReaction {
   double put_back = 0;         // largest distance so far by which a node has been put back onto the wall [m]
 };
 
+/// What a rigid body exerts on the bodies that it touches.
+struct RigidReport {
+  std::string name;
+  std::array<double, 3> force{};   // components along the scene's axes, summed around the axis if axisymmetric [N]
+  std::array<double, 3> moment{};  // about RigidSpec::about, which moves with it; in the plane the third alone [N m]
+  double area = 0;                 // where it touches [m²]
+  double penetration = 0;          // the largest [cells]
+  double slipping = 0;             // share of that area which slips
+};
+
+/// Contact with rigid bodies.
+struct ContactState {
+  bool touches = false;  // whether any rigid body touches a body
+  double misfit = 0;     // the largest mean penetration, or gap, of a patch that is touched [cells]
+  double change = 0;     // by which its pressures would change the multipliers, as a share of them
+};
+
 /// The state of loads that a displacement drives (load_control.hpp).
 struct LoadState {
   double factor = 0;        // λ of the reference loads

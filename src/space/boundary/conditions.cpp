@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "space/boundary/rigid_contact.hpp"
+
 namespace stillpoint {
 
 template <Kinematics K>
@@ -15,13 +17,17 @@ Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Gr
       all_(make_boundary_conditions<K>(problem, grid, time_scale)),
       axis_(problem, grid, body, time_scale),
       weak_supports_(problem, grid, time_scale),
-      load_control_(whole, grid, time_scale) {
+      load_control_(whole, grid, time_scale),
+      rigid_contact_(std::make_unique<RigidContact<K>>(problem, grid, time_scale)) {
   for (const auto& condition : all_) {
     Contact* found = condition->contact();
     if (found && contact_) throw std::logic_error("two kinds of boundary conditions have contact");
     if (found) contact_ = found;
   }
 }
+
+template <Kinematics K>
+Conditions<K>::~Conditions() = default;
 
 // Supports come first, so that reactions on the axis which they take count as theirs.
 template <Kinematics K>
@@ -35,10 +41,11 @@ HeldUnknowns Conditions<K>::hold(double t, const GridFunctions<dim>& functions, 
 }
 
 template <Kinematics K>
-void Conditions<K>::begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound, Vec F) {
+void Conditions<K>::begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound, Vec F) {
   for (const auto& condition : all_) condition->begin_phase(phase, F);
   weak_supports_.begin_phase(phase, stiffness_bound);
   load_control_.begin_phase(phase, stiffness_bound);
+  rigid_contact_->begin_phase(phase, t, stiffness_bound);
 }
 
 template <Kinematics K>
@@ -78,16 +85,59 @@ SparseMatrix Conditions<K>::tangent_of_loads(const Parts& phase, double t, const
 }  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
 
 template <Kinematics K>
-void Conditions<K>::add_springs(double t, const double* u, Vec R, Vec reactions) const {
-  const std::size_t of_supports = reactions.size() - load_control_.springs().size();
-  weak_supports_.springs().add_force(t, u, R, reactions.first(of_supports));
-  load_control_.springs().add_force(t, u, R, reactions);
+void Conditions<K>::add_force(double t, const double* u, Vec R, Vec reactions) const {
+  const std::size_t with_springs = reactions.size() - rigid_contact_->forces(), prescribed = with_springs - springs();
+  weak_supports_.springs().add_force(t, u, R, reactions.first(prescribed + weak_supports_.springs().size()));
+  load_control_.springs().add_force(t, u, R, reactions.first(with_springs));
+  rigid_contact_->add_force(t, u, R, reactions.first(prescribed), reactions.subspan(with_springs));
 }
 
 template <Kinematics K>
-void Conditions<K>::add_springs_product(const double* du, Vec dR) const {
+void Conditions<K>::add_product(Tangent kind, double t, const double* u, const double* du, Vec dR) const {
   weak_supports_.springs().add_product(du, dR);
   load_control_.springs().add_product(du, dR);
+  rigid_contact_->add_product(kind, t, u, du, dR);
+}
+
+template <Kinematics K>
+void Conditions<K>::add_matrix(Tangent kind, double t, const double* u, SparseMatrix& matrix) const {
+  weak_supports_.springs().add_matrix(matrix);
+  rigid_contact_->add_matrix(kind, t, u, matrix);
+}
+
+template <Kinematics K>
+std::size_t Conditions<K>::other_reactions() const {
+  return springs() + rigid_contact_->forces();
+}
+
+template <Kinematics K>
+bool Conditions<K>::remember() const {
+  return rigid_contact_->remembers();
+}
+
+template <Kinematics K>
+void Conditions<K>::commit(double t, const double* u) {
+  rigid_contact_->commit(t, u);
+}
+
+template <Kinematics K>
+double Conditions<K>::growth_of_springs() const {
+  return std::max(weak_supports_.growth(), rigid_contact_->growth());
+}
+
+template <Kinematics K>
+void Conditions<K>::update_multipliers(double t, const double* u) {
+  rigid_contact_->update_multipliers(t, u);
+}
+
+template <Kinematics K>
+std::vector<RigidReport> Conditions<K>::rigid_bodies(double t, const double* u) const {
+  return rigid_contact_->report(t, u);
+}
+
+template <Kinematics K>
+ContactState Conditions<K>::contact_state(double t, const double* u) const {
+  return rigid_contact_->state(t, u);
 }
 
 template <Kinematics K>
@@ -108,6 +158,7 @@ void Conditions<K>::end_phase(const double* u) {
   for (const auto& condition : all_) condition->end_phase(u);
   weak_supports_.end_phase(u);
   load_control_.end_phase(u);
+  rigid_contact_->end_phase(u);
 }
 
 template <Kinematics K>
@@ -115,6 +166,7 @@ void Conditions<K>::archive(const StateArchive& state) {
   for (std::size_t k = 0; k < all_.size(); ++k) all_[k]->archive(state.part(fmt::format("condition_{}", k)));
   weak_supports_.archive(state.part("weak_supports"));
   load_control_.archive(state.part("load"));
+  rigid_contact_->archive(state.part("rigid"));
 }
 
 template <Kinematics K>
@@ -132,6 +184,7 @@ std::vector<double> Conditions<K>::support_displacements(const HeldUnknowns& hel
     for (std::size_t s = 0; s < springs->size(); ++s)
       moved.push_back(springs->support_displacement(s, t, held.start()));
   }
+  rigid_contact_->add_displacements(t, moved);
   return moved;
 }
 

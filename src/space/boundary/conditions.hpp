@@ -1,10 +1,11 @@
 // All conditions on a body in the present phase: supports, walls and loads (boundary_condition.hpp), the springs of
-// supports and of driven loads, and the axis of symmetry.
+// supports and of driven loads, contact with rigid bodies, and the axis of symmetry.
 #pragma once
 
 #include <stillpoint/problem.hpp>
 #include <stillpoint/semi_discrete.hpp>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,9 @@
 namespace stillpoint {
 
 template <Kinematics K>
+class RigidContact;  // rigid_contact.hpp
+
+template <Kinematics K>
 class Conditions {
   static constexpr int dim = dimensions(K);
 
@@ -28,12 +32,15 @@ class Conditions {
   /// grid, body: as placed; origin: see SurfaceDepths; time_scale: see PrescribedMotion.
   Conditions(const Problem& problem, const Problem& whole, const Grid<dim>& grid, const Body<K>& body,
              const std::vector<double>& origin, double time_scale);
+  ~Conditions();
+  Conditions(const Conditions&) = delete;
+  Conditions& operator=(const Conditions&) = delete;
 
   // --- a phase begins, in this order ---------------------------------------------------------------
   HeldUnknowns hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
                     const PointFunctions<dim>& weights, const std::vector<char>& reached);
   /// F += the forces that depend on neither t nor u, (n). Throws SceneError, see WeakSupports and LoadControl.
-  void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound, Vec F);
+  void begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound, Vec F);
   /// Changes initial velocities of the phase that would go through a wall; v: (n).
   void begin_motion(const Parts& phase, double t, Vec v);
   /// Whether material reaches the axis of symmetry, which then holds it.
@@ -49,29 +56,34 @@ class Conditions {
   /// ∂F/∂u of the forces that depend on u, (n × n).
   SparseMatrix tangent_of_loads(const Parts& phase, double t, const double* u) const;
 
-  std::size_t springs() const { return weak_supports_.springs().size() + load_control_.springs().size(); }
-  /// R += the springs' forces, (n); reactions: of the supports that prescribe unknowns, followed by those of the
-  /// springs.
-  void add_springs(double t, const double* u, Vec R, Vec reactions) const;
-  /// dR += the derivative of the springs' forces along du.
-  void add_springs_product(const double* du, Vec dR) const;
-  /// matrix += the derivative of the supports' springs; that of driven loads would be a full matrix, and static solvers
-  /// have no driven loads.
-  void add_springs_matrix(SparseMatrix& matrix) const { weak_supports_.springs().add_matrix(matrix); }
-  /// Whether a support holds by springs, and the factor by which omega_max² may have grown through them since the first
-  /// phase.
+  /// The number of reactions beside those of supports that prescribe unknowns: of springs and of rigid bodies.
+  std::size_t other_reactions() const;
+  /// R += the forces of springs and of rigid bodies, (n); reactions: of the supports that prescribe unknowns, followed
+  /// by those of the springs, and those of the rigid bodies.
+  void add_force(double t, const double* u, Vec R, Vec reactions) const;
+  /// dR += the derivative of these forces along du.
+  void add_product(Tangent kind, double t, const double* u, const double* du, Vec dR) const;
+  /// matrix += the derivative; without that of driven loads, which would be a full matrix: static solvers have none.
+  void add_matrix(Tangent kind, double t, const double* u, SparseMatrix& matrix) const;
+  /// Whether these forces depend on the state at the last commit.
+  bool remember() const;
+  void commit(double t, const double* u);
+  /// Whether a support holds by springs, whether rigid bodies may touch the body, and the factor by which omega_max²
+  /// may have grown through either since the first phase.
   bool hold_by_springs() const { return !weak_supports_.empty(); }
-  double growth_of_springs() const { return weak_supports_.growth(); }
+  bool may_touch() const { return !problem_.rigid.empty(); }
+  double growth_of_springs() const;
   /// Whether a spring of a support acts on an unknown of the grid, (unknowns).
   std::vector<char> are_sprung(std::size_t unknowns) const;
 
   // --- during a phase, and at its end ---------------------------------------------------------------
   Contact* contact() const { return contact_; }
+  void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(const double* u);
   void archive(const StateArchive& state);
 
-  // --- reactions and displacements; the argument `reactions` as in add_springs() --------------------
+  // --- reactions and displacements; the argument `reactions` as in add_force() --------------------
   std::vector<WallReaction> wall_reactions(double t) const;
   std::vector<double> support_displacements(const HeldUnknowns& held, double t) const;
   /// Whether a support of the scene has a name.
@@ -79,16 +91,21 @@ class Conditions {
   std::vector<SupportReaction> support_reactions(const Parts& phase, double t, const double* u,
                                                  ConstVec reactions) const;
   std::vector<WeakSupport> weak_supports(double t, const double* u) const { return weak_supports_.report(t, u); }
+  std::vector<RigidReport> rigid_bodies(double t, const double* u) const;
+  ContactState contact_state(double t, const double* u) const;
   bool are_driven() const { return load_control_.acts(); }
   LoadState load_state(double t, const double* u) const { return load_control_.state(t, u); }
 
  private:
+  std::size_t springs() const { return weak_supports_.springs().size() + load_control_.springs().size(); }
+
   const Problem& problem_;
   SurfaceDepths<dim> depths_;
   BoundaryConditions<dim> all_;
   AxisOfSymmetry<K> axis_;
   WeakSupports<K> weak_supports_;
   LoadControl<K> load_control_;
+  std::unique_ptr<RigidContact<K>> rigid_contact_;
   Contact* contact_ = nullptr;  // contact of one of the conditions; null if there is none
 };
 

@@ -27,6 +27,7 @@ PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
           .total_mass = total_mass(),
           .history_names = {names.begin(), names.end()},
           .updated_lagrangian = moves_on(),
+          .remembers = remembers,
           .nonlinear = finite_strain || remembers,
           // With history the elastic part is small, and yielding only softens; but the stiffness of springs may grow.
           .stiffens = finite_strain && (!remembers || (moves_on() && held_by_springs))};

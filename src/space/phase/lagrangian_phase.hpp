@@ -34,7 +34,9 @@ struct PhaseInfo {
   double total_mass = 0;                   // Σ m_p [kg]
   std::vector<std::string> history_names;  // history variables of laws beside the stress ("plastic_strain")
   bool updated_lagrangian = false;         // whether there will be further phases
+  bool remembers = false;                  // whether some law has a history
   bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
+  bool may_touch = false;                  // whether rigid bodies may touch the body
   bool stiffens = false;  // whether a point can become stiffer than before, so that the critical step has to follow
 };
 
@@ -116,6 +118,9 @@ class PhaseControl {
   /// single phase, or if initial_velocity() has not begun the first one.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
+  /// Takes the pressures of contact at (t, u) as multipliers, which changes R there: the body may go on to where
+  /// nothing penetrates.
+  virtual void update_multipliers(double t, ConstVec u) = 0;
   /// Saves the phase as it is between two steps, or restores it, which also restores its unknowns.
   virtual void archive(const StateArchive& state) = 0;
 };
@@ -162,6 +167,10 @@ class PhaseSupports {
   virtual std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const = 0;
   /// The reports of the supports that hold by springs, at (t, u).
   virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
+  /// What the rigid bodies of the scene exert at (t, u), in their order.
+  virtual std::vector<RigidReport> rigid_bodies(double t, ConstVec u) const = 0;
+  /// How well the multipliers of contact fit at (t, u).
+  virtual ContactState contact_state(double t, ConstVec u) const = 0;
   /// The state of loads that a displacement drives, at (t, u); empty if there are none.
   virtual std::optional<LoadState> load_state(double t, ConstVec u) const = 0;
   /// For each body of the scene, the axes along which a support, a spring or a wall acts at a function that reaches it.

@@ -23,7 +23,12 @@ class MaterialPointPhase final : public LagrangianPhase {
   explicit MaterialPointPhase(const Problem& problem)
       : LagrangianPhase({fields_, supports_, shape_, control_, diagnosis_}), all_(problem) {
     info_ = all_.frame.account().describe(all_.conditions.hold_by_springs());
-    history_dependent_ = all_.frame.remembers;
+    points_stiffen_ = info_.stiffens && !info_.remembers;
+    if (all_.conditions.may_touch()) {
+      info_.nonlinear = info_.may_touch = true;
+      info_.stiffens = info_.stiffens || all_.frame.moves_on();
+    }
+    history_dependent_ = all_.frame.remembers || all_.conditions.remember();
     loads_are_constant_ = all_.conditions.loads_are_constant();
     contact_ = all_.conditions.contact();
   }
@@ -46,7 +51,7 @@ class MaterialPointPhase final : public LagrangianPhase {
     auto trial = std::make_unique<PhaseTrial>(all_.force.borrow_trial());
     trial->of = this;
     trial->phase = all_.frame.phase;
-    trial->reactions.assign(all_.frame.dofs().prescribed.size() + all_.conditions.springs(), 0);
+    trial->reactions.assign(all_.frame.dofs().prescribed.size() + all_.conditions.other_reactions(), 0);
     return trial;
   }
   bool internal_force(double t, ConstVec u, Vec R, TrialState& any) const override {
@@ -58,7 +63,7 @@ class MaterialPointPhase final : public LagrangianPhase {
     trial.too_far = !all_.limit.allows(trial.motion, grid_u.data());
     if (trial.too_far) return false;
     trial.evaluated = all_.force.evaluate(trial, R, *all_.force.borrow());
-    all_.conditions.add_springs(t, grid_u.data(), R, trial.reactions);
+    all_.conditions.add_force(t, grid_u.data(), R, trial.reactions);
     return trial.evaluated;
   }
   void commit(TrialState& any) override {
@@ -66,7 +71,8 @@ class MaterialPointPhase final : public LagrangianPhase {
     if (!history_dependent_) return;
     if (!std::exchange(trial.evaluated, false))
       throw std::logic_error("a trial state that was not evaluated since the last commit");
-    if (trial.keeps_history) all_.force.commit(trial);
+    all_.conditions.commit(trial.t, trial.arrays->u.data());
+    if (all_.frame.remembers && trial.keeps_history) all_.force.commit(trial);
   }
 
   std::vector<double> initial_displacement(double t) const override {
@@ -83,11 +89,11 @@ class MaterialPointPhase final : public LagrangianPhase {
   double stiffening(double t, ConstVec u) const override {
     if (!info_.stiffens) return 1;
     const double of_springs = all_.conditions.growth_of_springs();
-    if (history_dependent_) return of_springs;
+    if (!points_stiffen_) return of_springs;
     const auto work = all_.force.borrow();
     all_.frame.unknowns.spread(t, u, work->u);
     const double of_points = all_.force.stiffening(*work);
-    const bool springs_count = all_.conditions.hold_by_springs() && of_points <= of_springs;
+    const bool springs_count = (all_.conditions.hold_by_springs() || info_.may_touch) && of_points <= of_springs;
     return springs_count ? of_springs : of_points;
   }
 
@@ -108,6 +114,7 @@ class MaterialPointPhase final : public LagrangianPhase {
   }
 
   PhaseAssembly<B, K> all_;
+  bool points_stiffen_ = false;
   PhaseTangents<B, K> tangents_{all_};
   PhaseFieldsOf<B, K> fields_{all_};
   PhaseSupportsOf<B, K> supports_{all_};

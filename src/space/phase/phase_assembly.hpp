@@ -78,7 +78,7 @@ struct PhaseAssembly {
     inertia.begin_phase();
     constant_force.assign(frame.size(), 0);
     conditions.begin_phase(
-        inertia.parts(), [this] { return frame.bound_of_functions(); }, constant_force);
+        inertia.parts(), t, [this] { return frame.bound_of_functions(); }, constant_force);
   }
 
   // Extends functions into cells that the body hardly reaches, but only in a body with a single phase: in later phases

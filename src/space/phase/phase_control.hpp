@@ -35,6 +35,11 @@ class PhaseControlOf final : public PhaseControl {
     all_.begin_phase(t);
     return all_.remap.begin_motion(t);
   }
+  void update_multipliers(double t, ConstVec u) override {
+    const auto work = all_.force.borrow();
+    all_.frame.unknowns.spread(t, u, work->u);
+    all_.conditions.update_multipliers(t, work->u.data());
+  }
   TransferErrors transfer_errors() const override {
     const auto& kept = all_.remap.conservation();
     return {kept.mass(), kept.momentum(), kept.angular_momentum(), all_.inertia.of_functions().largest_added_mass()};

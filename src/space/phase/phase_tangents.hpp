@@ -1,4 +1,4 @@
-// The tangent stiffness of a phase, with the springs of its conditions.
+// The tangent stiffness of a phase, with that of its conditions.
 #pragma once
 
 #include <stdexcept>
@@ -18,14 +18,14 @@ class PhaseTangents final : public Tangents {
     const auto work = all_.force.borrow();
     all_.frame.unknowns.spread(t, u, work->u);
     all_.frame.unknowns.spread_direction(du, work->du);
-    all_.force.apply(kind, t, dR, *work);
-    all_.conditions.add_springs_product(work->du.data(), dR);
+    all_.force.apply(of_points(kind), t, dR, *work);
+    all_.conditions.add_product(kind, t, work->u.data(), work->du.data(), dR);
   }
   SparseMatrix matrix(Tangent kind, double t, ConstVec u) const override {
     const auto work = all_.force.borrow();
     all_.frame.unknowns.spread(t, u, work->u);
-    SparseMatrix matrix = all_.force.matrix(kind, t, *work);
-    all_.conditions.add_springs_matrix(matrix);
+    SparseMatrix matrix = all_.force.matrix(of_points(kind), t, *work);
+    all_.conditions.add_matrix(kind, t, work->u.data(), matrix);
     return matrix;
   }
   SparseMatrix of_loads(double t, ConstVec u) const override {
@@ -35,6 +35,8 @@ class PhaseTangents final : public Tangents {
   }
 
  private:
+  static Tangent of_points(Tangent kind) { return kind == Tangent::stiffest ? Tangent::elastic : kind; }
+
   const PhaseAssembly<B, K>& all_;
 };
 

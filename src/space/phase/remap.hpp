@@ -111,8 +111,8 @@ class Remap {
   // Whether no external forces act on the body.
   bool is_free() const {
     const Problem& problem = frame_.problem;
-    return problem.supports.empty() && problem.walls.empty() && problem.forces.empty() && problem.tractions.empty() &&
-           !problem.has_body_force() && !problem.load && !conditions_.act_on_axis() &&
+    return problem.supports.empty() && problem.walls.empty() && problem.rigid.empty() && problem.forces.empty() &&
+           problem.tractions.empty() && !problem.has_body_force() && !problem.load && !conditions_.act_on_axis() &&
            is_undamped(problem.damping.strategy);
   }
 

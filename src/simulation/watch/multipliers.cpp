@@ -1,0 +1,90 @@
+// The multipliers of contact with rigid bodies: a body that is nearly in balance takes its contact pressures as
+// multipliers, and goes on to where nothing penetrates.
+//
+// Taken too early, in the first overshoot of the motion, they would be those of another state; each time they change,
+// the body is out of balance again. So they are taken first at a residual of 1e-2, and then at a tenth of the last one,
+// down to the residual that the scene asks for; at least twice, and until the mean penetration of each patch is less
+// than a thousandth of a cell, and until another update would change them by no more than a hundred times that
+// residual: each takes some nine tenths of what is wrong with the forces. Under loads that still change they follow
+// once in a while.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "simulation/watcher.hpp"
+
+namespace stillpoint {
+namespace {
+
+class Multipliers : public Watcher {
+ public:
+  explicit Multipliers(RunState& run)
+      : touches_(run.model.phase->info().may_touch),
+        least_(run.scene.stop.residual > 0 ? run.scene.stop.residual : least_by_default),
+        largest_change_(std::clamp(100 * least_, 1e-9, 1e-3)),
+        between_(run.model.dwell / 4),
+        goal_(std::max(first, least_)) {
+    run.contact_settled = !touches_;
+  }
+
+  void observe(RunState& run) override {
+    if (!touches_) return;
+    const bool loads_stay = run.schedule.settled(run.t);
+    if (!is_due(run, loads_stay)) return;
+    const LagrangianPhase& phase = *run.model.phase;
+    const ContactState state = phase.supports().contact_state(run.t, run.motion->u());
+    const bool fits = !state.touches || (updates_ >= fewest && is_small(state));
+    run.contact_settled = loads_stay && (fits || updates_ >= most);
+    if (fits || updates_ >= most) return;
+    run.model.phase->control().update_multipliers(run.t, run.motion->u());
+    run.motion->stepper->take_changed_forces(run.t);
+    run.measured.discard();
+    ++updates_;
+    last_ = run.t;
+    if (loads_stay) goal_ = std::max(goal_ / 10, least_);
+  }
+
+  void fill_state(Summary& summary, RunState& run) override {
+    if (!touches_) return;
+    const ContactState state = run.model.phase->supports().contact_state(run.t, run.motion->u());
+    if (is_small(state)) return;
+    add_note(summary,
+             fmt::format("contact gives way by {:.2g} cells on average where most, and its forces may be off by {:.2g} "
+                         "%: its multipliers are those of an earlier state",
+                         state.misfit, 100 * state.change));
+  }
+
+  void archive(const StateArchive& state, RunState& run) override {
+    state("updates", updates_, "goal", goal_, "last", last_, "settled", run.contact_settled, "look", look_);
+  }
+
+ private:
+  static constexpr double first = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
+  static constexpr long fewest = 2, most = 60;  // updates
+  static constexpr long stride = 8;             // [steps] between two looks at the residual of a motion
+
+  bool is_small(const ContactState& state) const {
+    return state.misfit <= largest_misfit && state.change <= largest_change_;
+  }
+  // Whether the body is as near to balance as the next update wants it.
+  bool is_due(RunState& run, bool loads_stay) {
+    if (run.motion->stepper->moves() && ++look_ % stride != 0) return false;
+    if (!loads_stay && run.t < last_ + between_) return false;
+    return run.motion->known_residual(run.t) <= (loads_stay ? goal_ : first);
+  }
+
+  bool touches_;
+  double least_;           // the smallest residual to wait for
+  double largest_change_;  // that another update would make, as a share of the multipliers
+  double between_;         // the time between updates under changing loads [s]
+  double goal_;            // the residual to wait for
+  double last_ = 0;        // when the last update was [s]
+  long updates_ = 0, look_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Watcher> watch_multipliers(RunState& run) { return std::make_unique<Multipliers>(run); }
+
+}  // namespace stillpoint

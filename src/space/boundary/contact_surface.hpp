@@ -1,0 +1,128 @@
+// The border of bodies as points at which they may be touched: pieces of the border, and patches of them.
+//
+// In a single phase the border is cut at the grid lines, with a Gauss rule in each part; in later phases the pieces are
+// the outer faces of domains, two to a face, or positions that material points carry, one to a point. A patch is the
+// pieces of one face in one cell, or of one domain: what the grid's functions can tell apart.
+//
+// A patch answers a penetration with the stiffness κ of a cell [N/m³], as WeakSupports: with G_a ≥ Σ_b |K_ab|
+//
+//   κ = β mean (Σ_a w_a² / Σ_a (w_a²/G_a)) / A_cell,   β = 1,
+//
+// a mean over the patch by area, A_cell the face of the patch's cell. Then the critical step keeps its size. κ is that
+// of the first phase, so that forces continue from phase to phase.
+#pragma once
+
+#include <stillpoint/material.hpp>
+#include <stillpoint/problem.hpp>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "space/boundary/border_piece.hpp"
+#include "space/boundary/weak_supports.hpp"
+
+namespace stillpoint {
+
+template <Kinematics K>
+class ContactSurface {
+  static constexpr int dim = dimensions(K);
+
+ public:
+  using Parts = PhaseParts<dim>;
+
+  struct Patch {
+    std::size_t body = 0;            // number in the scene
+    std::size_t begin = 0, end = 0;  // its pieces
+    double cell = 0;                 // the width of its cell, ∛(volume) in space [m]
+    double depth = 1;                // thickness, or 2 π r if axisymmetric [m]; 1 in space
+    double stiffness = 0;            // κ [N/m³]
+  };
+
+  /// touched: whether a body may be touched, (bodies); grid: that of the first phase.
+  ContactSurface(const Problem& problem, const std::vector<char>& touched, const Grid<dim>& grid);
+
+  bool empty() const { return pieces_.empty(); }
+  std::span<const Patch> patches() const { return patches_; }
+  std::size_t size() const { return pieces_.size(); }
+  /// The area of piece s when the phase began [m²].
+  double area(std::size_t s) const { return area_[s]; }
+  /// The position of piece s when the phase began [m].
+  const Point<dim>& start(std::size_t s) const { return pieces_[s].at.x; }
+  /// The position of piece s at u, over the grid's functions [m].
+  Point<dim> position(std::size_t s, const double* u) const {
+    Point<dim> x = pieces_[s].at.x;
+    for (std::size_t e = begin_[s]; e < begin_[s + 1]; ++e) {
+      const double* const of_function = u + weights_[e].first_unknown;
+      for (int i = 0; i < dim; ++i) x[i] += weights_[e].w * of_function[i];
+    }
+    return x;
+  }
+  /// The change of that position in the direction du.
+  Point<dim> motion(std::size_t s, const double* du) const {
+    Point<dim> dx{};
+    for (std::size_t e = begin_[s]; e < begin_[s + 1]; ++e) {
+      for (int i = 0; i < dim; ++i) dx[i] += weights_[e].w * du[weights_[e].first_unknown + i];
+    }
+    return dx;
+  }
+  /// Adds the force f at piece s to R, (n), and to the reactions of supports that hold its functions, (prescribed or
+  /// more); those may be empty.
+  void add(std::size_t s, const Point<dim>& f, Vec R, Vec reactions) const {
+    for (std::size_t e = sources_begin_[s]; e < sources_begin_[s + 1]; ++e) {
+      const Source& source = sources_[e];
+      const auto dof = static_cast<std::size_t>(source.dof);
+      if (dof < R.size()) {
+        R[dof] += source.w * f[source.component];
+      } else if (dof - R.size() < reactions.size()) {
+        reactions[dof - R.size()] += source.w * f[source.component];
+      }
+    }
+  }
+  /// Calls visit(component, degree of freedom, weight) for what is free at piece s.
+  template <class Visit>
+  void for_free(std::size_t s, const Visit& visit) const {
+    for (std::size_t e = sources_begin_[s]; e < sources_begin_[s + 1]; ++e)
+      if (sources_[e].dof < free_) visit(sources_[e].component, sources_[e].dof, sources_[e].w);
+  }
+
+  void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound);
+  /// Moves the pieces at the end of a phase; u: over the grid's functions.
+  void end_phase(const double* u);
+  void archive(const StateArchive& state);
+
+  /// The bound max_a κ_a/m_a, κ_a = Σ_s A_s κ w_sa, on how much all pieces together add to ω_max² [1/s²]; 0 unless the
+  /// mass is lumped.
+  double bound_of_frequency(const Parts& phase) const;
+
+ private:
+  struct Weight {
+    int first_unknown;  // dim × function
+    double w;
+  };
+  struct Source {
+    int component, dof;  // dof: free or prescribed, as numbered by DegreesOfFreedom
+    double w;
+  };
+
+  void cut(const Problem& problem, std::size_t body, const Grid<dim>& grid);
+  void cut_lines(const Problem& problem, std::size_t body, const Grid<dim>& grid);
+  void cut_faces(const Problem& problem, std::size_t body, const Grid<dim>& grid);
+  void cut_surfaces(const Problem& problem, std::size_t body, const Grid<dim>& grid);
+  void add_patch(std::size_t body, double cell, double depth, std::vector<BorderPiece<K>>&& pieces);
+  void freeze(const Parts& phase);
+  void take_weights(const Parts& phase);
+  void choose_stiffness(const std::vector<double>& G);
+
+  bool phases_end_, has_begun_ = false;
+  int free_ = 0;  // n
+  std::vector<BorderPiece<K>> pieces_;
+  std::vector<Patch> patches_;
+  std::vector<double> area_;           // (pieces) [m²]
+  std::vector<std::size_t> begin_{0};  // first weight of each piece
+  std::vector<Weight> weights_;        // of the functions that material reaches
+  std::vector<std::size_t> sources_begin_{0};
+  std::vector<Source> sources_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,124 @@
+// Contact of bodies with rigid bodies: a force in R(u), exact when open.
+//
+// At a piece s of a body's border (ContactSurface) with the area A and the position x(u), under a rigid body with the
+// signed distance φ, placed by T(t):
+//
+//   g = φ(T⁻¹ x),   p = max(0, λ − κ g),   f = A (p n + τ),   R −= w f,   n = ∇φ
+//
+// κ: the stiffness of its patch; λ: the multiplier of the patch, the pressure that needs no penetration. Without
+// friction R has the potential Σ A p²/(2 κ), and its tangent is symmetric,
+//
+//   ∂f/∂x = −A (κ n nᵀ − p ∇n).
+//
+// A penalty alone gives way by p/κ. The augmented Lagrangian [Simo and Laursen 1992] takes that back: in equilibrium λ
+// becomes the mean p of the patch, and the body goes on to where the mean g is 0. A multiplier for each piece would
+// drift, since the grid's functions cannot tell the pieces of a patch apart.
+//
+// Friction [Coulomb]: with the anchor a, the position in the rigid body at which the piece stuck last, the elastic slip
+// s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
+//
+//   τ = clip(λ_t − κ s) to |τ| ≤ μ p,   a rough body: no limit.
+//
+// Where it slips, the anchor is dragged along when a step is accepted, so that κ s = λ_t − τ there: R depends on the
+// committed state, and has no potential.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/rigid_placement.hpp"
+#include "space/boundary/condition_reports.hpp"
+#include "space/boundary/contact_surface.hpp"
+#include "space/boundary/rigid_motion.hpp"
+
+namespace stillpoint {
+
+template <Kinematics K>
+class RigidContact {
+  static constexpr int dim = dimensions(K), N = dim == 3 ? 3 : 2;  // a line has no rigid bodies
+  using Position = Eigen::Vector<double, N>;
+  using Matrix = Eigen::Matrix<double, N, N>;
+
+ public:
+  using Parts = PhaseParts<dim>;
+
+  /// The problem must outlive this object; grid: that of the first phase; time_scale: see PrescribedMotion.
+  RigidContact(const Problem& problem, const Grid<dim>& grid, double time_scale);
+
+  bool empty() const { return bodies_.empty(); }
+  /// Whether R depends on the state at the last commit.
+  bool remembers() const { return remembers_; }
+
+  /// Throws SceneError if a rigid body overlaps a body when the run begins.
+  void begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound);
+  void end_phase(const double* u) { surface_.end_phase(u); }
+  void archive(const StateArchive& state);
+
+  /// The number of forces that add_force() writes: those of each rigid body on each patch, component by component.
+  std::size_t forces() const { return dim * surface_.patches().size() * bodies_.size(); }
+  /// R −= the forces on the body at (t, u), (n); at_supports: the same at prescribed unknowns; forces: (forces()).
+  void add_force(double t, const double* u, Vec R, Vec at_supports, Vec forces) const;
+  /// dR += the derivative along du.
+  void add_product(Tangent kind, double t, const double* u, const double* du, Vec dR) const;
+  /// matrix += the derivative.
+  void add_matrix(Tangent kind, double t, const double* u, SparseMatrix& matrix) const;
+  /// The displacement of the rigid body at each patch since the phase began, in the order of forces() [m].
+  void add_displacements(double t, std::vector<double>& to) const;
+  /// The factor by which omega_max² may have grown through contacts since the first phase.
+  double growth() const { return growth_; }
+
+  /// Accepts the state at (t, u): anchors are dragged to where pieces slip.
+  void commit(double t, const double* u);
+  /// Takes the pressures at (t, u) as multipliers.
+  void update_multipliers(double t, const double* u);
+  ContactState state(double t, const double* u) const;
+  std::vector<RigidReport> report(double t, const double* u) const;
+
+ private:
+  struct RigidBody {
+    const RigidSpec* spec;
+    RigidShapePtr<N> shape;
+    RigidMotion<N> motion;
+    std::vector<char> touches;  // (bodies)
+    // Of the patches:
+    std::vector<double> lambda;      // λ [Pa]
+    std::vector<Position> lambda_t;  // λ_t, in the rigid body's axes [Pa]
+    // Of the pieces, in the rigid body's axes:
+    std::vector<Position> anchor;     // a [m]
+    std::vector<char> anchored;       // whether a is known
+    std::vector<Position> looked_at;  // where φ was evaluated last [m]
+    std::vector<double> found;        // φ there [m]; it changes by no more than the way from there
+  };
+  /// What touches at a piece.
+  struct Touch {
+    std::size_t patch, piece;
+    double area, kappa;
+    Position X;     // x in the rigid body's axes
+    Nearest<N> at;  // φ in the scene's axes
+    double p;
+    Position tau;        // τ, in the scene's axes
+    Position tau_trial;  // λ_t − κ s before the limit, likewise
+    bool slips;
+  };
+
+  static Position position_of(const Point<dim>& x);
+  template <class Visit>
+  void for_touching(const RigidBody& rigid, double t, const double* u, double slack, const Visit& visit) const;
+  void add_friction(const RigidBody& rigid, const RigidPlacement<N>& placement, Touch& touch) const;
+  Matrix stiffness(const RigidBody& rigid, Tangent kind, const Touch& touch) const;
+  template <class Visit>
+  void for_stiffness(Tangent kind, double t, const double* u, const Visit& visit) const;
+  void look(double t, const double* u);
+  void refuse_overlaps(double t) const;
+
+  const Problem& problem_;
+  std::vector<RigidBody> bodies_;
+  ContactSurface<K> surface_;
+  std::vector<char> closed_;  // of commit(), (pieces)
+  bool remembers_ = false, has_begun_ = false;
+  double start_ = 0;  // when the phase began [s]
+  double first_bound_ = 0, growth_ = 1;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,155 @@
+// Contact with rigid bodies: its force and its tangent, in the plane, axisymmetric and in space.
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/SparseCore>
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+#include "statics.hpp"
+
+using namespace stillpoint;
+
+namespace stillpoint::test {
+namespace {
+
+/// A free block of two by two (by two) cells of 1/2, from 0.2 on, that a rigid body touches or not.
+Scene touched_block(const std::string& kind, const std::string& rigid, const std::string& more = "") {
+  const bool in_space = kind == "space";
+  const std::string third = in_space ? ", 0.2" : "", end = in_space ? ", 1.2" : "";
+  return load_scene("block.toml", fmt::format("dim = {}\n[grid]\nmin = [0, 0{}]\nmax = [2, 2{}]\ncells = [4, 4{}]\n"
+                                 "[body]\nmin = [0.2, 0.2{}]\nmax = [1.2, 1.2{}]\nmaterial = 'm'\nstate = '{}'\n"
+                                 "[material.m]\nlaw = 'linear-elastic'\nE = 100\nnu = 0.3\nrho = 1\n"
+                                 "[damping]\nc = 1\n[[rigid]]\nname = 'ball'\n{}\n{}\n",
+                                 in_space ? 3 : 2, in_space ? ", 0" : "", in_space ? ", 2" : "", in_space ? ", 4" : "",
+                                 third, end, in_space ? "space" : kind, rigid, more), {});
+}
+
+const std::vector<std::string> kinds = {"plane-strain", "axisymmetric", "space"};
+
+std::string ball_at(const std::string& kind, double height) {
+  if (kind == "space") return fmt::format("sphere = [0.75, {}, 0.8]\nradius = 0.6", height);
+  return fmt::format("disc = [{}, {}]\nradius = 0.6", kind == "axisymmetric" ? 0.0 : 0.75, height);
+}
+
+std::vector<double> some_motion(std::size_t n, double size) {
+  std::vector<double> u(n);
+  for (std::size_t k = 0; k < n; ++k) u[k] = size * std::sin(static_cast<double>(3 * k + 1));
+  return u;
+}
+
+std::vector<double> sum_of(const std::vector<double>& a, const std::vector<double>& b, double factor) {
+  std::vector<double> sum = a;
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += factor * b[k];
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a rigid body that is apart leaves R as it is to the bit, and reports nothing") {
+  for (const std::string& kind : kinds) {
+    CAPTURE(kind);
+    const auto apart = make_phase(touched_block(kind, ball_at(kind, 1.9)));
+    Scene alone = touched_block(kind, ball_at(kind, 1.9));
+    alone.rigid.clear();
+    const auto without = make_phase(resolve(alone));
+    const std::vector<double> u = some_motion(apart->size(), 0.01);
+    CHECK(statics::internal_force(*apart, u) == statics::internal_force(*without, u));
+    const RigidReport report = apart->supports().rigid_bodies(0, u).at(0);
+    CHECK(report.force == std::array<double, 3>{});
+    CHECK(report.area == 0);
+    CHECK_FALSE(apart->supports().contact_state(0, u).touches);
+  }
+}
+
+TEST_CASE("the tangent of contact is the derivative of its force, and symmetric without friction") {
+  for (const std::string& kind : kinds) {
+    for (const char* friction : {"0", "0.3", "'rough'"}) {
+      CAPTURE(kind, friction);
+      const auto phase = make_phase(touched_block(kind, ball_at(kind, 1.65) + "\nfriction = " + friction));
+      const std::size_t n = phase->size();
+      const std::vector<double> u = some_motion(n, 0.004), du = some_motion(n, 1);
+      REQUIRE(phase->supports().rigid_bodies(0, u).at(0).area > 0.1);
+      constexpr double h = 1e-6;
+      const std::vector<double> ahead = statics::internal_force(*phase, sum_of(u, du, h)),
+                                behind = statics::internal_force(*phase, sum_of(u, du, -h));
+      std::vector<double> product(n);
+      phase->tangents().apply(Tangent::consistent, 0, u, du, product);
+      const SparseMatrix K = phase->tangents().matrix(Tangent::consistent, 0, u);
+      const Eigen::VectorXd by_matrix = K * Eigen::Map<const Eigen::VectorXd>(du.data(), static_cast<Eigen::Index>(n));
+      double error = 0, difference = 0, scale = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double slope = (ahead[k] - behind[k]) / (2 * h);
+        error = std::max(error, std::abs(slope - product[k]));
+        difference = std::max(difference, std::abs(by_matrix[static_cast<Eigen::Index>(k)] - product[k]));
+        scale = std::max(scale, std::abs(slope));
+      }
+      REQUIRE(scale > 0);
+      CHECK(difference < 1e-13 * scale);  // rounding
+      // The turn of the tangential plane of a curved body is left out where friction acts.
+      CHECK(error < (std::string(friction) == "0" ? 1e-8 : 0.02) * scale);
+      const double unsymmetric = (K - SparseMatrix(K.transpose())).norm() / K.norm();
+      if (std::string(friction) == "0") CHECK(unsymmetric < 1e-14);
+      const SparseMatrix stiffest = phase->tangents().matrix(Tangent::stiffest, 0, u),
+                         elastic = phase->tangents().matrix(Tangent::elastic, 0, u);
+      const Eigen::Map<const Eigen::VectorXd> x(du.data(), static_cast<Eigen::Index>(n));
+      CHECK(x.dot(stiffest * x) > x.dot(elastic * x));
+    }
+  }
+}
+
+TEST_CASE("the forces on a body are together what the rigid body reports, with its moment") {
+  for (const std::string& kind : {std::string("plane-strain"), std::string("space")}) {
+    CAPTURE(kind);
+    const bool in_space = kind == "space";
+    const Scene scene = touched_block(
+        kind, ball_at(kind, 1.65) + "\nfriction = 0.3\n" +
+                  (in_space ? "rotation = ['0.2*t', '0', '0.3*t']\nabout = [0.1, 0.4, 0.2]\nmotion = ['0', '0.01*t', '0']"
+                            : "rotation = '0.3*t'\nabout = [0.1, 0.4]\nmotion = ['0', '0.01*t']"));
+    const auto phase = make_phase(scene);
+    Scene alone = scene;
+    alone.rigid.clear();
+    const auto without = make_phase(resolve(alone));
+    const std::size_t n = phase->size(), dim = in_space ? 3 : 2;
+    const std::vector<double> u(n, 0.0);
+    constexpr double t = 0.1;
+    const std::vector<double> R = statics::internal_force(*phase, u, t), R_alone = statics::internal_force(*without, u, t);
+    const RigidReport report = phase->supports().rigid_bodies(t, u).at(0);
+    REQUIRE(report.area > 0.1);
+    const NodalLayout layout = phase->shape().layout();
+    std::array<double, 3> force{}, moment{};
+    const double centre[3] = {0.1, 0.4 + 0.01 * t, 0.2};
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(layout.component[k]);
+      const double f = R_alone[k] - R[k];
+      force[i] += f;
+      std::array<double, 3> arm{}, along{};
+      for (std::size_t d = 0; d < dim; ++d) arm[d] = layout.positions[dim * static_cast<std::size_t>(layout.node[k]) + d] - centre[d];
+      along[i] = f;
+      for (std::size_t d = 0; d < 3; ++d)
+        moment[d] += arm[(d + 1) % 3] * along[(d + 2) % 3] - arm[(d + 2) % 3] * along[(d + 1) % 3];
+    }
+    REQUIRE(std::abs(force[1]) > 1);
+    for (std::size_t d = 0; d < 3; ++d) {
+      CHECK(report.force[d] == Approx(force[d]).margin(1e-12 * std::abs(force[1])));
+      CHECK(report.moment[d] == Approx(moment[d]).margin(1e-12 * std::abs(force[1])));
+    }
+  }
+}
+
+TEST_CASE("multipliers keep the force where they are taken, and the penalty acts on what changes from there") {
+  const auto phase = make_phase(touched_block("plane-strain", "half_plane = [[0, 1.15], [0, -1]]"));
+  const std::vector<double> u(phase->size(), 0.0);
+  const double before = phase->supports().rigid_bodies(0, u).at(0).force[1];
+  REQUIRE(before < 0);
+  CHECK(phase->supports().contact_state(0, u).misfit == Approx(0.1));  // 0.05 of cells of 0.5
+  phase->control().update_multipliers(0, u);
+  const double after = phase->supports().rigid_bodies(0, u).at(0).force[1];
+  CHECK(after == Approx(2 * before).epsilon(1e-12));  // λ + κ g, with λ = κ g
+}
+
+}  // namespace stillpoint::test
