@@ -5,10 +5,11 @@
 // the body is out of balance again. So they are taken first at a residual of 1e-2, and then at a tenth of the last one,
 // down to the residual that the scene asks for; at least twice, and until the mean penetration of each patch is less
 // than a thousandth of a cell, and until another update would change them by no more than a hundred times that
-// residual: each takes some nine tenths of what is wrong with the forces. Under loads that still change they follow
-// once in a while.
+// residual: each takes some nine tenths of what is wrong with the forces. At the edge of a contact a patch may open and
+// close from one update to the next; once they come no nearer, there are no more. Under loads that still change they
+// follow once in a while.
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ class Multipliers : public Watcher {
     if (!is_due(run, loads_stay)) return;
     const LagrangianPhase& phase = *run.model.phase;
     const ContactState state = phase.supports().contact_state(run.t, run.motion->u());
-    const bool fits = !state.touches || (updates_ >= fewest && is_small(state));
+    const bool fits = !state.touches || (updates_ >= fewest && (is_small(state) || comes_no_nearer(state)));
     run.contact_settled = loads_stay && (fits || updates_ >= most);
     if (fits || updates_ >= most) return;
     run.model.phase->control().update_multipliers(run.t, run.motion->u());
@@ -42,13 +43,16 @@ class Multipliers : public Watcher {
     run.measured.discard();
     ++updates_;
     last_ = run.t;
-    if (loads_stay) goal_ = std::max(goal_ / 10, least_);
+    if (!loads_stay) return;
+    goal_ = std::max(goal_ / 10, least_);
+    if (state.change < nearer * least_change_) least_change_ = state.change, nearest_ = updates_;
   }
 
   void fill_state(Summary& summary, RunState& run) override {
-    if (!touches_) return;
+    constexpr double negligible = 1e-3;  // of the forces
+    if (!touches_ || !run.scene.stop.wants_equilibrium()) return;
     const ContactState state = run.model.phase->supports().contact_state(run.t, run.motion->u());
-    if (is_small(state)) return;
+    if (state.misfit <= largest_misfit && state.change <= negligible) return;
     add_note(summary,
              fmt::format("contact gives way by {:.2g} cells on average where most, and its forces may be off by {:.2g} "
                          "%: its multipliers are those of an earlier state",
@@ -56,16 +60,22 @@ class Multipliers : public Watcher {
   }
 
   void archive(const StateArchive& state, RunState& run) override {
-    state("updates", updates_, "goal", goal_, "last", last_, "settled", run.contact_settled, "look", look_);
+    state("updates", updates_, "goal", goal_, "last", last_, "least_change", least_change_, "nearest", nearest_,
+          "settled", run.contact_settled, "look", look_);
   }
 
  private:
   static constexpr double first = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
+  static constexpr double nearer = 0.5;
   static constexpr long fewest = 2, most = 60;  // updates
   static constexpr long stride = 8;             // [steps] between two looks at the residual of a motion
 
   bool is_small(const ContactState& state) const {
     return state.misfit <= largest_misfit && state.change <= largest_change_;
+  }
+  bool comes_no_nearer(const ContactState& state) const {
+    constexpr long patience = 4;  // updates
+    return state.misfit <= largest_misfit && updates_ >= nearest_ + patience;
   }
   // Whether the body is as near to balance as the next update wants it.
   bool is_due(RunState& run, bool loads_stay) {
@@ -80,7 +90,8 @@ class Multipliers : public Watcher {
   double between_;         // the time between updates under changing loads [s]
   double goal_;            // the residual to wait for
   double last_ = 0;        // when the last update was [s]
-  long updates_ = 0, look_ = 0;
+  double least_change_ = std::numeric_limits<double>::infinity();  // so far, under loads that stay
+  long updates_ = 0, nearest_ = 0, look_ = 0;                      // nearest_: the update at which it was found
 };
 
 }  // namespace

@@ -1,8 +1,4 @@
-// The border of bodies as points at which they may be touched: pieces of the border, and patches of them.
-//
-// In a single phase the border is cut at the grid lines, with a Gauss rule in each part; in later phases the pieces are
-// the outer faces of domains, two to a face, or positions that material points carry, one to a point. A patch is the
-// pieces of one face in one cell, or of one domain: what the grid's functions can tell apart.
+// The border of bodies as points at which they may be touched: its pieces and patches (border_patches.hpp).
 //
 // A patch answers a penetration with the stiffness κ of a cell [N/m³], as WeakSupports: with G_a ≥ Σ_b |K_ab|
 //
@@ -19,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "space/boundary/border_piece.hpp"
+#include "space/boundary/border_patches.hpp"
 #include "space/boundary/weak_supports.hpp"
 
 namespace stillpoint {
@@ -37,6 +33,9 @@ class ContactSurface {
     double cell = 0;                 // the width of its cell, ∛(volume) in space [m]
     double depth = 1;                // thickness, or 2 π r if axisymmetric [m]; 1 in space
     double stiffness = 0;            // κ [N/m³]
+    // In the present phase:
+    std::size_t first_function = 0, end_function = 0;  // its functions, in functions_of_patches()
+    double weight = 0;                                 // the largest Σ_a |w_a| of its pieces
   };
 
   /// touched: whether a body may be touched, (bodies); grid: that of the first phase.
@@ -45,6 +44,10 @@ class ContactSurface {
   bool empty() const { return pieces_.empty(); }
   std::span<const Patch> patches() const { return patches_; }
   std::size_t size() const { return pieces_.size(); }
+  /// The functions that move the pieces, each once, by the numbers of their first unknowns; and those of the patches,
+  /// by their places in that list.
+  const std::vector<int>& functions() const { return functions_; }
+  const std::vector<int>& functions_of_patches() const { return of_patches_; }
   /// The area of piece s when the phase began [m²].
   double area(std::size_t s) const { return area_[s]; }
   /// The position of piece s when the phase began [m].
@@ -105,13 +108,9 @@ class ContactSurface {
     double w;
   };
 
-  void cut(const Problem& problem, std::size_t body, const Grid<dim>& grid);
-  void cut_lines(const Problem& problem, std::size_t body, const Grid<dim>& grid);
-  void cut_faces(const Problem& problem, std::size_t body, const Grid<dim>& grid);
-  void cut_surfaces(const Problem& problem, std::size_t body, const Grid<dim>& grid);
-  void add_patch(std::size_t body, double cell, double depth, std::vector<BorderPiece<K>>&& pieces);
   void freeze(const Parts& phase);
   void take_weights(const Parts& phase);
+  void take_functions();
   void choose_stiffness(const std::vector<double>& G);
 
   bool phases_end_, has_begun_ = false;
@@ -123,6 +122,7 @@ class ContactSurface {
   std::vector<Weight> weights_;        // of the functions that material reaches
   std::vector<std::size_t> sources_begin_{0};
   std::vector<Source> sources_;
+  std::vector<int> functions_, of_patches_;
 };
 
 }  // namespace stillpoint

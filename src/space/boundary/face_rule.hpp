@@ -32,12 +32,9 @@ inline std::vector<FacePoint> face_rule(const BodySpec& body, std::size_t along,
   return rule;
 }
 
-/// The rule for a load that varies along the face, so that the products of cubic loads with the functions are exact.
-/// Five Gauss points, exact to degree 9, as cubic functions have degree 6 along an oblique line; or three in each of
-/// the n equal parts that material points carry.
-inline std::vector<FacePoint> varying_face_rule(const BodySpec& body, std::size_t along, bool carried) {
-  const int parts = carried ? body.points_per_cell[along] : 1;
-  const std::vector<double> xi = line_positions(Placement::gauss, carried ? 3 : 5);
+/// The rule of so many Gauss points in each of so many equal parts.
+inline std::vector<FacePoint> gauss_in_parts(int points, int parts) {
+  const std::vector<double> xi = line_positions(Placement::gauss, points);
   const Eigen::MatrixXd row = Eigen::Map<const Eigen::RowVectorXd>(xi.data(), static_cast<Eigen::Index>(xi.size()));
   const MomentFit gauss = fit_moments(row);
   std::vector<FacePoint> rule;
@@ -46,6 +43,13 @@ inline std::vector<FacePoint> varying_face_rule(const BodySpec& body, std::size_
       rule.push_back({middle + xi[k] / parts, 2 * gauss.weights(static_cast<Eigen::Index>(k)) / parts});
   }
   return rule;
+}
+
+/// The rule for a load that varies along the face, so that the products of cubic loads with the functions are exact.
+/// Five Gauss points, exact to degree 9, as cubic functions have degree 6 along an oblique line; or three in each of
+/// the n equal parts that material points carry.
+inline std::vector<FacePoint> varying_face_rule(const BodySpec& body, std::size_t along, bool carried) {
+  return carried ? gauss_in_parts(3, body.points_per_cell[along]) : gauss_in_parts(5, 1);
 }
 
 }  // namespace stillpoint

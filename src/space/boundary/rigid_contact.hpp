@@ -23,20 +23,18 @@
 // committed state, and has no potential.
 #pragma once
 
-#include <memory>
-#include <string>
+#include <algorithm>
 #include <vector>
 
-#include "geometry/rigid_placement.hpp"
 #include "space/boundary/condition_reports.hpp"
 #include "space/boundary/contact_surface.hpp"
-#include "space/boundary/rigid_motion.hpp"
+#include "space/boundary/touch_finder.hpp"
 
 namespace stillpoint {
 
 template <Kinematics K>
 class RigidContact {
-  static constexpr int dim = dimensions(K), N = dim == 3 ? 3 : 2;  // a line has no rigid bodies
+  static constexpr int dim = dimensions(K), N = TouchFinder<K>::N;
   using Position = Eigen::Vector<double, N>;
   using Matrix = Eigen::Matrix<double, N, N>;
 
@@ -45,6 +43,8 @@ class RigidContact {
 
   /// The problem must outlive this object; grid: that of the first phase; time_scale: see PrescribedMotion.
   RigidContact(const Problem& problem, const Grid<dim>& grid, double time_scale);
+  RigidContact(const RigidContact&) = delete;  // its parts know where the surface is
+  RigidContact& operator=(const RigidContact&) = delete;
 
   bool empty() const { return bodies_.empty(); }
   /// Whether R depends on the state at the last commit.
@@ -77,48 +77,70 @@ class RigidContact {
 
  private:
   struct RigidBody {
-    const RigidSpec* spec;
-    RigidShapePtr<N> shape;
-    RigidMotion<N> motion;
-    std::vector<char> touches;  // (bodies)
+    TouchFinder<K> finder;
+    double friction;
     // Of the patches:
     std::vector<double> lambda;      // λ [Pa]
     std::vector<Position> lambda_t;  // λ_t, in the rigid body's axes [Pa]
-    // Of the pieces, in the rigid body's axes:
-    std::vector<Position> anchor;     // a [m]
-    std::vector<char> anchored;       // whether a is known
-    std::vector<Position> looked_at;  // where φ was evaluated last [m]
-    std::vector<double> found;        // φ there [m]; it changes by no more than the way from there
+    // Of the pieces, with friction:
+    std::vector<Position> anchor;  // a, in the rigid body's axes [m]
+    std::vector<char> closed;      // of commit()
   };
   /// What touches at a piece.
-  struct Touch {
-    std::size_t patch, piece;
+  struct Touch : TouchFinder<K>::Near {
     double area, kappa;
-    Position X;     // x in the rigid body's axes
-    Nearest<N> at;  // φ in the scene's axes
-    double p;
-    Position tau;        // τ, in the scene's axes
+    double p;            // [Pa]
+    Position tau;        // τ, in the scene's axes [Pa]
     Position tau_trial;  // λ_t − κ s before the limit, likewise
     bool slips;
   };
 
-  static Position position_of(const Point<dim>& x);
+  /// Calls visit(touch) for each piece with λ − κ g ≥ −κ slack; slack: in cells.
   template <class Visit>
-  void for_touching(const RigidBody& rigid, double t, const double* u, double slack, const Visit& visit) const;
+  void for_touches(const RigidBody& rigid, const RigidPlacement<N>& placement, const double* u, double slack,
+                   const Visit& visit) const;
+  /// The same for those that exert a pressure.
+  template <class Visit>
+  void for_closed(const RigidBody& rigid, const RigidPlacement<N>& placement, const double* u,
+                  const Visit& visit) const {
+    for_touches(rigid, placement, u, 0, [&](const Touch& touch) {
+      if (touch.p > 0) visit(touch);
+    });
+  }
   void add_friction(const RigidBody& rigid, const RigidPlacement<N>& placement, Touch& touch) const;
   Matrix stiffness(const RigidBody& rigid, Tangent kind, const Touch& touch) const;
   template <class Visit>
   void for_stiffness(Tangent kind, double t, const double* u, const Visit& visit) const;
-  void look(double t, const double* u);
+  void drag(RigidBody& rigid, const RigidPlacement<N>& placement, const Touch& touch) const;
   void refuse_overlaps(double t) const;
 
-  const Problem& problem_;
-  std::vector<RigidBody> bodies_;
   ContactSurface<K> surface_;
-  std::vector<char> closed_;  // of commit(), (pieces)
+  std::vector<RigidBody> bodies_;
   bool remembers_ = false, has_begun_ = false;
   double start_ = 0;  // when the phase began [s]
   double first_bound_ = 0, growth_ = 1;
 };
+
+template <Kinematics K>
+template <class Visit>
+void RigidContact<K>::for_touches(const RigidBody& rigid, const RigidPlacement<N>& placement, const double* u,
+                                  double slack, const Visit& visit) const {
+  const auto patches = surface_.patches();
+  const auto reach = [&](std::size_t k) {
+    return (patches[k].stiffness > 0 ? rigid.lambda[k] / patches[k].stiffness : 0) + slack * patches[k].cell;
+  };
+  rigid.finder.for_near(placement, u, reach, [&](const typename TouchFinder<K>::Near& near) {
+    const double kappa = patches[near.patch].stiffness;
+    Touch touch{near,
+                surface_.area(near.piece),
+                kappa,
+                std::max(0.0, rigid.lambda[near.patch] - kappa * near.at.distance),
+                Position::Zero(),
+                Position::Zero(),
+                false};
+    if (rigid.friction > 0) add_friction(rigid, placement, touch);
+    visit(touch);
+  });
+}
 
 }  // namespace stillpoint

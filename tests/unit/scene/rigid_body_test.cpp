@@ -92,9 +92,9 @@ TEST_CASE("a cone is in the half plane the wedge on the axis, and in space that 
   for (const char* const more : {"", "\nrounding = 0.2", "\nradius = 0.5", "\nradius = 0.5\nrounding = 0.2"}) {
     INFO(more);
     const std::string keys = std::string("\nangle = 60") + more;
-    const auto wedge = rigid_shape<2>(plane_scene("wedge = [[0, 1], [0, 1]]" + keys, "axisymmetric").rigid[0], true);
-    const auto in_plane = rigid_shape<2>(plane_scene("wedge = [[0, 1], [0, 1]]" + keys).rigid[0], false);
-    const auto cone = rigid_shape<3>(space_scene("cone = [[0, 1, 0], [0, 3, 0]]" + keys).rigid[0], false);
+    const auto wedge = rigid_shape<2>(plane_scene("wedge = [[0, -1], [0, 1]]" + keys, "axisymmetric").rigid[0], true);
+    const auto in_plane = rigid_shape<2>(plane_scene("wedge = [[0, -1], [0, 1]]" + keys).rigid[0], false);
+    const auto cone = rigid_shape<3>(space_scene("cone = [[0, -1, 0], [0, 3, 0]]" + keys).rigid[0], false);
     Largest off;
     for (const Vector3d& x : positions_by_chance<3>(200, 2)) {
       const Vector2d at(std::hypot(x[0], x[2]), x[1]);

@@ -1,0 +1,25 @@
+// The whole border of a body, cut into pieces and patches.
+//
+// In a single phase the border is cut at the grid lines, with a Gauss rule in each part; in later phases the pieces are
+// the outer faces of domains, two to a face, or positions that material points carry, one to a point. A patch is the
+// pieces of one face in one cell, or of one domain: what the grid's functions can tell apart.
+#pragma once
+
+#include <vector>
+
+#include "space/boundary/border_piece.hpp"
+
+namespace stillpoint {
+
+template <Kinematics K>
+struct BorderPatch {
+  double cell;   // the width of its cell, in space ∛(volume) [m]
+  double depth;  // thickness, or 2 π r if axisymmetric [m]; 1 in space
+  std::vector<BorderPiece<K>> pieces;
+};
+
+/// body: its number in the scene; a line has no border. grid: that of the first phase.
+template <Kinematics K>
+std::vector<BorderPatch<K>> border_patches(const Problem& problem, std::size_t body, const Grid<dimensions(K)>& grid);
+
+}  // namespace stillpoint
