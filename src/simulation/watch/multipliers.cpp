@@ -49,14 +49,15 @@ class Multipliers : public Watcher {
   }
 
   void fill_state(Summary& summary, RunState& run) override {
-    constexpr double negligible = 1e-3;  // of the forces
+    constexpr double negligible = 1e-2;  // of the pressures
     if (!touches_ || !run.scene.stop.wants_equilibrium()) return;
     const ContactState state = run.model.phase->supports().contact_state(run.t, run.motion->u());
     if (state.misfit <= largest_misfit && state.change <= negligible) return;
-    add_note(summary,
-             fmt::format("contact gives way by {:.2g} cells on average where most, and its forces may be off by {:.2g} "
-                         "%: its multipliers are those of an earlier state",
-                         state.misfit, 100 * state.change));
+    add_note(
+        summary,
+        fmt::format("contact gives way by {:.2g} cells on average where most, and its pressures may be off by {:.2g} "
+                    "% from patch to patch: its multipliers are those of an earlier state",
+                    state.misfit, 100 * state.change));
   }
 
   void archive(const StateArchive& state, RunState& run) override {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/text.hpp"
 #include "scene/body_depth.hpp"
 #include "scene/throw_scene_error.hpp"
 
@@ -68,10 +69,11 @@ void RigidContact<K>::refuse_overlaps(double t) const {
       for (std::size_t s = patch.begin; s < patch.end; ++s) {
         const double cells = -finder.distance_at_start(s, placement) / patch.cell;
         if (!(cells > most)) continue;
-        throw_scene_error(fmt::format("rigid[{}]", r),
-                          fmt::format("overlaps body[{}] by {:.3g} cells at ({:.6g}) when the run begins; expected at "
-                                      "most half a cell",
-                                      patch.body, cells, fmt::join(surface_.start(s), ", ")));
+        throw_scene_error(
+            fmt::format("rigid[{}]", r),
+            fmt::format("{} overlaps body[{}] by {:.3g} cells at ({:.6g}) when the run begins; expected at most half "
+                        "a cell",
+                        in_quotes(finder.spec().name), patch.body, cells, fmt::join(surface_.start(s), ", ")));
       }
     }
   }

@@ -21,12 +21,14 @@ namespace {
 Scene touched_block(const std::string& kind, const std::string& rigid, const std::string& more = "") {
   const bool in_space = kind == "space";
   const std::string third = in_space ? ", 0.2" : "", end = in_space ? ", 1.2" : "";
-  return load_scene("block.toml", fmt::format("dim = {}\n[grid]\nmin = [0, 0{}]\nmax = [2, 2{}]\ncells = [4, 4{}]\n"
-                                 "[body]\nmin = [0.2, 0.2{}]\nmax = [1.2, 1.2{}]\nmaterial = 'm'\nstate = '{}'\n"
-                                 "[material.m]\nlaw = 'linear-elastic'\nE = 100\nnu = 0.3\nrho = 1\n"
-                                 "[damping]\nc = 1\n[[rigid]]\nname = 'ball'\n{}\n{}\n",
-                                 in_space ? 3 : 2, in_space ? ", 0" : "", in_space ? ", 2" : "", in_space ? ", 4" : "",
-                                 third, end, in_space ? "space" : kind, rigid, more), {});
+  return load_scene("block.toml",
+                    fmt::format("dim = {}\n[grid]\nmin = [0, 0{}]\nmax = [2, 2{}]\ncells = [4, 4{}]\n"
+                                "[body]\nmin = [0.2, 0.2{}]\nmax = [1.2, 1.2{}]\nmaterial = 'm'\nstate = '{}'\n"
+                                "[material.m]\nlaw = 'linear-elastic'\nE = 100\nnu = 0.3\nrho = 1\n"
+                                "[damping]\nc = 1\n[[rigid]]\nname = 'ball'\n{}\n{}\n",
+                                in_space ? 3 : 2, in_space ? ", 0" : "", in_space ? ", 2" : "", in_space ? ", 4" : "",
+                                third, end, in_space ? "space" : kind, rigid, more),
+                    {});
 }
 
 const std::vector<std::string> kinds = {"plane-strain", "axisymmetric", "space"};
@@ -107,9 +109,10 @@ TEST_CASE("the forces on a body are together what the rigid body reports, with i
     CAPTURE(kind);
     const bool in_space = kind == "space";
     const Scene scene = touched_block(
-        kind, ball_at(kind, 1.65) + "\nfriction = 0.3\n" +
-                  (in_space ? "rotation = ['0.2*t', '0', '0.3*t']\nabout = [0.1, 0.4, 0.2]\nmotion = ['0', '0.01*t', '0']"
-                            : "rotation = '0.3*t'\nabout = [0.1, 0.4]\nmotion = ['0', '0.01*t']"));
+        kind,
+        ball_at(kind, 1.65) + "\nfriction = 0.3\n" +
+            (in_space ? "rotation = ['0.2*t', '0', '0.3*t']\nabout = [0.1, 0.4, 0.2]\nmotion = ['0', '0.01*t', '0']"
+                      : "rotation = '0.3*t'\nabout = [0.1, 0.4]\nmotion = ['0', '0.01*t']"));
     const auto phase = make_phase(scene);
     Scene alone = scene;
     alone.rigid.clear();
@@ -117,7 +120,8 @@ TEST_CASE("the forces on a body are together what the rigid body reports, with i
     const std::size_t n = phase->size(), dim = in_space ? 3 : 2;
     const std::vector<double> u(n, 0.0);
     constexpr double t = 0.1;
-    const std::vector<double> R = statics::internal_force(*phase, u, t), R_alone = statics::internal_force(*without, u, t);
+    const std::vector<double> R = statics::internal_force(*phase, u, t),
+                              R_alone = statics::internal_force(*without, u, t);
     const RigidReport report = phase->supports().rigid_bodies(t, u).at(0);
     REQUIRE(report.area > 0.1);
     const NodalLayout layout = phase->shape().layout();
@@ -128,7 +132,8 @@ TEST_CASE("the forces on a body are together what the rigid body reports, with i
       const double f = R_alone[k] - R[k];
       force[i] += f;
       std::array<double, 3> arm{}, along{};
-      for (std::size_t d = 0; d < dim; ++d) arm[d] = layout.positions[dim * static_cast<std::size_t>(layout.node[k]) + d] - centre[d];
+      for (std::size_t d = 0; d < dim; ++d)
+        arm[d] = layout.positions[dim * static_cast<std::size_t>(layout.node[k]) + d] - centre[d];
       along[i] = f;
       for (std::size_t d = 0; d < 3; ++d)
         moment[d] += arm[(d + 1) % 3] * along[(d + 2) % 3] - arm[(d + 2) % 3] * along[(d + 1) % 3];
