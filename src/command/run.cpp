@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ std::string distance_of(const Summary& s) {
 }
 
 void print_table(const Summary& s, const std::filesystem::path& out) {
-  const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<18}{}\n", what, value); };
+  const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<17} {}\n", what, value); };
   fmt::print("{}\n", s.title.empty() ? s.scene : s.title);
   row("status", fmt::format("{}: {}", to_string(s.status), s.reason));
   row("model", fmt::format("{} points, {} degrees of freedom, {}", s.points, s.dofs,
@@ -81,7 +82,12 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
     row("reaction of " + name, fmt::format("({:.9g}) N on the body", fmt::join(force, ", ")));
   for (const auto& [name, moment] : s.reaction_moments)
     row("moment of " + name, fmt::format("({:.9g}) N m about the origin", fmt::join(moment, ", ")));
-  for (const auto& [name, value] : s.contacts) row(name, fmt::format("{:.9g}", value));
+  std::map<std::string, std::string> contacts;
+  for (const auto& [column, value] : s.contacts) {
+    const std::size_t dot = column.rfind('.');
+    contacts[column.substr(0, dot)] += fmt::format("{} = {:.9g}  ", column.substr(dot + 1), value);
+  }
+  for (const auto& [name, figures] : contacts) row("contact of " + name, figures);
   for (const SupportGap& weak : s.weak_supports) {
     row("weak " + weak.support,
         fmt::format("gives way by {:.3g} m at most, {:.2g} of the largest displacement", weak.gap, weak.share));

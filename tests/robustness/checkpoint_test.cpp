@@ -101,6 +101,15 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   }
 }
 
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with rigid bodies that touch it") {
+  check_same_bits({"ladder/incline", {"rigid[0].friction=0.28", "stop.steps=90", "output.every=0.05"}}, 70);
+  check_same_bits({"ladder/pressed_plate", {"damping.strategy=viscous", "checkpoint.every_steps=5"}}, 72);
+  check_same_bits(
+      {"sinking_footing",
+       {"rigid[0].friction=0.3", "constants.T=2", "stop.steps=900", "checkpoint.every_steps=300", "output.every=0.1"}},
+      700);
+}
+
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with the momentum of multigrid") {
   if (!multigrid_is_missing().empty()) return;
   for (const char* strategy : {"viscous", "kinetic", "adaptive", "chebyshev", "auto"}) {

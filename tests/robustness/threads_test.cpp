@@ -57,6 +57,8 @@ TEST_CASE("every problem has the same history and the same frequencies for 1, 2,
       {"neo_hookean_bar", {"stop.steps=200"}},
       {"oedometer", {"grid.cells=[12, 12, 12]"}},  // 13 824 points, 9600 below: loops are threaded
       {"slope", {"grid.cells=[80, 32]", "stop.steps=20"}},
+      {"sinking_footing", {"stop.steps=300"}},
+      {"ladder/incline", {"rigid[0].friction=0.28", "stop.steps=300"}},
       {"slope", {"grid.cells=[80, 32]", "stop.steps=20", "grid.basis=quadratic", "phase.dilatation=splines"}},
   };
   for (const Case& one : cases) check_threads(one, {2, 3, 8});
