@@ -45,7 +45,7 @@ void read_points_per_cell(BodySpec& body, const Value& value, const KeyInfo& key
 
 }  // namespace
 
-void add_body(Tables& tables) {
+[[gnu::no_sanitize_address]] void add_body(Tables& tables) {
   tables
       .add({"body", "material points in a box, in another shape or from a file; [body], or several [[body]]",
             Repeat::once_or_array, "a scene has a body with a material"},

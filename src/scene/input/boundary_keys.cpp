@@ -7,7 +7,7 @@
 
 namespace stillpoint {
 
-void add_boundary(Tables& tables) {
+[[gnu::no_sanitize_address]] void add_boundary(Tables& tables) {
   const std::vector<Word> faces = {"left",           "right",          {"bottom", kNotLine}, {"top", kNotLine},
                                    {"back", kSpace}, {"front", kSpace}};
   tables.add({"support", "a prescribed displacement", Repeat::array}, &Scene::supports)

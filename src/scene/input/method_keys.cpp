@@ -19,7 +19,7 @@ std::string hint(const auto* row, const char* is, const char* key) {
 
 }  // namespace
 
-void add_method(Tables& tables, const Catalogue& catalogue) {
+[[gnu::no_sanitize_address]] void add_method(Tables& tables, const Catalogue& catalogue) {
   std::vector<Word> methods = names_of(catalogue.static_methods);
   methods.insert(methods.begin(), std::string_view("relaxation"));
   const auto strategy = [&catalogue](const std::string& word) {
@@ -90,7 +90,7 @@ void add_method(Tables& tables, const Catalogue& catalogue) {
       .key("wall_time", &StopSpec::wall_time, "time on the clock", {.range = kNotNegative, .unit = "s"});
 }
 
-void add_output(Tables& tables) {
+[[gnu::no_sanitize_address]] void add_output(Tables& tables) {
   tables.add({"output", "what is written, and when"}, &Scene::output)
       .key("every", &OutputSpec::every, "time between rows of the history; 0: chosen",
            {.range = kNotNegative, .unit = "s"})

@@ -3,7 +3,7 @@
 
 namespace stillpoint {
 
-void add_rigid(Tables& tables) {
+[[gnu::no_sanitize_address]] void add_rigid(Tables& tables) {
   constexpr Range below_half_turn{0, 180, false, false};
   tables
       .add({.path = "rigid",

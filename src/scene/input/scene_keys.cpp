@@ -18,7 +18,7 @@ TableInfo constants() {
 }
 
 /// The state at the beginning.
-void add_initial(Tables& tables) {
+[[gnu::no_sanitize_address]] void add_initial(Tables& tables) {
   tables.add({"initial", "the state at t = 0"}, std::identity())
       .key("u", &Scene::initial_u, "displacement", {.unit = "m", .variables = "x", .fallback = "0"})
       .key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"});
@@ -32,7 +32,7 @@ void add_initial(Tables& tables) {
 
 }  // namespace
 
-std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
+[[gnu::no_sanitize_address]] std::vector<TableInfo> scene_tables(const Catalogue& catalogue) {
   Tables tables;
   tables.add({"", "at the top of the file"}, std::identity())
       .key("title", &Scene::title, "of the scene", {.may_be_empty = true})

@@ -9,6 +9,9 @@
 
 namespace stillpoint {
 
+// What adds a table is one chain of hundreds of temporaries, whose scopes the address sanitizer would watch one by one:
+// three minutes of the compiler's time, for no name that outlives them. Hence [[gnu::no_sanitize_address]].
+
 /// [body], or several [[body]].
 void add_body(Tables& tables);
 /// [[support]], [[wall]], [[rigid]], [[force]], [[traction]], [body_force] and [load].
