@@ -13,7 +13,8 @@ A [[case]] has
   seconds    of processor time that a run may take, 60 if not given
 and [[case.quantity]] tables:
   name       of the row
-  read       "error.u_rel_l2", "load.factor" and the like of summary.json, "PROBE.FIELD"; "reactions.SUPPORT.y";
+  read       "error.u_rel_l2", "load.factor", "contacts.RIGID.force_y" and the like of summary.json, "PROBE.FIELD";
+             "reactions.SUPPORT.y";
              "history.COLUMN", the mean of its last values,
              from the time `from` on; "fields.u", "fields.u.y", "fields.stress.yy", …: all points beside an answer of
              closed_answers.py, the relative difference in L2; "heap.runout": how much farther to the right than before

@@ -172,7 +172,7 @@ def value_and_exact(case, quantity, read, outcome, number=-1):
     if first == "fields":
         return field_error(run, read, quantity.exact, constants), 0.0
     names = names_of(constants)
-    if first in ("error", "load"):
+    if first in ("error", "load", "contacts"):
         computed = run.summary[first][rest]
     elif first == "reactions":
         support, _, axis = rest.rpartition(".")
@@ -183,7 +183,7 @@ def value_and_exact(case, quantity, read, outcome, number=-1):
         computed = mean_of_history(folder / "history.csv", rest, value_of(quantity.since, names))
     else:
         computed = run.summary["probes"][first][rest]
-        names = names_of(constants, run.summary["probe_places"][first])
+        names = names_of(constants, run.summary["probe_places"].get(first, ()))  # a body has no place
     exact = None if quantity.exact is None else value_of(quantity.exact, names)
     return (math.nan if computed is None else float(computed)), exact
 

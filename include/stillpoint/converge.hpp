@@ -17,7 +17,7 @@ namespace stillpoint {
 
 /// The quantity that becomes finer from level to level.
 enum class Refinement {
-  h,       // grid.cells along all axes
+  h,       // grid.cells along all axes, or those of each of their pieces
   points,  // points per cell along all axes
   step,    // integrator.step, or integrator.step_fraction
   rtol,    // integrator.rtol
@@ -59,7 +59,7 @@ std::vector<std::vector<std::string>> settings_of_series(const std::vector<std::
 struct ConvergenceLevel {
   std::vector<std::string> set;  // settings of the scene on this level, "key=value"
   double size = 0;  // size of the first refined quantity: h [m], 1/points per cell, step [s], rtol or share of a cell
-  double h = 0;     // the longest side of a cell [m]
+  double h = 0;     // the longest side of a cell; of an axis of unequal ones, of their mean [m]
   double step = 0;  // length of the last step [s]
   std::size_t points = 0, dofs = 0;
   long evaluations = 0;

@@ -23,14 +23,22 @@
 
 namespace stillpoint {
 
+struct GridPiece {          // a row of grid.x, grid.y or grid.z: a part of an axis
+  double from = 0, to = 0;  // [m]
+  int cells = 1;
+  double ratio = 1;  // length of the last cell over that of the first; between them the lengths are a geometric series
+};
+
 struct GridSpec {                // [grid]
   std::vector<double> min, max;  // [m]
   std::vector<int> cells;
+  // The axes x, y and z piece by piece, each piece beginning where the one before ends. If any is given, all are, and
+  // resolve() sets min, max and cells by them. If all are empty, the cells along an axis are equal.
+  std::array<std::vector<GridPiece>, 3> pieces{};
   BasisKind basis = BasisKind::linear;
   std::string follow;  // the [[wall]] whose face of the grid moves with it; empty: the grid stays where it is
 
-  /// The cell length of the initial grid along an axis [m].
-  double cell_length(std::size_t axis) const { return (max[axis] - min[axis]) / cells[axis]; }
+  bool is_by_pieces() const { return !pieces[0].empty() || !pieces[1].empty() || !pieces[2].empty(); }
 };
 
 struct PointOutline {                                     // outline of a body of points in the plane

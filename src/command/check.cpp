@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "command/commands.hpp"
 #include "plan/plan.hpp"
+#include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/setup/model.hpp"
 
@@ -28,6 +29,13 @@ void print_cut_cells(const QuadratureReport& quadrature) {
       groups.push_back(fmt::format("degree {} in {}", degree, cells));
   }
   if (!groups.empty()) fmt::print("  cut cells        {}\n", fmt::join(groups, ", "));
+}
+
+void print_unequal_cells(const GridSpec& grid) {
+  for (std::size_t axis = 0; axis < grid.cells.size(); ++axis)
+    if (!has_equal_cells(grid, axis))
+      fmt::print("  cells along {}    {:.4g} to {:.4g} m long\n", "xyz"[axis], smallest_cell(grid, axis),
+                 longest_cell(grid, axis));
 }
 
 void print_memory(const Plan& plan) {
@@ -77,6 +85,7 @@ int check(const SceneArguments& arguments) {
              basis_names[static_cast<std::size_t>(scene.grid.basis)],
              fmt::join(phase.shape().discretisation().grid_cells, " x "),
              phase.shape().discretisation().occupied_cells);
+  print_unequal_cells(scene.grid);
   for (const BodySpec& body : scene.bodies) {
     fmt::print("  body             of {}: {}, {} volumes\n", body.material, scene.materials.at(body.material).law,
                body.volumes == VolumeRule::equal ? "equal" : "consistent");

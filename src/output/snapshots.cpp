@@ -6,11 +6,12 @@
 #include "output/free_surface.hpp"
 #include "output/point_fields.hpp"
 #include "scene/dimensions.hpp"
+#include "scene/grid_lines.hpp"
 
 namespace stillpoint {
 
 double slope_angle_of(const Problem& problem, ConstVec position) {
-  const double column = (problem.grid.max[0] - problem.grid.min[0]) / problem.grid.cells[0];
+  const double column = longest_cell(problem.grid, 0);
   double base = std::numeric_limits<double>::infinity();
   for (const BodySpec& body : problem.bodies)
     base = std::min(base, body.min.empty() ? problem.grid.min[1] : body.min[1]);

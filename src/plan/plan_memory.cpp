@@ -128,7 +128,7 @@ MemoryPart memory_of_springs(const Problem& problem) {
     for (const FaceInterval& held : held_part(problem.grid, support)) {
       int per_cell = 3;
       for (const BodySpec& body : problem.bodies) per_cell = std::max(per_cell, body.points_per_cell[held.along]);
-      springs *= (held.to - held.from) / problem.grid.cell_length(held.along) * per_cell;
+      springs *= cells_between(problem.grid, held.along, held.from, held.to) * per_cell;
     }
     part.bytes += springs * bytes_of_spring;
     if (part.key.empty()) part.key = fmt::format("support[{}]", k);

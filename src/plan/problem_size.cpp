@@ -11,22 +11,23 @@
 #include <fmt/format.h>
 
 #include "scene/body_solid.hpp"
+#include "scene/grid_lines.hpp"
 #include "scene/point_sums.hpp"
 #include "space/points/solid_cell_rule.hpp"
 
 namespace stillpoint {
 namespace {
 
-// The cells along an axis that low to high touches by more than a rounding: the first, and one beyond the last.
+/// The first cell of an axis, and one beyond the last.
 struct Range {
   double first = 0, end = 0;
   double length() const { return std::max(0.0, end - first); }
 };
 
-Range cells_between(const GridSpec& grid, std::size_t axis, double low, double high) {
+// The cells along an axis that low to high touches by more than a rounding.
+Range touched_cells(const GridSpec& grid, std::size_t axis, double low, double high) {
   constexpr double rounding = 1e-9;
-  const double h = grid.cell_length(axis);
-  return {std::floor((low - grid.min[axis]) / h + rounding), std::ceil((high - grid.min[axis]) / h - rounding)};
+  return {std::floor(cells_before(grid, axis, low) + rounding), std::ceil(cells_before(grid, axis, high) - rounding)};
 }
 
 double lines_in(const std::filesystem::path& file) {
@@ -50,9 +51,9 @@ Filled filled_by_solid(const GridSpec& grid, const BodySpec& body, double per_ce
   const auto solid = solid_of(body);
   std::array<std::vector<double>, 3> lines;  // borders of the cells in the body's box
   for (std::size_t d = 0; d < 3; ++d) {
-    const Range range = cells_between(grid, d, body.min[d], body.max[d]);
-    for (int c = 0; c <= static_cast<int>(range.length()); ++c)
-      lines[d].push_back(std::clamp(grid.min[d] + (range.first + c) * grid.cell_length(d), body.min[d], body.max[d]));
+    const Range range = touched_cells(grid, d, body.min[d], body.max[d]);
+    for (int line = static_cast<int>(range.first); line <= static_cast<int>(range.end); ++line)
+      lines[d].push_back(std::clamp(line_position(grid, d, line), body.min[d], body.max[d]));
   }
   Filled filled;
   std::vector<SpaceBox> cut;
@@ -120,7 +121,7 @@ BodySize body_size(const Problem& problem) {
     const BodySpec& body = problem.bodies[k];
     double cells = is_solid(body) ? 1 : share_of_box(body), per_cell = 1;
     for (std::size_t d = 0; d < dim; ++d) {
-      const Range range = cells_between(problem.grid, d, body.min[d], body.max[d]);
+      const Range range = touched_cells(problem.grid, d, body.min[d], body.max[d]);
       cells *= range.length();
       if (body.file.empty()) per_cell *= body.points_per_cell[d];
       box[d] = {std::min(box[d].first, range.first), std::max(box[d].end, range.end)};

@@ -10,6 +10,7 @@
 #include "geometry/prism.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/driven_motion.hpp"
+#include "scene/grid_fault.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/point_file.hpp"
 
@@ -67,12 +68,23 @@ bool has_solid(const BodySpec& body) {
   }
 }
 
+// The extent of a grid that is given by pieces; none if the pieces are not in order.
+void resolve_grid(const Problem& problem, GridSpec& grid) {
+  if (!grid.is_by_pieces()) return;
+  if (fault_of_pieces(problem).empty()) {
+    take_extent_of_pieces(grid);
+  } else {
+    grid.min.clear(), grid.max.clear(), grid.cells.clear();
+  }
+}
+
 class Resolution {
  public:
-  Resolution(Problem& problem, const Catalogue& catalogue)
-      : problem_(problem), catalogue_(catalogue), has_grid_(fault_of_grid(problem).empty()) {}
+  Resolution(Problem& problem, const Catalogue& catalogue) : problem_(problem), catalogue_(catalogue) {}
 
   std::vector<FileMistake> run() {
+    resolve_grid(problem_, problem_.grid);
+    has_grid_ = fault_of_grid(problem_).empty();
     resolve_state(problem_);
     for (SupportSpec& support : problem_.supports) resolve_component(support);
     problem_.mass.kind.take(problem_.dim == 1 ? MassKind::consistent : MassKind::lumped, "by dim");
@@ -208,7 +220,7 @@ class Resolution {
 
   Problem& problem_;
   const Catalogue& catalogue_;
-  bool has_grid_;
+  bool has_grid_ = false;
   std::vector<FileMistake> mistakes_;
 };
 

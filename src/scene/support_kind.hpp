@@ -3,27 +3,12 @@
 
 #include <stillpoint/problem.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
-namespace stillpoint {
+#include "scene/grid_lines.hpp"
 
-/// The line of an axis that is nearest to x, from 0 to cells: of the grid at the start.
-inline int nearest_line(const GridSpec& grid, std::size_t axis, double x) {
-  const double cells = (x - grid.min[axis]) / grid.cell_length(axis);
-  return static_cast<int>(std::clamp(std::round(cells), 0.0, static_cast<double>(grid.cells[axis])));
-}
-/// The position of a line [m].
-inline double line_position(const GridSpec& grid, std::size_t axis, int line) {
-  const int cells = grid.cells[axis];
-  return line == cells ? grid.max[axis] : grid.min[axis] + (grid.max[axis] - grid.min[axis]) * line / cells;
-}
-inline bool is_on_line(const GridSpec& grid, std::size_t axis, double x) {
-  constexpr double rounding = 1e-12;  // as a share of a cell
-  return std::abs(x - line_position(grid, axis, nearest_line(grid, axis, x))) <= rounding * grid.cell_length(axis);
-}
+namespace stillpoint {
 
 /// True if the basis has a value of its own at each node; otherwise it has one only at the ends of the grid.
 inline bool has_nodal_values(BasisKind basis) { return basis == BasisKind::linear || basis == BasisKind::hermite; }

@@ -140,7 +140,7 @@ class Converging {
     for (Job& job : levels_) {
       ConvergenceLevel& level = job.run.level;
       const Scene scene = with(scene_, job.set);
-      level.h = longest_cell(scene.grid);
+      level.h = longest_mean_cell(scene.grid);
       level.size = size_of(scene, options_.refine.front(), level.step);
       study_.levels.push_back(level);
       if (!job.run.is_there && level.status != RunStatus::interrupted) {

@@ -26,6 +26,39 @@ std::vector<int> times(const std::vector<int>& counts, double factor) {
   return finer;
 }
 
+// The piece with more cells, whose lines remain where the factor is whole: the ratio q of neighbouring lengths becomes
+// q^(n/n'), with n and n' cells before and after.
+GridPiece refined(GridPiece piece, double factor) {
+  const int cells = static_cast<int>(std::lround(piece.cells * factor));
+  if (piece.ratio != 1)
+    piece.ratio = std::pow(piece.ratio, (cells - 1.0) * piece.cells / (static_cast<double>(cells) * (piece.cells - 1)));
+  piece.cells = cells;
+  return piece;
+}
+
+std::string text_of(const GridPiece& piece) {
+  const std::string row = fmt::format("{}, {}, {}", piece.from, piece.to, piece.cells);
+  return piece.ratio == 1 ? fmt::format("[{}]", row) : fmt::format("[{}, {}]", row, piece.ratio);
+}
+
+Settings more_cells(const GridSpec& grid, double factor) {
+  if (!grid.is_by_pieces()) {
+    const std::vector<int> cells = times(grid.cells, factor);
+    return {{fmt::format("grid.cells=[{}]", fmt::join(cells, ", ")),
+             [cells](Problem& finer) { finer.grid.cells = cells; }}};
+  }
+  Settings settings;
+  for (std::size_t axis = 0; axis < grid.cells.size(); ++axis) {
+    std::vector<GridPiece> pieces;
+    std::vector<std::string> rows;
+    for (const GridPiece& piece : grid.pieces.at(axis))
+      rows.push_back(text_of(pieces.emplace_back(refined(piece, factor))));
+    settings.push_back({fmt::format("grid.{}=[{}]", "xyz"[axis], fmt::join(rows, ", ")),
+                        [axis, pieces](Problem& finer) { finer.grid.pieces.at(axis) = pieces; }});
+  }
+  return settings;
+}
+
 Settings more_points(const Problem& problem, double factor) {
   Settings settings;
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
@@ -56,11 +89,8 @@ Settings refined(const Problem& problem, Refinement refinement, double factor) {
     return {{fmt::format("{}={:.17g}", key, value), [value, apply](Problem& finer) { apply(finer, value); }}};
   };
   switch (refinement) {
-    case Refinement::h: {
-      const std::vector<int> cells = times(problem.grid.cells, factor);
-      return {{fmt::format("grid.cells=[{}]", fmt::join(cells, ", ")),
-               [cells](Problem& finer) { finer.grid.cells = cells; }}};
-    }
+    case Refinement::h:
+      return more_cells(problem.grid, factor);
     case Refinement::points:
       return more_points(problem, factor);
     case Refinement::step:
@@ -87,7 +117,7 @@ Settings refined(const Problem& problem, Refinement refinement, double factor) {
 double size_of(const Problem& problem, Refinement refinement, double step) {
   switch (refinement) {
     case Refinement::h:
-      return longest_cell(problem.grid);
+      return longest_mean_cell(problem.grid);
     case Refinement::points:
       return 1.0 / std::ranges::min(problem.bodies.front().points_per_cell);
     case Refinement::step:

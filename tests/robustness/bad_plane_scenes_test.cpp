@@ -20,6 +20,13 @@ const std::vector<BadScene> kBadGridsAndBodies = {
      "grid.cells[1]: 4 cells between"},
     {"half a cell", "[8, 4]\nbasis", "[8, 4.5]\nbasis", "7:13", "grid.cells[1]: must be a whole number"},
     {"too many cells", "[8, 4]\nbasis", "[1000000, 1000]\nbasis", "7:9", "grid.cells: 1e+09 cells are more"},
+    {"one axis by pieces", "min = [0, 0]\nmax = [8, 4]\ncells = [8, 4]", "x = [[0, 8, 8]]", "4:1",
+     "grid: the key 'y' is missing: where one axis is given by pieces, all are"},
+    {"a piece at a negative radius",
+     "min = [0, 0]\nmax = [8, 4]\ncells = [8, 4]\nbasis = \"quadratic\"\nfollow = \"gate\"\n[body]",
+     "x = [[-1, 8, 8]]\ny = [[0, 4, 4]]\nbasis = \"quadratic\"\nfollow = \"gate\"\n[body]\nstate = "
+     "\"axisymmetric\"",
+     "5:7", "grid.x[0][0]: is a radius in an axisymmetric scene, at least 0, not -1"},
     {"a wall that drives what is halted", "[mass]", "[damping]\nstrategy = \"kinetic\"\n[mass]", "23:12",
      "'kinetic' sets velocities to zero, also those that a moving wall gives"},
     {"no wall to follow", "follow = \"gate\"", "follow = \"gat\"", "9:10",

@@ -96,6 +96,15 @@ TEST_CASE(
   CHECK_THAT(said, Contains("  damping          identity, c = 0.45: M a = Q - c v\n"));
 }
 
+TEST_CASE("check says how long cells are along an axis where they are unequal") {
+  CHECK_THAT(printed("check " + bar), !Contains("cells along"));
+  const std::string said = printed("check " STILLPOINT_PROBLEMS
+                                   "/cylinder.toml --set \"grid.x=[[1, 1.7, 3, 4], [1.7, 2, 1]]\" "
+                                   "--set \"grid.y=[[0, 0.25, 2]]\"");
+  CHECK_THAT(said, Contains("4 x 2 cells") && Contains("  cells along x    0.1 to 0.4 m long\n"));
+  CHECK_THAT(said, !Contains("cells along y"));
+}
+
 TEST_CASE("check sums the bytes of a point and the memory of a run to what it says of them together") {
   const std::vector<std::string> said = lines_of(printed("check " + bar));
   const auto sum_from = [&](const std::string& head) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "output/point_fields.hpp"
+#include "scene/grid_lines.hpp"
 
 namespace stillpoint {
 namespace {
@@ -26,18 +27,34 @@ using CellKey = std::uint64_t;
 constexpr int bits_of_axis = 21;
 constexpr std::uint64_t middle = std::uint64_t{1} << (bits_of_axis - 1);
 
-// The cell of a position, as a number; a position beyond the range of numbers is in the last cell in its direction.
-CellKey cell_of(const double* x, const GridSpec& grid, int dim) {
-  CellKey key = 0;
-  for (int k = 0; k < dim; ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    const double cell = std::floor((x[k] - grid.min[axis]) / grid.cell_length(axis));
-    const double most = static_cast<double>(middle) - 2;
-    const auto number = static_cast<std::int64_t>(std::isfinite(cell) ? std::clamp(cell, -most, most) : most);
-    key |= (static_cast<std::uint64_t>(number) + middle) << (bits_of_axis * k);
+// The cells of positions as numbers; a position beyond the range of numbers is in the last cell in its direction.
+class CellKeys {
+ public:
+  CellKeys(const GridSpec& grid, int dim) : grid_(grid), lines_(static_cast<std::size_t>(dim)) {
+    for (std::size_t axis = 0; axis < lines_.size(); ++axis)
+      if (!has_equal_cells(grid, axis)) lines_[axis] = grid_lines(grid, axis);
   }
-  return key;
-}
+  CellKey of(const double* x) const {
+    CellKey key = 0;
+    for (std::size_t axis = 0; axis < lines_.size(); ++axis) {
+      const double cell = number_along(axis, x[axis]), most = static_cast<double>(middle) - 2;
+      const auto number = static_cast<std::int64_t>(std::isfinite(cell) ? std::clamp(cell, -most, most) : most);
+      key |= (static_cast<std::uint64_t>(number) + middle) << (bits_of_axis * axis);
+    }
+    return key;
+  }
+
+ private:
+  // Of unequal cells, those that lie outside the grid count as one on either side.
+  double number_along(std::size_t axis, double x) const {
+    const std::vector<double>& lines = lines_[axis];
+    if (lines.empty() || !std::isfinite(x)) return std::floor(cells_before(grid_, axis, x));
+    return static_cast<double>(std::ranges::upper_bound(lines, x) - lines.begin()) - 1;
+  }
+
+  const GridSpec& grid_;
+  std::vector<std::vector<double>> lines_;  // of each axis; empty: the cells along it are equal
+};
 
 // Values are coded as min + (max − min) k/4094.
 class Scale {
@@ -70,6 +87,19 @@ class Scale {
  private:
   float min_ = std::numeric_limits<float>::infinity(), max_ = -std::numeric_limits<float>::infinity();
 };
+
+// Columns of numbers, each with a scale of its own.
+Json columns(const std::vector<std::vector<float>>& all) {
+  Json coded = Json::array();
+  for (const std::vector<float>& values : all) {
+    Scale scale;
+    scale.include(values);
+    Json column = scale.json();
+    column["values"] = scale.text(values);
+    coded.push_back(std::move(column));
+  }
+  return coded;
+}
 
 // One component at the points that are drawn; component < 0: the length of the vector.
 std::vector<float> picked(const std::vector<double>& values, std::size_t width, int component,
@@ -137,19 +167,32 @@ BodyPicture::BodyPicture(const GridSpec& grid, const BodyMoment& first, std::siz
   // Only about half of the surface points of a body in space are in front of the others.
   const double share = static_cast<double>(found.cells) / static_cast<double>(std::max<std::size_t>(1, points_.size()));
   const double of_cell = dim_ == 1 ? share : std::sqrt(dim_ == 2 ? share : std::min(1.0, 2 * share));
-  for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) mark_.push_back(of_cell * grid.cell_length(k));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) mark_.push_back(of_cell * mean_cell(grid, k));
   for (int k = 0; k < dim_; ++k) x_.push_back(picked(at.front(), static_cast<std::size_t>(dim_), k, points_));
+  find_sizes(grid);
+}
+
+// Points stand for as much as the cells have room for that they are in when the run begins.
+void BodyPicture::find_sizes(const GridSpec& grid) {
+  const std::size_t axes = x_.size();
+  bool all_equal = true;
+  for (std::size_t k = 0; k < axes; ++k) all_equal = all_equal && has_equal_cells(grid, k);
+  for (std::size_t k = 0; k < axes && !all_equal; ++k) {
+    std::vector<float>& along = sizes_.emplace_back();
+    for (const float x : x_[k]) along.push_back(static_cast<float>(cell_length_at(grid, k, x) / mean_cell(grid, k)));
+  }
 }
 
 BodyPicture::Surface BodyPicture::surface(const GridSpec& grid, const std::vector<std::vector<double>>& at) const {
   const auto width = static_cast<std::size_t>(dim_);
   Surface found;
+  const CellKeys cells(grid, dim_);
   std::vector<char> is_seen(all_, dim_ < 3 ? 1 : 0);
   for (const std::vector<double>& position : at) {
     std::vector<CellKey> keys(all_);
     std::unordered_set<CellKey> occupied;
     for (std::size_t p = 0; p < all_; ++p) {
-      keys[p] = cell_of(&position[p * width], grid, dim_);
+      keys[p] = cells.of(&position[p * width]);
       if (p == 0 || keys[p] != keys[p - 1]) occupied.insert(keys[p]);  // a cell's points are consecutive
     }
     if (found.cells == 0 && dim_ < 3) found.cells = occupied.size();
@@ -211,14 +254,7 @@ void BodyPicture::add(const BodyMoment& moment) {
 }
 
 Json BodyPicture::json() const {
-  Json x = Json::array(), fields = Json::array(), moments = Json::array();
-  for (const std::vector<float>& along : x_) {
-    Scale scale;
-    scale.include(along);
-    Json axis = scale.json();
-    axis["values"] = scale.text(along);
-    x.push_back(std::move(axis));
-  }
+  Json fields = Json::array(), moments = Json::array();
   for (const double t : times_) moments.push_back({{"t", number(t)}, {"values", Json::array()}});
   for (const Field& field : fields_) {
     Scale scale;
@@ -228,8 +264,10 @@ Json BodyPicture::json() const {
     fields.push_back(std::move(one));
     for (std::size_t m = 0; m < field.values.size(); ++m) moments[m]["values"].push_back(scale.text(field.values[m]));
   }
-  return {{"dim", dim_}, {"points", all_},   {"drawn", points_.size()}, {"mark", mark_},
-          {"x", x},      {"fields", fields}, {"moments", moments}};
+  Json all = {{"dim", dim_},      {"points", all_},   {"drawn", points_.size()}, {"mark", mark_},
+              {"x", columns(x_)}, {"fields", fields}, {"moments", moments}};
+  if (!sizes_.empty()) all["sizes"] = columns(sizes_);
+  return all;
 }
 
 BodyMoment moment_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVec v) {

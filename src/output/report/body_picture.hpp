@@ -46,8 +46,9 @@ class BodyPicture {
   void add(const BodyMoment& moment);
   /// {dim, points, drawn, mark, x: […], fields: [{name, min, max}], moments: [{t, values: […]}]}. A column of numbers
   /// is a text with two letters for each number, the digits of base 64 (A–Z a–z 0–9 + /) of k in
-  /// min + (max − min) k/4094; 4095 means no number. mark: the size of a drawn point along the axes [m]. The points are
-  /// at x + u.
+  /// min + (max − min) k/4094; 4095 means no number. mark: the size of a drawn point along the axes [m]; beside it,
+  /// where the cells along some axis are unequal, `sizes`: columns like x, by which those of each point are multiplied.
+  /// The points are at x + u.
   Json json() const;
 
  private:
@@ -61,13 +62,14 @@ class BodyPicture {
   };
 
   Surface surface(const GridSpec& grid, const std::vector<std::vector<double>>& at) const;
+  void find_sizes(const GridSpec& grid);
   void keep(std::size_t number, const std::string& name, std::vector<float> values);
 
   int dim_;
   std::size_t all_;
   std::vector<std::size_t> points_;
   std::vector<double> mark_;
-  std::vector<std::vector<float>> x_;
+  std::vector<std::vector<float>> x_, sizes_;
   std::vector<Field> fields_;
   std::vector<double> times_;
 };

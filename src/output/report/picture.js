@@ -126,6 +126,7 @@ function enlargements(picture) {
 // In the plane and in space points are marks as large as what they stand for.
 function pointPicture(parent, picture, body, tools) {
   const inSpace = picture.dim === 3, count = picture.drawn;
+  const sizes = picture.sizes && picture.sizes.map((axis) => numbersOf(axis.values, axis.min, axis.max));
   const canvas = element("canvas", {class: inSpace ? "picture turns" : "picture", tabindex: 0, role: "img"});
   const factor = element("select", {}, ...enlargements(picture).map((value) => element("option", {value}, `× ${short(value)}`)));
   if (factor.length > 1) tools.append(element("label", {}, "Displacements", factor));
@@ -219,7 +220,9 @@ function pointPicture(parent, picture, body, tools) {
     else drawAxes(c, box, toX, toY, pixels, left + shift, height - bottom);
 
     const [X, Y, depth] = seen(now.m, enlarged), values = body.list[now.k].of(now.m), {from, to, least, most} = limitsOf(now.k);
-    const half = inSpace ? [0, 0].fill(Math.max(0.8, 0.75 * Math.max(...picture.mark) * pixels)) : picture.mark.map((length) => Math.max(0.6, 0.6 * length * pixels));
+    const sides = (p) => picture.mark.map((length, k) => length * (sizes ? sizes[k][p] : 1));
+    const halfOf = (p) => inSpace ? [0, 0].fill(Math.max(0.8, 0.75 * Math.max(...sides(p)) * pixels)) : sides(p).map((length) => Math.max(0.6, 0.6 * length * pixels));
+    let half = halfOf(0);
     const order = Array.from({length: count}, (_, p) => p);
     const shade = (p) => Number.isFinite(values[p]) ? Math.max(0, Math.min(63, Math.round(63 * (to > from ? (values[p] - from) / (to - from) : 0)))) : -1;
     if (inSpace) order.sort((a, b) => depth[a] - depth[b]);
@@ -231,6 +234,7 @@ function pointPicture(parent, picture, body, tools) {
       const wanted = shade(p);
       if (wanted !== paint) c.fillStyle = wanted < 0 ? "#999999" : SHADES[wanted];
       paint = wanted;
+      if (sizes) half = halfOf(p);
       const x = toX(X[p]), y = toY(Y[p]), left = Math.floor((x - half[0]) * ratio), top = Math.floor((y - half[1]) * ratio);
       c.fillRect(left, top, Math.ceil((x + half[0]) * ratio) - left, Math.ceil((y + half[1]) * ratio) - top);
     }

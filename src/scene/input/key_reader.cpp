@@ -83,6 +83,23 @@ std::optional<std::string> read_string(const Value& value, const KeyInfo& key) {
   return std::nullopt;
 }
 
+std::optional<GridPiece> read_piece(const Value& value, const KeyInfo& key) {
+  const toml::array* const row = value.node.as_array();
+  if (!row || row->size() < 3 || row->size() > 4) {
+    value.problem(fmt::format("expected {}, found {}", key.row,
+                              row ? fmt::format("{} values", row->size()) : kind_of(value.node)));
+    return std::nullopt;
+  }
+  const auto entry = [&](std::size_t k) {
+    return Value{*row->get(k), fmt::format("{}[{}]", value.path, k), value.reading};
+  };
+  const auto from = read_number(entry(0)), to = read_number(entry(1));
+  const auto cells = read_whole(entry(2), kCells);
+  const auto ratio = row->size() > 3 ? read_number(entry(3), kPositive) : std::optional(1.0);
+  if (!from || !to || !cells || !ratio) return std::nullopt;
+  return GridPiece{.from = *from, .to = *to, .cells = static_cast<int>(*cells), .ratio = *ratio};
+}
+
 std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested) {
   const toml::array* const array = value.node.as_array();
   const std::size_t found = array ? array->size() : 1;
@@ -96,6 +113,7 @@ std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& 
   if (!array && (list || nested)) {
     const char* const of = nested                          ? "coordinates"
                            : key.shape == Shape::positions ? "positions"
+                           : key.shape == Shape::rows      ? "rows"
                            : key.kind == Kind::number      ? "numbers"
                                                            : "strings";
     value.problem(fmt::format("expected an array of {}, found {}", of, kind_of(value.node)));
@@ -164,7 +182,8 @@ void read_keys(const FoundTable& found, const TableInfo& info, const std::vector
     const std::string name(key.info.name);
     if (const toml::node* const node = found.table.get(name)) {
       key.read(part, {*node, path_of(name), reading}, key.info);
-    } else if (key.info.required) {
+    } else if (key.info.required &&
+               std::ranges::none_of(key.info.unless, [&](const auto& other) { return found.table.contains(other); })) {
       reading.problem(location_of(found.table.source()), found.path, fmt::format("the key '{}' is missing", name));
     }
   }

@@ -38,12 +38,20 @@ struct Unwrapped<std::vector<T>> {
   static constexpr bool is_optional = false;
   static constexpr int depth = 1 + Unwrapped<T>::depth;
 };
+template <>
+struct Unwrapped<GridPiece> {  // a row of numbers
+  using type = double;
+  using value = GridPiece;
+  static constexpr bool is_optional = false;
+  static constexpr int depth = 1;
+};
 
 /// An option: its word, by number. A whole number may be written as a word too.
 std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key);
 /// True if the value of a key that takes a number or a word is the word; a misspelt word is reported, and counts.
 bool is_word(const Value& value, const KeyInfo& key);
 std::optional<std::string> read_string(const Value& value, const KeyInfo& key);
+std::optional<GridPiece> read_piece(const Value& value, const KeyInfo& key);
 /// The entries of an array: as many as there are coordinates, or components of a stress, or any number of them (list).
 std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested);
 std::string variables_of(const KeyInfo& key, int dim);
@@ -51,7 +59,9 @@ std::string variables_of(const KeyInfo& key, int dim);
 template <class T>
 std::optional<T> read_value(const Value& value, const KeyInfo& key, bool nested = false) {
   const auto converted = [](auto&& read) { return read ? std::optional(static_cast<T>(*read)) : std::nullopt; };
-  if constexpr (Unwrapped<T>::depth > 0) {
+  if constexpr (std::is_same_v<T, GridPiece>) {
+    return read_piece(value, key);
+  } else if constexpr (Unwrapped<T>::depth > 0) {
     const auto entries = entries_of(value, key, key.list && !nested, nested);
     if (!entries) return std::nullopt;
     T result;
@@ -116,7 +126,8 @@ Key key_of(std::string_view name, Access access, std::string_view help, const Ke
   info.name = name;
   info.help = help;
   info.kind = kind_of_type<typename Unwrapped<Member>::type>();
-  info.shape = Unwrapped<Member>::depth > 1     ? Shape::positions
+  info.shape = !info.row.empty()                ? Shape::rows
+               : Unwrapped<Member>::depth > 1   ? Shape::positions
                : Unwrapped<Member>::depth == 0  ? Shape::one
                : info.list                      ? Shape::list
                : info.of_stress || info.of_turn ? Shape::components

@@ -66,11 +66,16 @@ std::string told_type(const KeyInfo& key) {
       return fmt::format("array of {}s", one);
     case Shape::positions:
       return "array of positions";
+    case Shape::rows:
+      return fmt::format("array of rows {}", key.row);
   }
   return one;
 }
 
-std::string told_default(const KeyInfo& key) { return key.required ? "required" : key.fallback; }
+std::string told_default(const KeyInfo& key) {
+  if (!key.required) return key.fallback;
+  return key.unless.empty() ? "required" : fmt::format("required, except beside {}", key.unless.front());
+}
 
 std::string told_help(const KeyInfo& key) { return fmt::format("{}{}", key.help, told_dims(key.dims)); }
 
@@ -109,6 +114,7 @@ Json schema_of(const KeyInfo& key) {
                 : may_be_one               ? Json{{"anyOf", {one, array(one)}}}
                 : key.shape == Shape::list ? array(one)
                                            : array(array(one));
+  if (key.shape == Shape::rows) schema["items"].update({{"minItems", 3}, {"maxItems", 4}});
   schema["description"] =
       told_help(key) + (key.unit.empty() ? "" : fmt::format(" [{}]", key.unit)) +
       (told_default(key).empty() ? "" : fmt::format("; {}{}", key.required ? "" : "default: ", told_default(key)));
@@ -116,17 +122,24 @@ Json schema_of(const KeyInfo& key) {
 }
 
 Json schema_of(const TableInfo& table) {
-  Json properties = Json::object(), required = Json::array();
+  Json properties = Json::object(), required = Json::array(), replaceable = Json::array(), replacing = Json::array();
   for (const KeyInfo& key : table.keys) {
     if (key.name.starts_with('<'))
       return {{"type", "object"}, {"description", table.help}, {"additionalProperties", schema_of(key)}};
     properties[std::string(key.name)] = schema_of(key);
     if (!table.choice.empty() && key.name == table.choice_key)
       properties[std::string(key.name)] = {{"const", table.choice}, {"description", table.help}};
-    if (key.required || (!table.choice.empty() && key.name == table.choice_key)) required.push_back(key.name);
+    if (key.required && !key.unless.empty()) {
+      replaceable.push_back(key.name);
+      replacing = Json::array({key.unless.front()});
+    } else if (key.required || (!table.choice.empty() && key.name == table.choice_key)) {
+      required.push_back(key.name);
+    }
   }
   Json schema = {{"type", "object"}, {"description", table.help}, {"properties", properties}};
   if (!required.empty()) schema["required"] = required;
+  if (!replaceable.empty())
+    schema["anyOf"] = Json::array({Json{{"required", replaceable}}, Json{{"required", replacing}}});
   schema["additionalProperties"] = false;
   return schema;
 }

@@ -39,7 +39,7 @@ std::vector<Word> names_of(const auto& rows) {
 enum class Kind { number, whole, formula, text };
 /// axes: one value for each coordinate, if there is one a plain value; components: likewise for those of a stress or of
 /// a turn.
-enum class Shape { one, axes, components, list, positions };
+enum class Shape { one, axes, components, list, positions, rows };
 
 struct KeyInfo {
   Range range{};                 // the range of a number
@@ -48,11 +48,13 @@ struct KeyInfo {
   std::string_view variables{};  // the variables of a formula; x stands for all coordinates
   std::string fallback{};        // the default in words; empty: that of the member of Scene
   bool required = false;
-  bool list = false;       // any number of values, not one for each coordinate
+  std::vector<std::string_view> unless{};  // keys of the table of which any makes a required one needless
+  bool list = false;                       // any number of values, not one for each coordinate
   bool of_stress = false;  // one value for each component of a stress: xx; xx, yy, zz, xy; in space yz, zx besides
   bool of_turn = false;    // one value for each turn of a rigid body: in the plane one, in space three
   bool on_face = false;    // one value for each axis but that of a face's normal
   bool in_plane = false;   // positions of two coordinates
+  std::string_view row{};  // of an array of rows, each of which is an array: how a scene writes one
   bool may_be_empty = false;
   Dims dims = kAnyDim;
   std::string_view listed_by{};  // the command that lists the words, if they are many
@@ -95,6 +97,9 @@ std::vector<TableInfo> scene_tables(const Catalogue& catalogue);
 /// Reads every table of a scene. Constants are resolved on the way. False if the scene's dimension is not supported, so
 /// that reading on would only produce nonsense.
 bool read_tables(const std::vector<TableInfo>& tables, const toml::table& root, Scene& scene, Reading& reading);
+
+/// The range of a number of cells: a larger one is a slip, not a grid.
+inline constexpr Range kCells = from(1, 1e7);
 
 /// In the order of DampingTreatment.
 inline constexpr std::array<std::string_view, 5> kTreatments{"automatic", "averaged", "lagged", "implicit", "exact"};

@@ -53,6 +53,9 @@ void drop_keys_of_other_choices(toml::table& root, const Catalogue& catalogue) {
     for (const char* key : {"step", "step_fraction"})
       if (strategy->has_own_step) drop(root, "integrator", key);
   }
+  for (const char* axis : {"x", "y", "z"})
+    if (from_override(root["grid"][axis].node()))
+      for (const char* key : {"min", "max", "cells"}) drop(root, "grid", key);
   if (!chosen("exact", "solution").empty())
     for (const char* key : {"u", "stress"}) drop(root, "exact", key);
   const StaticMethodInfo* const solver = catalogue.static_method(chosen("solve", "method"));

@@ -110,8 +110,6 @@ class SceneCheck {
     return scene_.dim == 1 ? key : fmt::format("{}[{}]", key, axis);
   }
 
-  /// A cell's length along an axis; 0 if the cells are not known.
-  double cell_length(std::size_t axis) const { return known_cell_length(scene_.grid, axis); }
   NamedBox grid_box() const { return {scene_.grid.min, scene_.grid.max, "grid"}; }
   /// True if a position, the value of a key, lies in a box.
   bool inside(const std::vector<double>& position, const NamedBox& box, const std::string& key);

@@ -17,6 +17,31 @@ TableInfo constants() {
   return info;
 }
 
+void add_grid(Tables& tables) {
+  const std::vector<std::string_view> by_pieces = {"x", "y", "z"};
+  const auto pieces = [](Dims dims) {
+    return KeyInfo{.unit = "m", .list = true, .row = "[from, to, cells] or [from, to, cells, ratio]", .dims = dims};
+  };
+  tables
+      .add({"grid", "the background grid", Repeat::once, "a scene has a background grid with min, max and cells"},
+           &Scene::grid)
+      .key("min", &GridSpec::min, "lower corner", {.unit = "m", .required = true, .unless = by_pieces})
+      .key("max", &GridSpec::max, "upper corner", {.unit = "m", .required = true, .unless = by_pieces})
+      .key("cells", &GridSpec::cells, "along each coordinate, equal ones",
+           {.range = kCells, .required = true, .unless = by_pieces})
+      .key(
+          "x", [](GridSpec & grid) -> auto& { return grid.pieces[0]; },
+          "the axis x piece by piece, in place of min, max and cells: every axis or none; ratio: of the last cell of a "
+          "piece to its first, in geometric progression",
+          pieces(kAnyDim))
+      .key(
+          "y", [](GridSpec & grid) -> auto& { return grid.pieces[1]; }, "the axis y, likewise", pieces(kNotLine))
+      .key(
+          "z", [](GridSpec & grid) -> auto& { return grid.pieces[2]; }, "the axis z, likewise", pieces(kSpace))
+      .key("basis", &GridSpec::basis, "of the nodes", {.words = {"linear", "quadratic", "cubic", "hermite"}})
+      .key("follow", &GridSpec::follow, "the wall with which its face of the grid moves from phase to phase");
+}
+
 /// The state at the beginning.
 [[gnu::no_sanitize_address]] void add_initial(Tables& tables) {
   tables.add({"initial", "the state at t = 0"}, std::identity())
@@ -38,17 +63,7 @@ TableInfo constants() {
       .key("title", &Scene::title, "of the scene", {.may_be_empty = true})
       .key("dim", &Scene::dim, "1, 2 or 3 dimensions", {.range = from(1, 3)});
   tables.all.push_back(constants());
-  constexpr double most = 1e7;  // a larger count is a slip, not a grid
-
-  tables
-      .add({"grid", "the background grid", Repeat::once, "a scene has a background grid with min, max and cells"},
-           &Scene::grid)
-      .key("min", &GridSpec::min, "lower corner", {.unit = "m", .required = true})
-      .key("max", &GridSpec::max, "upper corner", {.unit = "m", .required = true})
-      .key("cells", &GridSpec::cells, "along each coordinate", {.range = from(1, most), .required = true})
-      .key("basis", &GridSpec::basis, "of the nodes", {.words = {"linear", "quadratic", "cubic", "hermite"}})
-      .key("follow", &GridSpec::follow, "the wall with which its face of the grid moves from phase to phase");
-
+  add_grid(tables);
   add_body(tables);
   for (TableInfo& material : material_tables(catalogue)) tables.all.push_back(std::move(material));
   tables.add({"mass", "the mass matrix"}, &Scene::mass)

@@ -1,22 +1,41 @@
 // The order of all checks of a scene, and those of its grid, mass, integrator, damping, solver and stop.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
+#include "scene/grid_fault.hpp"
 #include "scene/input/keys.hpp"
 #include "scene/input/scene_check.hpp"
 
 namespace stillpoint {
 namespace {
 
+/// The axes of a grid are given by pieces or by min, max and cells. True if what is written of its pieces could be
+/// read.
+bool check_pieces(SceneCheck& check, const Scene& scene) {
+  constexpr std::array axes = {"x", "y", "z"};
+  bool sound = true;
+  std::string given;
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.dim); ++axis) {
+    const std::string key = fmt::format("grid.{}", axes.at(axis));
+    sound = sound && check.sound(key);
+    if (given.empty() && check.given(key, !scene.grid.pieces.at(axis).empty())) given = key;
+  }
+  check.refuse_if(!given.empty(), "grid", {"min", "max", "cells"},
+                  "follows from the pieces of {}: leave it out, or give min, max and cells in their place", given);
+  return sound;
+}
+
 /// True if the grid is a box that can be divided into its cells.
 bool check_grid(SceneCheck& check, const Scene& scene) {
   const GridSpec& grid = scene.grid;
   check.wrong_if(scene.dim == 3 && grid.basis == BasisKind::hermite, "grid.basis",
                  "'hermite' is a basis of the line and the plane; in space take \"cubic\"");
+  if (!check_pieces(check, scene)) return false;
   if (scene.state == StressState::axisymmetric && !grid.min.empty())
-    check.wrong_if(grid.min[0] < 0, "grid.min[0]", "is a radius in an axisymmetric scene, at least 0, not {}",
-                   grid.min[0]);
+    check.wrong_if(grid.min[0] < 0, grid.is_by_pieces() ? "grid.x[0][0]" : "grid.min[0]",
+                   "is a radius in an axisymmetric scene, at least 0, not {}", grid.min[0]);
   const GridFault fault = fault_of_grid(scene);
   if (fault.empty()) return true;
   const std::string key = fault.key.empty() ? "grid" : "grid." + fault.key;

@@ -51,7 +51,8 @@ void report_files(SceneCheck& check, const std::vector<FileMistake>& files) {
 
 /// The cells that a body spans along an axis; the whole grid if the body is not in order.
 double cells_along(SceneCheck& check, const BodySpec& body, std::size_t axis, bool in_order) {
-  return in_order ? (body.max[axis] - body.min[axis]) / check.cell_length(axis) : check.scene().grid.cells[axis];
+  const GridSpec& grid = check.scene().grid;
+  return in_order ? cells_between(grid, axis, body.min[axis], body.max[axis]) : grid.cells[axis];
 }
 
 /// Checks the approximate number of points.
@@ -163,7 +164,7 @@ long known_points(SceneCheck& check) {
     if (!body.is_box()) return 0;
     long points = scene.grid.cells.empty() ? 0 : 1;
     for (std::size_t axis = 0; axis < scene.grid.cells.size(); ++axis) {
-      const double before = (body.min[axis] - scene.grid.min[axis]) / check.cell_length(axis);
+      const double before = cells_before(scene.grid, axis, body.min[axis]);
       const double cells = cells_along(check, body, axis, /*in_order=*/true);
       const auto is_whole = [](double number) { return std::abs(number - std::round(number)) <= kSliver; };
       if (!is_whole(before) || !is_whole(before + cells)) return 0;

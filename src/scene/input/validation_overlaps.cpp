@@ -25,9 +25,7 @@ double perimeter(const Polygon& polygon) {
 class OverlapCheck {
  public:
   explicit OverlapCheck(SceneCheck& check) : check_(check), bodies_(check.scene().bodies) {
-    rounding_ = kSliver * check.cell_length(0);
-    for (std::size_t axis = 1; axis < static_cast<std::size_t>(check.scene().dim); ++axis)
-      rounding_ = std::max(rounding_, kSliver * check.cell_length(axis));
+    rounding_ = kSliver * longest_cell(check.scene().grid);  // no border has been moved further onto a line
   }
 
   void run() {

@@ -58,8 +58,7 @@ void check_part(SceneCheck& check, const std::string& name, const SupportSpec& s
   const std::size_t along = part.along;
   if (!check.check_interval(name, part, k, check.grid_box()) || holds_by_springs(grid, support)) return;
   for (const auto& [key, end] : {std::pair(".from", part.from), {".to", part.to}}) {
-    const double cells = (end - grid.min[along]) / grid.cell_length(along);
-    const int below = std::clamp(static_cast<int>(std::floor(cells)), 0, grid.cells[along] - 1);
+    const int below = cell_at(grid, along, end);
     check.wrong_if(!is_on_line(grid, along, end), check.end_key(name, key, k),
                    "{:g} is no node of the grid, whose nodes are what is held; expected {:g} or {:g}, a quadratic or "
                    "cubic basis, or a stiffness, by which springs hold any part",

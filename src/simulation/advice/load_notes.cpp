@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/advice/notes.hpp"
 #include "simulation/loads/formula_samples.hpp"
@@ -107,7 +108,7 @@ void note_supports(const Problem& problem, Notes& notes) {
     if (!problem.supports[k].face) continue;
     const Face face = *problem.supports[k].face;
     const auto axis = static_cast<std::size_t>(axis_of(face));
-    const double h = problem.grid.cell_length(axis);
+    const double h = cell_length_at(problem.grid, axis, (is_upper(face) ? problem.grid.max : problem.grid.min)[axis]);
     const bool reached = std::ranges::any_of(problem.bodies, [&](const BodySpec& body) {
       return is_upper(face) ? body.max[axis] > problem.grid.max[axis] - h : body.min[axis] < problem.grid.min[axis] + h;
     });

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "plan/catalogue.hpp"
+#include "scene/grid_lines.hpp"
 #include "simulation/advice/notes.hpp"
 
 namespace stillpoint {
@@ -74,8 +75,8 @@ std::optional<std::string> slender_cells_note(const Problem& problem) {
   if (problem.dim == 1 || problem.grid.basis != BasisKind::linear) return std::nullopt;
   double longest = 0, shortest = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(problem.dim); ++axis) {
-    longest = std::max(longest, problem.grid.cell_length(axis));
-    shortest = std::min(shortest, problem.grid.cell_length(axis));
+    longest = std::max(longest, mean_cell(problem.grid, axis));
+    shortest = std::min(shortest, mean_cell(problem.grid, axis));
   }
   if (longest < slender * shortest) return std::nullopt;
   return fmt::format(

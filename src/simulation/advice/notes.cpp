@@ -12,6 +12,7 @@
 
 #include "plan/catalogue.hpp"
 #include "scene/dimensions.hpp"
+#include "scene/grid_lines.hpp"
 #include "space/grid/basis.hpp"
 
 namespace stillpoint {
@@ -48,7 +49,7 @@ double fewest_domains_across(const Problem& problem) {
   if (!can_bend || problem.phase.quadrature != Quadrature::domains) return fewest;
   for (const BodySpec& body : problem.bodies) {
     for (std::size_t d = 0; d < body.points_per_cell.size(); ++d) {
-      fewest = std::min(fewest, (body.max[d] - body.min[d]) / problem.grid.cell_length(d) * body.points_per_cell[d]);
+      fewest = std::min(fewest, cells_between(problem.grid, d, body.min[d], body.max[d]) * body.points_per_cell[d]);
     }
   }
   return fewest;

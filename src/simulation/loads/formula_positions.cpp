@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scene/body_border.hpp"
+#include "scene/grid_lines.hpp"
 #include "scene/support_kind.hpp"
 #include "simulation/loads/formula_samples.hpp"
 
@@ -18,7 +19,7 @@ constexpr int fewest_of_all = 1000;
 std::vector<double> along(const std::array<double, 2>& from, const std::array<double, 2>& to, const GridSpec& grid,
                           int fewest) {
   double cells = 0;
-  for (std::size_t d = 0; d < 2; ++d) cells += std::abs(to[d] - from[d]) / grid.cell_length(d);
+  for (std::size_t d = 0; d < 2; ++d) cells += std::abs(cells_between(grid, d, from[d], to[d]));
   const int count = std::max(fewest, static_cast<int>(8 * cells));
   std::vector<double> positions;
   for (int k = 0; k < count; ++k) {
@@ -41,7 +42,7 @@ std::vector<double> over(const std::vector<FaceInterval>& part, double face, con
   std::vector<std::vector<double>> positions = {std::vector<double>(part.size() + 1, face)};
   for (std::size_t k = part.size(); k-- > 0;) {
     const auto& [along, from, to] = part[k];
-    const double cells = std::abs(to - from) / grid.cell_length(along);
+    const double cells = std::abs(cells_between(grid, along, from, to));
     const int count = std::max(sampling.fewest, static_cast<int>(sampling.per_cell * cells));
     std::vector<std::vector<double>> finer;
     for (std::vector<double>& x : positions) {

@@ -28,7 +28,7 @@ Verdict Chatter::begin_phase(RunState& run) {
   const std::optional<double> residual = std::exchange(residual_at_end_, std::nullopt);
   if (!residual || !can_chatter(run)) return {};
   const double way = run.progress * run.scene.phase.max_motion;
-  auto said = take(*run.model.phase, way, *residual, longest_cell(run.scene.grid));
+  auto said = take(*run.model.phase, way, *residual, longest_of_smallest_sides(run.scene.grid));
   return said ? Verdict{RunStatus::step_limit, std::move(*said)} : Verdict{};
 }
 

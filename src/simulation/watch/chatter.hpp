@@ -16,7 +16,7 @@ class Chatter : public Watcher {
   Verdict begin_phase(RunState& run) override;
   /// After a change of phase under loads that stay: what to say if the points have gone nowhere, beside the way that
   /// they have been on, since the residual was last so large. way: that of the nodes in the phase before [cells];
-  /// residual: at the end of that phase; cell: the largest side of the grid's cells [m].
+  /// residual: at the end of that phase; cell: a side of the smallest of the grid's cells [m].
   std::optional<std::string> take(const LagrangianPhase& phase, double way, double residual, double cell);
 
   void archive(const StateArchive& state, RunState& run) override;

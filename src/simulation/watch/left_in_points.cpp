@@ -1,18 +1,24 @@
 // The traces that a violent way to rest in many phases leaves in the points: stresses and positions that no function of
 // the grid feels, and that no motion after it takes away.
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "scene/grid_lines.hpp"
 #include "simulation/advice/notes.hpp"
 #include "simulation/watcher.hpp"
 
 namespace stillpoint {
 namespace {
 
-double in_cells(const Problem& problem, const WallReaction& wall, double way) {
-  return way / problem.grid.cell_length(static_cast<std::size_t>(wall.axis));
+// The number of cells at a wall that have the length of a way.
+double in_cells(const Problem& problem, const WallReaction& reaction, double way) {
+  const auto wall = std::ranges::find(problem.walls, reaction.name, &WallSpec::name);
+  const bool is_above = wall != problem.walls.end() && is_upper(wall->face);
+  const auto axis = static_cast<std::size_t>(reaction.axis);
+  return way / cell_length_at(problem.grid, axis, (is_above ? problem.grid.max : problem.grid.min)[axis]);
 }
 
 // A note for each wall that was to move faster than a body follows: how far it has been behind.

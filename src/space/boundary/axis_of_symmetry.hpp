@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/body_solid.hpp"
+#include "scene/grid_lines.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/points/body.hpp"
 
@@ -27,7 +28,7 @@ class AxisOfSymmetry {
   AxisOfSymmetry(const Problem& problem, const Grid<dim>& grid, const Body<K>& body, double time_scale)
       : rest_(Expression(0.0), time_scale) {
     if constexpr (K == Kinematics::axisymmetric) {
-      slack_ = rounding * problem.grid.cell_length(0);
+      slack_ = rounding * cell_length_at(problem.grid, 0, problem.grid.min[0]);
       if (grid.axes[0].min() > slack_) return;
       for (std::size_t b = 0; b < problem.bodies.size(); ++b) find_touching(problem.bodies[b], b, body);
     }

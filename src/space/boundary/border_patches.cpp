@@ -10,6 +10,7 @@
 
 #include "scene/body_border.hpp"
 #include "scene/body_solid.hpp"
+#include "scene/grid_lines.hpp"
 #include "scene/point_sums.hpp"
 #include "space/boundary/face_pieces.hpp"
 #include "space/boundary/grid_crossings.hpp"
@@ -129,7 +130,7 @@ Patches<K> on_surfaces(const Problem& problem, std::size_t number, const Grid<3>
   Patches<K> patches;
   const BodySpec& body = problem.bodies[number];
   double length = std::numeric_limits<double>::infinity();
-  for (std::size_t d = 0; d < dim; ++d) length = std::min(length, problem.grid.cell_length(d) / 2);
+  for (std::size_t d = 0; d < dim; ++d) length = std::min(length, smallest_cell(problem.grid, d) / 2);
   for (const BodySurface surface : {BodySurface::outer, BodySurface::inner, BodySurface::start, BodySurface::end}) {
     if (!why_no_surface(body, surface).empty()) continue;
     std::map<int, std::vector<BorderPiece<K>>> in_cells;

@@ -136,7 +136,7 @@ class Supports final : public BoundaryCondition<Dim> {
     return std::ranges::all_of(held_part(problem_.grid, support), [&](const FaceInterval& part) {
       const auto along = part.along;
       const double x = functions.centre(function, static_cast<int>(along));
-      const double slack = rounding * problem_.grid.cell_length(along);
+      const double slack = rounding * cell_length_at(problem_.grid, along, x);
       return x >= part.from - slack && x <= part.to + slack;
     });
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/body_border.hpp"
+#include "scene/grid_lines.hpp"
 #include "space/boundary/face_pieces.hpp"
 #include "space/boundary/grid_crossings.hpp"
 #include "space/materials/deformation.hpp"
@@ -63,12 +64,12 @@ class TractionCutter {
         [&](std::size_t along) { return rule_along(body, along); },
         [&](const Point<dim>& x, double area, double) { visit(x, area, outwards); });
   }
-  // Cuts a surface into pieces of half a cell, not at the borders of cells: a function with a kink there is integrated
-  // to second order.
+  // Cuts a surface into pieces of half of the smallest cell, not at the borders of cells: a function with a kink there
+  // is integrated to second order.
   template <class Visit>
   void cut_surface(const Visit& visit) const {
     double length = std::numeric_limits<double>::infinity();
-    for (std::size_t d = 0; d < dim; ++d) length = std::min(length, problem_.grid.cell_length(d) / 2);
+    for (std::size_t d = 0; d < dim; ++d) length = std::min(length, smallest_cell(problem_.grid, d) / 2);
     const BodySpec& body = problem_.bodies[body_with_surface(problem_).value()];
     for (const SurfacePiece& piece : surface_pieces(body, *traction_.surface, length)) {
       const auto& [x, y, z] = piece.vector;

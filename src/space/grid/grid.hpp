@@ -10,6 +10,7 @@ namespace stillpoint {
 /// Grid lines along one coordinate, strictly increasing [m]; cell c lies between nodes[c] and nodes[c + 1].
 struct Axis {
   std::vector<double> nodes;
+  bool is_even = true;  // whether the cells are equal, but for one next to a wall that the grid follows
 
   static Axis uniform(double min, double max, int cells) {
     Axis axis;
@@ -19,6 +20,17 @@ struct Axis {
   int cells() const { return static_cast<int>(nodes.size()) - 1; }
   double min() const { return nodes.front(); }
   double max() const { return nodes.back(); }
+  /// The length to which lengths in a cell are related [m]: its own, or if the axis is even the mean.
+  double scale_at(int cell) const {
+    const auto c = static_cast<std::size_t>(cell);
+    return is_even ? (max() - min()) / cells() : nodes[c + 1] - nodes[c];
+  }
+  /// The smallest of these [m].
+  double smallest_scale() const {
+    double smallest = scale_at(0);
+    for (int c = 1; !is_even && c < cells(); ++c) smallest = std::min(smallest, scale_at(c));
+    return smallest;
+  }
   /// The cell that contains x: at a node the one above it, at the ends (and past them) the end cell.
   int cell_of(double x) const { return cell_of(x, cells() / (max() - min())); }
   /// As above, and faster if the lines are evenly spaced, or nearly so: cells_per_length is a mean [1/m].

@@ -43,12 +43,7 @@ class PointFit {
 
   PointFit(const Grid<dim>& grid, const MaterialPoints<dim>& points, const Weights& weights,
            const CornerSum& corner_sum, const Values& values, const Options& options)
-      : grid_(grid), points_(points), weights_(weights), corner_sum_(corner_sum), values_(values), options_(options) {
-    for (int d = 0; d < dim; ++d) {
-      const double h = (grid.axes[d].max() - grid.axes[d].min()) / grid.axes[d].cells();
-      gradient_weight_[d] = options.gradient_share * h * h;
-    }
-  }
+      : grid_(grid), points_(points), weights_(weights), corner_sum_(corner_sum), values_(values), options_(options) {}
 
   /// The coefficients z, component i at [Components function + i]. Where held, (functions × Components) or empty, is
   /// not 0, z is 0.
@@ -92,6 +87,16 @@ class PointFit {
   }
 
  private:
+  // β h_j² of occupied cell k [m²].
+  std::array<double, dim> gradient_weights(std::size_t k) const {
+    const auto cell = grid_.cell_at(points_.cell[k]);
+    std::array<double, dim> weights;
+    for (int d = 0; d < dim; ++d) {
+      const double h = grid_.axes[d].scale_at(cell[d]);
+      weights[d] = options_.gradient_share * h * h;
+    }
+    return weights;
+  }
   std::array<double, Components * dim> known_gradient(std::size_t p) const {
     return values_.gradient.empty() ? std::array<double, Components * dim>{} : values_.gradient[p];
   }
@@ -112,6 +117,7 @@ class PointFit {
   template <class ValueAt, class GradientAt>
   std::vector<double> moments(const ValueAt& value_at, const GradientAt& gradient_at) const {
     return nodal_sum<Components>(points_, weights_, corner_sum_, [&](std::size_t k, Corner& corner) {
+      const std::array<double, dim> gradient_weight = gradient_weights(k);
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
         const double m = values_.mass[p];
         if (m == 0) continue;
@@ -122,7 +128,7 @@ class PointFit {
         for (int a = 0; a < per_cell; ++a) {
           for (int i = 0; i < Components; ++i) {
             double share = N[a] * w[i];
-            for (int j = 0; j < dim; ++j) share += gradient_weight_[j] * dN[per_cell * j + a] * g[dim * i + j];
+            for (int j = 0; j < dim; ++j) share += gradient_weight[j] * dN[per_cell * j + a] * g[dim * i + j];
             corner[Components * a + i] += m * share;
           }
         }
@@ -146,12 +152,13 @@ class PointFit {
   template <class Term>
   std::vector<double> sums(const Term& term) const {
     return nodal_sum<1>(points_, weights_, corner_sum_, [&](std::size_t k, Corners<1, per_cell>& corner) {
+      const std::array<double, dim> gradient_weight = gradient_weights(k);
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
         const auto N = weights_.N(k, p);
         const auto dN = weights_.dN(k, p);
         for (int a = 0; a < per_cell; ++a) {
           double slope = 0;
-          for (int j = 0; j < dim; ++j) slope += gradient_weight_[j] * dN[per_cell * j + a] * dN[per_cell * j + a];
+          for (int j = 0; j < dim; ++j) slope += gradient_weight[j] * dN[per_cell * j + a] * dN[per_cell * j + a];
           corner[a] += values_.mass[p] * term(N[a], slope);
         }
       }
@@ -214,7 +221,6 @@ class PointFit {
   const CornerSum& corner_sum_;
   const Values& values_;
   Options options_;
-  std::array<double, dim> gradient_weight_{};  // β h_j² [m²]
 };
 
 }  // namespace stillpoint

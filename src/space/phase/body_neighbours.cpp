@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "scene/grid_lines.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -76,15 +78,14 @@ BodyGap BodyNeighbours<Dim>::gap_between(std::size_t a, std::size_t b, const std
     for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
       if (body_of(p) != a) continue;
       const std::size_t q = *std::ranges::min_element(near, {}, [&](std::size_t at) { return distance(p, at); });
-      const double gap =
-          shapes ? gap_along(p, q, (*shapes)[a], (*shapes)[b]) : distance(p, q) - half_spacing(a) - half_spacing(b);
+      const double gap = shapes ? gap_along(p, q, (*shapes)[a], (*shapes)[b])
+                                : distance(p, q) - half_spacing(a, p) - half_spacing(b, q);
       if (gap >= found.gap) continue;
       found.gap = std::max(0.0, gap);
       found.cells = 0;
       const double share = found.gap / distance(p, q);
       for (int d = 0; d < Dim; ++d)
-        found.cells = std::max(found.cells, share * std::abs(points_.x[d][p] - points_.x[d][q]) /
-                                                problem_.grid.cell_length(static_cast<std::size_t>(d)));
+        found.cells = std::max(found.cells, share * std::abs(points_.x[d][p] - points_.x[d][q]) / cell_length(d, p));
     }
     if (found.cells <= touching) break;
   }
@@ -98,13 +99,18 @@ double BodyNeighbours<Dim>::distance(std::size_t p, std::size_t q) const {
   return std::sqrt(square);
 }
 
-// Half the initial spacing of a body's points, along the widest of its sides.
 template <int Dim>
-double BodyNeighbours<Dim>::half_spacing(std::size_t body) const {
+double BodyNeighbours<Dim>::cell_length(int d, std::size_t p) const {
+  return cell_length_at(problem_.grid, static_cast<std::size_t>(d), points_.x[d][p]);
+}
+
+// Half the initial spacing of a body's points where point p is, along the widest of its sides.
+template <int Dim>
+double BodyNeighbours<Dim>::half_spacing(std::size_t body, std::size_t p) const {
   const std::vector<int>& along = problem_.bodies[body].points_per_cell;
   double widest = 0;
   for (std::size_t d = 0; d < Dim; ++d)
-    widest = std::max(widest, problem_.grid.cell_length(d) / (d < along.size() ? along[d] : 1));
+    widest = std::max(widest, cell_length(static_cast<int>(d), p) / (d < along.size() ? along[d] : 1));
   return widest / 2;
 }
 

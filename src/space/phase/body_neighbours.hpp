@@ -38,7 +38,9 @@ class BodyNeighbours {
   std::size_t body_of(std::size_t p) const;
   BodyGap gap_between(std::size_t a, std::size_t b, const std::vector<BodyDepth>* shapes) const;
   double distance(std::size_t p, std::size_t q) const;
-  double half_spacing(std::size_t body) const;
+  // The length along an axis of the cell in which point p is, in the grid at the start.
+  double cell_length(int d, std::size_t p) const;
+  double half_spacing(std::size_t body, std::size_t p) const;
   double gap_along(std::size_t p, std::size_t q, const BodyDepth& a, const BodyDepth& b) const;
   template <class Visit>
   void visit_around(const std::array<int, Dim>& here, int reach, const Visit& visit) const;

@@ -87,8 +87,7 @@ class DeformationFromPositions {
     for (std::size_t b = 0; b + 1 < body.first_number.size(); ++b) {
       const Values values = displacements(body, b, memory, origin);
       if (values.mass.empty()) continue;
-      const double h = (grid.axes[0].max() - grid.axes[0].min()) / grid.axes[0].cells();
-      const Fit fit(grid, body.points, weights, corner_sum, values, options(h));
+      const Fit fit(grid, body.points, weights, corner_sum, values, options(grid.axes[0].smallest_scale()));
       const std::vector<double> U = fit.solve(still_anchored(b, held));
       const std::vector<char> trusted = trusted_functions(grid, body.points, weights, fit, values, U);
       for_each_block(body.points.cells(), [&](std::size_t k) {
@@ -215,11 +214,12 @@ class DeformationFromPositions {
                                              const std::vector<double>& U) {
     std::vector<char> misses(points.cells(), 0);
     for_each_block(points.cells(), [&](std::size_t k) {
+      const auto cell = grid.cell_at(points.cell[k]);
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         if (values.mass[p] == 0) continue;
         const auto fitted = fit.value(U, k, p);
         for (int d = 0; d < dim; ++d) {
-          const double h = (grid.axes[d].max() - grid.axes[d].min()) / grid.axes[d].cells();
+          const double h = grid.axes[d].scale_at(cell[d]);
           if (!(std::abs(values.value[p][d] - fitted[d]) <= largest_miss * h)) misses[k] = 1;
         }
       }

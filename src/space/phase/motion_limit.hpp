@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/grid_lines.hpp"
 #include "space/phase/deformation_from_positions.hpp"
 #include "space/phase/internal_force.hpp"
 #include "space/phase/phase_frame.hpp"
@@ -24,12 +25,14 @@ class MotionLimit {
   /// Weighs the unknowns of a phase by the motion of points that they cause. by_reach: whether a function that hardly
   /// reaches a point moves none.
   void begin_phase(bool by_reach) {
-    std::array<double, dim> per_length;
-    for (std::size_t d = 0; d < dim; ++d) per_length[d] = 1 / frame_.problem.grid.cell_length(d);
+    std::array<std::vector<double>, dim> per_length;  // of the functions along each axis
+    for (std::size_t d = 0; d < dim; ++d) per_length[d] = cells_per_length(d);
     weight_.resize(frame_.size());
     const std::vector<int>& free = frame_.dofs().free;
-    for_each_index(weight_.size(), [per_length, weight = weight_.data(), unknown = free.data()](std::size_t k) {
-      weight[k] = per_length[static_cast<std::size_t>(unknown[k] % dim)];
+    for_each_index(weight_.size(), [&, weight = weight_.data(), unknown = free.data()](std::size_t k) {
+      const int function = unknown[k] / dim, d = unknown[k] % dim;
+      const int along = TensorBasis<B, dim>::index_along(frame_.grid, function, d);
+      weight[k] = per_length[static_cast<std::size_t>(d)][static_cast<std::size_t>(along)];
     });
     if (!by_reach) return;
     const std::vector<double> share =
@@ -79,6 +82,22 @@ class MotionLimit {
 
  private:
   const PhaseSpec& spec() const { return frame_.problem.phase; }
+  // 1/h for the functions along an axis, (count) [1/m]: h of the narrowest cell in which a function does not vanish or,
+  // if the axis is even, of the cells at the start.
+  std::vector<double> cells_per_length(std::size_t d) const {
+    const Axis& axis = frame_.grid.axes[d];
+    const auto count = static_cast<std::size_t>(B::count(axis));
+    if (axis.is_even) return std::vector<double>(count, 1 / mean_cell(frame_.problem.grid, d));
+    constexpr int of_cell = B::per_cell - (B::window - 1);  // functions that do not vanish in a cell
+    std::vector<double> per_length(count, 0);
+    for (int c = 0; c < axis.cells(); ++c) {
+      for (int a = 0; a < of_cell; ++a) {
+        double& of_function = per_length[static_cast<std::size_t>(B::first(c) + a)];
+        of_function = std::max(of_function, 1 / axis.scale_at(c));
+      }
+    }
+    return per_length;
+  }
   double largest_strain(const double* grid_u) const {
     double largest = 0;
     force_.points().visit(grid_u, [&](std::size_t, const Block& block) {

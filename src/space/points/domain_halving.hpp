@@ -1,9 +1,10 @@
 // The halving of domains that are stretched over more than a cell.
 //
-// A domain takes the functions of the cell of its lower corner and of the next one, so it may be a cell wide. If it
-// were shrunk to that width it would share no corners with its neighbours: Σ_p V_p ∇N̄_ip would not telescope there,
-// and a body under tension would yield without limit, or rest on stresses that are not in equilibrium. The halves have
-// its velocity and its number, half of its mass, and of its volume the parts that they cover.
+// A domain takes the functions of the cell of its lower corner and of the next one, so it may be a cell wide, or as
+// wide as the narrower of the two. If it were shrunk to that width it would share no corners with its neighbours: Σ_p
+// V_p ∇N̄_ip would not telescope there, and a body under tension would yield without limit, or rest on stresses that are
+// not in equilibrium. The halves have its velocity and its number, half of its mass, and of its volume the parts that
+// they cover.
 //
 // A neighbour at the edge that is halved may stay whole. In the middle of that edge it takes the mean of the functions
 // at the ends, with an error of less than 1/8 of a quadratic function.
@@ -25,12 +26,19 @@ namespace stillpoint {
 /// The axis of its own along which domain p has to be halved, or −1. It is decided by the mean sides: a single
 /// protruding corner is drawn in where functions are evaluated.
 template <int Dim>
-int axis_to_halve(const MaterialPoints<Dim>& points, std::size_t p) {
+int axis_to_halve(const MaterialPoints<Dim>& points, std::size_t p, const Grid<Dim>& grid) {
   constexpr double rounding = 1e-9;
   Point<Dim> ones;
   ones.fill(0.5);
   const auto sides = Domain<Dim>::of(points, p).deformation(ones);  // side j at [Dim i + j]
-  const auto share = [&](int d, int axis) { return std::abs(sides[Dim * d + axis]) / points.widest[d]; };
+  Point<Dim> most;
+  for (int d = 0; d < Dim; ++d) {
+    double width = 0;
+    for (int axis = 0; axis < Dim; ++axis) width += std::abs(sides[Dim * d + axis]);
+    const double x = points.x[d][p];
+    most[d] = widest_between(points, grid.axes[d], d, x - width / 2, x + width / 2);
+  }
+  const auto share = [&](int d, int axis) { return std::abs(sides[Dim * d + axis]) / most[d]; };
   int along = -1;
   double widest = 1 + rounding;
   for (int d = 0; d < Dim; ++d) {
@@ -86,7 +94,7 @@ template <int Dim>
 std::vector<int> halve_wide_domains(MaterialPoints<Dim>& points, const Grid<Dim>& grid) {
   points.widest = widest_domain(grid);
   std::vector<int> axis(points.size());
-  for_each_index(axis.size(), [&](std::size_t p) { axis[p] = axis_to_halve(points, p); });
+  for_each_index(axis.size(), [&](std::size_t p) { axis[p] = axis_to_halve(points, p, grid); });
   std::vector<int> from, material_begin;
   for (std::size_t m = 0; m < points.materials(); ++m) {
     material_begin.push_back(static_cast<int>(from.size()));

@@ -32,8 +32,8 @@ struct MaterialPoints {
   std::array<std::vector<double>, (Dim << Dim)> corner;  // coordinate d of corner c at [Dim c + d] [m], each (n)
   std::array<std::vector<double>, Dim> half;             // undeformed half sides [m], each (n)
   std::array<std::vector<double>, Dim> rest;             // undeformed positions [m], each (n)
-  Point<Dim> widest{};                                   // largest width of a domain along each axis: the narrowest
-                                                         // cell [m]
+  Point<Dim> widest{};                                   // largest width of a domain along each even axis: the
+                                                         // narrowest cell [m]
 
   std::size_t size() const { return volume.size(); }
   bool has_domains() const { return !corner[0].empty(); }

@@ -27,11 +27,7 @@ class NearestPoint {
     for (std::size_t k = 0; k < points.cells(); ++k) {
       list_[static_cast<std::size_t>(next[static_cast<std::size_t>(points.cell[k])]++)] = k;
     }
-    narrowest_ = std::numeric_limits<double>::infinity();
-    for (const Axis& axis : grid.axes) {
-      for (int c = 0; c < axis.cells(); ++c) narrowest_ = std::min(narrowest_, axis.nodes[c + 1] - axis.nodes[c]);
-      most_cells_ = std::max(most_cells_, axis.cells());
-    }
+    for (const Axis& axis : grid.axes) most_cells_ = std::max(most_cells_, axis.cells());
   }
 
   /// The point nearest to x; of several equally near ones, one of those that the grid lists first.
@@ -39,10 +35,7 @@ class NearestPoint {
     const std::array<int, Dim> here = grid_.cell_of(x);
     PointInCell found;
     double least = std::numeric_limits<double>::infinity();
-    // Points beyond a ring of cells are at least as many cells away as the ring, less the cell of x. A domain may begin
-    // a cell below its point.
-    const int first = points_.has_domains() ? 2 : 1;
-    for (int ring = 0; ring < most_cells_ && !(least <= square((ring - first) * narrowest_) && ring >= first); ++ring) {
+    for (int ring = 0; ring < most_cells_ && !(ring > 0 && least <= square(distance_to_ring(x, here, ring))); ++ring) {
       visit_ring(here, ring, [&](int cell) {
         for (int l = lists_[static_cast<std::size_t>(cell)]; l < lists_[static_cast<std::size_t>(cell) + 1]; ++l) {
           const std::size_t k = list_[static_cast<std::size_t>(l)];
@@ -61,6 +54,20 @@ class NearestPoint {
 
  private:
   static double square(double a) { return a * a; }
+
+  /// The distance of x, in cell `here`, from the points of cells that are as many as `ring` cells away along some axis,
+  /// or more; at least 0. A domain may begin a cell below its point, and is listed there.
+  double distance_to_ring(const Point<Dim>& x, const std::array<int, Dim>& here, int ring) const {
+    const int up_to = points_.has_domains() ? 2 : 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int d = 0; d < Dim; ++d) {
+      const std::vector<double>& lines = grid_.axes[d].nodes;
+      const int below = here[d] - ring, above = here[d] + ring, cells = grid_.axes[d].cells();
+      if (below >= 0) least = std::min(least, x[d] - lines[static_cast<std::size_t>(std::min(below + up_to, cells))]);
+      if (above < cells) least = std::min(least, lines[static_cast<std::size_t>(above)] - x[d]);
+    }
+    return std::max(0.0, least);
+  }
 
   /// Calls visit(cell) for the cells of the grid that are `ring` cells away along some axis, and no further along any.
   template <class Visit>
@@ -87,7 +94,6 @@ class NearestPoint {
   const Grid<Dim>& grid_;
   std::vector<int> lists_;         // first entry of each cell in list_, (cells + 1)
   std::vector<std::size_t> list_;  // occupied cells by their grid number, (occupied cells)
-  double narrowest_ = 0;           // width of the narrowest cell [m]
   int most_cells_ = 0;             // largest number of cells along an axis
 };
 

@@ -22,6 +22,30 @@
 
 namespace stillpoint {
 
+/// The cell from which on a domain that begins at `low` has its functions.
+inline int first_cell_of_domain(const Axis& axis, double low) {
+  constexpr double rounding = 1e-12;
+  const double tolerance =
+      axis.is_even ? rounding * (axis.max() - axis.min()) / axis.cells() : rounding * axis.scale_at(axis.cell_of(low));
+  return axis.cell_of(low + tolerance);
+}
+
+/// The largest width of a domain between low and high: the narrowest of the cells that it touches, so that it touches
+/// two at most; along an even axis the narrowest of all. A wider one would hardly feel the functions between its
+/// corners.
+template <int Dim>
+double widest_between(const MaterialPoints<Dim>& points, const Axis& axis, int d, double low, double high) {
+  constexpr double rounding = 1e-9;
+  if (axis.is_even) return points.widest[d];
+  const auto line = [&](int k) { return axis.nodes[static_cast<std::size_t>(k)]; };
+  int first = axis.cell_of(low), last = axis.cell_of(high);
+  if (first < last && line(first + 1) - low <= rounding * axis.scale_at(first)) ++first;
+  if (first < last && high - line(last) <= rounding * axis.scale_at(last)) --last;
+  double narrowest = axis.scale_at(first);
+  for (int c = first + 1; c <= last; ++c) narrowest = std::min(narrowest, axis.scale_at(c));
+  return narrowest;
+}
+
 template <int Dim>
 struct Domain {
   static constexpr int corners = 1 << Dim;
@@ -36,14 +60,14 @@ struct Domain {
     }
     return domain;
   }
-  /// The domain at whose corners functions are evaluated: shrunk where it is wider than a cell, and without corners
-  /// outside the grid.
+  /// The domain at whose corners functions are evaluated: shrunk where it is too wide (widest_between), and without
+  /// corners outside the grid.
   static Domain in_grid(const MaterialPoints<Dim>& points, std::size_t p, const Grid<Dim>& grid) {
     Domain domain = of(points, p);
     for (int d = 0; d < Dim; ++d) {
       double low = domain.x[0][d], high = low;
       for (const auto& corner : domain.x) low = std::min(low, corner[d]), high = std::max(high, corner[d]);
-      const double middle = points.x[d][p], most = points.widest[d];
+      const double middle = points.x[d][p], most = widest_between(points, grid.axes[d], d, low, high);
       if (high - low > most) {
         for (auto& corner : domain.x) corner[d] = middle + (corner[d] - middle) * (most / (high - low));
       }
@@ -111,7 +135,7 @@ struct Domain {
   }
 };
 
-/// The largest width of a domain along each axis: the narrowest cell.
+/// The largest width of a domain along each axis that is even: the narrowest cell.
 template <int Dim>
 Point<Dim> widest_domain(const Grid<Dim>& grid) {
   Point<Dim> widest;
@@ -126,13 +150,11 @@ Point<Dim> widest_domain(const Grid<Dim>& grid) {
 /// The cell whose window contains a domain: that of its lower corner.
 template <int Dim>
 std::array<int, Dim> window_of(const Domain<Dim>& domain, const Grid<Dim>& grid) {
-  constexpr double rounding = 1e-12;
   std::array<int, Dim> cell;
   const Point<Dim> low = domain.low();
   for (int d = 0; d < Dim; ++d) {
     const Axis& axis = grid.axes[d];
-    const double tolerance = rounding * (axis.max() - axis.min()) / axis.cells();
-    cell[d] = std::clamp(axis.cell_of(low[d] + tolerance), 0, std::max(axis.cells() - 2, 0));
+    cell[d] = std::clamp(first_cell_of_domain(axis, low[d]), 0, std::max(axis.cells() - 2, 0));
   }
   return cell;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/body_depth.hpp"
+#include "scene/grid_lines.hpp"
 #include "space/grid/grid.hpp"
 
 namespace stillpoint {
@@ -25,9 +26,9 @@ class SurfaceDepths {
     for (const BodySpec& body : problem_.bodies) bodies_.emplace_back(body);
   }
 
-  /// The initial depth of the point with this number, along the normal of a face of the grid [m], or two cells if it is
-  /// deeper. Empty if the surface of its body is not known. x: its position, which is the initial one if there is no
-  /// origin.
+  /// The initial depth of the point with this number, along the normal of a face of the grid [m], or two of the longest
+  /// cells if it is deeper. Empty if the surface of its body is not known. x: its position, which is the initial one if
+  /// there is no origin.
   std::optional<double> along(Face face, int number, const Point<Dim>& x) {
     auto& known = known_[static_cast<std::size_t>(face)];
     const auto [found, is_new] = known.try_emplace(number);
@@ -37,7 +38,7 @@ class SurfaceDepths {
     const auto body = std::ranges::upper_bound(first_number_, number) - first_number_.begin() - 1;
     const auto axis = static_cast<std::size_t>(axis_of(face));
     found->second =
-        bodies_[static_cast<std::size_t>(body)].along(X, axis, is_upper(face), 2 * problem_.grid.cell_length(axis));
+        bodies_[static_cast<std::size_t>(body)].along(X, axis, is_upper(face), 2 * longest_cell(problem_.grid, axis));
     return found->second;
   }
 

@@ -9,6 +9,7 @@
 #include "output/report/body_picture.hpp"
 #include "output/report/report_page.hpp"
 #include "output/report/run_report.hpp"
+#include "scene/grid_lines.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
@@ -69,6 +70,29 @@ TEST_CASE(
   REQUIRE(json["fields"][4]["name"] == "stress.xx");
   CHECK(json["fields"][4]["min"].is_null());
   CHECK(json["moments"][0]["values"][4] == "////////////////");
+}
+
+TEST_CASE("where cells are unequal the points of a picture are drawn as large as those that they are in") {
+  GridSpec unequal;
+  unequal.pieces = {{{{0, 1, 2}, {1, 2, 1}}, {{0, 2, 2}}, {{0, 2, 4}}}};  // along x 0.5, 0.5 and 1, the mean 2/3
+  take_extent_of_pieces(unequal);
+  const BodyMoment body = cube(4, 0);
+  BodyPicture picture(unequal, body, 1, {body.field("position")});
+  picture.add(body);
+  const Json json = picture.json();
+  REQUIRE(json["sizes"].size() == 3);
+  const auto column = [&](const char* name, std::size_t k) {
+    const auto& coded = json[name][k];
+    return decoded(coded["values"], coded["min"], coded["max"]);
+  };
+  const std::vector<double> x = column("x", 0), along_x = column("sizes", 0), along_y = column("sizes", 1);
+  REQUIRE(x.size() == 64);
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    CHECK(along_x[p] == Approx(x[p] < 1 ? 0.75 : 1.5).margin(1e-3));
+    CHECK(along_y[p] == Approx(1));
+  }
+  BodyPicture plain(grid(2), body, 1, {body.field("position")});
+  CHECK_FALSE(plain.json().contains("sizes"));
 }
 
 TEST_CASE("in space the picture of a report has the points of the cells at the surface alone") {

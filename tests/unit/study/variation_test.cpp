@@ -7,8 +7,10 @@
 #include <catch2/catch.hpp>
 
 #include "free_block.hpp"
+#include "scene/grid_lines.hpp"
 #include "scenes.hpp"
 #include "study/refinement.hpp"
+#include "study/setting.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
@@ -74,6 +76,31 @@ TEST_CASE("a refinement makes one quantity finer by its factor, leaves the rest,
   timed.integrator.step = 0.5, timed.integrator.rtol = 1.0 / 128;
   CHECK(after(timed, refined(timed, Refinement::step, 4)).integrator.step == 0.125);
   CHECK(after(timed, refined(timed, Refinement::rtol, 4)).integrator.rtol == 1.0 / 512);
+}
+
+TEST_CASE("where cells are unequal a refinement halves those of each piece, and the lines before stay") {
+  const Words by_pieces = {"grid.x=[[0, 0.5, 3], [0.5, 2.25, 4, 3], [2.25, 2.5, 1]]", "grid.y=[[0, 1, 5, 0.25]]"};
+  const Scene scene = test::free_block(by_pieces);
+  CHECK(longest_mean_cell(scene.grid) == 2.5 / 8);
+  const Scene finer = with(scene, refined(scene, Refinement::h, 2));
+  CHECK(finer.grid.cells == std::vector{16, 10});
+  CHECK(size_of(finer, Refinement::h, 0) == size_of(scene, Refinement::h, 0) / 2);
+  for (const std::size_t axis : {0, 1}) {
+    const std::vector<double> before = grid_lines(scene.grid, axis), now = grid_lines(finer.grid, axis);
+    REQUIRE(now.size() == 2 * before.size() - 1);
+    for (std::size_t k = 0; k < before.size(); ++k) CHECK(now[2 * k] == Approx(before[k]).margin(1e-14));
+  }
+  // What the record says gives the same grid.
+  const Scene read = test::free_block(texts_of(refined(scene, Refinement::h, 2)));
+  CHECK(texts_of(refined(scene, Refinement::h, 1)) == by_pieces);
+  for (const std::size_t axis : {0, 1}) CHECK(grid_lines(read.grid, axis) == grid_lines(finer.grid, axis));
+  // Three parts of each cell, and four of each third of it, are twelve.
+  const Problem thirds = with(scene, refined(scene, Refinement::h, 3));
+  const auto in_two =
+      grid_lines(with(scene, refined(with(scene, refined(scene, Refinement::h, 3)), Refinement::h, 4)).grid, 1);
+  const auto at_once = grid_lines(with(scene, refined(scene, Refinement::h, 12)).grid, 1);
+  CHECK(thirds.grid.cells == std::vector{24, 15});
+  for (std::size_t k = 0; k < at_once.size(); ++k) CHECK(in_two.at(k) == Approx(at_once[k]).margin(1e-14));
 }
 
 TEST_CASE("the size of a level is its longest cell, the share of a cell that a point has, its step, rtol or motion") {

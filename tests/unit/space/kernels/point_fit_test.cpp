@@ -1,6 +1,8 @@
 // The grid's functions fitted to values at material points.
 #include "space/kernels/point_fit.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "largest.hpp"
@@ -21,9 +23,14 @@ struct Points {
   CornerSum corner_sum;
   PointValues<1, 2> values;
 
-  explicit Points(double last_x) {
-    grid.axes = {Axis::uniform(0, 3, 3), Axis::uniform(0, 2, 2)};
-    const std::vector<double> xs = {0.25, 0.75, 1.25, 1.75, last_x}, ys = {0.25, 0.75, 1.25, 1.75};
+  /// lines: of the columns of cells, in which the points keep their places.
+  explicit Points(double last_x, const std::vector<double>& lines = {0, 1, 2, 3}) {
+    grid.axes = {Axis{lines, /*is_even=*/false}, Axis::uniform(0, 2, 2)};
+    std::vector<double> xs = {0.25, 0.75, 1.25, 1.75, last_x}, ys = {0.25, 0.75, 1.25, 1.75};
+    for (double& x : xs) {
+      const auto c = static_cast<std::size_t>(x);
+      x = lines[c] + (x - static_cast<double>(c)) * (lines[c + 1] - lines[c]);
+    }
     for (int c = 0; c < grid.cells(); ++c) {
       const std::size_t before = points.volume.size();
       for (const double y : ys) {
@@ -85,6 +92,20 @@ constexpr auto linear = [](double x, double y) { return std::array{3 + 2 * x - 5
 constexpr auto parabola = [](double x, double y) { return std::array{x * x - x * y, 2 * x - y, -x}; };
 
 }  // namespace
+
+TEST_CASE("gradients count in a fit by the lengths of the cells they are in: cells of other lengths change nothing") {
+  const auto fitted = [](const std::vector<double>& lines) {
+    Points<BSpline<1>> at(2.2, lines);
+    at.set([](double, double) { return std::array{0.0, 0.0, 0.0}; });
+    for (std::size_t p = 0; p < at.points.size(); ++p) at.values.value[p][0] = std::sin(2.0 * static_cast<double>(p));
+    return PointFit<1, BSpline<1>, plane>(at.grid, at.points, at.weights, at.corner_sum, at.values,
+                                          {.tolerance = 1e-14, .iterations = 100})
+        .solve({});
+  };
+  const std::vector<double> equal = fitted({0, 1, 2, 3}), unequal = fitted({0, 1, 1.05, 4});
+  REQUIRE(equal.size() == unequal.size());
+  for (std::size_t k = 0; k < equal.size(); ++k) CHECK(unequal[k] == Approx(equal[k]).margin(1e-11));
+}
 
 TEST_CASE("a fit to points starts with what is linear in x, so that no iteration is left of it") {
   CHECK(Points<BSpline<1>>(2.2).gradient_error(linear, {.iterations = 0}) < 1e-13);
