@@ -70,6 +70,30 @@ TEST_CASE("a block slides down an incline at the speed that Coulomb's friction l
   }
 }
 
+TEST_CASE("in space a block slides the way that its load points, and friction acts the other way") {
+  const Scene scene = load_scene("slide.toml", R"(
+dim = 3
+grid = {min = [0, 0, 0], max = [2, 2, 1], cells = [8, 8, 4]}
+body = {min = [0.6, 0.6, 0.3], max = [1.4, 1.4, 0.8], material = "stone"}
+material.stone = {law = "linear-elastic", E = 1e6, nu = 0.3, rho = 1000}
+rigid = [{name = "floor", half_plane = [[0, 0, 0.3], [0, 0, 1]], friction = 0.2}]
+body_force = {value = [2.5, 1.7, -10]}
+damping = {strategy = "viscous", c = 20}
+stop = {residual = 0, time = 2}
+probe = [{name = "block", kind = "body", fields = ["momentum.x", "momentum.y"]}]
+)",
+                                 {});
+  const Summary s = run(scene, {.threads = 1});
+  const double m = 320, load = std::hypot(2.5, 1.7), angle = std::atan2(1.7, 2.5);
+  const double x = scenes::probe(s, "block", "momentum.x"), y = scenes::probe(s, "block", "momentum.y");
+  CHECK(std::hypot(x, y) == Approx(m * (load - 0.2 * 10) / 20).epsilon(1e-6));
+  CHECK(std::abs(std::atan2(y, x) - angle) < 1e-7);
+  const double T_x = s.contacts.at("floor.force_x"), T_y = s.contacts.at("floor.force_y");
+  CHECK(std::abs(std::atan2(-T_y, -T_x) - angle) < 1e-7);
+  CHECK(std::hypot(T_x, T_y) == Approx(0.2 * s.contacts.at("floor.force_z")).epsilon(1e-9));
+  CHECK(s.contacts.at("floor.force_z") == Approx(10 * m).epsilon(1e-6));
+}
+
 TEST_CASE("Hertz's cylinder and sphere press with their force and pressure, and a punch and a cone with Love's") {
   struct Case {
     const char* scene;
