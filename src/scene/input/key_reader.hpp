@@ -65,8 +65,12 @@ std::optional<T> read_value(const Value& value, const KeyInfo& key, bool nested 
     const auto entries = entries_of(value, key, key.list && !nested, nested);
     if (!entries) return std::nullopt;
     T result;
-    for (const Value& entry : *entries)
-      if (auto one = read_value<typename T::value_type>(entry, key, /*nested=*/true)) result.push_back(std::move(*one));
+    for (const Value& entry : *entries) {
+      auto one = read_value<typename T::value_type>(entry, key, /*nested=*/true);
+      if (one) result.push_back(std::move(*one));
+      // The entries of one row that stands alone are no rows, for one reason.
+      if (!one && std::is_same_v<typename T::value_type, GridPiece>) break;
+    }
     return result.size() == entries->size() ? std::optional(std::move(result)) : std::nullopt;
   } else if constexpr (std::is_same_v<T, double>) {
     return read_number(value, key.range);
