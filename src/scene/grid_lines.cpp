@@ -138,6 +138,10 @@ double cell_length_at(const GridSpec& grid, std::size_t axis, double x) {
   return has_equal_cells(grid, axis) ? mean_cell(grid, axis) : length_of_cell(grid, axis, cell_at(grid, axis, x));
 }
 
+double known_cell_length_at(const GridSpec& grid, std::size_t axis, double x) {
+  return axis < grid.cells.size() ? cell_length_at(grid, axis, x) : 0;
+}
+
 double smallest_cell(const GridSpec& grid, std::size_t axis) {
   return has_equal_cells(grid, axis) ? mean_cell(grid, axis) : std::ranges::min(lengths_at_ends(grid, axis));
 }
@@ -172,8 +176,7 @@ void move_into(std::vector<double>& position, const std::vector<double>& min, co
                const GridSpec& grid) {
   for (std::size_t axis = 0; axis < std::min(position.size(), min.size()); ++axis) {
     const auto slack_at = [&](double end) {
-      const bool cells_are_known = axis < grid.cells.size();
-      return slack_of(min[axis], max[axis], cells_are_known ? cell_length_at(grid, axis, end) : 0);
+      return slack_of(min[axis], max[axis], known_cell_length_at(grid, axis, end));
     };
     if (position[axis] < min[axis] - slack_at(min[axis]) || position[axis] > max[axis] + slack_at(max[axis])) return;
     position[axis] = std::clamp(position[axis], min[axis], max[axis]);

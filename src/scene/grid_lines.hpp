@@ -41,6 +41,8 @@ double cells_between(const GridSpec& grid, std::size_t axis, double from, double
 
 /// The length of the cell that contains x [m].
 double cell_length_at(const GridSpec& grid, std::size_t axis, double x);
+/// The same; 0 if the cells are not known.
+double known_cell_length_at(const GridSpec& grid, std::size_t axis, double x);
 double smallest_cell(const GridSpec& grid, std::size_t axis);
 double longest_cell(const GridSpec& grid, std::size_t axis);
 double mean_cell(const GridSpec& grid, std::size_t axis);

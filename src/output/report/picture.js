@@ -188,7 +188,7 @@ function pointPicture(parent, picture, body, tools) {
         box[2] = Math.max(box[2], X[p]); box[3] = Math.max(box[3], Y[p]);
       }
     }
-    const half = picture.mark.map((length) => length / 2);
+    const half = picture.mark.map((length, k) => length / 2 * (sizes ? picture.sizes[k].max : 1));
     return [box[0] - half[0], box[1] - half[1], box[2] + half[0], box[3] + half[1]];
   }
 

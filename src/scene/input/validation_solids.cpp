@@ -58,9 +58,7 @@ bool stands_in_grid(SceneCheck& check, const BodySpec& body, std::size_t k, cons
   const GridSpec& grid = check.scene().grid;
   for (std::size_t d = 0; d < 3; ++d) {
     for (const bool upper : {false, true}) {
-      const bool cells_are_known = d < grid.cells.size();
-      const double slack =
-          cells_are_known ? 2 * kSliver * cell_length_at(grid, d, (upper ? grid.max : grid.min)[d]) : 0;
+      const double slack = 2 * kSliver * known_cell_length_at(grid, d, (upper ? grid.max : grid.min)[d]);
       const bool stands_out = upper ? shape.high[d] > grid.max[d] + slack : shape.low[d] < grid.min[d] - slack;
       if (check.wrong_if(stands_out && !(upper ? body.max : body.min).is_asked(), key,
                          "reaches from {:.6g} to {:.6g} along {}, out of the grid, {} to {}; where it is to be cut "

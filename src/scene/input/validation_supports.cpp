@@ -1,6 +1,5 @@
 // Checks of the supports and walls that hold and push the bodies.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>

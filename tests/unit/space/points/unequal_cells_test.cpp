@@ -48,7 +48,7 @@ TEST_CASE("where cells are unequal the domains of the start are whole, beside na
       for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t d = 0; d < 2; ++d) off.take_magnitude(taken[c][d] - whole[c][d]);
     }
-    CHECK(off.value() < 1e-14);  // rounding
+    CHECK(off.value() < 1e-15);
     CHECK(halve_wide_domains(body.points, grid).empty());
   }
 }
