@@ -66,7 +66,7 @@ GridFault fault_of_pieces(const Problem& problem) {
           .message = fmt::format("the key '{}' is missing: where one axis is given by pieces, all are", names[axis])};
     double along = 0;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const GridFault fault =
+      GridFault fault =
           fault_of_piece(pieces[k], k > 0 ? &pieces[k - 1] : nullptr, fmt::format("{}[{}]", names[axis], k));
       if (!fault.empty()) return fault;
       along += pieces[k].cells;
