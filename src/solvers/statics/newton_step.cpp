@@ -12,7 +12,8 @@ namespace {
 
 class NewtonStep final : public WithoutTime<Stepper> {
  public:
-  NewtonStep(const NewtonOptions& options, RelaxationSystem& system) : WithoutTime(system), options_(options), tolerance_(options.tolerance) {}
+  NewtonStep(const NewtonOptions& options, RelaxationSystem& system)
+      : WithoutTime(system), options_(options), tolerance_(options.tolerance) {}
 
   void start(double t, Vector& y) override {
     t_ = t;
