@@ -99,14 +99,11 @@ void ContactSurface<K>::choose_stiffness(const std::vector<double>& G) {
   for (Patch& patch : patches_) {
     double sum = 0, area = 0;
     for (std::size_t s = patch.begin; s < patch.end; ++s) {
-      double ww = 0, compliance = 0;  // Σ w_a², Σ w_a²/G_a
-      for (std::size_t e = begin_[s]; e < begin_[s + 1]; ++e) {
-        const double bound = G[static_cast<std::size_t>(weights_[e].first_unknown / dim)];
-        if (!(bound > 0)) continue;
-        ww += weights_[e].w * weights_[e].w;
-        compliance += weights_[e].w * weights_[e].w / bound;
-      }
-      if (compliance > 0) sum += area_[s] * beta * ww / compliance;
+      StiffnessAt at;
+      for (std::size_t e = begin_[s]; e < begin_[s + 1]; ++e)
+        if (const double bound = G[static_cast<std::size_t>(weights_[e].first_unknown / dim)]; bound > 0)
+          at.add(weights_[e].w, bound);
+      if (at.compliance > 0) sum += area_[s] * beta * at.ww / at.compliance;
       area += area_[s];
     }
     const double of_cell = patch.depth * std::pow(patch.cell, dim - 1);

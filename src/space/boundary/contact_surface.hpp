@@ -11,12 +11,11 @@
 #include <stillpoint/material.hpp>
 #include <stillpoint/problem.hpp>
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "space/boundary/border_patches.hpp"
-#include "space/boundary/weak_supports.hpp"
+#include "space/boundary/stiffness_at.hpp"
 
 namespace stillpoint {
 

@@ -179,15 +179,12 @@ void WeakSupports<K>::choose_stiffness(const Parts& phase, const std::vector<dou
   };
   std::vector<Sum> of_support(problem_.supports.size());
   for (const Held& held : held_) {
-    double ww = 0, compliance = 0;  // Σ w_a², Σ w_a²/G_a
-    for (const auto& [unknown, dof, w] : weights_of(held, phase.dofs)) {
-      if (!phase.dofs.is_free(dof)) continue;
-      ww += w * w;
-      compliance += w * w / G[static_cast<std::size_t>(unknown / dim)];
-    }
+    StiffnessAt at;
+    for (const auto& [unknown, dof, w] : weights_of(held, phase.dofs))
+      if (phase.dofs.is_free(dof)) at.add(w, G[static_cast<std::size_t>(unknown / dim)]);
     Sum& sum = of_support[held.support];
     sum.area += held.area;
-    sum.stiffness += held.share * beta * (problem_.supports[held.support].face ? ww : 1) / compliance;
+    sum.stiffness += held.share * beta * (problem_.supports[held.support].face ? at.ww : 1) / at.compliance;
   }
   for (Held& held : held_) {
     const Sum& sum = of_support[held.support];

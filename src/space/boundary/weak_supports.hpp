@@ -19,7 +19,6 @@
 #include <stillpoint/material.hpp>
 #include <stillpoint/problem.hpp>
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,11 +26,9 @@
 #include "space/boundary/carried_point.hpp"
 #include "space/boundary/condition_reports.hpp"
 #include "space/boundary/springs.hpp"
+#include "space/boundary/stiffness_at.hpp"
 
 namespace stillpoint {
-
-/// The stiffness_bound() of a phase, G, computed only on demand, (functions) [N/m].
-using StiffnessBound = std::function<std::vector<double>()>;
 
 template <Kinematics K>
 class WeakSupports {
