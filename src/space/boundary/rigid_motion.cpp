@@ -38,18 +38,24 @@ bool RigidMotion<N>::moves() const {
 }
 
 template <int N>
-RigidPlacement<N> RigidMotion<N>::at(double t) const {
+RigidPlacement<N> RigidMotion<N>::placement(double t) const {
   RigidPlacement<N> placement{.a = about_};
+  Turning<N> theta = Turning<N>::Zero();
+  for (Eigen::Index i = 0; const PrescribedMotion& u : translation_) placement.u[i++] = u.displacement(t);
+  for (Eigen::Index i = 0; const PrescribedMotion& angle : rotation_) theta[i++] = angle.displacement(t);
+  placement.Q = stillpoint::rotation<N>(theta);
+  return placement;
+}
+
+template <int N>
+RigidPlacement<N> RigidMotion<N>::at(double t) const {
+  RigidPlacement<N> placement = this->placement(t);
   Turning<N> theta = Turning<N>::Zero(), dtheta_dt = Turning<N>::Zero();
-  for (Eigen::Index i = 0; const PrescribedMotion& u : translation_) {
-    placement.u[i] = u.displacement(t);
-    placement.du_dt[i++] = u.velocity(t);
-  }
+  for (Eigen::Index i = 0; const PrescribedMotion& u : translation_) placement.du_dt[i++] = u.velocity(t);
   for (Eigen::Index i = 0; const PrescribedMotion& angle : rotation_) {
     theta[i] = angle.displacement(t);
     dtheta_dt[i++] = angle.velocity(t);
   }
-  placement.Q = stillpoint::rotation<N>(theta);
   placement.Omega = spin<N>(theta, dtheta_dt);
   return placement;
 }

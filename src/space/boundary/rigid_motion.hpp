@@ -21,7 +21,9 @@ class RigidMotion {
               const Eigen::Vector<double, N>& about, double time_scale);
 
   bool moves() const;
-  /// Where the body is at t, with the velocities of PrescribedMotion.
+  /// Where the body is at t, without velocities.
+  RigidPlacement<N> placement(double t) const;
+  /// The same with the velocities of PrescribedMotion.
   RigidPlacement<N> at(double t) const;
 
  private:

@@ -36,7 +36,7 @@ class TouchFinder {
 
   const RigidSpec& spec() const { return *spec_; }
   bool touches(std::size_t body) const { return touches_[body] != 0; }
-  RigidPlacement<N> placement(double t) const { return motion_.at(t); }
+  RigidPlacement<N> placement(double t) const { return motion_.placement(t); }
   void begin_phase() { ++phase_; }
 
   /// Calls visit(near) for each piece s at u, over the grid's functions, with φ ≤ reach(its patch); placement: of now.
