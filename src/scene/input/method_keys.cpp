@@ -63,7 +63,7 @@ std::string hint(const auto* row, const char* is, const char* key) {
            {.words = {kTreatments.begin(), kTreatments.end()}})
       .key("step", &IntegratorSpec::step, "fixed; or step_fraction", {.range = kPositive, .unit = "s"})
       .key("step_fraction", &IntegratorSpec::step_fraction, "of the critical step; caps an adaptive one",
-           {.range = kPositive})
+           {.range = kPositive, .fallback = "0.9; 0.8 with rigid bodies"})
       .key("rtol", &IntegratorSpec::rtol, "relative tolerance of an adaptive step; not given: a fixed one",
            {.range = {0, 1}})
       .key("atol_u", &IntegratorSpec::atol_u, "absolute tolerance",
