@@ -3,10 +3,10 @@
 
 #include <stillpoint/expression.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace stillpoint {
@@ -43,6 +43,9 @@ struct RigidSpec {  // [[rigid]]: a rigid body of one shape, which pushes and ne
   std::vector<std::string> bodies;  // names of the bodies that it touches; empty: all
 
   StlSolid from_stl{};  // contents of `stl`; resolve() reads them, once
+
+  /// Whether it touches a body of this name; bodies without a name have an empty one.
+  bool touches(const std::string& body) const { return bodies.empty() || std::ranges::count(bodies, body) > 0; }
 };
 
 }  // namespace stillpoint

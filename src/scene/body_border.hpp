@@ -24,6 +24,10 @@ struct BorderLine {
 /// A side of the box that a body fills; from its lower to its upper end.
 BorderLine side_of_box(const Problem& problem, std::size_t body, Face face);
 
+/// The whole border of a body in the plane, with the material on the left of its lines; of points from a file their
+/// outline.
+std::vector<BorderLine> whole_border(const Problem& problem, std::size_t body);
+
 /// The lines of a traction of a plane scene, on a face of its one body or on a line.
 std::vector<BorderLine> border_lines(const Problem& problem, const TractionSpec& traction);
 

@@ -91,6 +91,23 @@ BorderLine side_of_box(const Problem& problem, std::size_t body, Face face) {
   return line;
 }
 
+std::vector<BorderLine> whole_border(const Problem& problem, std::size_t body) {
+  const BodySpec& spec = problem.bodies[body];
+  std::vector<BorderLine> lines;
+  const auto add_loop = [&](const Polygon& loop) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const PlanePoint &a = loop[k], &b = loop[(k + 1) % loop.size()];
+      if (a != b) lines.push_back({.body = body, .from = a, .to = b, .normal = normal_of_edge(a, b)});
+    }
+  };
+  if (spec.file.empty()) {
+    add_loop(sides_of(spec));
+  } else {
+    for (const Polygon& loop : spec.outline.loops) add_loop(loop);
+  }
+  return lines;
+}
+
 std::vector<BorderLine> border_lines(const Problem& problem, const std::array<double, 2>& from,
                                      const std::array<double, 2>& to) {
   std::vector<BorderLine> lines;

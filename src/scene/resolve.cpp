@@ -36,13 +36,12 @@ void resolve_component(SupportSpec& support) {
   }
 }
 
-// The outline of the points of a file, which loads on lines need. The volume of a point of an axisymmetric body is that
-// of its whole ring.
+// The outline of the points of a file, which loads on lines and rigid bodies need. The volume of a point of an
+// axisymmetric body is that of its whole ring.
 void take_outline(const Problem& problem, BodySpec& body, const PointFile& points) {
   body.outline = {};
-  if (problem.dim != 2 ||
-      std::ranges::all_of(problem.tractions, [](const TractionSpec& one) { return one.line.empty(); }))
-    return;
+  const auto is_on_line = [](const TractionSpec& one) { return !one.line.empty(); };
+  if (problem.dim != 2 || (problem.rigid.empty() && std::ranges::none_of(problem.tractions, is_on_line))) return;
   std::vector<double> area = points.volume;
   const bool axisymmetric = problem.state == StressState::axisymmetric;
   for (std::size_t p = 0; p < area.size(); ++p)

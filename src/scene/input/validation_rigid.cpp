@@ -107,6 +107,15 @@ void check_company(SceneCheck& check) {
   check.wrong_if(scene.grid.basis == BasisKind::hermite && scene.dim == 2, "grid.basis",
                  "'hermite' has slopes as unknowns, which no contact with rigid bodies acts on yet; take linear, "
                  "quadratic or cubic");
+  // Where a rigid body would touch them is not known.
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const auto touches = [&](const RigidSpec& rigid) { return rigid.touches(scene.bodies[k].name); };
+    check.wrong_if(
+        scene.dim == 3 && !scene.bodies[k].file.empty() && std::ranges::any_of(scene.rigid, touches),
+        check.body_key(k, "file"),
+        "points in space have no surface that a rigid body could touch; take a shape, or leave this body out "
+        "of its 'bodies'");
+  }
   check.wrong_if(scene.load.has_value(), "load",
                  "a displacement that drives loads and rigid bodies cannot be had together yet; move the rigid bodies, "
                  "or give the loads as formulas of t");

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "scene/body_border.hpp"
-#include "scene/body_solid.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/point_sums.hpp"
 #include "space/boundary/face_pieces.hpp"
@@ -47,33 +46,30 @@ double width_of_cell(const Grid<Dim>& grid, const std::array<int, Dim>& cell) {
   return std::pow(volume, 1.0 / Dim);
 }
 
-// The whole border of a body in the plane, with the material on its left.
-std::vector<BorderLine> border_of(const Problem& problem, std::size_t body) {
-  std::vector<BorderLine> lines;
-  const BodySpec& spec = problem.bodies[body];
-  const auto add = [&](Polygon loop) {
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const PlanePoint &a = loop[k], &b = loop[(k + 1) % loop.size()];
-      if (distance(a, b) > 0) lines.push_back({.body = body, .from = a, .to = b, .normal = normal_of_edge(a, b)});
-    }
-  };
-  if (!spec.file.empty()) {
-    for (const auto& loop : spec.outline.loops) add(loop);
-    return lines;
+/// The pieces of a surface in space, by the cells that they border.
+template <Kinematics K>
+class PiecesOfCells {
+ public:
+  explicit PiecesOfCells(const Grid<3>& grid) : grid_(grid) {}
+
+  void add(const BorderPiece<K>& piece) { of_cells_[grid_.cell_number(piece.cell_inside(grid_))].push_back(piece); }
+  void append_to(Patches<K>& patches) {
+    for (auto& [cell, pieces] : of_cells_)
+      patches.push_back({width_of_cell<3>(grid_, grid_.cell_at(cell)), 1, std::move(pieces)});
   }
-  Polygon corners = outline_of(spec);
-  if (signed_area(corners) < 0) std::ranges::reverse(corners);
-  add(std::move(corners));
-  return lines;
-}
+
+ private:
+  const Grid<3>& grid_;
+  std::map<int, std::vector<BorderPiece<K>>> of_cells_;
+};
 
 template <Kinematics K>
 Patches<K> along_lines(const Problem& problem, std::size_t number, const Grid<2>& grid) {
   constexpr std::size_t dim = 2;
   Patches<K> patches;
   const BodySpec& body = problem.bodies[number];
-  constexpr double on_axis = 1e-12;  // of the length of a cell: such a line is no border
-  for (const BorderLine& line : border_of(problem, number)) {
+  constexpr double on_axis = 1e-12;  // of the grid's length: such a line is no border
+  for (const BorderLine& line : whole_border(problem, number)) {
     if (K == Kinematics::axisymmetric &&
         std::max(line.from[0], line.to[0]) <= on_axis * (grid.axes[0].max() - grid.axes[0].min()))
       continue;
@@ -90,9 +86,8 @@ Patches<K> along_lines(const Problem& problem, std::size_t number, const Grid<2>
         const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
         pieces.push_back(BorderPiece<K>::make(x, length / 2 * weight * depth, line.normal));
         if (pieces.size() < rule.in_patch) continue;
-        Point<dim> inside = x;
-        for (std::size_t d = 0; d < dim; ++d) inside[d] -= 1e-9 * length * line.normal[d];
-        patches.push_back({width_of_cell<dim>(grid, grid.cell_of(inside)), depth, std::exchange(pieces, {})});
+        const double cell = width_of_cell<dim>(grid, pieces.back().cell_inside(grid));
+        patches.push_back({cell, depth, std::exchange(pieces, {})});
       }
     }
   }
@@ -108,17 +103,12 @@ Patches<K> on_faces(const Problem& problem, std::size_t number, const Grid<3>& g
     const auto normal = static_cast<std::size_t>(axis_of(face));
     Point<dim> outwards{};
     outwards[normal] = is_upper(face) ? 1 : -1;
-    std::map<int, std::vector<BorderPiece<K>>> in_cells;
+    PiecesOfCells<K> pieces(grid);
     for_face_pieces<dim>(
         grid, normal, (is_upper(face) ? body.max : body.min)[normal], part_of_face(face, {}, {}, body.min, body.max),
         [&](std::size_t along) { return rule_along(problem, body, along).points; },
-        [&](const Point<dim>& x, double area, double) {
-          Point<dim> inside = x;
-          inside[normal] -= 1e-9 * (body.max[normal] - body.min[normal]) * outwards[normal];
-          in_cells[grid.cell_number(grid.cell_of(inside))].push_back(BorderPiece<K>::make(x, area, outwards));
-        });
-    for (auto& [cell, pieces] : in_cells)
-      patches.push_back({width_of_cell<dim>(grid, grid.cell_at(cell)), 1, std::move(pieces)});
+        [&](const Point<dim>& x, double area, double) { pieces.add(BorderPiece<K>::make(x, area, outwards)); });
+    pieces.append_to(patches);
   }
   return patches;
 }
@@ -133,16 +123,13 @@ Patches<K> on_surfaces(const Problem& problem, std::size_t number, const Grid<3>
   for (std::size_t d = 0; d < dim; ++d) length = std::min(length, smallest_cell(problem.grid, d) / 2);
   for (const BodySurface surface : {BodySurface::outer, BodySurface::inner, BodySurface::start, BodySurface::end}) {
     if (!why_no_surface(body, surface).empty()) continue;
-    std::map<int, std::vector<BorderPiece<K>>> in_cells;
+    PiecesOfCells<K> pieces(grid);
     for (const SurfacePiece& piece : surface_pieces(body, surface, length)) {
       const auto& [a, b, c] = piece.vector;
       const double area = std::hypot(a, b, c);
-      if (!(area > 0)) continue;
-      in_cells[grid.cell_number(grid.cell_of(piece.x))].push_back(
-          BorderPiece<K>::make(piece.x, area, {a / area, b / area, c / area}));
+      if (area > 0) pieces.add(BorderPiece<K>::make(piece.x, area, {a / area, b / area, c / area}));
     }
-    for (auto& [cell, pieces] : in_cells)
-      patches.push_back({width_of_cell<dim>(grid, grid.cell_at(cell)), 1, std::move(pieces)});
+    pieces.append_to(patches);
   }
   return patches;
 }

@@ -27,8 +27,20 @@ struct BorderPiece {
     return piece;
   }
 
-  /// Sets the weights in a body of a single phase, by the cell on the body's side of the piece, which matters on a grid
-  /// line. If some of the cell's functions have no material, the others take the whole force. False if none has.
+  /// The cell on the body's side of the piece, which matters on a grid line.
+  std::array<int, dim> cell_inside(const Grid<dim>& grid) const {
+    constexpr double inwards = 1e-9;
+    Point<dim> inside = at.x;
+    const auto here = grid.cell_of(inside);
+    for (int d = 0; d < dim; ++d) {
+      const auto& nodes = grid.axes[d].nodes;
+      const double h = nodes[static_cast<std::size_t>(here[d]) + 1] - nodes[static_cast<std::size_t>(here[d])];
+      inside[d] -= inwards * h * (vector[d] > 0 ? 1 : vector[d] < 0 ? -1 : 0);
+    }
+    return grid.cell_of(inside);
+  }
+  /// Sets the weights in a body of a single phase, by that cell. If some of the cell's functions have no material, the
+  /// others take the whole force. False if none has.
   bool freeze_in_single_phase(const PhaseParts<dim>& phase) {
     const double reached = at.freeze(cell_inside(phase.grid), phase);
     if (!(reached > 1e-12)) return false;
@@ -67,17 +79,6 @@ struct BorderPiece {
  private:
   static constexpr std::size_t hoop = gradient_components(K) - 1;  // index of θθ, if axisymmetric
 
-  std::array<int, dim> cell_inside(const Grid<dim>& grid) const {
-    constexpr double inwards = 1e-9;
-    Point<dim> inside = at.x;
-    const auto here = grid.cell_of(inside);
-    for (int d = 0; d < dim; ++d) {
-      const auto& nodes = grid.axes[d].nodes;
-      const double h = nodes[static_cast<std::size_t>(here[d]) + 1] - nodes[static_cast<std::size_t>(here[d])];
-      inside[d] -= inwards * h * (vector[d] > 0 ? 1 : vector[d] < 0 ? -1 : 0);
-    }
-    return grid.cell_of(inside);
-  }
   bool has_hoop() const { return K == Kinematics::axisymmetric && at.x[0] > 0; }
   std::array<double, dim> times_normal(const TensorOf<K>& cofactor) const {
     std::array<double, dim> all{};

@@ -19,8 +19,7 @@ Eigen::Vector<double, N> about(const RigidSpec& spec) {
 
 std::vector<char> bodies_touched_by(const Problem& problem, const RigidSpec& rigid) {
   std::vector<char> touched;
-  for (const BodySpec& body : problem.bodies)
-    touched.push_back(rigid.bodies.empty() || std::ranges::count(rigid.bodies, body.name) > 0);
+  for (const BodySpec& body : problem.bodies) touched.push_back(rigid.touches(body.name));
   return touched;
 }
 

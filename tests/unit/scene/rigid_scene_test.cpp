@@ -247,6 +247,16 @@ TEST_CASE("rigid bodies do not go with a multigrid mass, a hermite basis, or loa
   CHECK(said_of("[solve]\nmethod = \"newton\"\n", rests + "\nfriction = 0.3") == "");
 }
 
+TEST_CASE("points in space that a rigid body would touch are refused, as nobody knows their surface") {
+  const TemporaryFolder folder;
+  folder.write("points.csv", "x,y,z,volume\n0.25,0.25,0.25,0.125\n");
+  std::string text = space_text("sphere = [1, 1.3, 1]\nradius = 0.2");
+  text.replace(text.find("max = [2, 1, 2]"), 15, "file = \"points.csv\"");
+  const std::string touched = "points in space have no surface that a rigid body could touch";
+  CHECK_THROWS_WITH(load_scene(folder.write("scene.toml", text)),
+                    Catch::Contains("scene.toml:8:8: ") && Catch::Contains(touched));
+}
+
 TEST_CASE("in one dimension there is no rigid body") {
   const std::string text = broken("[stop]", "[[rigid]]\nname = \"punch\"\nhalf_plane = [[0, 1], [0, 1]]\n[stop]");
   CHECK(complaints(text) == "rigid[0]: there is none in a scene with dim = 1\n");

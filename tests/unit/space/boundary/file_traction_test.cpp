@@ -98,3 +98,17 @@ TEST_CASE("a line off the outline of a file's points is refused at its key") {
   CHECK_THAT(scenes::refusal("block", square.overrides({"traction=[{face='top', pressure=1}]"})),
              Contains("points from a file") && Contains("line"));
 }
+
+TEST_CASE("a rigid plate touches all of the side that a file's points show it") {
+  const FileBody square([](double x, double y) { return x < 1 && y < 1; });
+  for (const std::string more : {"title=''", "grid.basis=quadratic", "phase.max_motion=0.1"}) {
+    CAPTURE(more);
+    const auto phase = make_phase(scenes::load(
+        "block", square.overrides({"traction=[]", "rigid=[{name='plate', half_plane=[[0, 0.99], [0, -1]]}]", more})));
+    const RigidReport plate = phase->supports().rigid_bodies(0, std::vector<double>(phase->size(), 0.0)).at(0);
+    CHECK(plate.area == Approx(1).epsilon(1e-12));
+    CHECK(plate.penetration == Approx(0.1));  // [cells]
+    CHECK(plate.force[1] < 0);
+    CHECK(std::abs(plate.force[0]) < 1e-12 * -plate.force[1]);
+  }
+}
