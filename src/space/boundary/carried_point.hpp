@@ -43,13 +43,18 @@ struct CarriedPoint {
   Point<Dim> x;                // position when the phase begins [m]
   Point<Dim> X;                // undeformed position, if the position belongs to a domain [m]
   std::size_t carrier;         // number of the point whose domain it belongs to
+  int field = any_field;       // the field of motion of its body; any_field: that of the nearest point
   std::vector<Entry> entries;  // the functions of a cell, or of two cells, which may be the same one
 
   /// Sets the weights by the functions of a cell. Returns Σ_a w_a over the functions that material reaches.
   double freeze(const std::array<int, Dim>& cell, const PhaseParts<Dim>& phase) {
     const int per_cell = phase.functions.per_cell();
+    if (field == any_field) {
+      const bool is_one = phase.functions.fields() == 1;
+      field = is_one ? 0 : phase.points.field_of_cell(NearestPoint<Dim>(phase.points, phase.grid).to(x).k);
+    }
     entries.assign(static_cast<std::size_t>(per_cell), {});
-    const auto values = phase.functions.evaluate(cell, x);
+    const auto values = phase.functions.evaluate(field, cell, x);
     const double reached = take_functions(0, values, phase);
     for (int a = 0; a < per_cell; ++a) {
       for (int j = 0; j < Dim; ++j) entry(a).dN[j] = values.dN[per_cell * j + a];
@@ -82,7 +87,8 @@ struct CarriedPoint {
         of_point.w += 2 * d[j] * of_point.dN[j];
       }
     }
-    const auto at_mirror = phase.functions.evaluate(phase.grid.cell_of(mirror), mirror);
+    const int field_of_point = phase.points.field_of_cell(k);
+    const auto at_mirror = phase.functions.evaluate(field_of_point, phase.grid.cell_of(mirror), mirror);
     const double reached = take_functions(per_cell, at_mirror, phase);
     if (reached > 1 - 1e-13) return;
     // There is no material at the mirror image: the weights are of first order.
@@ -115,7 +121,7 @@ struct CarriedPoint {
     const auto share = Domain<Dim>::weights(position_in(p, phase.points));
     x.fill(0);
     for (int c = 0; c < domain.corners; ++c) {
-      const auto N = phase.functions.evaluate(cell, in_grid.x[c]).N;
+      const auto N = phase.functions.evaluate(phase.points.field_of_cell(k), cell, in_grid.x[c]).N;
       for (int a = 0; a < per_cell; ++a) entry(a).w += share[c] * N[a];
       for (int j = 0; j < Dim; ++j) x[j] += share[c] * domain.x[c][j];
     }
@@ -224,11 +230,11 @@ template <int Dim, class Loads, class PositionOf>
 void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const PhaseParts<Dim>& phase) {
   if (phase.functions.window() == 1) {
     const NearestPoint<Dim> nearest(phase.points, phase.grid);
-    for (auto& load : loads) at_of(load).freeze(nearest.to(at_of(load).x), phase);
+    for (auto& load : loads) at_of(load).freeze(nearest.to(at_of(load).x, at_of(load).field), phase);
   } else {
     if (is_first) {
       const NearestPoint<Dim> nearest(phase.points, phase.grid);
-      for (auto& load : loads) at_of(load).attach(nearest.to(at_of(load).x), phase.points);
+      for (auto& load : loads) at_of(load).attach(nearest.to(at_of(load).x, at_of(load).field), phase.points);
     }
     const std::vector<PointInCell> carriers = carriers_of(loads, at_of, phase.points);
     for (std::size_t l = 0; l < loads.size(); ++l) at_of(loads[l]).freeze_in_domain(carriers[l], phase);

@@ -75,14 +75,19 @@ class Supports final : public BoundaryCondition<Dim> {
     const SupportSpec& support = problem_.supports[s];
     Point<Dim> at;
     std::copy_n(support.at.begin(), Dim, at.begin());
-    const auto function = functions.interpolating(at);
-    if (!function) {
+    const auto first = functions.interpolating(at);
+    if (!first) {
       throw_scene_error(key, "the basis has no value of its own here; expected a stiffness, by which a spring holds");
     }
-    const int unknown = Dim * *function + support.component;
-    if (!reached[static_cast<std::size_t>(*function)]) throw_scene_error(key, "no material reaches this support");
-    if (held.is_prescribed(unknown)) throw_scene_error(key, "this place is supported already");
-    held.prescribe(unknown, motions_[s], s);
+    bool holds = false;
+    for (int field = 0; field < functions.fields(); ++field) {
+      const int function = *first + field * functions.count_of_field(), unknown = Dim * function + support.component;
+      if (!reached[static_cast<std::size_t>(function)]) continue;
+      if (held.is_prescribed(unknown)) throw_scene_error(key, "this place is supported already");
+      held.prescribe(unknown, motions_[s], s);
+      holds = true;
+    }
+    if (!holds) throw_scene_error(key, "no material reaches this support");
   }
 
   // Holds every function that does not vanish on the face and whose material lies on it, and for a part of a face those

@@ -26,6 +26,15 @@ class ExtendedFunctions {
     begin_.push_back(sources_.size());
   }
 
+  /// Adds all functions of a field by itself; first: its first function in the grid.
+  void add(const ExtendedFunctions& of_field, int first) {
+    for (std::size_t e = 0; e < of_field.functions().size(); ++e) {
+      std::vector<Source> sources;
+      for (const auto& [function, weight] : of_field.sources(e)) sources.push_back({first + function, weight});
+      add(first + of_field.functions()[e], sources);
+    }
+  }
+
   bool empty() const { return functions_.empty(); }
   /// The extended functions in the order in which they were added.
   const std::vector<int>& functions() const { return functions_; }

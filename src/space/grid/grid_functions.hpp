@@ -1,5 +1,6 @@
-// The functions of a grid behind an interface without the basis as a template parameter: for work done once a phase, or
-// at few positions. Kernels have the basis as a template parameter instead, see basis.hpp.
+// The functions of a grid, of one field of motion or more, behind an interface without the basis as a template
+// parameter: for work done once a phase, or at few positions. Kernels have the basis as a template parameter instead,
+// see basis.hpp.
 #pragma once
 
 #include <array>
@@ -38,17 +39,21 @@ class GridFunctions {
   int degree() const { return degree_; }
   bool partition_of_unity() const { return partition_of_unity_; }
 
-  virtual int count() const = 0;
+  /// The number of functions of all fields: each field has all functions of the grid, one field after the other.
+  int count() const { return fields_ * count_of_field(); }
+  int fields() const { return fields_; }
+  virtual int count_of_field() const = 0;
   /// The number of functions along an axis.
   virtual int count_along(int axis) const = 0;
-  virtual Values evaluate(const Cell& cell, const Point<Dim>& x) const = 0;
+  /// The functions of a field.
+  virtual Values evaluate(int field, const Cell& cell, const Point<Dim>& x) const = 0;
   /// The centre of a function along an axis [m].
   virtual double centre(int function, int axis) const = 0;
   /// Whether the function is a value along each axis, and not a slope.
   virtual bool is_value(int function) const = 0;
-  /// The functions that do not vanish on a face of the grid, in ascending order.
+  /// The functions of all fields that do not vanish on a face of the grid, in ascending order.
   virtual std::vector<int> on_face(int axis, bool upper) const = 0;
-  /// The function that alone carries the value at x; empty if there is none, as inside a spline.
+  /// The function of the first field that alone carries the value at x; empty if there is none, as inside a spline.
   virtual std::optional<int> interpolating(const Point<Dim>& x) const = 0;
 
   std::vector<int> values_on_face(int axis, bool upper) const {
@@ -59,8 +64,9 @@ class GridFunctions {
 
  protected:
   /// The grid must outlive this object.
-  GridFunctions(const Grid<Dim>& grid, int per_axis, int window, int degree, bool partition_of_unity)
+  GridFunctions(const Grid<Dim>& grid, int fields, int per_axis, int window, int degree, bool partition_of_unity)
       : grid_(grid),
+        fields_(fields),
         per_axis_(per_axis),
         per_cell_(power(per_axis, Dim)),
         window_(window),
@@ -69,7 +75,7 @@ class GridFunctions {
 
  private:
   const Grid<Dim>& grid_;
-  int per_axis_, per_cell_, window_, degree_;
+  int fields_, per_axis_, per_cell_, window_, degree_;
   bool partition_of_unity_;
 };
 
@@ -81,15 +87,15 @@ class FunctionsOfBasis final : public GridFunctions<Dim> {
   static_assert(Basis::per_cell <= most_functions_of_cell(Dim));
 
  public:
-  explicit FunctionsOfBasis(const Grid<Dim>& grid)
-      : GridFunctions<Dim>(grid, B::per_cell, B::window, B::degree, B::partition_of_unity) {}
+  explicit FunctionsOfBasis(const Grid<Dim>& grid, int fields = 1)
+      : GridFunctions<Dim>(grid, fields, B::per_cell, B::window, B::degree, B::partition_of_unity) {}
 
-  int count() const override { return Basis::count(this->grid()); }
+  int count_of_field() const override { return Basis::count(this->grid()); }
   int count_along(int axis) const override { return B::count(this->grid().axes[axis]); }
-  Values evaluate(const Cell& cell, const Point<Dim>& x) const override {
+  Values evaluate(int field, const Cell& cell, const Point<Dim>& x) const override {
     const auto of_cell = Basis::evaluate(this->grid(), cell, x);
     const auto offset = Basis::offsets(this->grid());
-    const int first = Basis::first(this->grid(), cell);
+    const int first = field * count_of_field() + Basis::first(this->grid(), cell);
     Values values;
     for (int a = 0; a < Basis::per_cell; ++a) {
       values.function[a] = first + offset[a];
@@ -103,7 +109,11 @@ class FunctionsOfBasis final : public GridFunctions<Dim> {
   }
   bool is_value(int function) const override { return Basis::is_value(this->grid(), function); }
   std::vector<int> on_face(int axis, bool upper) const override {
-    return Basis::face_functions(this->grid(), axis, upper);
+    const std::vector<int> of_field = Basis::face_functions(this->grid(), axis, upper);
+    std::vector<int> all;
+    for (int field = 0; field < this->fields(); ++field)
+      for (const int function : of_field) all.push_back(field * count_of_field() + function);
+    return all;
   }
   std::optional<int> interpolating(const Point<Dim>& x) const override {
     return Basis::interpolating_function(this->grid(), x);

@@ -29,13 +29,14 @@ class NeighbourMatrix {
   static constexpr int neighbours = power(span, Dim), per_cell = power(B::per_cell, Dim);
 
  public:
-  explicit NeighbourMatrix(const Grid<Dim>& grid) {
+  /// functions: the number of all, in fields one after the other.
+  NeighbourMatrix(const Grid<Dim>& grid, std::size_t functions) {
     int stride = 1;
     for (int d = 0; d < Dim; ++d) {
       for (int k = 0; k < neighbours; ++k) offset_[k] += stride * (k / power(span, d) % span - reach);
       stride *= B::count(grid.axes[d]);
     }
-    entry_.assign(static_cast<std::size_t>(stride) * neighbours * Dim * Dim, untouched);
+    entry_.assign(functions * neighbours * Dim * Dim, untouched);
   }
 
   /// Adds a cell's matrix. function(a): global number of the cell's local function a. Entries of 0 leave no trace.
@@ -138,7 +139,7 @@ SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const Material
                                  const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs,
                                  const AddCell<B, K>& add_cell) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
-  NeighbourMatrix<B, dim> sum(grid);
+  NeighbourMatrix<B, dim> sum(grid, dofs.number.size() / dim);
   for (std::size_t k = 0; k < points.cells(); ++k) {
     heed_stop_request();
     CellMatrix<dim, per_cell> matrix{};

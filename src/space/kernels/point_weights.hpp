@@ -56,6 +56,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
   void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points, const After& after) {
     points_ = &points;
     std::ranges::copy(Basis::offsets(grid), offset_.begin());
+    const int of_field = Basis::count(grid);
     first_.resize(points.cells());
     at_.resize(points.cells());
     if constexpr (from_positions) {
@@ -76,7 +77,7 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
     }();
     for_each_block(points.cells(), [&](std::size_t k) {
       const auto cell = at_[k] = grid.cell_at(points.cell[k]);
-      first_[k] = Basis::first(grid, cell);
+      first_[k] = points.field_of_cell(k) * of_field + Basis::first(grid, cell);
       if constexpr (from_positions) {
         locate_in_cell(grid, cell, points, k);
       } else if constexpr (from_factors) {

@@ -84,9 +84,13 @@ struct PhaseAssembly {
   // Extends functions into cells that the body hardly reaches, but only in a body with a single phase: in later phases
   // it is not known where in a cell the body ends.
   void extend_into_slivers() {
-    const std::vector<CellShares> covered = std::move(frame.body.covered);
-    const CutCells<dim> cut(frame.grid, covered, B::degree);
-    if (cut.slivers().empty()) return;
+    std::vector<std::vector<CellShares>> covered(static_cast<std::size_t>(frame.body.fields));  // by each field
+    for (std::size_t k = 0; k < frame.body.covered.size(); ++k)
+      covered[static_cast<std::size_t>(frame.body.points.field_of(k))].push_back(std::move(frame.body.covered[k]));
+    frame.body.covered.clear();
+    std::vector<CutCells<dim>> cut;  // likewise
+    for (const std::vector<CellShares>& of_field : covered) cut.emplace_back(frame.grid, of_field, B::degree);
+    if (std::ranges::all_of(cut, [](const auto& of_field) { return of_field.slivers().empty(); })) return;
     make_weights();
     const std::vector<char> reached = frame.reached_functions();
     const HeldUnknowns held = hold(0, reached);
@@ -94,19 +98,25 @@ struct PhaseAssembly {
       const int unknown = dim * function + i;
       return held.is_prescribed(unknown) || held.is_guided(unknown);
     };
-    // A function may follow others only if each of its held components is held in them too.
-    const auto may_follow = [&](int function, const std::vector<ExtendedFunctions::Source>& sources) {
-      return std::ranges::all_of(sources, [&](const ExtendedFunctions::Source& source) {
-        bool may = reached[static_cast<std::size_t>(source.function)] != 0;
-        for (int i = 0; i < dim; ++i) may = may && (!is_held(function, i) || is_held(source.function, i));
-        return may;
-      });
-    };
-    const SliverExtension<typename BasisOfOneCell<B>::type, dim> extension(frame.grid, cut, may_follow);
-    frame.body.quadrature.slivers = extension.slivers();
-    if (frame.moves_on()) return;
-    frame.extension = extension.functions();
-    frame.body.quadrature.joined = extension.joined();
+    frame.extension = ExtendedFunctions(frame.functions_of_grid());
+    for (int field = 0; field < frame.body.fields; ++field) {
+      const int first = field * frame.functions.count_of_field();
+      // A function may follow others only if each of its held components is held in them too.
+      const auto may_follow = [&](int function, const std::vector<ExtendedFunctions::Source>& sources) {
+        return std::ranges::all_of(sources, [&](const ExtendedFunctions::Source& source) {
+          bool may = reached[static_cast<std::size_t>(first + source.function)] != 0;
+          for (int i = 0; i < dim; ++i)
+            may = may && (!is_held(first + function, i) || is_held(first + source.function, i));
+          return may;
+        });
+      };
+      const SliverExtension<typename BasisOfOneCell<B>::type, dim> extension(
+          frame.grid, cut[static_cast<std::size_t>(field)], may_follow);
+      frame.body.quadrature.slivers += extension.slivers();
+      if (frame.moves_on()) continue;
+      frame.body.quadrature.joined += extension.joined();
+      frame.extension.add(extension.functions(), first);
+    }
   }
 };
 

@@ -79,9 +79,9 @@ class PhaseFieldsOf final : public PhaseFields {
     frame_.unknowns.spread(t, u, grid_u);
     const auto gradients = std::make_shared<Gradients>(all_, grid_u);
     return std::make_unique<PhasePlaces<K>>(
-        std::make_unique<FunctionsOfBasis<Spline, dim>>(frame_.grid), Spline::degree, frame_.body, frame_.dofs(),
-        [gradients](std::size_t k, std::size_t p) { return gradients->of_points.at(k, p); }, std::move(grid_u),
-        frame_.unknowns.velocities(t, v));
+        std::make_unique<FunctionsOfBasis<Spline, dim>>(frame_.grid, frame_.body.fields), Spline::degree, frame_.body,
+        frame_.dofs(), [gradients](std::size_t k, std::size_t p) { return gradients->of_points.at(k, p); },
+        std::move(grid_u), frame_.unknowns.velocities(t, v));
   }
 
   // Forces are Σ_p V_p σ_p ∇N_ip: a stress that varies from point to point faster than the functions is in the null

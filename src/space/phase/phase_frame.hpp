@@ -79,8 +79,8 @@ struct PhaseFrame {
   const Problem& problem;
   Grid<dim> grid;
   double grid_moved = 0;  // displacement of the wall that the grid follows [m]
-  const FunctionsOfBasis<B, dim> functions{grid};
   Body<K> body;
+  const FunctionsOfBasis<B, dim> functions{grid, body.fields};
   const bool remembers;     // whether some of the points have a history
   const double total_mass;  // Σ_p m_p at the start [kg]
   // Positions at the start of the run, by the points' numbers, (P × dim); empty if points do not move on.

@@ -43,7 +43,7 @@ class PhasePlaces final : public PlaceReader {
         gradient_(std::move(gradient)),
         u_(std::move(u)),
         v_(std::move(v)),
-        occupied_(static_cast<std::size_t>(grid_.cells()), 0),
+        occupied_(static_cast<std::size_t>(functions_->fields() * grid_.cells()), 0),
         around_(grid_, body.points) {
     mark_occupied();
   }
@@ -68,7 +68,7 @@ class PhasePlaces final : public PlaceReader {
     const auto cell = cell_for(at);
     if (!cell) return;
     std::ranges::fill(out, 0.0);
-    const auto values = functions_->evaluate(*cell, at);
+    const auto values = functions_->evaluate(field_at(at), *cell, at);
     const int per_cell = functions_->per_cell();
     double u_r = 0;
     for (int a = 0; a < per_cell; ++a) {
@@ -128,18 +128,26 @@ class PhasePlaces final : public PlaceReader {
     return std::max(nodes[c] - x[d], x[d] - nodes[c + 1]);
   }
 
+  // The field that moves the material at x: that of the nearest point.
+  int field_at(const Point<dim>& x) const {
+    return functions_->fields() == 1 ? 0 : body_.points.field_of_cell(around_.nearest(x).k);
+  }
+  char& occupied(int field, int cell) { return occupied_[static_cast<std::size_t>(field * grid_.cells() + cell)]; }
   // Marks the cells with material points; for domains the cells that they are partly in.
   void mark_occupied() {
     const MaterialPoints<dim>& points = body_.points;
-    if (!points.has_domains()) {
-      for (const int cell : points.cell) occupied_[static_cast<std::size_t>(cell)] = 1;
-    } else {
-      constexpr double within = 1 - 1e-6;  // share of the way to a corner, which may lie on a grid line
-      for (std::size_t p = 0; p < points.size(); ++p) {
+    constexpr double within = 1 - 1e-6;  // share of the way to a corner, which may lie on a grid line
+    for (std::size_t k = 0; k < points.cells(); ++k) {
+      const int field = points.field_of_cell(k);
+      if (!points.has_domains()) {
+        occupied(field, points.cell[k]) = 1;
+        continue;
+      }
+      for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         const Point<dim> middle = points.position(p);
         for (Point<dim> x : Domain<dim>::of(points, p).x) {
           for (int d = 0; d < dim; ++d) x[d] = middle[d] + within * (x[d] - middle[d]);
-          occupied_[static_cast<std::size_t>(grid_.cell_number(grid_.cell_of(x)))] = 1;
+          occupied(field, grid_.cell_number(grid_.cell_of(x))) = 1;
         }
       }
     }
@@ -148,7 +156,7 @@ class PhasePlaces final : public PlaceReader {
   // Whether material reaches all functions of a cell that do not vanish at x.
   bool is_whole(const Cell& cell, const Point<dim>& x) const {
     constexpr double rounding = 1e-12;
-    const auto values = functions_->evaluate(cell, x);
+    const auto values = functions_->evaluate(field_at(x), cell, x);
     for (int a = 0; a < functions_->per_cell(); ++a) {
       const int unknown = dim * values.function[a];
       if (dofs_.number[static_cast<std::size_t>(unknown)] < 0 && std::abs(values.N[a]) > rounding) return false;
@@ -159,6 +167,7 @@ class PhasePlaces final : public PlaceReader {
   std::optional<Cell> cell_with_points(const Point<dim>& x) const {
     constexpr double rounding = 1e-9;  // share of a cell
     const Cell here = grid_.cell_of(x);
+    const int field = field_at(x);
     for (int k = 0; k < power(3, dim); ++k) {
       constexpr std::array aside = {0, -1, 1};
       Cell cell = here;
@@ -169,7 +178,8 @@ class PhasePlaces final : public PlaceReader {
                   outside(x, cell, d) <= rounding * width(cell, d);
       }
       if (!is_cell) continue;
-      if (occupied_[static_cast<std::size_t>(grid_.cell_number(cell))] && is_whole(cell, x)) return cell;
+      const auto number = static_cast<std::size_t>(field * grid_.cells() + grid_.cell_number(cell));
+      if (occupied_[number] && is_whole(cell, x)) return cell;
     }
     return std::nullopt;
   }
@@ -190,7 +200,7 @@ class PhasePlaces final : public PlaceReader {
     const auto cell = cell_for(at);
     if (!cell) return;
     std::ranges::fill(out, 0.0);
-    const auto values = functions_->evaluate(*cell, at);
+    const auto values = functions_->evaluate(field_at(at), *cell, at);
     for (int a = 0; a < functions_->per_cell(); ++a) {
       for (int i = 0; i < dim; ++i)
         out[i] += values.N[a] * nodal[static_cast<std::size_t>(dim * values.function[a] + i)];
@@ -204,7 +214,7 @@ class PhasePlaces final : public PlaceReader {
   const DegreesOfFreedom& dofs_;
   GradientOfPoint<K> gradient_;
   std::vector<double> u_, v_;
-  std::vector<char> occupied_;  // whether a cell has material points, (cells of the grid)
+  std::vector<char> occupied_;  // whether a cell has material points, (fields × cells of the grid)
   PointsAround<dim> around_;
 };
 

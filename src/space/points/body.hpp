@@ -10,6 +10,7 @@
 #include "space/materials/material_laws.hpp"
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
+#include "space/points/motion_fields.hpp"
 #include "space/points/point_order.hpp"
 
 namespace stillpoint {
@@ -20,7 +21,8 @@ struct Body {
   MaterialPoints<dim> points;
   QuadratureReport quadrature;
   std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
-  std::vector<std::string> material_names;
+  std::vector<std::string> material_names;                   // likewise; one in two fields is there twice
+  int fields = 1;                                            // see motion_fields.hpp
   std::vector<CellShares> covered;  // cells covered by each [[body]]; empty if that of one is not known
   std::vector<int> first_number;    // number of the first point of each [[body]], and the number of all points: (bodies
                                     // + 1)
@@ -55,23 +57,31 @@ Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool 
   constexpr int dim = dimensions(K);
   Body<K> body;
   MaterialPoints<dim>& points = body.points;
-  std::map<std::string, std::vector<std::pair<MaterialPoints<dim>, int>>> by_material;  // the points with their first
-                                                                                        // number
+  std::vector<MaterialPoints<dim>> of_bodies;
   int number = 0;
   for (const BodySpec& spec : problem.bodies) {
     PlacedBody<dim> placed = place_body<dim>(spec, grid, problem.materials.at(spec.material).parameters.at("rho"),
                                              problem.state, problem.phase.quadrature == Quadrature::domains);
     body.quadrature.add(placed.quadrature);
-    const int count = static_cast<int>(placed.points.size());
     if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
-    by_material[spec.material].emplace_back(std::move(placed.points), number);
     body.first_number.push_back(number);
-    number += count;
+    number += static_cast<int>(placed.points.size());
+    of_bodies.push_back(std::move(placed.points));
   }
   body.first_number.push_back(number);
-  for (const auto& [name, parts] : by_material) {
+  const MotionFields fields = motion_fields<dim>(problem, grid, of_bodies);
+  body.fields = fields.count;
+  std::map<std::pair<std::string, int>, std::vector<std::size_t>> by_material;  // the bodies of a material in a field
+  for (std::size_t k = 0; k < of_bodies.size(); ++k)
+    by_material[{problem.bodies[k].material, fields.of_body[k]}].push_back(k);
+  if (fields.count > 1) points.field_of_body = fields.of_body;
+  for (const auto& [material_in_field, bodies] : by_material) {
+    const auto& [name, field] = material_in_field;
     points.material_begin.push_back(static_cast<int>(points.size()));
-    for (const auto& [part, first_number] : parts) {
+    if (fields.count > 1) points.field_of_material.push_back(field);
+    for (const std::size_t k : bodies) {
+      const MaterialPoints<dim>& part = of_bodies[k];
+      const int first_number = body.first_number[k];
       for (int d = 0; d < dim; ++d) detail::append(points.x[d], part.x[d]);
       detail::append(points.volume, part.volume);
       detail::append(points.mass, part.mass);

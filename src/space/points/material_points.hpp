@@ -13,8 +13,9 @@
 
 namespace stillpoint {
 
-/// Material points as a structure of arrays; n points, sorted by material and then by cell. A cell that holds points of
-/// two materials is listed once for each.
+/// Material points as a structure of arrays; n points, sorted by material and field of motion, and then by cell. A cell
+/// that holds points of two materials, or of two fields, is listed once for each. A material of bodies in two fields
+/// counts as two.
 template <int Dim>
 struct MaterialPoints {
   std::array<std::vector<double>, Dim> x;  // positions [m], each (n)
@@ -23,6 +24,8 @@ struct MaterialPoints {
   std::vector<int> cell_begin;             // first point of occupied cell k, and n at its end: (occupied cells + 1)
   std::vector<int> cell;                   // grid number of occupied cell k
   std::vector<int> material_begin;         // first point of each material, and n at the end
+  std::vector<int> field_of_material;      // empty if all are in one field
+  std::vector<int> field_of_body;          // of each [[body]], likewise
   std::vector<int> number;                 // number of each point when the body was placed; all parts of a point have
                                            // its number, (n)
   // Only in a body that moves on from phase to phase:
@@ -48,6 +51,12 @@ struct MaterialPoints {
     while (material_begin[static_cast<std::size_t>(m) + 1] <= cell_begin[k]) ++m;
     return m;
   }
+  /// The field of motion that moves the points of occupied cell k, see motion_fields.hpp.
+  int field_of_cell(std::size_t k) const {
+    return field_of_material.empty() ? 0 : field_of_material[static_cast<std::size_t>(material_of_cell(k))];
+  }
+  /// The field of motion that moves a [[body]], by its number.
+  int field_of(std::size_t body) const { return field_of_body.empty() ? 0 : field_of_body[body]; }
   Point<Dim> position(std::size_t p) const {
     Point<Dim> at;
     for (int d = 0; d < Dim; ++d) at[d] = x[d][p];

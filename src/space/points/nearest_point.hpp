@@ -10,6 +10,8 @@
 
 namespace stillpoint {
 
+constexpr int any_field = -1;
+
 /// A material point and the occupied cell that lists it.
 struct PointInCell {
   std::size_t k = 0, p = 0;
@@ -18,7 +20,7 @@ struct PointInCell {
 template <int Dim>
 class NearestPoint {
  public:
-  /// Both arguments must outlive this object. There has to be at least one point.
+  /// Both arguments must outlive this object.
   NearestPoint(const MaterialPoints<Dim>& points, const Grid<Dim>& grid)
       : points_(points), grid_(grid), lists_(static_cast<std::size_t>(grid.cells()) + 1, 0), list_(points.cells()) {
     for (const int cell : points.cell) ++lists_[static_cast<std::size_t>(cell) + 1];
@@ -30,8 +32,9 @@ class NearestPoint {
     for (const Axis& axis : grid.axes) most_cells_ = std::max(most_cells_, axis.cells());
   }
 
-  /// The point nearest to x; of several equally near ones, one of those that the grid lists first.
-  PointInCell to(const Point<Dim>& x) const {
+  /// The point nearest to x, of those in a field, of which there is at least one; of several equally near ones, one of
+  /// those that the grid lists first.
+  PointInCell to(const Point<Dim>& x, int field = any_field) const {
     const std::array<int, Dim> here = grid_.cell_of(x);
     PointInCell found;
     double least = std::numeric_limits<double>::infinity();
@@ -39,6 +42,7 @@ class NearestPoint {
       visit_ring(here, ring, [&](int cell) {
         for (int l = lists_[static_cast<std::size_t>(cell)]; l < lists_[static_cast<std::size_t>(cell) + 1]; ++l) {
           const std::size_t k = list_[static_cast<std::size_t>(l)];
+          if (field != any_field && points_.field_of_cell(k) != field) continue;
           for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
             double distance = 0;
             for (int d = 0; d < Dim; ++d) distance += square(points_.x[d][p] - x[d]);

@@ -1,0 +1,17 @@
+// The specification of contact between two bodies, as a scene gives it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stillpoint {
+
+struct ContactSpec {                // [[contact]]: two bodies that push each other where they meet, and never hold back
+  std::vector<std::string> bodies;  // their names; the border of the first is where contact is looked for
+  double friction = 0;              // Coulomb's coefficient; infinite: rough
+
+  /// Its name in history.csv and summary.json, "block+base".
+  std::string name() const { return bodies.size() == 2 ? bodies[0] + "+" + bodies[1] : std::string(); }
+};
+
+}  // namespace stillpoint
