@@ -38,19 +38,23 @@ struct WallReaction {
   double put_back = 0;         // largest distance so far by which a node has been put back onto the wall [m]
 };
 
-/// What a rigid body exerts on the bodies that it touches.
-struct RigidReport {
+/// What a rigid body exerts on the bodies that it touches, or the second body of a contact on the first.
+struct ContactReport {
   std::string name;
   std::array<double, 3> force{};   // components along the scene's axes, summed around the axis if axisymmetric [N]
-  std::array<double, 3> moment{};  // about RigidSpec::about, which moves with it; in the plane the third alone [N m]
-  double area = 0;                 // where it touches [m²]
-  double penetration = 0;          // the largest [cells]
-  double slipping = 0;             // share of that area which slips
+  std::array<double, 3> moment{};  // about RigidSpec::about, which moves with it, and of a contact about the origin; in
+                                   // the plane the third alone [N m]
+  std::array<double, 3> displacement{};  // of a free rigid body, since the run began [m]
+  double area = 0;                       // where it touches [m²]
+  double penetration = 0;                // the largest [cells]
+  double slipping = 0;                   // share of that area which slips
+  double slid = 0;                       // how far bodies have moved along each other in the phase, where most [cells]
 };
 
-/// Contact with rigid bodies.
+/// Contact with rigid bodies, and of bodies with each other.
 struct ContactState {
-  bool touches = false;  // whether any rigid body touches a body
+  bool touches = false;  // whether anything touches
+  bool balanced = true;  // whether each free rigid body is where its forces balance
   double misfit = 0;     // the largest mean penetration, or gap, of a patch that is touched [cells]
   double change = 0;     // by which its pressures would change the multipliers, as a share of them
 };

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "space/boundary/body_contact.hpp"
 #include "space/boundary/rigid_contact.hpp"
 
 namespace stillpoint {
@@ -18,7 +19,8 @@ Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Gr
       axis_(problem, grid, body, time_scale),
       weak_supports_(problem, grid, time_scale),
       load_control_(whole, grid, time_scale),
-      rigid_contact_(std::make_unique<RigidContact<K>>(problem, grid, time_scale)) {
+      rigid_contact_(std::make_unique<RigidContact<K>>(problem, grid, time_scale)),
+      body_contact_(std::make_unique<BodyContact<K>>(problem, grid)) {
   for (const auto& condition : all_) {
     Contact* found = condition->contact();
     if (found && contact_) throw std::logic_error("two kinds of boundary conditions have contact");
@@ -46,6 +48,7 @@ void Conditions<K>::begin_phase(const Parts& phase, double t, const StiffnessBou
   weak_supports_.begin_phase(phase, stiffness_bound);
   load_control_.begin_phase(phase, stiffness_bound);
   rigid_contact_->begin_phase(phase, t, stiffness_bound);
+  body_contact_->begin_phase(phase, stiffness_bound);
 }
 
 template <Kinematics K>
@@ -90,6 +93,7 @@ void Conditions<K>::add_force(double t, const double* u, Vec R, Vec reactions) c
   weak_supports_.springs().add_force(t, u, R, reactions.first(prescribed + weak_supports_.springs().size()));
   load_control_.springs().add_force(t, u, R, reactions.first(with_springs));
   rigid_contact_->add_force(t, u, R, reactions.first(prescribed), reactions.subspan(with_springs));
+  body_contact_->add_force(u, R, reactions.first(prescribed));
 }
 
 template <Kinematics K>
@@ -97,13 +101,20 @@ void Conditions<K>::add_product(Tangent kind, double t, const double* u, const d
   weak_supports_.springs().add_product(du, dR);
   load_control_.springs().add_product(du, dR);
   rigid_contact_->add_product(kind, t, u, du, dR);
+  body_contact_->add_product(kind, u, du, dR);
 }
 
 template <Kinematics K>
 void Conditions<K>::add_matrix(Tangent kind, double t, const double* u, SparseMatrix& matrix) const {
   weak_supports_.springs().add_matrix(matrix);
-  rigid_contact_->add_matrix(kind, t, u, matrix);
-}
+  if (!may_touch()) return;
+  MatrixEntries entries;
+  rigid_contact_->add_entries(kind, t, u, entries);
+  body_contact_->add_entries(kind, u, entries);
+  SparseMatrix of_contact(matrix.rows(), matrix.cols());
+  of_contact.setFromTriplets(entries.begin(), entries.end());
+  matrix += of_contact;
+}  // NOLINT(clang-analyzer-unix.Malloc): the analyzer loses sight of Eigen's destructor
 
 template <Kinematics K>
 std::size_t Conditions<K>::other_reactions() const {
@@ -112,32 +123,40 @@ std::size_t Conditions<K>::other_reactions() const {
 
 template <Kinematics K>
 bool Conditions<K>::remember() const {
-  return rigid_contact_->remembers();
+  return problem_.rubs();
 }
 
 template <Kinematics K>
 void Conditions<K>::commit(double t, const double* u) {
   rigid_contact_->commit(t, u);
+  body_contact_->commit(u);
 }
 
 template <Kinematics K>
 double Conditions<K>::growth_of_springs() const {
-  return std::max(weak_supports_.growth(), rigid_contact_->growth());
+  return std::max({weak_supports_.growth(), rigid_contact_->growth(), body_contact_->growth()});
 }
 
 template <Kinematics K>
 void Conditions<K>::update_multipliers(double t, const double* u) {
   rigid_contact_->update_multipliers(t, u);
+  body_contact_->update_multipliers(u);
 }
 
 template <Kinematics K>
-std::vector<RigidReport> Conditions<K>::rigid_bodies(double t, const double* u) const {
-  return rigid_contact_->report(t, u);
+std::vector<ContactReport> Conditions<K>::contacts(double t, const double* u) const {
+  std::vector<ContactReport> reports;
+  rigid_contact_->add_reports(t, u, reports);
+  body_contact_->add_reports(u, reports);
+  return reports;
 }
 
 template <Kinematics K>
 ContactState Conditions<K>::contact_state(double t, const double* u) const {
-  return rigid_contact_->state(t, u);
+  ContactFit fit;
+  rigid_contact_->add_fit(t, u, fit);
+  body_contact_->add_fit(u, fit);
+  return fit.state();
 }
 
 template <Kinematics K>
@@ -154,11 +173,12 @@ bool Conditions<K>::ask_for_next_phase(ConstVec u) const {
 }
 
 template <Kinematics K>
-void Conditions<K>::end_phase(const double* u) {
+void Conditions<K>::end_phase(double t, const double* u) {
   for (const auto& condition : all_) condition->end_phase(u);
   weak_supports_.end_phase(u);
   load_control_.end_phase(u);
-  rigid_contact_->end_phase(u);
+  rigid_contact_->end_phase(t, u);
+  body_contact_->end_phase(u);
 }
 
 template <Kinematics K>
@@ -167,6 +187,7 @@ void Conditions<K>::archive(const StateArchive& state) {
   weak_supports_.archive(state.part("weak_supports"));
   load_control_.archive(state.part("load"));
   rigid_contact_->archive(state.part("rigid"));
+  body_contact_->archive(state.part("bodies"));
 }
 
 template <Kinematics K>

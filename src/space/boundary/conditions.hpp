@@ -1,5 +1,5 @@
 // All conditions on a body in the present phase: supports, walls and loads (boundary_condition.hpp), the springs of
-// supports and of driven loads, contact with rigid bodies, and the axis of symmetry.
+// supports and of driven loads, contact with rigid bodies and between bodies, and the axis of symmetry.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -20,6 +20,8 @@ namespace stillpoint {
 
 template <Kinematics K>
 class RigidContact;  // rigid_contact.hpp
+template <Kinematics K>
+class BodyContact;  // body_contact.hpp
 
 template <Kinematics K>
 class Conditions {
@@ -58,7 +60,7 @@ class Conditions {
 
   /// The number of reactions beside those of supports that prescribe unknowns: of springs and of rigid bodies.
   std::size_t other_reactions() const;
-  /// R += the forces of springs and of rigid bodies, (n); reactions: of the supports that prescribe unknowns, followed
+  /// R += the forces of springs and of contact, (n); reactions: of the supports that prescribe unknowns, followed
   /// by those of the springs, and those of the rigid bodies.
   void add_force(double t, const double* u, Vec R, Vec reactions) const;
   /// dR += the derivative of these forces along du.
@@ -68,10 +70,10 @@ class Conditions {
   /// Whether these forces depend on the state at the last commit.
   bool remember() const;
   void commit(double t, const double* u);
-  /// Whether a support holds by springs, whether rigid bodies may touch the body, and the factor by which omega_max²
-  /// may have grown through either since the first phase.
+  /// Whether a support holds by springs, whether bodies may be touched, and the factor by which omega_max² may have
+  /// grown through either since the first phase.
   bool hold_by_springs() const { return !weak_supports_.empty(); }
-  bool may_touch() const { return !problem_.rigid.empty(); }
+  bool may_touch() const { return problem_.may_touch(); }
   double growth_of_springs() const;
   /// Whether a spring of a support acts on an unknown of the grid, (unknowns).
   std::vector<char> are_sprung(std::size_t unknowns) const;
@@ -80,7 +82,7 @@ class Conditions {
   Contact* contact() const { return contact_; }
   void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;
-  void end_phase(const double* u);
+  void end_phase(double t, const double* u);
   void archive(const StateArchive& state);
 
   // --- reactions and displacements; the argument `reactions` as in add_force() --------------------
@@ -91,7 +93,7 @@ class Conditions {
   std::vector<SupportReaction> support_reactions(const Parts& phase, double t, const double* u,
                                                  ConstVec reactions) const;
   std::vector<WeakSupport> weak_supports(double t, const double* u) const { return weak_supports_.report(t, u); }
-  std::vector<RigidReport> rigid_bodies(double t, const double* u) const;
+  std::vector<ContactReport> contacts(double t, const double* u) const;
   ContactState contact_state(double t, const double* u) const;
   bool are_driven() const { return load_control_.acts(); }
   LoadState load_state(double t, const double* u) const { return load_control_.state(t, u); }
@@ -106,6 +108,7 @@ class Conditions {
   WeakSupports<K> weak_supports_;
   LoadControl<K> load_control_;
   std::unique_ptr<RigidContact<K>> rigid_contact_;
+  std::unique_ptr<BodyContact<K>> body_contact_;
   Contact* contact_ = nullptr;  // contact of one of the conditions; null if there is none
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Core>
+
 namespace stillpoint {
 
 template <Kinematics K>
@@ -22,7 +24,7 @@ template <Kinematics K>
 void ContactSurface<K>::begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound) {
   if (empty()) return;
   freeze(phase);
-  take_weights(phase);
+  take_weights(phase, nullptr);
   take_functions();
   if (!has_begun_) choose_stiffness(stiffness_bound());
   has_begun_ = true;
@@ -30,6 +32,8 @@ void ContactSurface<K>::begin_phase(const Parts& phase, const StiffnessBound& st
 
 template <Kinematics K>
 void ContactSurface<K>::freeze(const Parts& phase) {
+  for (const Patch& patch : patches_)
+    for (std::size_t s = patch.begin; s < patch.end; ++s) pieces_[s].at.field = phase.points.field_of(patch.body);
   if (phases_end_) {
     freeze_carried(
         pieces_, [](BorderPiece<K> & piece) -> auto& { return piece.at; }, !has_begun_, phase);
@@ -40,29 +44,32 @@ void ContactSurface<K>::freeze(const Parts& phase) {
 }
 
 template <Kinematics K>
-void ContactSurface<K>::take_weights(const Parts& phase) {
+void ContactSurface<K>::take_weights(const Parts& phase, const Partners* partners) {
   free_ = static_cast<int>(phase.dofs.size());
   area_.clear(), weights_.clear(), sources_.clear();
   begin_.assign(1, 0), sources_begin_.assign(1, 0);
-  for (const BorderPiece<K>& piece : pieces_) {
-    double square = 0;
-    for (const double along : piece.vector) square += along * along;
-    area_.push_back(std::sqrt(square));
-    for (const auto& a : piece.at.entries) {
-      if (a.function < 0 || a.w == 0) continue;
-      weights_.push_back({dim * a.function, a.w});
-      for (int i = 0; i < dim; ++i) {
-        phase.dofs.for_sources(dim * a.function + i, [&](int, int dof, double share) {
-          const auto first = sources_.begin() + static_cast<std::ptrdiff_t>(sources_begin_.back());
-          const auto known = std::find_if(first, sources_.end(), [&](const Source& one) { return one.dof == dof; });
-          if (known == sources_.end()) {
-            sources_.push_back({i, dof, a.w * share});
-          } else {
-            known->w += a.w * share;
-          }
-        });
-      }
+  const auto take = [&](const Entry& a, double w) {
+    if (a.function < 0 || w == 0) return;
+    weights_.push_back({dim * a.function, w});
+    for (int i = 0; i < dim; ++i) {
+      phase.dofs.for_sources(dim * a.function + i, [&](int, int dof, double share) {
+        const auto first = sources_.begin() + static_cast<std::ptrdiff_t>(sources_begin_.back());
+        const auto known = std::find_if(first, sources_.end(), [&](const Source& one) { return one.dof == dof; });
+        if (known == sources_.end()) {
+          sources_.push_back({i, dof, w * share});
+        } else {
+          known->w += w * share;
+        }
+      });
     }
+  };
+  for (std::size_t s = 0; s < pieces_.size(); ++s) {
+    double square = 0;
+    for (const double along : pieces_[s].vector) square += along * along;
+    area_.push_back(std::sqrt(square));
+    for (const Entry& a : pieces_[s].at.entries) take(a, a.w);
+    if (partners)
+      for (const Entry& a : (*partners)[s]) take(a, -a.w);
     begin_.push_back(weights_.size());
     sources_begin_.push_back(sources_.size());
   }
@@ -112,6 +119,50 @@ void ContactSurface<K>::choose_stiffness(const std::vector<double>& G) {
 }
 
 template <Kinematics K>
+void ContactSurface<K>::add_product_held(const double* du, Vec dR) const {
+  for (const Patch& patch : patches_) {
+    for (std::size_t s = patch.begin; s < patch.end; ++s) {
+      Point<dim> f = motion(s, du);
+      for (double& along : f) along *= area_[s] * patch.stiffness;
+      add(s, f, dR, {});
+    }
+  }
+}
+
+template <Kinematics K>
+void ContactSurface<K>::add_entries_held(MatrixEntries& entries) const {
+  using Matrix = Eigen::Matrix<double, dim, dim>;
+  for (const Patch& patch : patches_)
+    for (std::size_t s = patch.begin; s < patch.end; ++s)
+      add_entries(s, Matrix(area_[s] * patch.stiffness * Matrix::Identity()), entries);
+}
+
+template <Kinematics K>
+void ContactSurface<K>::put_in_series(double stiffness) {
+  for (Patch& patch : patches_)
+    if (patch.stiffness > 0 && stiffness > 0) patch.stiffness = 1 / (1 / patch.stiffness + 1 / stiffness);
+}
+
+template <Kinematics K>
+double ContactSurface<K>::mean_stiffness() const {
+  double sum = 0, area = 0;
+  for (const Patch& patch : patches_) {
+    for (std::size_t s = patch.begin; s < patch.end; ++s) {
+      sum += area_[s] * patch.stiffness;
+      area += area_[s];
+    }
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+template <Kinematics K>
+void ContactSurface<K>::take_growth(const Parts& phase) {
+  const double bound = bound_of_frequency(phase);
+  if (first_bound_ < 0) first_bound_ = bound;
+  growth_ = first_bound_ > 0 ? std::max(1.0, bound / first_bound_) : 1;
+}
+
+template <Kinematics K>
 void ContactSurface<K>::end_phase(const double* u) {
   for (BorderPiece<K>& piece : pieces_) piece.move(u);
 }
@@ -129,6 +180,8 @@ void ContactSurface<K>::archive(const StateArchive& state) {
   for (std::size_t k = 0; k < patches_.size(); ++k) patches_[k].stiffness = stiffness[k];
 }
 
+// The bound max_a κ_a/m_a, κ_a = Σ_s A_s κ |w_sa| Σ_b |w_sb|, on how much all pieces together add to ω_max² [1/s²]; 0
+// unless the mass is lumped.
 template <Kinematics K>
 double ContactSurface<K>::bound_of_frequency(const Parts& phase) const {
   if (!phase.mass.is_lumped()) return 0;

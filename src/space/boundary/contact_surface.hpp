@@ -16,6 +16,7 @@
 
 #include "space/boundary/border_patches.hpp"
 #include "space/boundary/stiffness_at.hpp"
+#include "space/grid/matrix_entries.hpp"
 
 namespace stillpoint {
 
@@ -25,6 +26,7 @@ class ContactSurface {
 
  public:
   using Parts = PhaseParts<dim>;
+  using Entry = typename CarriedPoint<dim>::Entry;
 
   struct Patch {
     std::size_t body = 0;            // number in the scene
@@ -47,8 +49,14 @@ class ContactSurface {
   /// by their places in that list.
   const std::vector<int>& functions() const { return functions_; }
   const std::vector<int>& functions_of_patches() const { return of_patches_; }
-  /// The area of piece s when the phase began [m²].
+  const BorderPiece<K>& piece(std::size_t s) const { return pieces_[s]; }
+  /// The area of piece s when the phase began [m²], and its normal, outwards.
   double area(std::size_t s) const { return area_[s]; }
+  Point<dim> normal(std::size_t s) const {
+    Point<dim> n;
+    for (std::size_t d = 0; d < dim; ++d) n[d] = pieces_[s].vector[d] / area_[s];
+    return n;
+  }
   /// The position of piece s when the phase began [m].
   const Point<dim>& start(std::size_t s) const { return pieces_[s].at.x; }
   /// The position of piece s at u, over the grid's functions [m].
@@ -81,6 +89,18 @@ class ContactSurface {
       }
     }
   }
+  /// Appends the entries of the matrix of a spring with the stiffness S at piece s [N/m].
+  template <class Matrix>
+  void add_entries(std::size_t s, const Matrix& S, MatrixEntries& entries) const {
+    for_free(s, [&](int i, int row, double w_row) {
+      for_free(s, [&](int j, int column, double w_column) {
+        if (S(i, j) != 0) entries.emplace_back(row, column, w_row * S(i, j) * w_column);
+      });
+    });
+  }
+  /// The product with du, and the entries, of springs that hold each piece in all directions, with A κ.
+  void add_product_held(const double* du, Vec dR) const;
+  void add_entries_held(MatrixEntries& entries) const;
   /// Calls visit(component, degree of freedom, weight) for what is free at piece s.
   template <class Visit>
   void for_free(std::size_t s, const Visit& visit) const {
@@ -88,16 +108,28 @@ class ContactSurface {
       if (sources_[e].dof < free_) visit(sources_[e].component, sources_[e].dof, sources_[e].w);
   }
 
+  /// Freezes the pieces; in the first phase their stiffness is found.
   void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound);
+  /// From now on and up to the end of the phase positions are relative to others: x_s − Σ w_m u_m, with the entries of
+  /// each piece's partner, (pieces). The pieces themselves move on with the body.
+  void move_relative_to(const Parts& phase, const std::vector<std::vector<Entry>>& partners) {
+    take_weights(phase, &partners);
+    take_functions();
+  }
+  /// Sets κ of each patch to that of itself and another stiffness in series.
+  void put_in_series(double stiffness);
+  /// The mean of κ by area.
+  double mean_stiffness() const;
+  /// Finds growth() anew, once the phase has begun.
+  void take_growth(const Parts& phase);
+  /// The factor by which ω_max² may have grown through the springs of all pieces since the first phase.
+  double growth() const { return growth_; }
   /// Moves the pieces at the end of a phase; u: over the grid's functions.
   void end_phase(const double* u);
   void archive(const StateArchive& state);
 
-  /// The bound max_a κ_a/m_a, κ_a = Σ_s A_s κ w_sa, on how much all pieces together add to ω_max² [1/s²]; 0 unless the
-  /// mass is lumped.
-  double bound_of_frequency(const Parts& phase) const;
-
  private:
+  using Partners = std::vector<std::vector<Entry>>;
   struct Weight {
     int first_unknown;  // dim × function
     double w;
@@ -108,9 +140,10 @@ class ContactSurface {
   };
 
   void freeze(const Parts& phase);
-  void take_weights(const Parts& phase);
+  void take_weights(const Parts& phase, const Partners* partners);
   void take_functions();
   void choose_stiffness(const std::vector<double>& G);
+  double bound_of_frequency(const Parts& phase) const;
 
   bool phases_end_, has_begun_ = false;
   int free_ = 0;  // n
@@ -122,6 +155,7 @@ class ContactSurface {
   std::vector<std::size_t> sources_begin_{0};
   std::vector<Source> sources_;
   std::vector<int> functions_, of_patches_;
+  double first_bound_ = -1, growth_ = 1;
 };
 
 }  // namespace stillpoint

@@ -27,10 +27,23 @@ template <Kinematics K>
 TouchFinder<K>::TouchFinder(const Problem& problem, const RigidSpec& spec, const ContactSurface<K>& surface,
                             double time_scale)
     : spec_(&spec),
+      gravity_(problem.body_force),
       surface_(surface),
       shape_(rigid_shape<N>(spec, K == Kinematics::axisymmetric)),
       motion_(spec.motion, spec.rotation, about<N>(spec), time_scale),
       touches_(bodies_touched_by(problem, spec)) {}
+
+// Along the axis of symmetry alone: what acts across it cancels around it.
+template <Kinematics K>
+auto TouchFinder<K>::load(double t) const -> Position {
+  Position load = Position::Zero();
+  for (std::size_t i = K == Kinematics::axisymmetric ? 1 : 0; i < dim; ++i) {
+    double& along = load[static_cast<Eigen::Index>(i)];
+    if (i < spec_->force.size()) along += spec_->force[i]({}, t);
+    if (i < gravity_.size() && spec_->mass > 0) along += spec_->mass * gravity_[i]({}, t);
+  }
+  return load;
+}
 
 template <Kinematics K>
 auto TouchFinder<K>::looks(const RigidPlacement<N>& placement, const double* u) const -> Loan {

@@ -35,6 +35,9 @@ class TouchFinder {
   TouchFinder(const Problem& problem, const RigidSpec& spec, const ContactSurface<K>& surface, double time_scale);
 
   const RigidSpec& spec() const { return *spec_; }
+  bool is_free() const { return spec_->free; }
+  /// The weight of a free body and the force on it [N].
+  Position load(double t) const;
   bool touches(std::size_t body) const { return touches_[body] != 0; }
   RigidPlacement<N> placement(double t) const { return motion_.placement(t); }
   void begin_phase() { ++phase_; }
@@ -105,6 +108,7 @@ class TouchFinder {
   }
 
   const RigidSpec* spec_;
+  const std::vector<Expression>& gravity_;  // the body force per mass, formulas of t [m/s²]; empty: 0
   const ContactSurface<K>& surface_;
   RigidShapePtr<N> shape_;
   RigidMotion<N> motion_;

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "scene/contact_bodies.hpp"
 #include "scene/grid_lines.hpp"
 
 namespace stillpoint {
@@ -20,10 +21,16 @@ constexpr std::size_t none = static_cast<std::size_t>(-1);
 template <int Dim>
 std::vector<BodyGap> BodyNeighbours<Dim>::find(bool at_start) const {
   const std::vector<std::vector<std::size_t>> bodies = bodies_of_functions();
+  const auto of_field = static_cast<std::size_t>(functions_.count_of_field());
   std::set<std::pair<std::size_t, std::size_t>> pairs;
-  for (const auto& together : bodies)
+  for (std::size_t f = 0; f < of_field; ++f) {
+    std::vector<std::size_t> together;  // in any field
+    for (std::size_t k = f; k < bodies.size(); k += of_field)
+      together.insert(together.end(), bodies[k].begin(), bodies[k].end());
     for (std::size_t j = 1; j < together.size(); ++j)
-      for (std::size_t i = 0; i < j; ++i) pairs.insert(std::minmax(together[i], together[j]));
+      for (std::size_t i = 0; i < j; ++i)
+        if (!have_contact(problem_, together[i], together[j])) pairs.insert(std::minmax(together[i], together[j]));
+  }
   std::vector<BodyGap> found;
   if (pairs.empty()) return found;
   std::vector<BodyDepth> shapes;
@@ -31,6 +38,7 @@ std::vector<BodyGap> BodyNeighbours<Dim>::find(bool at_start) const {
   for (const auto& [a, b] : pairs) {
     const bool surfaces = at_start && shapes[a].is_known() && shapes[b].is_known();
     found.push_back(gap_between(a, b, surfaces ? &shapes : nullptr));
+    found.back().bonded = points_.field_of(a) == points_.field_of(b);
   }
   return found;
 }

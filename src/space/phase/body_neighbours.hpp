@@ -1,4 +1,5 @@
-// Bodies that share functions of the grid without touching each other: the grid moves them as one, across the gap.
+// Bodies that reach the same functions of the grid without touching each other: those that share them it moves as one,
+// across the gap; others, in fields of their own, go through each other unless they have a contact.
 #pragma once
 
 #include <stillpoint/problem.hpp>

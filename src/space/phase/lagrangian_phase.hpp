@@ -36,7 +36,7 @@ struct PhaseInfo {
   bool updated_lagrangian = false;         // whether there will be further phases
   bool remembers = false;                  // whether some law has a history
   bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
-  bool may_touch = false;                  // whether rigid bodies may touch the body
+  bool may_touch = false;                  // whether rigid or other bodies may touch a body
   bool stiffens = false;  // whether a point can become stiffer than before, so that the critical step has to follow
 };
 
@@ -97,11 +97,12 @@ struct FreePart {
   std::vector<std::size_t> unknowns;  // degrees of freedom that are 1 if the part moves by 1, those of the values
 };
 
-/// The gap between bodies a < b of a scene that share functions of the grid.
+/// The gap between bodies a < b of a scene that reach the same functions of the grid and have no contact.
 struct BodyGap {
   std::size_t a = 0, b = 0;
-  double gap = 0;    // the smallest distance [m]; 0 if they touch
-  double cells = 0;  // the same distance in cells
+  double gap = 0;      // the smallest distance [m]; 0 if they touch
+  double cells = 0;    // the same distance in cells
+  bool bonded = true;  // whether they share these functions; otherwise each moves by its own, through the other
 };
 
 /// The axes along which a body is held.
@@ -167,8 +168,8 @@ class PhaseSupports {
   virtual std::vector<SupportReaction> support_reactions(double t, ConstVec u, ConstVec reactions) const = 0;
   /// The reports of the supports that hold by springs, at (t, u).
   virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
-  /// What the rigid bodies of the scene exert at (t, u), in their order.
-  virtual std::vector<RigidReport> rigid_bodies(double t, ConstVec u) const = 0;
+  /// What the rigid bodies of the scene exert at (t, u), in their order, followed by its contacts between bodies.
+  virtual std::vector<ContactReport> contacts(double t, ConstVec u) const = 0;
   /// How well the multipliers of contact fit at (t, u).
   virtual ContactState contact_state(double t, ConstVec u) const = 0;
   /// The state of loads that a displacement drives, at (t, u); empty if there are none.
@@ -186,7 +187,7 @@ class PhaseShape {
   /// with slopes.
   virtual NodalLayout layout() const = 0;
   virtual std::vector<FreePart> free_parts() const = 0;
-  /// The bodies of the scene that share a function of the grid, pair by pair.
+  /// The bodies of the scene that reach the same function of the grid and have no contact, pair by pair.
   virtual std::vector<BodyGap> body_gaps() const = 0;
 };
 

@@ -29,9 +29,9 @@ class PhaseSupportsOf final : public PhaseSupports {
     if (!all_.conditions.hold_by_springs()) return {};
     return all_.conditions.weak_supports(t, spread(t, u)->u.data());
   }
-  std::vector<RigidReport> rigid_bodies(double t, ConstVec u) const override {
+  std::vector<ContactReport> contacts(double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return {};
-    return all_.conditions.rigid_bodies(t, spread(t, u)->u.data());
+    return all_.conditions.contacts(t, spread(t, u)->u.data());
   }
   ContactState contact_state(double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return {};

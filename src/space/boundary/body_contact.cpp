@@ -1,0 +1,187 @@
+#include "space/boundary/body_contact.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/text.hpp"
+#include "scene/contact_bodies.hpp"
+#include "scene/throw_scene_error.hpp"
+#include "space/boundary/facet_search.hpp"
+
+namespace stillpoint {
+namespace {
+
+std::vector<char> only(const Problem& problem, std::size_t body) {
+  std::vector<char> touched(problem.bodies.size(), 0);
+  touched[body] = 1;
+  return touched;
+}
+
+/// The weights of a foot on a facet, w_m: those of the functions there, or if positions are carried by points those of
+/// the piece and of its gradient, which are exact for affine motions.
+template <Kinematics K>
+std::vector<typename CarriedPoint<dimensions(K)>::Entry> weights_at(const OppositeFacet<dimensions(K)>& facet,
+                                                                    const BorderPiece<K>& piece, bool phases_end,
+                                                                    const PhaseParts<dimensions(K)>& phase) {
+  if (!phases_end) {
+    BorderPiece<K> foot = BorderPiece<K>::make(facet.foot, 1, facet.normal);
+    foot.at.field = piece.at.field;
+    if (foot.freeze_in_single_phase(phase)) return foot.at.entries;
+  }
+  auto entries = piece.at.entries;
+  for (auto& entry : entries)
+    for (std::size_t d = 0; d < facet.foot.size(); ++d) entry.w += (facet.foot[d] - piece.at.x[d]) * entry.dN[d];
+  return entries;
+}
+
+}  // namespace
+
+template <Kinematics K>
+BodyContact<K>::Pair::Pair(const Problem& problem, std::size_t k, const Grid<dim>& grid)
+    : spec(problem.contacts[k]),
+      number(k),
+      first(problem, only(problem, bodies_of(problem, spec).first), grid),
+      second(problem, only(problem, bodies_of(problem, spec).second), grid),
+      force(first, FacetFinder<K>(first), spec.friction) {}
+
+template <Kinematics K>
+BodyContact<K>::BodyContact(const Problem& problem, const Grid<dim>& grid) : problem_(problem) {
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) pairs_.push_back(std::make_unique<Pair>(problem, k, grid));
+}
+
+template <Kinematics K>
+void BodyContact<K>::begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound) {
+  if (pairs_.empty()) return;
+  const std::vector<double> bounds = has_begun_ ? std::vector<double>() : stiffness_bound();
+  for (const auto& pair : pairs_) {
+    for (ContactSurface<K>* const surface : {&pair->first, &pair->second})
+      surface->begin_phase(phase, [&] { return bounds; });
+    if (!has_begun_) pair->first.put_in_series(pair->second.mean_stiffness());
+    oppose(*pair, phase);
+    pair->first.take_growth(phase);
+    pair->force.anchor_at_start(0, pair->slip);
+    if (!has_begun_) refuse_overlap(*pair);
+  }
+  has_begun_ = true;
+}
+
+// Finds the facet opposite to each piece, and moves the surface relative to it.
+template <Kinematics K>
+void BodyContact<K>::oppose(Pair& pair, const Parts& phase) const {
+  const FacetSearch<K> search(pair.second);
+  std::vector<typename FacetFinder<K>::Facet> facets(pair.first.size());
+  std::vector<std::vector<typename CarriedPoint<dim>::Entry>> feet(pair.first.size());
+  for (std::size_t s = 0; s < facets.size(); ++s) {
+    const auto facet = search.opposite(pair.first.start(s), pair.first.normal(s));
+    if (!facet) continue;
+    facets[s] = {true, facet->gap, TouchFinder<K>::position_of(facet->normal)};
+    feet[s] = weights_at<K>(*facet, pair.second.piece(facet->piece), problem_.phase.ends(), phase);
+  }
+  pair.first.move_relative_to(phase, feet);
+  pair.force.finder().oppose(std::move(facets));
+}
+
+template <Kinematics K>
+void BodyContact<K>::refuse_overlap(const Pair& pair) const {
+  constexpr double most = 0.5;  // [cells]
+  for (const auto& patch : pair.first.patches()) {
+    for (std::size_t s = patch.begin; s < patch.end; ++s) {
+      if (!pair.force.finder().is_there(s)) continue;
+      const double cells = -pair.force.finder().gap_at_start(s) / patch.cell;
+      if (!(cells > most)) continue;
+      throw_scene_error(
+          fmt::format("contact[{}].bodies", pair.number),
+          fmt::format("{} and {} overlap by {:.3g} cells at ({:.6g}) when the run begins; expected at most half a cell",
+                      in_quotes(pair.spec.bodies[0]), in_quotes(pair.spec.bodies[1]), cells,
+                      fmt::join(pair.first.start(s), ", ")));
+    }
+  }
+}
+
+template <Kinematics K>
+void BodyContact<K>::end_phase(const double* u) {
+  for (const auto& pair : pairs_) {
+    pair->slip = pair->force.slips(0, u);
+    pair->first.end_phase(u);
+    pair->second.end_phase(u);
+  }
+}
+
+template <Kinematics K>
+void BodyContact<K>::archive(const StateArchive& state) {
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const StateArchive part = state.part(fmt::format("pair_{}", k));
+    Pair& pair = *pairs_[k];
+    pair.first.archive(part.part("first"));
+    pair.second.archive(part.part("second"));
+    pair.force.archive(part.part("force"));
+  }
+}
+
+template <Kinematics K>
+void BodyContact<K>::add_force(const double* u, Vec R, Vec at_supports) const {
+  for (const auto& pair : pairs_) pair->force.add_force(0, u, R, at_supports, {});
+}
+
+template <Kinematics K>
+void BodyContact<K>::add_product(Tangent kind, const double* u, const double* du, Vec dR) const {
+  for (const auto& pair : pairs_) {
+    if (kind == Tangent::stiffest) {
+      pair->first.add_product_held(du, dR);
+    } else {
+      pair->force.add_product(kind, 0, u, du, dR);
+    }
+  }
+}
+
+template <Kinematics K>
+void BodyContact<K>::add_entries(Tangent kind, const double* u, MatrixEntries& entries) const {
+  for (const auto& pair : pairs_) {
+    if (kind == Tangent::stiffest) {
+      pair->first.add_entries_held(entries);
+    } else {
+      pair->force.add_entries(kind, 0, u, entries);
+    }
+  }
+}
+
+template <Kinematics K>
+double BodyContact<K>::growth() const {
+  double most = 1;
+  for (const auto& pair : pairs_) most = std::max(most, pair->first.growth());
+  return most;
+}
+
+template <Kinematics K>
+void BodyContact<K>::commit(const double* u) {
+  for (const auto& pair : pairs_) pair->force.commit(0, u);
+}
+
+template <Kinematics K>
+void BodyContact<K>::update_multipliers(const double* u) {
+  for (const auto& pair : pairs_) pair->force.update_multipliers(0, u);
+}
+
+template <Kinematics K>
+void BodyContact<K>::add_fit(const double* u, ContactFit& fit) const {
+  for (const auto& pair : pairs_) pair->force.add_fit(0, u, fit);
+}
+
+template <Kinematics K>
+void BodyContact<K>::add_reports(const double* u, std::vector<ContactReport>& to) const {
+  for (const auto& pair : pairs_) {
+    to.push_back(pair->force.report(0, u));
+    to.back().slid = pair->force.slid(u);
+    to.back().name = pair->spec.name();
+  }
+}
+
+template class BodyContact<Kinematics::line>;
+template class BodyContact<Kinematics::plane>;
+template class BodyContact<Kinematics::axisymmetric>;
+template class BodyContact<Kinematics::space>;
+
+}  // namespace stillpoint

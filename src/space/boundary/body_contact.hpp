@@ -1,0 +1,68 @@
+// Contact of bodies with each other: the border of the first body of a [[contact]] against that of the second.
+//
+// When a phase begins, each piece of the first border gets the facet of the second that is opposite to it
+// (facet_search.hpp), and keeps it while the phase lasts: exact for what moves less than a facet along the other body,
+// and linear while it is closed. Both bodies have fields of motion of their own (motion_fields.hpp). What one body
+// bears the other exerts, at the same position and along the same line: no force and no moment is lost.
+//
+// The stiffness of a patch is that of the two bodies in series, 1/κ = 1/κ_1 + 1/κ_2, with the mean κ_2 of the second.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "space/boundary/contact_force.hpp"
+#include "space/boundary/facet_finder.hpp"
+
+namespace stillpoint {
+
+template <Kinematics K>
+class BodyContact {
+  static constexpr int dim = dimensions(K), N = TouchFinder<K>::N;
+  using Position = Eigen::Vector<double, N>;
+
+ public:
+  using Parts = PhaseParts<dim>;
+
+  /// The problem must outlive this object; grid: that of the first phase.
+  BodyContact(const Problem& problem, const Grid<dim>& grid);
+
+  /// Throws SceneError if the bodies of a contact overlap by more than half a cell when the run begins.
+  void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound);
+  void end_phase(const double* u);
+  void archive(const StateArchive& state);
+
+  /// R −= the forces at u, (n); at_supports: the same at prescribed unknowns.
+  void add_force(const double* u, Vec R, Vec at_supports) const;
+  /// As RigidContact's.
+  void add_product(Tangent kind, const double* u, const double* du, Vec dR) const;
+  void add_entries(Tangent kind, const double* u, MatrixEntries& entries) const;
+  double growth() const;
+
+  void commit(const double* u);
+  void update_multipliers(const double* u);
+  void add_fit(const double* u, ContactFit& fit) const;
+  void add_reports(const double* u, std::vector<ContactReport>& to) const;
+
+ private:
+  struct Pair {
+    Pair(const Problem& problem, std::size_t number, const Grid<dim>& grid);
+    Pair(const Pair&) = delete;  // its parts know where its surfaces are
+    Pair& operator=(const Pair&) = delete;
+
+    const ContactSpec& spec;
+    std::size_t number;
+    ContactSurface<K> first, second;
+    ContactForce<K, FacetFinder<K>> force;
+    std::vector<Position> slip;  // the elastic slip of each piece when the last phase ended, with friction [m]
+  };
+
+  void oppose(Pair& pair, const Parts& phase) const;
+  void refuse_overlap(const Pair& pair) const;
+
+  const Problem& problem_;
+  std::vector<std::unique_ptr<Pair>> pairs_;
+  bool has_begun_ = false;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,337 @@
+#include "space/boundary/contact_force.hpp"
+
+#include <limits>
+#include <map>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "space/boundary/facet_finder.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// The inverse of a stiffness, 0 along axes along which there is none.
+template <class Matrix>
+Matrix flexibility(const Matrix& stiffness) {
+  Eigen::CompleteOrthogonalDecomposition<Matrix> resisted;
+  resisted.setThreshold(1e-9);
+  resisted.compute(stiffness);
+  return resisted.rank() > 0 ? Matrix(resisted.pseudoInverse()) : Matrix::Zero();
+}
+
+}  // namespace
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::anchor_at_start(double t, const std::vector<Position>& slip) {
+  const RigidPlacement<N> placement = finder_.placement(t);
+  for (std::size_t s = 0; s < anchor_.size(); ++s) {
+    anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.start(s)));
+    if (!slip.empty()) anchor_[s] -= slip[s];
+  }
+}
+
+template <Kinematics K, class Finder>
+auto ContactForce<K, Finder>::slips(double t, const double* u) const -> std::vector<Position> {
+  const RigidPlacement<N> placement = this->placement(t, u);
+  std::vector<Position> slips(anchor_.size());
+  for (std::size_t s = 0; s < slips.size(); ++s)
+    slips[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u))) - anchor_[s];
+  return slips;
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::end_phase(double t, const double* u) {
+  if (finder_.is_free()) settled_ = placement(t, u).u - finder_.placement(t).u;
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::archive(const StateArchive& state) {
+  state("lambda", Vec(lambda_));
+  for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
+  if (!remembers()) return;
+  state.each(
+      "lambda_t", lambda_t_, [](Position & of) -> auto& { return of; });
+  state.each(
+      "anchor", anchor_, [](Position & of) -> auto& { return of; });
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::add_friction(const RigidPlacement<N>& placement, Touch& touch) const {
+  const Position& n = touch.at.normal;
+  touch.tau_trial = placement.Q * (lambda_t_[touch.patch] - touch.kappa * (touch.X - anchor_[touch.piece]));
+  touch.tau_trial -= n.dot(touch.tau_trial) * n;
+  const double size = touch.tau_trial.norm(), limit = touch.p > 0 ? friction_ * touch.p : 0;
+  touch.slips = size > limit || touch.p == 0;
+  touch.tau = touch.slips ? Position(limit / std::max(size, limit) * touch.tau_trial) : touch.tau_trial;
+  if (limit == 0) touch.tau.setZero();
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::add_force(double t, const double* u, Vec R, Vec at_supports, Vec of_patches) const {
+  for_closed(placement(t, u), u, [&](const Touch& touch) {
+    Point<dim> f{};
+    for (std::size_t i = 0; i < dim; ++i) {
+      const auto along = static_cast<Eigen::Index>(i);
+      const double on_border = touch.area * (touch.p * touch.at.normal[along] + touch.tau[along]);
+      if (!of_patches.empty()) of_patches[dim * touch.patch + i] += on_border;
+      f[i] = -on_border;
+    }
+    surface_.add(touch.piece, f, R, at_supports);
+  });
+}
+
+// −∂f/∂x of a piece, times A. With the direction d of τ where it slips at μ p,
+//
+//   ∂τ/∂x = −κ (I − n nᵀ) where it sticks,   −μ κ d nᵀ − κ |τ|/|τ_trial| (I − n nᵀ − d dᵀ) where it slips.
+template <Kinematics K, class Finder>
+auto ContactForce<K, Finder>::stiffness(Tangent kind, const Touch& touch) const -> Matrix {
+  const Position& n = touch.at.normal;
+  Matrix S = touch.kappa * n * n.transpose();
+  if (kind != Tangent::stable) S -= touch.p * touch.at.hessian;
+  if (friction_ > 0) {
+    const Matrix along = Matrix::Identity() - n * n.transpose();
+    if (kind != Tangent::consistent || !touch.slips) {
+      S += touch.kappa * along;
+    } else if (touch.p > 0) {
+      const double size = touch.tau_trial.norm();
+      const Position d = touch.tau_trial / size;
+      S += friction_ * touch.kappa * d * n.transpose() +
+           touch.kappa * touch.tau.norm() / size * (along - d * d.transpose());
+    }
+  }
+  return touch.area * S;
+}
+
+template <Kinematics K, class Finder>
+RigidPlacement<ContactForce<K, Finder>::N> ContactForce<K, Finder>::placement(double t, const double* u) const {
+  RigidPlacement<N> placement = finder_.placement(t);
+  if (finder_.is_free()) settle(t, u, placement);
+  return placement;
+}
+
+template <Kinematics K, class Finder>
+bool ContactForce<K, Finder>::Balance::holds() const {
+  constexpr double rounding = 1e-13;
+  return (load - force).norm() <= rounding * std::max(load.norm(), force.norm());
+}
+
+template <Kinematics K, class Finder>
+bool ContactForce<K, Finder>::Balance::is_near() const {
+  constexpr double enough = 1e-6;
+  return (load - force).norm() <= enough * std::max(load.norm(), force.norm());
+}
+
+template <Kinematics K, class Finder>
+auto ContactForce<K, Finder>::balance(Tangent kind, double t, const RigidPlacement<N>& placement, const double* u) const
+    -> Balance {
+  Balance balance{.load = finder_.load(t)};
+  for_touches(placement, u, touching, [&](const Touch& touch) {
+    if (touch.p > 0) balance.force += touch.area * (touch.p * touch.at.normal + touch.tau);
+    balance.stiffness += stiffness(kind, touch);
+  });
+  if (K == Kinematics::axisymmetric) {  // along the axis alone
+    balance.force[0] = 0;
+    balance.stiffness.row(0).setZero();
+    balance.stiffness.col(0).setZero();
+  }
+  return balance;
+}
+
+// The least way to what it touches, or 0: φ falls by no more than the way.
+template <Kinematics K, class Finder>
+double ContactForce<K, Finder>::way_to_touch(const RigidPlacement<N>& placement, const double* u) const {
+  double least = std::numeric_limits<double>::infinity();
+  const auto patches = surface_.patches();
+  const auto everywhere = [](std::size_t) { return std::numeric_limits<double>::infinity(); };
+  finder_.for_near(placement, u, everywhere, [&](const typename TouchFinder<K>::Near& near) {
+    const double kappa = patches[near.patch].stiffness;
+    least = std::min(least, near.at.distance - (kappa > 0 ? lambda_[near.patch] / kappa : 0));
+  });
+  return std::max(0.0, least);
+}
+
+// Newton's method, whose Σ f is piecewise linear in d but for the turn of n. As long as nothing resists the body goes
+// the way of its load, as far as certainly nothing is in the way.
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N>& placement) const {
+  constexpr int most = 60, most_halvings = 12;  // iterations
+  placement.u += settled_;
+  Balance now = balance(Tangent::consistent, t, placement, u);
+  for (int k = 0; k < most && !now.holds(); ++k) {
+    const Position out = now.load - now.force;
+    Position step = flexibility(now.stiffness) * out;
+    if (!(step.dot(out) > 0)) {
+      const double way = way_to_touch(placement, u);
+      if (!std::isfinite(way)) return;  // nothing to touch
+      step = (way + touching * surface_.patches().front().cell) / out.norm() * out;
+      placement.u += step;
+      now = balance(Tangent::consistent, t, placement, u);
+      continue;
+    }
+    const RigidPlacement<N> before = placement;
+    for (int halving = 0;; ++halving, step /= 2) {
+      placement.u = before.u + step;
+      now = balance(Tangent::consistent, t, placement, u);
+      if ((now.load - now.force).norm() < out.norm()) break;
+      if (halving < most_halvings) continue;
+      placement = before;  // nearer by no more than rounding
+      return;
+    }
+  }
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::add_product(Tangent kind, double t, const double* u, const double* du, Vec dR) const {
+  const RigidPlacement<N> placement = this->placement(t, u);
+  Position moved = Position::Zero();  // δd
+  if (finder_.is_free()) {
+    Position sum = Position::Zero();
+    for_stiffness(kind, placement, u, [&](std::size_t s, const Matrix& S) {
+      sum += S * TouchFinder<K>::position_of(surface_.motion(s, du));
+    });
+    if (K == Kinematics::axisymmetric) sum[0] = 0;
+    moved = flexibility(balance(kind, t, placement, u).stiffness) * sum;
+  }
+  for_stiffness(kind, placement, u, [&](std::size_t s, const Matrix& S) {
+    const Position f = S * (TouchFinder<K>::position_of(surface_.motion(s, du)) - moved);
+    Point<dim> on_piece;
+    for (int i = 0; i < dim; ++i) on_piece[static_cast<std::size_t>(i)] = f[i];
+    surface_.add(s, on_piece, dR, {});
+  });
+}
+
+// Of a free body −B (Σ A S)⁻¹ C besides, with B = Σ w A S and C = Σ A S w: all that it touches is coupled.
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::add_entries(Tangent kind, double t, const double* u, MatrixEntries& entries) const {
+  const RigidPlacement<N> placement = this->placement(t, u);
+  std::map<int, std::pair<Position, Position>> coupled;  // rows of B and columns of C
+  for_stiffness(kind, placement, u, [&](std::size_t s, const Matrix& S) {
+    surface_.add_entries(s, S, entries);
+    if (!finder_.is_free()) return;
+    surface_.for_free(s, [&](int i, int dof, double w) {
+      auto& [row, column] = coupled.try_emplace(dof, Position::Zero(), Position::Zero()).first->second;
+      row += w * S.row(i).transpose();
+      column += w * S.col(i);
+    });
+  });
+  if (coupled.empty()) return;
+  const Matrix inverse = flexibility(balance(kind, t, placement, u).stiffness);
+  for (const auto& [row, of_row] : coupled)
+    for (const auto& [column, of_column] : coupled)
+      entries.emplace_back(row, column, -of_row.first.dot(inverse * of_column.second));
+}
+
+// λ_t − κ (X − a) = τ
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::drag(const RigidPlacement<N>& placement, const Touch& touch) {
+  const Position tau = placement.Q.transpose() * touch.tau;
+  anchor_[touch.piece] = touch.X + (tau - lambda_t_[touch.patch]) / touch.kappa;
+}
+
+// A piece that is open sticks where it closes, which is near to where it is now.
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::commit(double t, const double* u) {
+  if (!remembers()) return;
+  const RigidPlacement<N> placement = this->placement(t, u);
+  std::ranges::fill(closed_, 0);
+  for_closed(placement, u, [&](const Touch& touch) {
+    closed_[touch.piece] = 1;
+    if (touch.slips) drag(placement, touch);
+  });
+  for (std::size_t s = 0; s < closed_.size(); ++s)
+    if (!closed_[s]) anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u)));
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::update_multipliers(double t, const double* u) {
+  struct Sum {
+    double area = 0, force = 0;
+    Position shear = Position::Zero();
+  };
+  const RigidPlacement<N> placement = this->placement(t, u);
+  std::vector<Sum> sums(surface_.patches().size());
+  std::vector<Touch> touches;
+  for_closed(placement, u, [&](const Touch& touch) {
+    Sum& sum = sums[touch.patch];
+    sum.area += touch.area;
+    sum.force += touch.area * touch.p;
+    sum.shear += touch.area * (placement.Q.transpose() * touch.tau);
+    touches.push_back(touch);
+  });
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    lambda_[k] = sums[k].area > 0 ? sums[k].force / sums[k].area : 0;
+    if (remembers()) lambda_t_[k] = sums[k].area > 0 ? Position(sums[k].shear / sums[k].area) : Position::Zero();
+  }
+  if (!remembers()) return;
+  for (const Touch& touch : touches)
+    if (touch.slips) drag(placement, touch);
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit) const {
+  std::vector<double> area(surface_.patches().size(), 0.0), gap = area, force = area;
+  const RigidPlacement<N> placement = this->placement(t, u);
+  if (finder_.is_free()) fit.balanced = fit.balanced && balance(Tangent::consistent, t, placement, u).is_near();
+  for_closed(placement, u, [&](const Touch& touch) {
+    area[touch.patch] += touch.area;
+    gap[touch.patch] += touch.area * touch.at.distance;
+    force[touch.patch] += touch.area * touch.p;
+  });
+  for (std::size_t k = 0; k < area.size(); ++k) {
+    if (!(area[k] > 0)) continue;
+    fit.touches = true;
+    fit.misfit = std::max(fit.misfit, std::abs(gap[k]) / area[k] / surface_.patches()[k].cell);
+    fit.changes += std::pow(force[k] - lambda_[k] * area[k], 2);
+    fit.forces += std::pow(force[k], 2);
+  }
+}
+
+template <Kinematics K, class Finder>
+ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
+  constexpr double rounding = 1e-6;  // of the limit: a piece whose anchor was dragged is at it
+  ContactReport report;
+  const RigidPlacement<N> placement = this->placement(t, u);
+  const Position centre = placement.a + placement.u, moved = placement.u - finder_.placement(t).u;
+  for (int i = 0; i < N; ++i) report.displacement[static_cast<std::size_t>(i)] = moved[i];
+  double slipping = 0;
+  for_closed(placement, u, [&](const Touch& touch) {
+    const Position f = touch.area * (touch.p * touch.at.normal + touch.tau), arm = touch.x - centre;
+    for (int i = 0; i < N; ++i) report.force[static_cast<std::size_t>(i)] += f[i];
+    if constexpr (N == 3) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto j = static_cast<int>((i + 1) % 3), k = static_cast<int>((i + 2) % 3);
+        report.moment[i] += arm[j] * f[k] - arm[k] * f[j];
+      }
+    } else {
+      report.moment[2] += arm[0] * f[1] - arm[1] * f[0];
+    }
+    report.area += touch.area;
+    if (touch.tau.norm() >= (1 - rounding) * friction_ * touch.p) slipping += touch.area;
+    report.penetration = std::max(report.penetration, -touch.at.distance / surface_.patches()[touch.patch].cell);
+  });
+  report.slipping = report.area > 0 ? slipping / report.area : 0;
+  return report;
+}
+
+template <Kinematics K, class Finder>
+double ContactForce<K, Finder>::slid(const double* u) const {
+  double most = 0;
+  for_closed(finder_.placement(0), u, [&](const Touch& touch) {
+    const Position moved = TouchFinder<K>::position_of(surface_.motion(touch.piece, u));
+    const Position along = moved - touch.at.normal.dot(moved) * touch.at.normal;
+    most = std::max(most, along.norm() / surface_.patches()[touch.patch].cell);
+  });
+  return most;
+}
+
+template class ContactForce<Kinematics::line, TouchFinder<Kinematics::line>>;
+template class ContactForce<Kinematics::plane, TouchFinder<Kinematics::plane>>;
+template class ContactForce<Kinematics::axisymmetric, TouchFinder<Kinematics::axisymmetric>>;
+template class ContactForce<Kinematics::space, TouchFinder<Kinematics::space>>;
+template class ContactForce<Kinematics::line, FacetFinder<Kinematics::line>>;
+template class ContactForce<Kinematics::plane, FacetFinder<Kinematics::plane>>;
+template class ContactForce<Kinematics::axisymmetric, FacetFinder<Kinematics::axisymmetric>>;
+template class ContactForce<Kinematics::space, FacetFinder<Kinematics::space>>;
+
+}  // namespace stillpoint

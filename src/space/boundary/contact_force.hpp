@@ -1,0 +1,179 @@
+// Contact of a border with what it may touch: a force in R(u), exact when open.
+//
+// A piece s of the border (ContactSurface) with the area A is at x(u); what it may touch is known by a signed distance
+// φ, placed by T(t): a rigid body (TouchFinder), or another body's border (FacetFinder), where x is the position
+// relative to that body.
+//
+//   g = φ(T⁻¹ x),   p = max(0, λ − κ g),   f = A (p n + τ),   R −= w f,   n = ∇φ
+//
+// κ: the stiffness of its patch; λ: the multiplier of the patch, the pressure that needs no penetration. Without
+// friction R has the potential Σ A p²/(2 κ), and its tangent is symmetric,
+//
+//   ∂f/∂x = −A (κ n nᵀ − p ∇n).
+//
+// A penalty alone gives way by p/κ. The augmented Lagrangian [Simo and Laursen 1992] takes that back: in equilibrium λ
+// becomes the mean p of the patch, and the body goes on to where the mean g is 0. A multiplier for each piece would
+// drift, since the grid's functions cannot tell the pieces of a patch apart.
+//
+// Friction [Coulomb]: with the anchor a, the position T⁻¹ x at which the piece stuck last, the elastic slip
+// s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
+//
+//   τ = clip(λ_t − κ s) to |τ| ≤ μ p,   rough: no limit.
+//
+// Where it slips, the anchor is dragged along when a step is accepted, so that κ s = λ_t − τ there: R depends on the
+// committed state, and has no potential.
+//
+// A free rigid body has no inertia: at any u it is displaced by the d at which its load W and what it touches balance,
+//
+//   W = Σ f(u, d),   so that   δd = (Σ A S)⁻¹ Σ A S δx,   S = −∂f/∂x,
+//
+// along axes along which nothing resists by nothing. R keeps a potential, the least of Σ A p²/(2 κ) − W·d over d, and
+// is softer than with the body at rest: the critical step is no shorter.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "space/boundary/condition_reports.hpp"
+#include "space/boundary/contact_surface.hpp"
+#include "space/boundary/touch_finder.hpp"
+
+namespace stillpoint {
+
+/// How well the multipliers of contact fit, in sums over all that touches.
+struct ContactFit {
+  bool touches = false, balanced = true;
+  double misfit = 0;               // the largest mean penetration, or gap, of a patch that is touched [cells]
+  double changes = 0, forces = 0;  // Σ (by which the forces of patches would change the multipliers)², Σ force² [N²]
+
+  ContactState state() const { return {touches, balanced, misfit, forces > 0 ? std::sqrt(changes / forces) : 0}; }
+};
+
+/// Finder: TouchFinder or FacetFinder.
+template <Kinematics K, class Finder>
+class ContactForce {
+  static constexpr int dim = dimensions(K), N = TouchFinder<K>::N;
+
+ public:
+  using Position = Eigen::Vector<double, N>;
+  using Matrix = Eigen::Matrix<double, N, N>;
+
+  /// What touches at a piece.
+  struct Touch : TouchFinder<K>::Near {
+    double area, kappa;
+    double p;            // [Pa]
+    Position tau;        // τ, in the scene's axes [Pa]
+    Position tau_trial;  // λ_t − κ s before the limit, likewise
+    bool slips;
+  };
+
+  /// The surface must outlive this object.
+  ContactForce(const ContactSurface<K>& surface, Finder finder, double friction)
+      : surface_(surface),
+        finder_(std::move(finder)),
+        friction_(friction),
+        lambda_(surface.patches().size(), 0.0),
+        lambda_t_(friction > 0 ? surface.patches().size() : 0, Position::Zero()),
+        anchor_(friction > 0 ? surface.size() : 0, Position::Zero()),
+        closed_(anchor_.size(), 0) {}
+
+  Finder& finder() { return finder_; }
+  const Finder& finder() const { return finder_; }
+  bool remembers() const { return friction_ > 0; }
+  /// Sets the anchors where the pieces are when the phase begins, less the slip that each has had.
+  void anchor_at_start(double t, const std::vector<Position>& slip);
+  /// A free body goes on from where it is at the end of a phase.
+  void end_phase(double t, const double* u);
+  /// The elastic slip of each piece, T⁻¹ x − a, (pieces); empty without friction.
+  std::vector<Position> slips(double t, const double* u) const;
+  void archive(const StateArchive& state);
+
+  /// R −= the forces on the border at (t, u), (n); at_supports: the same at prescribed unknowns. of_patches += those on
+  /// each patch, component by component, (dim × patches); may be empty.
+  void add_force(double t, const double* u, Vec R, Vec at_supports, Vec of_patches) const;
+  /// dR += the derivative of these forces along du, over the grid's functions.
+  void add_product(Tangent kind, double t, const double* u, const double* du, Vec dR) const;
+  /// Appends the entries of their matrix.
+  void add_entries(Tangent kind, double t, const double* u, MatrixEntries& entries) const;
+
+  /// Accepts the state at (t, u): anchors are dragged to where pieces slip.
+  void commit(double t, const double* u);
+  /// Takes the pressures at (t, u) as multipliers.
+  void update_multipliers(double t, const double* u);
+  void add_fit(double t, const double* u, ContactFit& fit) const;
+  /// The force on the border, and its moment about the placement's centre; without a name.
+  ContactReport report(double t, const double* u) const;
+  /// How far pieces that touch have moved along what they touch since the phase began, where most [cells].
+  double slid(const double* u) const;
+
+ private:
+  static constexpr double touching = 1e-6;  // [cells]
+  /// What a body that is displaced by d bears, and how it would change.
+  struct Balance {
+    Position load = Position::Zero(), force = Position::Zero();  // W, Σ f [N]
+    Matrix stiffness = Matrix::Zero();                           // Σ A S [N/m]
+    bool holds() const, is_near() const;
+  };
+
+  /// T, of a free body with its d.
+  RigidPlacement<N> placement(double t, const double* u) const;
+  void settle(double t, const double* u, RigidPlacement<N>& placement) const;
+  Balance balance(Tangent kind, double t, const RigidPlacement<N>& placement, const double* u) const;
+  double way_to_touch(const RigidPlacement<N>& placement, const double* u) const;
+  /// Calls visit(piece, A S) for each piece that touches, or all but does.
+  template <class Visit>
+  void for_stiffness(Tangent kind, const RigidPlacement<N>& placement, const double* u, const Visit& visit) const {
+    for_touches(placement, u, touching, [&](const Touch& touch) { visit(touch.piece, stiffness(kind, touch)); });
+  }
+
+  /// Calls visit(touch) for each piece with λ − κ g ≥ −κ slack; slack: in cells.
+  template <class Visit>
+  void for_touches(const RigidPlacement<N>& placement, const double* u, double slack, const Visit& visit) const;
+  /// The same for those that bear a pressure.
+  template <class Visit>
+  void for_closed(const RigidPlacement<N>& placement, const double* u, const Visit& visit) const {
+    for_touches(placement, u, 0, [&](const Touch& touch) {
+      if (touch.p > 0) visit(touch);
+    });
+  }
+  void add_friction(const RigidPlacement<N>& placement, Touch& touch) const;
+  Matrix stiffness(Tangent kind, const Touch& touch) const;
+  void drag(const RigidPlacement<N>& placement, const Touch& touch);
+
+  const ContactSurface<K>& surface_;
+  Finder finder_;
+  double friction_;
+  Position settled_ = Position::Zero();  // d when the phase began [m]
+  // Of the patches:
+  std::vector<double> lambda_;      // λ [Pa]
+  std::vector<Position> lambda_t_;  // λ_t, in the axes of T⁻¹ x [Pa]
+  // Of the pieces, with friction:
+  std::vector<Position> anchor_;  // a, in the same axes [m]
+  std::vector<char> closed_;      // of commit()
+};
+
+template <Kinematics K, class Finder>
+template <class Visit>
+void ContactForce<K, Finder>::for_touches(const RigidPlacement<N>& placement, const double* u, double slack,
+                                          const Visit& visit) const {
+  const auto patches = surface_.patches();
+  const auto reach = [&](std::size_t k) {
+    return (patches[k].stiffness > 0 ? lambda_[k] / patches[k].stiffness : 0) + slack * patches[k].cell;
+  };
+  finder_.for_near(placement, u, reach, [&](const typename TouchFinder<K>::Near& near) {
+    const double kappa = patches[near.patch].stiffness;
+    Touch touch{near,
+                surface_.area(near.piece),
+                kappa,
+                std::max(0.0, lambda_[near.patch] - kappa * near.at.distance),
+                Position::Zero(),
+                Position::Zero(),
+                false};
+    if (friction_ > 0) add_friction(placement, touch);
+    visit(touch);
+  });
+}
+
+}  // namespace stillpoint
