@@ -1,11 +1,13 @@
-// The specifications of supports, walls, rigid bodies and loads, as a scene gives them.
+// The specifications of supports, walls, rigid bodies, contact and loads, as a scene gives them.
 #pragma once
 
 #include <stillpoint/choice.hpp>
+#include <stillpoint/contact_spec.hpp>
 #include <stillpoint/expression.hpp>
 #include <stillpoint/rigid_spec.hpp>
 #include <stillpoint/scene_options.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,6 +69,7 @@ struct BoundarySpecs {
   std::vector<SupportSpec> supports;
   std::vector<WallSpec> walls;
   std::vector<RigidSpec> rigid;
+  std::vector<ContactSpec> contacts;
   std::vector<PointForceSpec> forces;
   std::vector<TractionSpec> tractions;
   std::vector<Expression> body_force;  // formulas of x, y, z, t; per mass [m/s²]; empty: none
@@ -74,6 +77,12 @@ struct BoundarySpecs {
                                        // empty
   std::optional<LoadSpec> load;        // scaling of these forces, tractions and body forces
 
+  /// Whether the border of a body may be touched, and whether that remembers how it slid.
+  bool may_touch() const { return !rigid.empty() || !contacts.empty(); }
+  bool rubs() const {
+    const auto has_friction = [](const auto& one) { return one.friction > 0; };
+    return std::ranges::any_of(rigid, has_friction) || std::ranges::any_of(contacts, has_friction);
+  }
   bool has_body_force() const { return !body_force.empty() || !own_load.empty(); }
 
   /// Calls visit(key, formula) for each formula of the specifications.
@@ -87,6 +96,7 @@ struct BoundarySpecs {
     for (std::size_t k = 0; k < rigid.size(); ++k) {
       for (const Expression& component : rigid[k].motion) visit(key("rigid", k, "motion"), component);
       for (const Expression& component : rigid[k].rotation) visit(key("rigid", k, "rotation"), component);
+      for (const Expression& component : rigid[k].force) visit(key("rigid", k, "force"), component);
     }
     for (std::size_t k = 0; k < forces.size(); ++k)
       for (const Expression& component : forces[k].value) visit(key("force", k, "value"), component);

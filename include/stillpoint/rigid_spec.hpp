@@ -18,7 +18,8 @@ struct StlSolid {                              // contents of an STL file
   std::shared_ptr<const TriangleSolid> solid;  // the solid, shared by all bodies and copies of the scene
 };
 
-struct RigidSpec {  // [[rigid]]: a rigid body of one shape, which pushes and never holds back
+struct RigidSpec {  // [[rigid]]: a rigid body of one shape, which pushes and never holds back; it moves by formulas or,
+                    // if it is free, to where its weight and its force are in balance with what it touches
   std::string name;
   // The shape, one of these. In the half plane (r, z) of an axisymmetric scene it is turned about the axis.
   std::vector<std::vector<double>> half_plane;  // a position of its border, and the direction out of it [m]
@@ -38,6 +39,10 @@ struct RigidSpec {  // [[rigid]]: a rigid body of one shape, which pushes and ne
   std::vector<Expression> rotation;  // in the plane the angle, counter-clockwise, in space the components of the
                                      // rotation vector: formulas of t [rad]; empty: 0
   std::vector<double> about;         // position about which it turns, which moves with it [m]; empty: the origin
+
+  bool free = false;              // whether it is free to move along the axes, not to turn
+  double mass = 0;                // of a free one, for its weight by the scene's body force [kg]
+  std::vector<Expression> force;  // on a free one, a formula of t for each coordinate [N]; empty: 0
 
   double friction = 0;              // Coulomb's coefficient; infinite: rough
   std::vector<std::string> bodies;  // names of the bodies that it touches; empty: all

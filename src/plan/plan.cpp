@@ -48,7 +48,7 @@ double gain_by_multigrid(const Problem& problem, const Estimates& found) {
 // auto comes to the same rest with any mass, in a body whose law has no history and which nothing touches.
 bool may_choose_multigrid(const Problem& problem, const Plan& plan) {
   return plan.chooses_mass && plan.equilibrium_only && !plan.remembers && !plan.moves_on && problem.walls.empty() &&
-         problem.rigid.empty() && !problem.mass.scaling_is_asked() && !problem.mass.kind.is_asked() &&
+         !problem.may_touch() && !problem.mass.scaling_is_asked() && !problem.mass.kind.is_asked() &&
          problem.stop.distance <= 0 && problem.grid.basis != BasisKind::hermite && !problem.grid.cells.empty();
 }
 
@@ -84,10 +84,9 @@ Plan make_plan(const Problem& problem, const MemoryRoom& room) {
   plan.static_method = catalogue().static_method(problem.solve.method);
   if (!plan.static_method) plan.relaxation = find_relaxation(problem.damping.strategy);
   const bool law_remembers = some_law(problem, [](const LawInfo& law) { return law.history_dependent; });
-  const bool rubs = std::ranges::any_of(problem.rigid, [](const RigidSpec& rigid) { return rigid.friction > 0; });
-  plan.remembers = law_remembers || rubs;
+  plan.remembers = law_remembers || problem.rubs();
   plan.nonlinear_law = law_remembers || some_law(problem, [](const LawInfo& law) { return law.finite_strain; });
-  plan.nonlinear = plan.nonlinear_law || !problem.rigid.empty();
+  plan.nonlinear = plan.nonlinear_law || problem.may_touch();
   plan.moves_on = problem.phase.ends();
   plan.equilibrium_only = problem.stop.wants_equilibrium() && !loads_vary(problem);
   plan.chooses_mass = plan.relaxation && plan.relaxation->chooses_mass;

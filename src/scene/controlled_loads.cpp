@@ -44,6 +44,7 @@ Problem reference_loads(const Problem& problem) {
   driven.supports.clear();
   driven.walls.clear();
   driven.rigid.clear();
+  driven.contacts.clear();
   return driven;
 }
 

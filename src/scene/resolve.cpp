@@ -41,7 +41,7 @@ void resolve_component(SupportSpec& support) {
 void take_outline(const Problem& problem, BodySpec& body, const PointFile& points) {
   body.outline = {};
   const auto is_on_line = [](const TractionSpec& one) { return !one.line.empty(); };
-  if (problem.dim != 2 || (problem.rigid.empty() && std::ranges::none_of(problem.tractions, is_on_line))) return;
+  if (problem.dim != 2 || (!problem.may_touch() && std::ranges::none_of(problem.tractions, is_on_line))) return;
   std::vector<double> area = points.volume;
   const bool axisymmetric = problem.state == StressState::axisymmetric;
   for (std::size_t p = 0; p < area.size(); ++p)
@@ -104,10 +104,10 @@ class Resolution {
   void resolve_step() {
     constexpr double with_contact = 0.8;
     Choice<double>& fraction = problem_.integrator.step_fraction;
-    if (problem_.rigid.empty()) {
+    if (!problem_.may_touch()) {
       fraction.take(IntegratorSpec().step_fraction);
     } else {
-      fraction.take(with_contact, "rigid bodies touch the body");
+      fraction.take(with_contact, problem_.rigid.empty() ? "bodies touch each other" : "rigid bodies touch the body");
     }
   }
 

@@ -1,4 +1,4 @@
-#include "simulation/rigid_figures.hpp"
+#include "simulation/contact_figures.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -11,41 +11,58 @@ namespace {
 
 bool has_moments(const Problem& problem) { return problem.state != StressState::axisymmetric; }
 
+struct TouchingPair {
+  std::string name;
+  bool rubs, is_free;
+};
+
+/// In the order of PhaseSupports::contacts().
+std::vector<TouchingPair> touching_pairs(const Problem& problem) {
+  std::vector<TouchingPair> pairs;
+  for (const RigidSpec& rigid : problem.rigid) pairs.push_back({rigid.name, rigid.friction > 0, rigid.free});
+  for (const ContactSpec& contact : problem.contacts) pairs.push_back({contact.name(), contact.friction > 0, false});
+  return pairs;
+}
+
 }  // namespace
 
-std::vector<std::string> rigid_columns(const Problem& problem) {
+std::vector<std::string> contact_columns(const Problem& problem) {
   std::vector<std::string> columns;
   const std::vector<std::string> axes = axis_names(problem.dim);
-  for (const RigidSpec& rigid : problem.rigid) {
-    std::ranges::move(component_names(rigid.name + ".force", axes, "_"), std::back_inserter(columns));
+  for (const auto& [name, rubs, is_free] : touching_pairs(problem)) {
+    std::ranges::move(component_names(name + ".force", axes, "_"), std::back_inserter(columns));
     if (has_moments(problem) && problem.dim == 3)
-      std::ranges::move(component_names(rigid.name + ".moment", axes, "_"), std::back_inserter(columns));
-    if (has_moments(problem) && problem.dim == 2) columns.push_back(rigid.name + ".moment_z");
-    columns.push_back(rigid.name + ".contact_area");
-    columns.push_back(rigid.name + ".penetration");
-    if (rigid.friction > 0) columns.push_back(rigid.name + ".slipping");
+      std::ranges::move(component_names(name + ".moment", axes, "_"), std::back_inserter(columns));
+    if (has_moments(problem) && problem.dim == 2) columns.push_back(name + ".moment_z");
+    columns.push_back(name + ".contact_area");
+    columns.push_back(name + ".penetration");
+    if (rubs) columns.push_back(name + ".slipping");
+    if (is_free) std::ranges::move(component_names(name + ".displacement", axes, "_"), std::back_inserter(columns));
   }
   return columns;
 }
 
-std::vector<double> rigid_values(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+std::vector<double> contact_values(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
   std::vector<double> values;
-  if (problem.rigid.empty()) return values;
-  const std::vector<RigidReport> reports = phase.supports().rigid_bodies(t, u);
-  for (std::size_t k = 0; k < problem.rigid.size(); ++k) {
-    const RigidReport& report = reports[k];
+  if (!problem.may_touch()) return values;
+  const std::vector<ContactReport> reports = phase.supports().contacts(t, u);
+  const std::vector<TouchingPair> pairs = touching_pairs(problem);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const ContactReport& report = reports[k];
     values.insert(values.end(), report.force.begin(), report.force.begin() + problem.dim);
     if (has_moments(problem))
       values.insert(values.end(), report.moment.begin() + (problem.dim == 3 ? 0 : 2), report.moment.end());
     values.insert(values.end(), {report.area, report.penetration});
-    if (problem.rigid[k].friction > 0) values.push_back(report.slipping);
+    if (pairs[k].rubs) values.push_back(report.slipping);
+    if (pairs[k].is_free)
+      values.insert(values.end(), report.displacement.begin(), report.displacement.begin() + problem.dim);
   }
   return values;
 }
 
-void fill_rigid(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u, Summary& summary) {
-  const std::vector<std::string> columns = rigid_columns(problem);
-  const std::vector<double> values = rigid_values(problem, phase, t, u);
+void fill_contacts(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u, Summary& summary) {
+  const std::vector<std::string> columns = contact_columns(problem);
+  const std::vector<double> values = contact_values(problem, phase, t, u);
   for (std::size_t k = 0; k < columns.size(); ++k) summary.contacts[columns[k]] = values[k];
 }
 

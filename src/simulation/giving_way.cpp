@@ -18,8 +18,15 @@ GivingWay::GivingWay(const Problem& problem, const LagrangianPhase& phase) : pha
   remembers_ = phase.info().remembers;
   yields_ = std::ranges::count(phase.info().history_names, plastic_strain_name) > 0;
   for (const WallSpec& wall : problem.walls) friction_.push_back(wall.friction);
-  for (const RigidSpec& rigid : problem.rigid) rigid_friction_.push_back(rigid.friction);
-  has_friction_ = std::ranges::any_of(friction_, ends) || std::ranges::any_of(rigid_friction_, ends);
+  for (const RigidSpec& rigid : problem.rigid) {
+    contacts_.push_back("rigid body " + in_quotes(rigid.name));
+    contact_friction_.push_back(rigid.friction);
+  }
+  for (const ContactSpec& contact : problem.contacts) {
+    contacts_.push_back(in_quotes(contact.bodies[0]) + " on " + in_quotes(contact.bodies[1]));
+    contact_friction_.push_back(contact.friction);
+  }
+  has_friction_ = std::ranges::any_of(friction_, ends) || std::ranges::any_of(contact_friction_, ends);
   if (yields_) volumes_ = phase.fields().point_data().volumes;
 }
 
@@ -33,7 +40,7 @@ double GivingWay::plastic_strain() const {
 std::vector<std::string> GivingWay::slides_along(double t, ConstVec u) const {
   if (!has_friction_) return {};
   std::vector<std::string> along = sliding_walls(t);
-  std::ranges::move(sliding_rigid_bodies(t, u), std::back_inserter(along));
+  std::ranges::move(sliding_contacts(t, u), std::back_inserter(along));
   return along;
 }
 
@@ -50,14 +57,13 @@ std::vector<std::string> GivingWay::sliding_walls(double t) const {
   return sliding;
 }
 
-std::vector<std::string> GivingWay::sliding_rigid_bodies(double t, ConstVec u) const {
+std::vector<std::string> GivingWay::sliding_contacts(double t, ConstVec u) const {
   constexpr double sliding_share = 0.95;  // of the area
   std::vector<std::string> sliding;
-  if (std::ranges::none_of(rigid_friction_, ends)) return sliding;
-  const std::vector<RigidReport> reports = phase_.supports().rigid_bodies(t, u);
-  for (std::size_t k = 0; k < std::min(reports.size(), rigid_friction_.size()); ++k)
-    if (ends(rigid_friction_[k]) && reports[k].slipping >= sliding_share)
-      sliding.push_back("rigid body " + in_quotes(reports[k].name));
+  if (std::ranges::none_of(contact_friction_, ends)) return sliding;
+  const std::vector<ContactReport> reports = phase_.supports().contacts(t, u);
+  for (std::size_t k = 0; k < std::min(reports.size(), contacts_.size()); ++k)
+    if (ends(contact_friction_[k]) && reports[k].slipping >= sliding_share) sliding.push_back(contacts_[k]);
   return sliding;
 }
 

@@ -1,4 +1,4 @@
-// A body gives way if points yield, or if the friction of a wall or of a rigid body is used up.
+// A body gives way if points yield, or if the friction of a wall, of a rigid body or between bodies is used up.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -29,15 +29,17 @@ class GivingWay {
   /// Σ_p V_p γᵖ_p, with the volumes of the start; it only grows [m³]. 0 if laws have no plastic strain.
   double plastic_strain() const;
   /// What the body slides along at (t, u), "wall 'floor'": walls with |T| = friction |N| in the last evaluation, and
-  /// rigid bodies along which all that touches them slips.
+  /// rigid and other bodies along which all that touches them slips.
   std::vector<std::string> slides_along(double t, ConstVec u) const;
 
  private:
   std::vector<std::string> sliding_walls(double t) const;
-  std::vector<std::string> sliding_rigid_bodies(double t, ConstVec u) const;
+  std::vector<std::string> sliding_contacts(double t, ConstVec u) const;
 
   const LagrangianPhase& phase_;
-  std::vector<double> friction_, rigid_friction_;  // the friction of each wall, and of each rigid body
+  std::vector<double> friction_;          // of each wall
+  std::vector<std::string> contacts_;     // the rigid bodies and the pairs of bodies that touch, in words
+  std::vector<double> contact_friction_;  // the friction of each
   bool remembers_, yields_, has_friction_;
   std::vector<double> volumes_;
 };

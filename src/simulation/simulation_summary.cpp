@@ -4,7 +4,7 @@
 #include "base/stop_request.hpp"
 #include "output/exact_error.hpp"
 #include "simulation/advice/notes.hpp"
-#include "simulation/rigid_figures.hpp"
+#include "simulation/contact_figures.hpp"
 #include "simulation/simulation_impl.hpp"
 #include "simulation/support_figures.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
@@ -91,7 +91,7 @@ void Simulation::Impl::fill_state(Summary& s) {
   for (const Watched& watched : watchers_) watched.watcher->fill_state(s, run_);
   s.error = exact_error(run_.scene, phase, run_.t, run_.motion->u());
   fill_supports(run_.scene, phase, run_.t, *run_.motion, s);
-  fill_rigid(run_.scene, phase, run_.t, run_.motion->u(), s);
+  fill_contacts(run_.scene, phase, run_.t, run_.motion->u(), s);
   if (recorder_) recorder_->fill(s, run_);
 }
 

@@ -110,6 +110,22 @@ TEST_CASE("Hertz's cylinder and sphere press with their force and pressure, and 
   }
 }
 
+TEST_CASE("a free footing settles until the ground bears its weight, by every way to rest, and both sink as far") {
+  double settled = 0;
+  for (const char* way : {"damping.strategy=viscous", "damping.strategy=auto", "damping.strategy=kinetic",
+                          "damping.strategy=cundall", "solve.method=newton", "solve.method=lbfgs"}) {
+    CAPTURE(way);
+    const Summary s = run_ladder("free_footing", {way});
+    REQUIRE(s.status == RunStatus::equilibrium);
+    CHECK(s.contacts.at("footing.force_y") == Approx(-600).epsilon(1e-6));
+    CHECK(s.contacts.at("footing.force_x") == Approx(0).margin(1e-6));
+    CHECK(s.reactions.at("ground")[1] == Approx(600).epsilon(1e-6));
+    if (settled == 0) settled = s.contacts.at("footing.displacement_y");
+    CHECK(settled < -1e-3);
+    CHECK(s.contacts.at("footing.displacement_y") == Approx(settled).epsilon(1e-3));  // distance to equilibrium
+  }
+}
+
 TEST_CASE("a rigid body that overlaps a body by more than half a cell when the run begins is refused") {
   CHECK_THROWS_WITH(run_ladder("pressed_plate", {"constants.gap=-0.07", "constants.delta=0.08"}),
                     Catch::Contains("pressed_plate.toml:45:1: 'plate' overlaps body[0] by 0.562 cells"));

@@ -50,7 +50,7 @@ void read_points_per_cell(BodySpec& body, const Value& value, const KeyInfo& key
       .add({"body", "material points in a box, in another shape or from a file; [body], or several [[body]]",
             Repeat::once_or_array, "a scene has a body with a material"},
            &Scene::bodies)
-      .key("name", &BodySpec::name, "by which a rigid body says which bodies it touches")
+      .key("name", &BodySpec::name, "by which a rigid body or a contact says which bodies touch")
       .key("min", &BodySpec::min, "lower corner of a box, or in space of that in which another shape is cut off",
            {.unit = "m", .fallback = "that of the grid"})
       .key("max", &BodySpec::max, "upper corner, likewise", {.unit = "m", .fallback = "that of the grid"})

@@ -37,7 +37,7 @@ namespace stillpoint {
       .key("friction", &WallSpec::friction, "Coulomb's coefficient; rough: no slip",
            {.range = kNotNegative, .words = {"rough"}}, [](WallSpec& wall) { wall.friction = kInfinity; });
 
-  add_rigid(tables);
+  add_contact(tables);
 
   tables.add({"force", "a force at a position of the material, with which it moves", Repeat::array}, &Scene::forces)
       .key("at", &PointForceSpec::at, "position", {.unit = "m", .required = true})

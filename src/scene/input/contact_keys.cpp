@@ -1,9 +1,9 @@
-// The table of the rigid bodies that bodies touch.
+// The tables of the rigid bodies that bodies touch, and of contact between bodies.
 #include "scene/input/scene_keys.hpp"
 
 namespace stillpoint {
 
-[[gnu::no_sanitize_address]] void add_rigid(Tables& tables) {
+[[gnu::no_sanitize_address]] void add_contact(Tables& tables) {
   constexpr Range below_half_turn{0, 180, false, false};
   tables
       .add({.path = "rigid",
@@ -44,9 +44,28 @@ namespace stillpoint {
            {.unit = "rad", .variables = "t", .fallback = "0", .of_turn = true})
       .key("about", &RigidSpec::about, "position about which it turns, and which its motion moves",
            {.unit = "m", .fallback = "the origin"})
+      .key("free", &RigidSpec::free,
+           "true: not moved by formulas, but to where its weight and its force balance what it touches; it does not "
+           "turn")
+      .key("mass", &RigidSpec::mass, "of a free one, for its weight by the body force",
+           {.range = kNotNegative, .unit = "kg"})
+      .key("force", &RigidSpec::force, "on a free one, components", {.unit = "N", .variables = "t", .fallback = "0"})
       .key("friction", &RigidSpec::friction, "Coulomb's coefficient; rough: no slip",
            {.range = kNotNegative, .words = {"rough"}}, [](RigidSpec& rigid) { rigid.friction = kInfinity; })
       .key("bodies", &RigidSpec::bodies, "names of the bodies that it touches", {.fallback = "all", .list = true});
+
+  tables
+      .add({.path = "contact",
+            .help = "two bodies that push each other where they meet, and never hold back; others are bonded where "
+                    "they meet",
+            .repeat = Repeat::array,
+            .dims = kNotLine},
+           &Scene::contacts)
+      .key("bodies", &ContactSpec::bodies,
+           "names of the two; contact is looked for along the border of the first, the shorter one if they differ",
+           {.required = true, .list = true})
+      .key("friction", &ContactSpec::friction, "Coulomb's coefficient; rough: no slip",
+           {.range = kNotNegative, .words = {"rough"}}, [](ContactSpec& contact) { contact.friction = kInfinity; });
 }
 
 }  // namespace stillpoint

@@ -77,6 +77,7 @@ std::optional<T> read_value(const Value& value, const KeyInfo& key, bool nested 
   } else if constexpr (std::is_same_v<T, Expression>) {
     return read_formula(value, variables_of(key, value.reading.dim));
   } else if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>) {
+    if (std::is_same_v<T, bool> && key.words.empty()) return converted(read_truth(value));
     return converted(read_word(value, key));
   } else if constexpr (std::integral<T>) {
     return converted(key.words.empty() ? read_whole(value, key.range) : read_word(value, key));
@@ -96,6 +97,7 @@ constexpr Kind kind_of_type() {
 template <class T>
 std::string told_default(const T& value, const KeyInfo& key) {
   if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>) {
+    if (std::is_same_v<T, bool> && key.words.empty()) return value == T{} ? "false" : "true";
     return std::string(key.words.at(static_cast<std::size_t>(value)).name);
   } else if constexpr (std::is_arithmetic_v<T>) {
     return fmt::format("{}", value);
@@ -129,7 +131,8 @@ Key key_of(std::string_view name, Access access, std::string_view help, const Ke
   KeyInfo info = about;
   info.name = name;
   info.help = help;
-  info.kind = kind_of_type<typename Unwrapped<Member>::type>();
+  using Type = typename Unwrapped<Member>::type;
+  info.kind = std::is_same_v<Type, bool> && info.words.empty() ? Kind::truth : kind_of_type<Type>();
   info.shape = !info.row.empty()                ? Shape::rows
                : Unwrapped<Member>::depth > 1   ? Shape::positions
                : Unwrapped<Member>::depth == 0  ? Shape::one

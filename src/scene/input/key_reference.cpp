@@ -40,6 +40,7 @@ std::string told_type(const KeyInfo& key) {
   if (key.kind == Kind::whole)
     kinds.push_back(told("whole number", key.words.empty() ? key.range : key.numbers_in(kAnyDim)));
   if (key.kind == Kind::text && !word_only) kinds.push_back("text");
+  if (key.kind == Kind::truth) kinds.push_back("true or false");
   if (key.kind == Kind::formula) {
     const std::string x = key.variables.starts_with('x') ? "x, y" : "";
     kinds.push_back(fmt::format("formula of {}{}{}", x, x.empty() || key.variables == "x" ? "" : ", ",
@@ -98,6 +99,7 @@ Json schema_of_one(const KeyInfo& key) {
     for (const Word& word : key.words) words.push_back(word.name);
     return words.empty() || !key.listed_by.empty() ? Json{{"type", "string"}} : Json{{"enum", words}};
   }
+  if (key.kind == Kind::truth) return Json{{"type", "boolean"}};
   // A string is a formula, or a word.
   Json schema = {{"type", {key.kind == Kind::whole ? "integer" : "number", "string"}}};
   const Range& range = key.range;

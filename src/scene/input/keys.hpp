@@ -36,7 +36,7 @@ std::vector<Word> names_of(const auto& rows) {
   return words;
 }
 
-enum class Kind { number, whole, formula, text };
+enum class Kind { number, whole, formula, text, truth };
 /// axes: one value for each coordinate, if there is one a plain value; components: likewise for those of a stress or of
 /// a turn.
 enum class Shape { one, axes, components, list, positions, rows };

@@ -145,6 +145,10 @@ void check_overlaps(SceneCheck& check);
 long known_points(SceneCheck& check);
 void check_supports_and_walls(SceneCheck& check, bool grid);
 void check_rigid_bodies(SceneCheck& check);
+/// Checks the contacts between bodies, and what neither these nor rigid bodies go with.
+void check_contacts(SceneCheck& check);
+/// Checks the names of bodies that something touches, the value of a key.
+void check_body_names(SceneCheck& check, const std::string& key, const std::vector<std::string>& bodies);
 /// Checks that rigid body k has a shape.
 void check_rigid_shape(SceneCheck& check, std::size_t k);
 void check_loads(SceneCheck& check, const std::optional<NamedBox>& body);

@@ -14,10 +14,10 @@ namespace stillpoint {
 
 /// [body], or several [[body]].
 void add_body(Tables& tables);
-/// [[support]], [[wall]], [[rigid]], [[force]], [[traction]], [body_force] and [load].
+/// [[support]], [[wall]], [[rigid]], [[contact]], [[force]], [[traction]], [body_force] and [load].
 void add_boundary(Tables& tables);
-/// [[rigid]] alone.
-void add_rigid(Tables& tables);
+/// [[rigid]] and [[contact]] alone.
+void add_contact(Tables& tables);
 /// [solve], [damping], [integrator] and [stop].
 void add_method(Tables& tables, const Catalogue& catalogue);
 /// [output], [checkpoint], [[probe]] and [[variant]].

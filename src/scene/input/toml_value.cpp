@@ -144,6 +144,12 @@ std::optional<Expression> read_formula(const Value& value, const std::string& va
   return std::nullopt;
 }
 
+std::optional<bool> read_truth(const Value& value) {
+  if (const auto* const truth = value.node.as_boolean()) return truth->get();
+  value.problem(fmt::format("expected true or false, found {}", kind_of(value.node)));
+  return std::nullopt;
+}
+
 std::optional<std::string> read_text(const Value& value) {
   if (const auto* text = value.node.as_string()) return text->get();
   value.problem(fmt::format("expected a string, found {}", kind_of(value.node)));

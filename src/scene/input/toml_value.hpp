@@ -72,6 +72,9 @@ std::optional<std::int64_t> read_whole(const Value& value, const Range& range);
 /// A number or a formula of the constants and of variables ("t", "xt", …).
 std::optional<Expression> read_formula(const Value& value, const std::string& variables);
 
+/// true or false.
+std::optional<bool> read_truth(const Value& value);
+
 /// A string.
 std::optional<std::string> read_text(const Value& value);
 

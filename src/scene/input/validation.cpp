@@ -182,6 +182,7 @@ void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading
   check_mass(check, scene);
   check_supports_and_walls(check, grid);
   check_rigid_bodies(check);
+  check_contacts(check);
   check_loads(check, body);
   check_exact(check, body.has_value());
   check_phases(check, grid);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scene/body_solid.hpp"
+#include "scene/contact_bodies.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/point_file.hpp"
 
@@ -32,6 +33,7 @@ class OverlapCheck {
     for (std::size_t j = 1; j < bodies_.size(); ++j) {
       for (std::size_t k = 0; k < j; ++k) {
         if (!boxes_meet(bodies_[j], bodies_[k])) continue;
+        touch_ = have_contact(check_.scene(), j, k);
         const std::string found = what_overlaps(bodies_[j], bodies_[k]);
         if (found.empty()) continue;
         check_.add(fmt::format("body[{}]", j),
@@ -52,13 +54,21 @@ class OverlapCheck {
     return true;
   }
 
+  /// By how much bodies that touch each other may overlap, as those that are pressed together [m]; how deep one lies
+  /// in the other is checked where contact begins.
+  double pressed() const { return touch_ ? longest_cell(check_.scene().grid) / 2 : 0; }
+
   /// The part that a and b have in common, in words; empty if there is none.
   std::string what_overlaps(const BodySpec& a, const BodySpec& b) const {
     if (!a.file.empty() || !b.file.empty()) return points_that_overlap(a, b);
-    if (check_.scene().dim != 2) return (a.is_box() && b.is_box()) || solids_meet(a, b) ? "a part" : "";
+    if (check_.scene().dim != 2) {
+      for (std::size_t axis = 0; axis < a.min.size(); ++axis)
+        if (std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]) <= pressed()) return "";
+      return (a.is_box() && b.is_box()) || solids_meet(a, b) ? "a part" : "";
+    }
     const Polygon of_a = outline_of(a), of_b = outline_of(b);
     // Borders that should be one may lie apart, or over each other, by rounding all along.
-    const double of_rounding = rounding_ * std::min(perimeter(of_a), perimeter(of_b)) / 2;
+    const double of_rounding = std::max(rounding_, pressed()) * std::min(perimeter(of_a), perimeter(of_b)) / 2;
     const double area = overlap_area(of_a, of_b);
     return area > of_rounding ? fmt::format("an area of {:.4g} m2", area) : "";
   }
@@ -135,6 +145,7 @@ class OverlapCheck {
   SceneCheck& check_;
   const std::vector<BodySpec>& bodies_;
   double rounding_ = 0;  // [m]
+  bool touch_ = false;   // whether the two bodies looked at touch each other
   mutable std::map<const BodySpec*, std::shared_ptr<const Solid>> solids_;
 };
 

@@ -1,4 +1,4 @@
-// Checks of the rigid bodies: their names and motions, the bodies that they touch, and what they do not go with.
+// Checks of the rigid bodies: their names and motions, and the bodies that they touch.
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +19,7 @@ class RigidCheck {
 
   void run() {
     check_motion();
+    check_freedom();
     check_bodies();
   }
 
@@ -55,22 +56,35 @@ class RigidCheck {
     check_.wrong_if(turns, key("rotation"), "would turn the axis of symmetry away; leave it out");
   }
 
+  void check_freedom() {
+    const Scene& scene = check_.scene();
+    const bool pushed = check_.given(key("force"), !spec_.force.empty());
+    if (!spec_.free) {
+      check_.wrong_if(spec_.mass > 0, key("mass"), "goes with free = true; another rigid body moves by its formulas");
+      check_.wrong_if(pushed, key("force"), "goes with free = true; another rigid body moves by its formulas");
+      return;
+    }
+    check_formulas("force", spec_.force, static_cast<std::size_t>(scene.dim));
+    check_.wrong_if(check_.given(key("motion"), !spec_.motion.empty()), key("motion"),
+                    "a free rigid body moves to where its forces balance; leave out one of 'free' and 'motion'");
+    check_.wrong_if(check_.given(key("rotation"), !spec_.rotation.empty()), key("rotation"),
+                    "a free rigid body does not turn; leave out one of 'free' and 'rotation'");
+    check_.wrong_if(!pushed && !(spec_.mass > 0 && scene.has_body_force()), key("free"),
+                    "nothing moves it: expected a force, or a mass and a body_force");
+    const bool weighs = spec_.mass > 0;
+    check_.wrong_if(
+        weighs && (!scene.own_load.empty() || std::ranges::any_of(scene.body_force, &Expression::uses_position)),
+        key("mass"), "the body force depends on the position; give the weight as 'force'");
+    if (scene.state == StressState::axisymmetric && pushed && check_.sound(key("force")))
+      check_.wrong_if(!rests(spec_.force[0]), key("force[0]"),
+                      "what is turned about the axis of symmetry moves along it alone; expected 0");
+  }
+
   void check_bodies() {
     if (!check_.sound(key("bodies"))) return;
     check_.wrong_if(spec_.bodies.empty() && check_.written(key("bodies")), key("bodies"),
                     "names no body; leave it out to touch all");
-    std::vector<std::string> names;
-    for (const BodySpec& body : check_.scene().bodies)
-      if (!body.name.empty()) names.push_back(body.name);
-    for (std::size_t k = 0; k < spec_.bodies.size(); ++k) {
-      const std::string one = fmt::format("{}[{}]", key("bodies"), k), &name = spec_.bodies[k];
-      const auto here = spec_.bodies.begin() + static_cast<std::ptrdiff_t>(k);
-      if (check_.wrong_if(std::find(spec_.bodies.begin(), here, name) != here, one, "{} is there already",
-                          in_quotes(name)) ||
-          check_.wrong_if(names.empty(), one, "no body has a name; give one of them name = {}", in_quotes(name)))
-        continue;
-      if (std::ranges::find(names, name) == names.end()) check_.add_unknown(one, "body", "[[body]]", name, names);
-    }
+    check_body_names(check_, key("bodies"), spec_.bodies);
   }
 
   SceneCheck& check_;
@@ -99,28 +113,6 @@ void check_names(SceneCheck& check) {
   }
 }
 
-/// What rigid bodies do not go with.
-void check_company(SceneCheck& check) {
-  const Scene& scene = check.scene();
-  check.wrong_if(scene.mass.kind == MassKind::multigrid, "mass.kind",
-                 "'multigrid' does not know the stiffness of the contact with rigid bodies yet; take \"lumped\"");
-  check.wrong_if(scene.grid.basis == BasisKind::hermite && scene.dim == 2, "grid.basis",
-                 "'hermite' has slopes as unknowns, which no contact with rigid bodies acts on yet; take linear, "
-                 "quadratic or cubic");
-  // Where a rigid body would touch them is not known.
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    const auto touches = [&](const RigidSpec& rigid) { return rigid.touches(scene.bodies[k].name); };
-    check.wrong_if(
-        scene.dim == 3 && !scene.bodies[k].file.empty() && std::ranges::any_of(scene.rigid, touches),
-        check.body_key(k, "file"),
-        "points in space have no surface that a rigid body could touch; take a shape, or leave this body out "
-        "of its 'bodies'");
-  }
-  check.wrong_if(scene.load.has_value(), "load",
-                 "a displacement that drives loads and rigid bodies cannot be had together yet; move the rigid bodies, "
-                 "or give the loads as formulas of t");
-}
-
 }  // namespace
 
 void check_rigid_bodies(SceneCheck& check) {
@@ -133,7 +125,6 @@ void check_rigid_bodies(SceneCheck& check) {
     RigidCheck(check, k).run();
   }
   check_names(check);
-  check_company(check);
 }
 
 }  // namespace stillpoint

@@ -71,7 +71,7 @@ std::optional<HeldByGap> held_by_gap(const Problem& problem, const std::vector<B
       group_is_held[group[body]][axis] = group_is_held[group[body]][axis] || held[body][axis];
   const HeldAxes driven = driven_axes(problem);
   for (const BodyGap& pair : pairs) {
-    if (!is_gap(pair) || group[pair.a] == group[pair.b]) continue;
+    if (!is_gap(pair) || !pair.bonded || group[pair.a] == group[pair.b]) continue;
     for (const std::size_t body : {pair.b, pair.a}) {
       const HeldAxes& axes = group_is_held[group[body]];
       if (std::ranges::none_of(axes, std::identity())) return HeldByGap{pair, body, ""};
@@ -101,7 +101,7 @@ std::vector<std::string> BodyNotes::at_start(const Problem& problem, const Lagra
     if (is_gap(pair))
       notes.push_back(
           fmt::format("{} and share functions of the grid, which pull and push them across the gap; "
-                      "expected smaller cells, or bodies that touch",
+                      "expected smaller cells, a [[contact]] between them, or bodies that touch",
                       apart(pair)));
   }
   return notes;
@@ -113,10 +113,17 @@ std::vector<std::string> BodyNotes::later(const Problem& problem, const Lagrangi
   if (known_.size() == bodies * (bodies - 1) / 2) return notes;
   for (const BodyGap& pair : phase.shape().body_gaps()) {
     if (!known_.insert({pair.a, pair.b}).second) continue;
-    notes.push_back(
-        fmt::format("{} when they have come to share functions of the grid, which push them apart, or hold "
-                    "them together, before they touch; expected smaller cells where they meet",
-                    apart(pair)));
+    if (!pair.bonded) {
+      notes.push_back(
+          fmt::format("{} and have no contact with each other, though both have one with a third: each goes "
+                      "through the other; expected a [[contact]] between them",
+                      apart(pair)));
+      continue;
+    }
+    notes.push_back(fmt::format(
+        "{} when they have come to share functions of the grid, which push them apart, or hold "
+        "them together, before they touch; expected a [[contact]] between them, or smaller cells where they meet",
+        apart(pair)));
   }
   return notes;
 }

@@ -69,7 +69,7 @@ bool is_still(const Problem& problem) {
   const auto stays = [](const auto& held) { return held.motion.constant() && held.motion({}, 0) == 0; };
   const auto is_zero = [](const Expression& motion) { return motion.constant() && motion({}, 0) == 0; };
   const auto rests = [&](const RigidSpec& rigid) {
-    return std::ranges::all_of(rigid.motion, is_zero) && std::ranges::all_of(rigid.rotation, is_zero);
+    return !rigid.free && std::ranges::all_of(rigid.motion, is_zero) && std::ranges::all_of(rigid.rotation, is_zero);
   };
   return std::ranges::all_of(problem.supports, stays) && std::ranges::all_of(problem.walls, stays) &&
          std::ranges::all_of(problem.rigid, rests) && problem.initial_u.empty() && problem.initial_v.empty();
@@ -95,7 +95,9 @@ void note_loads(const Problem& problem, const LagrangianPhase& phase, ConstVec u
     some_act = some_act || !zero;
   }
   if (zeros > most_told) notes.push_back(fmt::format("so are {} loads more", zeros - most_told));
-  if (!some_act && is_still(problem)) notes.emplace_back("no load acts and nothing moves: the body stays as it is");
+  const bool pushes = problem.may_touch() && phase.supports().contact_state(0, u).touches;
+  if (!some_act && !pushes && is_still(problem))
+    notes.emplace_back("no load acts and nothing moves: the body stays as it is");
   if (!some_act || loads_vary(problem) || problem.load) return;
   std::vector<double> F(phase.size());
   phase.external_force(0, u, F);
@@ -122,7 +124,7 @@ bool may_be_borne(const Problem& problem, const LagrangianPhase& phase, int axis
   const auto supports = [&](const SupportSpec& support) {
     return support.component == axis || !support.holds_one_component();
   };
-  if (!problem.rigid.empty()) return true;
+  if (problem.may_touch()) return true;
   if (phase.info().updated_lagrangian && std::ranges::any_of(problem.supports, supports)) return true;
   return std::ranges::any_of(problem.walls, [&](const WallSpec& wall) {
     return axis_of(wall.face) == axis ? is_upper(wall.face) == (force > 0) : wall.friction > 0;
@@ -162,7 +164,7 @@ void note_free_parts(const Problem& problem, const LagrangianPhase& phase, Const
                       along, force));
     }
   }
-  if (!problem.walls.empty() || !problem.rigid.empty()) return;  // that may hold it
+  if (!problem.walls.empty() || problem.may_touch()) return;  // that may hold it
   constexpr std::size_t most_told = 4;
   for (std::size_t k = 0; k < balanced.size(); ++k) {
     if (k == most_told) {

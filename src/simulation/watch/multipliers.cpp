@@ -1,4 +1,4 @@
-// The multipliers of contact with rigid bodies: a body that is nearly in balance takes its contact pressures as
+// The multipliers of contact: a body that is nearly in balance takes its contact pressures as
 // multipliers, and goes on to where nothing penetrates.
 //
 // Taken too early, in the first overshoot of the motion, they would be those of another state; each time they change,
@@ -36,7 +36,7 @@ class Multipliers : public Watcher {
     const LagrangianPhase& phase = *run.model.phase;
     const ContactState state = phase.supports().contact_state(run.t, run.motion->u());
     const bool fits = !state.touches || (updates_ >= fewest && (is_small(state) || comes_no_nearer(state)));
-    run.contact_settled = loads_stay && (fits || updates_ >= most);
+    run.contact_settled = loads_stay && state.balanced && (fits || updates_ >= most);
     if (fits || updates_ >= most) return;
     run.model.phase->control().update_multipliers(run.t, run.motion->u());
     run.motion->stepper->take_changed_forces(run.t);
@@ -52,6 +52,9 @@ class Multipliers : public Watcher {
     constexpr double negligible = 1e-2;  // of the pressures
     if (!touches_ || !run.scene.stop.wants_equilibrium()) return;
     const ContactState state = run.model.phase->supports().contact_state(run.t, run.motion->u());
+    if (!state.balanced)
+      add_note(summary, "a free rigid body is not in balance: nothing that it touches bears all of the force on it");
+    note_slides(summary, run);
     if (state.misfit <= largest_misfit && state.change <= negligible) return;
     add_note(
         summary,
@@ -71,6 +74,16 @@ class Multipliers : public Watcher {
   static constexpr long fewest = 2, most = 60;  // updates
   static constexpr long stride = 8;             // [steps] between two looks at the residual of a motion
 
+  // Within a phase a piece keeps the facet that was opposite to it.
+  static void note_slides(Summary& summary, RunState& run) {
+    if (run.scene.phase.ends()) return;
+    for (const ContactReport& contact : run.model.phase->supports().contacts(run.t, run.motion->u()))
+      if (contact.slid > 1)
+        add_note(summary, fmt::format("{} slid by up to {:.2g} cells along each other, and still touch the parts of "
+                                      "their borders that were opposite when the phase began; expected phases, as by "
+                                      "phase.max_motion = 0.3",
+                                      contact.name, contact.slid));
+  }
   bool is_small(const ContactState& state) const {
     return state.misfit <= largest_misfit && state.change <= largest_change_;
   }

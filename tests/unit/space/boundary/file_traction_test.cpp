@@ -105,7 +105,7 @@ TEST_CASE("a rigid plate touches all of the side that a file's points show it") 
     CAPTURE(more);
     const auto phase = make_phase(scenes::load(
         "block", square.overrides({"traction=[]", "rigid=[{name='plate', half_plane=[[0, 0.99], [0, -1]]}]", more})));
-    const RigidReport plate = phase->supports().rigid_bodies(0, std::vector<double>(phase->size(), 0.0)).at(0);
+    const ContactReport plate = phase->supports().contacts(0, std::vector<double>(phase->size(), 0.0)).at(0);
     CHECK(plate.area == Approx(1).epsilon(1e-12));
     CHECK(plate.penetration == Approx(0.1));  // [cells]
     CHECK(plate.force[1] < 0);

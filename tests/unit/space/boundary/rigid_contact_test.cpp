@@ -61,7 +61,7 @@ TEST_CASE("a rigid body that is apart leaves R as it is to the bit, and reports 
     const auto without = make_phase(resolve(alone));
     const std::vector<double> u = some_motion(apart->size(), 0.01);
     CHECK(statics::internal_force(*apart, u) == statics::internal_force(*without, u));
-    const RigidReport report = apart->supports().rigid_bodies(0, u).at(0);
+    const ContactReport report = apart->supports().contacts(0, u).at(0);
     CHECK(report.force == std::array<double, 3>{});
     CHECK(report.area == 0);
     CHECK_FALSE(apart->supports().contact_state(0, u).touches);
@@ -75,7 +75,7 @@ TEST_CASE("the tangent of contact is the derivative of its force, and symmetric 
       const auto phase = make_phase(touched_block(kind, ball_at(kind, 1.65) + "\nfriction = " + friction));
       const std::size_t n = phase->size();
       const std::vector<double> u = some_motion(n, 0.004), du = some_motion(n, 1);
-      REQUIRE(phase->supports().rigid_bodies(0, u).at(0).area > 0.1);
+      REQUIRE(phase->supports().contacts(0, u).at(0).area > 0.1);
       constexpr double h = 1e-6;
       const std::vector<double> ahead = statics::internal_force(*phase, sum_of(u, du, h)),
                                 behind = statics::internal_force(*phase, sum_of(u, du, -h));
@@ -104,6 +104,55 @@ TEST_CASE("the tangent of contact is the derivative of its force, and symmetric 
   }
 }
 
+TEST_CASE("a free rigid body presses with its weight and its force at any state, and its tangent is their derivative") {
+  for (const std::string& kind : kinds) {
+    CAPTURE(kind);
+    const std::string third = kind == "space" ? ", '0'" : "";
+    const auto phase = make_phase(
+        touched_block(kind, ball_at(kind, 1.9) + "\nfree = true\nmass = 0.1\nforce = ['0', '-1-t'" + third + "]",
+                      "body_force.value = [0, -10" + std::string(kind == "space" ? ", 0]" : "]")));
+    const std::size_t n = phase->size();
+    const std::vector<double> u = some_motion(n, 0.004), du = some_motion(n, 1);
+    for (const double t : {0.0, 2.0}) {
+      const ContactReport report = phase->supports().contacts(t, u).at(0);
+      CHECK(report.force[1] == Approx(-2 - t).epsilon(1e-12));
+      CHECK(report.displacement[1] < -0.04);  // it was 0.1 above the block
+      CHECK(phase->supports().contact_state(t, u).balanced);
+    }
+    constexpr double h = 1e-6, t = 2;
+    const std::vector<double> ahead = statics::internal_force(*phase, sum_of(u, du, h), t),
+                              behind = statics::internal_force(*phase, sum_of(u, du, -h), t);
+    std::vector<double> product(n);
+    phase->tangents().apply(Tangent::consistent, t, u, du, product);
+    const SparseMatrix K = phase->tangents().matrix(Tangent::consistent, t, u);
+    const Eigen::VectorXd by_matrix = K * Eigen::Map<const Eigen::VectorXd>(du.data(), static_cast<Eigen::Index>(n));
+    double error = 0, difference = 0, scale = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double slope = (ahead[k] - behind[k]) / (2 * h);
+      error = std::max(error, std::abs(slope - product[k]));
+      difference = std::max(difference, std::abs(by_matrix[static_cast<Eigen::Index>(k)] - product[k]));
+      scale = std::max(scale, std::abs(slope));
+    }
+    REQUIRE(scale > 0);
+    CHECK(difference < 1e-12 * scale);  // rounding
+    CHECK(error < 1e-7 * scale);        // of central differences
+    CHECK((K - SparseMatrix(K.transpose())).norm() < 1e-13 * K.norm());
+  }
+}
+
+TEST_CASE("a free rigid body that nothing bears is not in balance") {
+  const auto lifted =
+      make_phase(touched_block("plane-strain", ball_at("plane-strain", 1.9) + "\nfree = true\nforce = ['0', '1']"));
+  const std::vector<double> u(lifted->size(), 0.0);
+  CHECK_FALSE(lifted->supports().contact_state(0, u).balanced);
+  CHECK(lifted->supports().contacts(0, u).at(0).area == 0);
+  // A smooth flat one that is pushed along.
+  const auto pushed = make_phase(
+      touched_block("plane-strain", "half_plane = [[0, 1.25], [0, -1]]\nfree = true\nforce = ['0.5', '-1']"));
+  CHECK_FALSE(pushed->supports().contact_state(0, u).balanced);
+  CHECK(pushed->supports().contacts(0, u).at(0).force[1] == Approx(-1));
+}
+
 TEST_CASE("the forces on a body are together what the rigid body reports, with its moment") {
   for (const std::string& kind : {std::string("plane-strain"), std::string("space")}) {
     CAPTURE(kind);
@@ -122,7 +171,7 @@ TEST_CASE("the forces on a body are together what the rigid body reports, with i
     constexpr double t = 0.1;
     const std::vector<double> R = statics::internal_force(*phase, u, t),
                               R_alone = statics::internal_force(*without, u, t);
-    const RigidReport report = phase->supports().rigid_bodies(t, u).at(0);
+    const ContactReport report = phase->supports().contacts(t, u).at(0);
     REQUIRE(report.area > 0.1);
     const NodalLayout layout = phase->shape().layout();
     std::array<double, 3> force{}, moment{};
@@ -149,11 +198,11 @@ TEST_CASE("the forces on a body are together what the rigid body reports, with i
 TEST_CASE("multipliers keep the force where they are taken, and the penalty acts on what changes from there") {
   const auto phase = make_phase(touched_block("plane-strain", "half_plane = [[0, 1.15], [0, -1]]"));
   const std::vector<double> u(phase->size(), 0.0);
-  const double before = phase->supports().rigid_bodies(0, u).at(0).force[1];
+  const double before = phase->supports().contacts(0, u).at(0).force[1];
   REQUIRE(before < 0);
   CHECK(phase->supports().contact_state(0, u).misfit == Approx(0.1));  // 0.05 of cells of 0.5
   phase->control().update_multipliers(0, u);
-  const double after = phase->supports().rigid_bodies(0, u).at(0).force[1];
+  const double after = phase->supports().contacts(0, u).at(0).force[1];
   CHECK(after == Approx(2 * before).epsilon(1e-12));  // λ + κ g, with λ = κ g
 }
 

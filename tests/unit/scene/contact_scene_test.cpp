@@ -1,0 +1,90 @@
+// Contact between bodies in a scene: what its keys say, and what is said of wrong ones.
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "robustness/broken_scene.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using namespace stillpoint::test;
+using Catch::Matchers::Contains;
+
+namespace stillpoint::test {
+namespace {
+
+/// A block on a base, with these lines beside them.
+std::string text_of(const std::string& lines, double overlap = 0) {
+  return fmt::format(R"(dim = 2
+grid = {{min = [0, 0], max = [2, 2], cells = [4, 4]}}
+[[body]]
+name = "base"
+max = [2, 1]
+material = "rubber"
+[[body]]
+name = "block"
+min = [0, {}]
+max = [1, 2]
+material = "rubber"
+[material.rubber]
+law = "linear-elastic"
+E = 1.0
+nu = 0.3
+rho = 1.0
+[[support]]
+face = "bottom"
+[stop]
+residual = 0
+time = 1
+{}
+)",
+                     1 - overlap, lines);
+}
+
+Scene scene_of(const std::string& lines) {
+  const TemporaryFolder folder;
+  return load_scene(folder.write("scene.toml", text_of(lines)));
+}
+
+std::string complaints(const std::string& text) {
+  const TemporaryFolder folder;
+  std::string all;
+  for (const Mistake& problem : problems_of(folder.write("scene.toml", text))) all += problem.message + "\n";
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a contact names two bodies, has no friction unless it says so, and a shorter step") {
+  const Scene scene = scene_of("[[contact]]\nbodies = [\"block\", \"base\"]");
+  REQUIRE(scene.contacts.size() == 1);
+  CHECK(scene.contacts[0].name() == "block+base");
+  CHECK(scene.contacts[0].friction == 0);
+  CHECK_FALSE(scene.rubs());
+  CHECK(static_cast<double>(scene.integrator.step_fraction) == 0.8);
+  CHECK(scene_of("[[contact]]\nbodies = [\"block\", \"base\"]\nfriction = 0.2").contacts[0].friction == 0.2);
+  CHECK(std::isinf(scene_of("[[contact]]\nbodies = [\"block\", \"base\"]\nfriction = \"rough\"").contacts[0].friction));
+}
+
+TEST_CASE("a wrong contact has one message, which says what was expected") {
+  CHECK_THAT(complaints(text_of("[[contact]]\nbodies = [\"block\"]")), Contains("must be two bodies, not 1"));
+  CHECK_THAT(complaints(text_of("[[contact]]\nbodies = [\"block\", \"block\"]")), Contains("'block' is there already"));
+  CHECK_THAT(complaints(text_of("[[contact]]\nbodies = [\"block\", \"bas\"]")),
+             Contains("there is no body 'bas'") && Contains("base"));
+  CHECK_THAT(complaints(text_of("[[contact]]\nfriction = 0.1")), Contains("'bodies' is missing"));
+  CHECK_THAT(complaints(text_of("[[contact]]\nbodies = [\"block\", \"base\"]\n[[contact]]\nbodies = [\"base\", "
+                                "\"block\"]")),
+             Contains("have a contact already"));
+  CHECK_THAT(complaints(text_of("[mass]\nkind = \"multigrid\"\n[[contact]]\nbodies = [\"block\", \"base\"]")),
+             Contains("does not know the stiffness of contact yet"));
+}
+
+TEST_CASE("bodies that touch may overlap a little when the run begins, others may not") {
+  const std::string contact = "[[contact]]\nbodies = [\"block\", \"base\"]";
+  CHECK_THAT(complaints(text_of("", 0.1)), Contains("two bodies cannot be in the same place"));
+  CHECK(complaints(text_of(contact, 0.1)).empty());
+  CHECK_THAT(complaints(text_of(contact, 0.8)), Contains("two bodies cannot be in the same place"));
+}
+
+}  // namespace stillpoint::test
