@@ -7,7 +7,8 @@
 // than a thousandth of a cell, and until another update would change them by no more than a hundred times that
 // residual: each takes some nine tenths of what is wrong with the forces. At the edge of a contact a patch may open and
 // close from one update to the next; once they come no nearer, there are no more. Under loads that still change they
-// follow once in a while.
+// follow once in a while, and after a longer while even if the body is not near balance: in a motion that is never
+// quiet the penalty alone would press else, and give way.
 #include <algorithm>
 #include <limits>
 
@@ -36,14 +37,15 @@ class Multipliers : public Watcher {
     const LagrangianPhase& phase = *run.model.phase;
     const ContactState state = phase.supports().contact_state(run.t, run.motion->u());
     const bool fits = !state.touches || (updates_ >= fewest && (is_small(state) || comes_no_nearer(state)));
-    run.contact_settled = loads_stay && state.balanced && (fits || updates_ >= most);
-    if (fits || updates_ >= most) return;
+    const bool ends = loads_stay && (fits || updates_ >= most);
+    run.contact_settled = ends && state.balanced;
+    if (ends || !state.touches) return;
     run.model.phase->control().update_multipliers(run.t, run.motion->u());
     run.motion->stepper->take_changed_forces(run.t);
     run.measured.discard();
-    ++updates_;
     last_ = run.t;
     if (!loads_stay) return;
+    ++updates_;
     goal_ = std::max(goal_ / 10, least_);
     if (state.change < nearer * least_change_) least_change_ = state.change, nearest_ = updates_;
   }
@@ -94,8 +96,10 @@ class Multipliers : public Watcher {
   // Whether the body is as near to balance as the next update wants it.
   bool is_due(RunState& run, bool loads_stay) {
     if (run.motion->stepper->moves() && ++look_ % stride != 0) return false;
-    if (!loads_stay && run.t < last_ + between_) return false;
-    return run.motion->known_residual(run.t) <= (loads_stay ? goal_ : first);
+    if (loads_stay) return run.motion->known_residual(run.t) <= goal_;
+    constexpr double patience = 4;
+    if (run.t < last_ + between_) return false;
+    return run.t >= last_ + patience * between_ || run.motion->known_residual(run.t) <= first;
   }
 
   bool touches_;

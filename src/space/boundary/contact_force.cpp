@@ -3,6 +3,8 @@
 #include <limits>
 #include <map>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <fmt/format.h>
 
@@ -18,6 +20,19 @@ Matrix flexibility(const Matrix& stiffness) {
   resisted.setThreshold(1e-9);
   resisted.compute(stiffness);
   return resisted.rank() > 0 ? Matrix(resisted.pseudoInverse()) : Matrix::Zero();
+}
+
+/// S⁻¹ out, with the sizes of the eigenvalues of S, and where there are none a share of the largest: downhill.
+template <class Matrix, class Position>
+Position step_downhill(const Matrix& stiffness, const Position& out) {
+  constexpr double none = 1e-9, share = 1e-2;
+  const Eigen::SelfAdjointEigenSolver<Matrix> modes(0.5 * (stiffness + stiffness.transpose()));
+  Position sizes = modes.eigenvalues().cwiseAbs();
+  const double largest = sizes.maxCoeff();
+  if (modes.eigenvalues().minCoeff() > none * largest) return stiffness.inverse() * out;
+  for (Eigen::Index i = 0; i < sizes.size(); ++i)
+    if (!(sizes[i] > none * largest)) sizes[i] = share * largest;
+  return modes.eigenvectors() * (modes.eigenvectors().transpose() * out).cwiseQuotient(sizes);
 }
 
 }  // namespace
@@ -151,32 +166,33 @@ double ContactForce<K, Finder>::way_to_touch(const RigidPlacement<N>& placement,
   return std::max(0.0, least);
 }
 
-// Newton's method, whose Σ f is piecewise linear in d but for the turn of n. As long as nothing resists the body goes
-// the way of its load, as far as certainly nothing is in the way.
+// Newton's method downhill in the potential, whose slope Σ f − W is piecewise linear but for the turn of n. As long as
+// nothing resists the body goes the way of its load, as far as certainly nothing is in the way; a round one that
+// touches a single piece rolls off it until a second one bears it as well.
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N>& placement) const {
-  constexpr int most = 60, most_halvings = 12;  // iterations
+  constexpr int most = 60, most_halvings = 12;
+  constexpr double longest = 0.25, overshoot = 0.5;  // of a step [cells], and as a share of the slope along it
   placement.u += settled_;
   Balance now = balance(Tangent::consistent, t, placement, u);
   for (int k = 0; k < most && !now.holds(); ++k) {
     const Position out = now.load - now.force;
-    Position step = flexibility(now.stiffness) * out;
-    if (!(step.dot(out) > 0)) {
+    const double cell = surface_.patches().front().cell;
+    Position step = step_downhill(now.stiffness, out);
+    if (now.stiffness.isZero(0)) {
       const double way = way_to_touch(placement, u);
       if (!std::isfinite(way)) return;  // nothing to touch
-      step = (way + touching * surface_.patches().front().cell) / out.norm() * out;
-      placement.u += step;
+      placement.u += (way + touching * cell) / out.norm() * out;
       now = balance(Tangent::consistent, t, placement, u);
       continue;
     }
-    const RigidPlacement<N> before = placement;
+    if (const double length = step.norm(); length > longest * cell) step *= longest * cell / length;
+    const Position before = placement.u;
     for (int halving = 0;; ++halving, step /= 2) {
-      placement.u = before.u + step;
+      placement.u = before + step;
       now = balance(Tangent::consistent, t, placement, u);
-      if ((now.load - now.force).norm() < out.norm()) break;
-      if (halving < most_halvings) continue;
-      placement = before;  // nearer by no more than rounding
-      return;
+      if ((now.load - now.force).dot(step) >= -overshoot * out.dot(step)) break;
+      if (halving == most_halvings) return;  // no nearer than by rounding
     }
   }
 }

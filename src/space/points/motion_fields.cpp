@@ -31,8 +31,8 @@ class BondedBodies {
     return k;
   }
   void bond(std::size_t a, std::size_t b) {
-    const auto [first, last] = std::minmax(group(a), group(b));
-    next_[last] = first;
+    const std::size_t of_a = group(a), of_b = group(b);
+    next_[std::max(of_a, of_b)] = std::min(of_a, of_b);
   }
 
  private:

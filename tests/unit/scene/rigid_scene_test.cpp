@@ -238,12 +238,12 @@ TEST_CASE("rigid bodies do not go with a multigrid mass, a hermite basis, or loa
     return complaints(broken("[stop]\nresidual = 0\ntime = 1\n", keys, plane_text(rigid)));
   };
   CHECK(said_of("[mass]\nkind = \"multigrid\"\n", rests) ==
-        "mass.kind: 'multigrid' does not know the stiffness of the contact with rigid bodies yet; take \"lumped\"\n");
+        "mass.kind: 'multigrid' does not know the stiffness of contact yet; take \"lumped\"\n");
   CHECK_THAT(complaints(broken("cells = [4, 4]", "cells = [4, 4]\nbasis = \"hermite\"", plane_text(rests))),
              Contains("grid.basis: 'hermite' has slopes as unknowns"));
   CHECK(said_of("[load]\ndisplacement = \"t\"\n[body_force]\nvalue = [0, -1]\n[stop]\ntime = 1\n", kDisc) ==
-        "load: a displacement that drives loads and rigid bodies cannot be had together yet; move the rigid bodies, or "
-        "give the loads as formulas of t\n");
+        "load: a displacement that drives loads and contact cannot be had together yet; move rigid bodies or supports, "
+        "or give the loads as formulas of t\n");
   CHECK(said_of("[solve]\nmethod = \"newton\"\n", rests + "\nfriction = 0.3") == "");
 }
 
@@ -252,7 +252,7 @@ TEST_CASE("points in space that a rigid body would touch are refused, as nobody 
   folder.write("points.csv", "x,y,z,volume\n0.25,0.25,0.25,0.125\n");
   std::string text = space_text("sphere = [1, 1.3, 1]\nradius = 0.2");
   text.replace(text.find("max = [2, 1, 2]"), 15, "file = \"points.csv\"");
-  const std::string touched = "points in space have no surface that a rigid body could touch";
+  const std::string touched = "points in space have no surface that could be touched";
   CHECK_THROWS_WITH(load_scene(folder.write("scene.toml", text)),
                     Catch::Contains("scene.toml:8:8: ") && Catch::Contains(touched));
 }

@@ -24,7 +24,7 @@ struct Stack {
   double gap = 0;                     // between the two [m]
   std::string friction = "0";
   std::string bodies = "['block', 'base']";
-  std::string more;  // further bodies and keys
+  std::string more = {};  // further bodies and keys
 };
 
 /// A block on a base that is wider, both without a support; where they meet is no line of the grid.
@@ -35,13 +35,13 @@ Scene stack(const Stack& of) {
                        name, x0, y0, in_space ? ", 0.2" : "", x1, y1, in_space ? ", 1.3" : "", material, of.kind);
   };
   return load_scene("stack.toml",
-                    fmt::format("dim = {}\ngrid = {{min = [0, 0{}], max = [2, 2{}], cells = [4, 4{}]}}\n{}{}"
+                    fmt::format("dim = {}\ngrid = {{min = [0, 0{}], max = [2, 2{}], cells = [4, 4{}]}}\n"
                                 "material.soft = {{law = 'linear-elastic', E = 100, nu = 0.3, rho = 1}}\n"
                                 "material.stiff = {{law = 'linear-elastic', E = 400, nu = 0.2, rho = 2}}\n"
-                                "contact = [{{bodies = {}, friction = {}}}]\ndamping = {{c = 1}}\n{}\n",
+                                "contact = [{{bodies = {}, friction = {}}}]\ndamping = {{c = 1}}\n{}{}{}\n",
                                 in_space ? 3 : 2, in_space ? ", 0" : "", in_space ? ", 2" : "", in_space ? ", 4" : "",
-                                box("base", 0.2, 1.8, 0.1, 0.85, "soft"),
-                                box("block", 0.4, 1.4, 0.85 + of.gap, 1.6, "stiff"), of.bodies, of.friction, of.more),
+                                of.bodies, of.friction, box("base", 0.2, 1.8, 0.1, 0.85, "soft"),
+                                box("block", 0.4, 1.4, 0.85 + of.gap, 1.6, "stiff"), of.more),
                     {});
 }
 
@@ -59,7 +59,7 @@ std::vector<double> part(const std::vector<double>& of_both, std::size_t begin, 
   return {first, first + static_cast<std::ptrdiff_t>(count)};
 }
 
-Scene without(Scene scene, const std::string& body) {
+Problem without(Scene scene, const std::string& body) {
   scene.contacts.clear();
   std::erase_if(scene.bodies, [&](const BodySpec& one) { return one.name == body; });
   return resolve(scene);

@@ -110,7 +110,7 @@ TEST_CASE("a free rigid body presses with its weight and its force at any state,
     const std::string third = kind == "space" ? ", '0'" : "";
     const auto phase = make_phase(
         touched_block(kind, ball_at(kind, 1.9) + "\nfree = true\nmass = 0.1\nforce = ['0', '-1-t'" + third + "]",
-                      "body_force.value = [0, -10" + std::string(kind == "space" ? ", 0]" : "]")));
+                      "[body_force]\nvalue = [0, -10" + std::string(kind == "space" ? ", 0]" : "]")));
     const std::size_t n = phase->size();
     const std::vector<double> u = some_motion(n, 0.004), du = some_motion(n, 1);
     for (const double t : {0.0, 2.0}) {

@@ -42,7 +42,7 @@ void check_weights() {
     typename PointFunctions<dim>::Slopes dN;
     seen.values(p, p, N);
     seen.slopes(p, p, dN);
-    const auto at = functions.evaluate(seen.cell_at(p), body.points.position(p));
+    const auto at = functions.evaluate(/*field=*/0, seen.cell_at(p), body.points.position(p));
     for (int a = 0; a < functions.per_cell(); ++a) {
       CHECK(at.function[a] == seen.function(p, a));
       CHECK(N[a] == Approx(at.N[a]).margin(1e-14));
