@@ -7,7 +7,9 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "files.hpp"
 #include "scenes.hpp"
+#include "temporary_folder.hpp"
 
 using namespace stillpoint;
 
@@ -45,6 +47,25 @@ TEST_CASE("two blocks of any stiffness bear a uniform stress where they touch of
       CHECK(error_of_blocks(s, E_2) < 1e-7);
     }
   }
+}
+
+TEST_CASE("a block that is dragged along another bears the same from cell to cell, and rubs with its share of that") {
+  const TemporaryFolder folder;
+  const Summary s = run(scenes::load("hard/dragged_block"), {.out = folder.path(), .threads = 1});
+  REQUIRE(s.status == RunStatus::end_time);
+  const auto history = columns_of(folder.path() / "history.csv");
+  const std::vector<double>&t = history.at("t"), &N = history.at("block+base.force_y"),
+        &T = history.at("block+base.force_x");
+  double sum = 0, square = 0, rubbed = 0, count = 0;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    if (t[k] < 5) continue;  // it starts with a jerk
+    sum += N[k], square += N[k] * N[k], rubbed += T[k], count += 1;
+  }
+  REQUIRE(count > 100);
+  const double mean = sum / count;
+  CHECK(std::sqrt(square / count - mean * mean) < 0.01 * mean);  // the most that is asked of any dragged block
+  CHECK(rubbed / sum == Approx(-0.3).epsilon(0.02));             // the base below bulges in front of it
+  CHECK(s.contacts.at("block+base.slipping") == 1);
 }
 
 }  // namespace stillpoint::test

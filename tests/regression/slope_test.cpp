@@ -1,14 +1,13 @@
 // The slope behind a retaining wall [Więckowski 2011, section 3.2], and the earth pressure on it before it forms.
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "files.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
@@ -16,24 +15,6 @@ using namespace stillpoint;
 using stillpoint::test::TemporaryFolder;
 
 namespace {
-
-/// The columns of a history.csv, by name.
-std::map<std::string, std::vector<double>> read_history(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line, cell;
-  std::getline(stream, line);
-  std::vector<std::string> names;
-  for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
-  std::map<std::string, std::vector<double>> columns;
-  while (std::getline(stream, line)) {
-    std::istringstream row(line);
-    for (const std::string& name : names) {
-      std::getline(row, cell, ',');
-      columns[name].push_back(std::stod(cell));
-    }
-  }
-  return columns;
-}
 
 constexpr double rho = 1800, g = 9.81, H = 3, phi = 35, K0 = 0.43;
 const double hydrostatic = rho * g * H * H / 2;
@@ -64,7 +45,7 @@ Thrust thrust_on_wall(const std::vector<std::string>& overrides, int threads = 1
   const TemporaryFolder folder;
   Thrust thrust;
   thrust.summary = run(scenes::load("slope", overrides), {.out = folder.path(), .threads = threads});
-  const auto history = read_history(folder.path() / "history.csv");
+  const auto history = stillpoint::test::columns_of(folder.path() / "history.csv");
   thrust.t = history.at("t");
   for (const double normal : history.at("wall.normal")) thrust.share.push_back(normal / hydrostatic);
   return thrust;

@@ -110,6 +110,20 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
       700);
 }
 
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with bodies that touch each other") {
+  check_same_bits({"ladder/stacked_blocks", {"damping.strategy=viscous", "stop.residual=1e-6"}}, 300);
+  for (const char* quadrature : {"points", "domains"}) {
+    check_same_bits({"hard/dragged_block",
+                     {std::string("phase.quadrature=") + quadrature, "constants.v=1", "stop.time=1.4",
+                      "output.every=0.1", "checkpoint.every_steps=300"}},
+                    1700);
+  }
+  check_same_bits({"ladder/free_footing",
+                   {"damping.strategy=one-sided", "material.soil.law=hencky", "phase.max_motion=0.02",
+                    "stop.residual=0", "stop.steps=900", "checkpoint.every_steps=300", "output.every=0.05"}},
+                  700);
+}
+
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with the momentum of multigrid") {
   if (!multigrid_is_missing().empty()) return;
   for (const char* strategy : {"viscous", "kinetic", "adaptive", "chebyshev", "auto"}) {
