@@ -31,6 +31,7 @@ std::string example_of(const KeyInfo& key, int dim) {
                         : std::isfinite(range.lower) && std::isfinite(range.upper) ? (range.lower + range.upper) / 2
                                                                                    : 1.0);
   if (key.kind == Kind::whole && !key.words.empty()) one = "0";
+  if (key.kind == Kind::truth) one = "true";
   if (key.kind == Kind::text) one = key.words.empty() ? "\"a\"" : '"' + key.words_in(dim).front() + '"';
   const auto times = [&](int count) {
     return count == 1 ? one : fmt::format("[{}]", fmt::join(std::vector(static_cast<std::size_t>(count), one), ", "));

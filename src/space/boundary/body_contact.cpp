@@ -55,7 +55,7 @@ BodyContact<K>::BodyContact(const Problem& problem, const Grid<dim>& grid) : pro
 template <Kinematics K>
 void BodyContact<K>::begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound) {
   if (pairs_.empty()) return;
-  const std::vector<double> bounds = has_begun_ ? std::vector<double>() : stiffness_bound();
+  std::vector<double> bounds = has_begun_ ? std::vector<double>() : stiffness_bound();
   for (const auto& pair : pairs_) {
     for (ContactSurface<K>* const surface : {&pair->first, &pair->second})
       surface->begin_phase(phase, [&] { return bounds; });

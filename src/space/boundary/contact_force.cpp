@@ -3,40 +3,12 @@
 #include <limits>
 #include <map>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "space/boundary/facet_finder.hpp"
+#include "space/boundary/small_stiffness.hpp"
 
 namespace stillpoint {
-namespace {
-
-/// The inverse of a stiffness, 0 along axes along which there is none.
-template <class Matrix>
-Matrix flexibility(const Matrix& stiffness) {
-  Eigen::CompleteOrthogonalDecomposition<Matrix> resisted;
-  resisted.setThreshold(1e-9);
-  resisted.compute(stiffness);
-  return resisted.rank() > 0 ? Matrix(resisted.pseudoInverse()) : Matrix::Zero();
-}
-
-/// S⁻¹ out, with the sizes of the eigenvalues of S, and where there are none a share of the largest: downhill.
-template <class Matrix, class Position>
-Position step_downhill(const Matrix& stiffness, const Position& out) {
-  constexpr double none = 1e-9, share = 1e-2;
-  const Eigen::SelfAdjointEigenSolver<Matrix> modes(0.5 * (stiffness + stiffness.transpose()));
-  Position sizes = modes.eigenvalues().cwiseAbs();
-  const double largest = sizes.maxCoeff();
-  if (modes.eigenvalues().minCoeff() > none * largest) return stiffness.inverse() * out;
-  for (Eigen::Index i = 0; i < sizes.size(); ++i)
-    if (!(sizes[i] > none * largest)) sizes[i] = share * largest;
-  return modes.eigenvectors() * (modes.eigenvectors().transpose() * out).cwiseQuotient(sizes);
-}
-
-}  // namespace
-
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::anchor_at_start(double t, const std::vector<Position>& slip) {
   const RigidPlacement<N> placement = finder_.placement(t);
@@ -178,7 +150,7 @@ void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N
   for (int k = 0; k < most && !now.holds(); ++k) {
     const Position out = now.load - now.force;
     const double cell = surface_.patches().front().cell;
-    Position step = step_downhill(now.stiffness, out);
+    Position step = step_downhill<N>(now.stiffness, out);
     if (now.stiffness.isZero(0)) {
       const double way = way_to_touch(placement, u);
       if (!std::isfinite(way)) return;  // nothing to touch
@@ -207,7 +179,7 @@ void ContactForce<K, Finder>::add_product(Tangent kind, double t, const double* 
       sum += S * TouchFinder<K>::position_of(surface_.motion(s, du));
     });
     if (K == Kinematics::axisymmetric) sum[0] = 0;
-    moved = flexibility(balance(kind, t, placement, u).stiffness) * sum;
+    moved = flexibility<N>(balance(kind, t, placement, u).stiffness) * sum;
   }
   for_stiffness(kind, placement, u, [&](std::size_t s, const Matrix& S) {
     const Position f = S * (TouchFinder<K>::position_of(surface_.motion(s, du)) - moved);
@@ -232,7 +204,7 @@ void ContactForce<K, Finder>::add_entries(Tangent kind, double t, const double* 
     });
   });
   if (coupled.empty()) return;
-  const Matrix inverse = flexibility(balance(kind, t, placement, u).stiffness);
+  const Matrix inverse = flexibility<N>(balance(kind, t, placement, u).stiffness);
   for (const auto& [row, of_row] : coupled)
     for (const auto& [column, of_column] : coupled)
       entries.emplace_back(row, column, -of_row.first.dot(inverse * of_column.second));
