@@ -123,7 +123,7 @@ std::size_t Conditions<K>::other_reactions() const {
 
 template <Kinematics K>
 bool Conditions<K>::remember() const {
-  return problem_.rubs();
+  return problem_.rubs() || std::ranges::any_of(problem_.rigid, &RigidSpec::free);
 }
 
 template <Kinematics K>

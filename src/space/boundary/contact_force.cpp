@@ -150,7 +150,6 @@ void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N
   for (int k = 0; k < most && !now.holds(); ++k) {
     const Position out = now.load - now.force;
     const double cell = surface_.patches().front().cell;
-    Position step = step_downhill<N>(now.stiffness, out);
     if (now.stiffness.isZero(0)) {
       const double way = way_to_touch(placement, u);
       if (!std::isfinite(way)) return;  // nothing to touch
@@ -158,6 +157,8 @@ void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N
       now = balance(Tangent::consistent, t, placement, u);
       continue;
     }
+    Position step = step_downhill<N>(now.stiffness, out);
+    if (step.norm() <= rounding_of(TouchFinder<K>::position_of(surface_.start(0)).norm())) return;
     if (const double length = step.norm(); length > longest * cell) step *= longest * cell / length;
     const Position before = placement.u;
     for (int halving = 0;; ++halving, step /= 2) {
@@ -220,8 +221,9 @@ void ContactForce<K, Finder>::drag(const RigidPlacement<N>& placement, const Tou
 // A piece that is open sticks where it closes, which is near to where it is now.
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::commit(double t, const double* u) {
-  if (!remembers()) return;
   const RigidPlacement<N> placement = this->placement(t, u);
+  if (finder_.is_free()) settled_ = placement.u - finder_.placement(t).u;
+  if (!remembers()) return;
   std::ranges::fill(closed_, 0);
   for_closed(placement, u, [&](const Touch& touch) {
     closed_[touch.piece] = 1;

@@ -145,7 +145,7 @@ class ContactForce {
   const ContactSurface<K>& surface_;
   Finder finder_;
   double friction_;
-  Position settled_ = Position::Zero();  // d when the phase began [m]
+  Position settled_ = Position::Zero();  // d of the last commit, from where the next is looked for [m]
   // Of the patches:
   std::vector<double> lambda_;      // λ [Pa]
   std::vector<Position> lambda_t_;  // λ_t, in the axes of T⁻¹ x [Pa]
