@@ -120,6 +120,14 @@ inline std::vector<Mistake> problems_of(const std::filesystem::path& file,
   return {};
 }
 
+/// What is wrong with the text of a scene, each on a line of its own.
+inline std::string complaints(const std::string& text) {
+  const TemporaryFolder folder;
+  std::string all;
+  for (const Mistake& problem : problems_of(folder.write("scene.toml", text))) all += problem.message + "\n";
+  return all;
+}
+
 struct BadScene {
   const char *name, *from, *to;  // the good scene with `from` replaced by `to`
   const char *where, *message;   // "line:column", part of the message

@@ -33,8 +33,8 @@ class OverlapCheck {
     for (std::size_t j = 1; j < bodies_.size(); ++j) {
       for (std::size_t k = 0; k < j; ++k) {
         if (!boxes_meet(bodies_[j], bodies_[k])) continue;
-        touch_ = have_contact(check_.scene(), j, k);
-        const std::string found = what_overlaps(bodies_[j], bodies_[k]);
+        const double pressed = have_contact(check_.scene(), j, k) ? longest_cell(check_.scene().grid) / 2 : 0;
+        const std::string found = what_overlaps(bodies_[j], bodies_[k], pressed);
         if (found.empty()) continue;
         check_.add(fmt::format("body[{}]", j),
                    fmt::format("{} lies in body[{}]; two bodies cannot be in the same place: leave room for the one in "
@@ -54,21 +54,18 @@ class OverlapCheck {
     return true;
   }
 
-  /// By how much bodies that touch each other may overlap, as those that are pressed together [m]; how deep one lies
-  /// in the other is checked where contact begins.
-  double pressed() const { return touch_ ? longest_cell(check_.scene().grid) / 2 : 0; }
-
-  /// The part that a and b have in common, in words; empty if there is none.
-  std::string what_overlaps(const BodySpec& a, const BodySpec& b) const {
+  /// The part that a and b have in common, in words; empty if there is none. pressed: by how much they may overlap, as
+  /// bodies that touch each other [m]; how deep one lies in the other is checked where contact begins.
+  std::string what_overlaps(const BodySpec& a, const BodySpec& b, double pressed) const {
     if (!a.file.empty() || !b.file.empty()) return points_that_overlap(a, b);
     if (check_.scene().dim != 2) {
       for (std::size_t axis = 0; axis < a.min.size(); ++axis)
-        if (std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]) <= pressed()) return "";
+        if (std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]) <= pressed) return "";
       return (a.is_box() && b.is_box()) || solids_meet(a, b) ? "a part" : "";
     }
     const Polygon of_a = outline_of(a), of_b = outline_of(b);
     // Borders that should be one may lie apart, or over each other, by rounding all along.
-    const double of_rounding = std::max(rounding_, pressed()) * std::min(perimeter(of_a), perimeter(of_b)) / 2;
+    const double of_rounding = std::max(rounding_, pressed) * std::min(perimeter(of_a), perimeter(of_b)) / 2;
     const double area = overlap_area(of_a, of_b);
     return area > of_rounding ? fmt::format("an area of {:.4g} m2", area) : "";
   }
@@ -145,7 +142,6 @@ class OverlapCheck {
   SceneCheck& check_;
   const std::vector<BodySpec>& bodies_;
   double rounding_ = 0;  // [m]
-  bool touch_ = false;   // whether the two bodies looked at touch each other
   mutable std::map<const BodySpec*, std::shared_ptr<const Solid>> solids_;
 };
 

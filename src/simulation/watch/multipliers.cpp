@@ -81,9 +81,9 @@ class Multipliers : public Watcher {
     if (run.scene.phase.ends()) return;
     for (const ContactReport& contact : run.model.phase->supports().contacts(run.t, run.motion->u()))
       if (contact.slid > 1)
-        add_note(summary, fmt::format("{} slid by up to {:.2g} cells along each other, and still touch the parts of "
-                                      "their borders that were opposite when the phase began; expected phases, as by "
-                                      "phase.max_motion = 0.3",
+        add_note(summary, fmt::format("the bodies of contact {} slid by up to {:.2g} cells along each other, and "
+                                      "still touch the parts of their borders that were opposite at the start; "
+                                      "expected phases, as by phase.max_motion = 0.3",
                                       contact.name, contact.slid));
   }
   bool is_small(const ContactState& state) const {

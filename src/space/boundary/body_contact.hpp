@@ -3,7 +3,7 @@
 // When a phase begins, each piece of the first border gets the facet of the second that is opposite to it
 // (facet_search.hpp), and keeps it while the phase lasts: exact for what moves less than a facet along the other body,
 // and linear while it is closed. Both bodies have fields of motion of their own (motion_fields.hpp). What one body
-// bears the other exerts, at the same position and along the same line: no force and no moment is lost.
+// bears the other exerts: no force is lost, and of a moment no more than by the way along each other within a phase.
 //
 // The stiffness of a patch is that of the two bodies in series, 1/κ = 1/κ_1 + 1/κ_2, with the mean κ_2 of the second.
 #pragma once

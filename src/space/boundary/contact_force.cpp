@@ -9,6 +9,7 @@
 #include "space/boundary/small_stiffness.hpp"
 
 namespace stillpoint {
+
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::anchor_at_start(double t, const std::vector<Position>& slip) {
   const RigidPlacement<N> placement = finder_.placement(t);
@@ -25,11 +26,6 @@ auto ContactForce<K, Finder>::slips(double t, const double* u) const -> std::vec
   for (std::size_t s = 0; s < slips.size(); ++s)
     slips[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u))) - anchor_[s];
   return slips;
-}
-
-template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::end_phase(double t, const double* u) {
-  if (finder_.is_free()) settled_ = placement(t, u).u - finder_.placement(t).u;
 }
 
 template <Kinematics K, class Finder>
@@ -110,18 +106,14 @@ bool ContactForce<K, Finder>::Balance::is_near() const {
 }
 
 template <Kinematics K, class Finder>
-auto ContactForce<K, Finder>::balance(Tangent kind, double t, const RigidPlacement<N>& placement, const double* u) const
-    -> Balance {
+auto ContactForce<K, Finder>::balance(double t, const RigidPlacement<N>& placement, const double* u) const -> Balance {
   Balance balance{.load = finder_.load(t)};
   for_touches(placement, u, touching, [&](const Touch& touch) {
     if (touch.p > 0) balance.force += touch.area * (touch.p * touch.at.normal + touch.tau);
-    balance.stiffness += stiffness(kind, touch);
+    balance.stiffness += stiffness(Tangent::consistent, touch);
   });
-  if (K == Kinematics::axisymmetric) {  // along the axis alone
-    balance.force[0] = 0;
-    balance.stiffness.row(0).setZero();
-    balance.stiffness.col(0).setZero();
-  }
+  if (K == Kinematics::axisymmetric) balance.force[0] = 0;
+  balance.stiffness = along_axes(balance.stiffness);
   return balance;
 }
 
@@ -146,7 +138,7 @@ void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N
   constexpr int most = 60, most_halvings = 12;
   constexpr double longest = 0.25, overshoot = 0.5;  // of a step [cells], and as a share of the slope along it
   placement.u += settled_;
-  Balance now = balance(Tangent::consistent, t, placement, u);
+  Balance now = balance(t, placement, u);
   for (int k = 0; k < most && !now.holds(); ++k) {
     const Position out = now.load - now.force;
     const double cell = surface_.patches().front().cell;
@@ -154,7 +146,7 @@ void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N
       const double way = way_to_touch(placement, u);
       if (!std::isfinite(way)) return;  // nothing to touch
       placement.u += (way + touching * cell) / out.norm() * out;
-      now = balance(Tangent::consistent, t, placement, u);
+      now = balance(t, placement, u);
       continue;
     }
     Position step = step_downhill<N>(now.stiffness, out);
@@ -163,7 +155,7 @@ void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N
     const Position before = placement.u;
     for (int halving = 0;; ++halving, step /= 2) {
       placement.u = before + step;
-      now = balance(Tangent::consistent, t, placement, u);
+      now = balance(t, placement, u);
       if ((now.load - now.force).dot(step) >= -overshoot * out.dot(step)) break;
       if (halving == most_halvings) return;  // no nearer than by rounding
     }
@@ -175,12 +167,13 @@ void ContactForce<K, Finder>::add_product(Tangent kind, double t, const double* 
   const RigidPlacement<N> placement = this->placement(t, u);
   Position moved = Position::Zero();  // δd
   if (finder_.is_free()) {
-    Position sum = Position::Zero();
+    Position force = Position::Zero();
+    Matrix all = Matrix::Zero();
     for_stiffness(kind, placement, u, [&](std::size_t s, const Matrix& S) {
-      sum += S * TouchFinder<K>::position_of(surface_.motion(s, du));
+      force += S * TouchFinder<K>::position_of(surface_.motion(s, du));
+      all += S;
     });
-    if (K == Kinematics::axisymmetric) sum[0] = 0;
-    moved = flexibility<N>(balance(kind, t, placement, u).stiffness) * sum;
+    moved = flexibility<N>(along_axes(all)) * force;
   }
   for_stiffness(kind, placement, u, [&](std::size_t s, const Matrix& S) {
     const Position f = S * (TouchFinder<K>::position_of(surface_.motion(s, du)) - moved);
@@ -195,9 +188,11 @@ template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::add_entries(Tangent kind, double t, const double* u, MatrixEntries& entries) const {
   const RigidPlacement<N> placement = this->placement(t, u);
   std::map<int, std::pair<Position, Position>> coupled;  // rows of B and columns of C
+  Matrix all = Matrix::Zero();
   for_stiffness(kind, placement, u, [&](std::size_t s, const Matrix& S) {
     surface_.add_entries(s, S, entries);
     if (!finder_.is_free()) return;
+    all += S;
     surface_.for_free(s, [&](int i, int dof, double w) {
       auto& [row, column] = coupled.try_emplace(dof, Position::Zero(), Position::Zero()).first->second;
       row += w * S.row(i).transpose();
@@ -205,7 +200,7 @@ void ContactForce<K, Finder>::add_entries(Tangent kind, double t, const double* 
     });
   });
   if (coupled.empty()) return;
-  const Matrix inverse = flexibility<N>(balance(kind, t, placement, u).stiffness);
+  const Matrix inverse = flexibility<N>(along_axes(all));
   for (const auto& [row, of_row] : coupled)
     for (const auto& [column, of_column] : coupled)
       entries.emplace_back(row, column, -of_row.first.dot(inverse * of_column.second));
@@ -262,7 +257,7 @@ template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit) const {
   std::vector<double> area(surface_.patches().size(), 0.0), gap = area, force = area;
   const RigidPlacement<N> placement = this->placement(t, u);
-  if (finder_.is_free()) fit.balanced = fit.balanced && balance(Tangent::consistent, t, placement, u).is_near();
+  if (finder_.is_free()) fit.balanced = fit.balanced && balance(t, placement, u).is_near();
   for_closed(placement, u, [&](const Touch& touch) {
     area[touch.patch] += touch.area;
     gap[touch.patch] += touch.area * touch.at.distance;

@@ -84,8 +84,6 @@ class ContactForce {
   bool remembers() const { return friction_ > 0; }
   /// Sets the anchors where the pieces are when the phase begins, less the slip that each has had.
   void anchor_at_start(double t, const std::vector<Position>& slip);
-  /// A free body goes on from where it is at the end of a phase.
-  void end_phase(double t, const double* u);
   /// The elastic slip of each piece, T⁻¹ x − a, (pieces); empty without friction.
   std::vector<Position> slips(double t, const double* u) const;
   void archive(const StateArchive& state);
@@ -98,7 +96,8 @@ class ContactForce {
   /// Appends the entries of their matrix.
   void add_entries(Tangent kind, double t, const double* u, MatrixEntries& entries) const;
 
-  /// Accepts the state at (t, u): anchors are dragged to where pieces slip.
+  /// Accepts the state at (t, u): anchors are dragged to where pieces slip, and a free body is looked for from there
+  /// on.
   void commit(double t, const double* u);
   /// Takes the pressures at (t, u) as multipliers.
   void update_multipliers(double t, const double* u);
@@ -120,7 +119,12 @@ class ContactForce {
   /// T, of a free body with its d.
   RigidPlacement<N> placement(double t, const double* u) const;
   void settle(double t, const double* u, RigidPlacement<N>& placement) const;
-  Balance balance(Tangent kind, double t, const RigidPlacement<N>& placement, const double* u) const;
+  Balance balance(double t, const RigidPlacement<N>& placement, const double* u) const;
+  // What acts on a body of an axisymmetric scene across the axis is none, as it cancels around it.
+  static Matrix along_axes(Matrix stiffness) {
+    if (K == Kinematics::axisymmetric) stiffness.row(0).setZero(), stiffness.col(0).setZero();
+    return stiffness;
+  }
   double way_to_touch(const RigidPlacement<N>& placement, const double* u) const;
   /// Calls visit(piece, A S) for each piece that touches, or all but does.
   template <class Visit>

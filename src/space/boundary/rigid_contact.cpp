@@ -63,12 +63,6 @@ void RigidContact<K>::refuse_overlaps(double t) const {
 }
 
 template <Kinematics K>
-void RigidContact<K>::end_phase(double t, const double* u) {
-  for (RigidBody& rigid : bodies_) rigid.end_phase(t, u);
-  surface_.end_phase(u);
-}
-
-template <Kinematics K>
 void RigidContact<K>::archive(const StateArchive& state) {
   if (empty()) return;
   surface_.archive(state.part("surface"));

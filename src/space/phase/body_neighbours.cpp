@@ -10,6 +10,7 @@
 
 #include "scene/contact_bodies.hpp"
 #include "scene/grid_lines.hpp"
+#include "space/grid/cells_around.hpp"
 
 namespace stillpoint {
 namespace {
@@ -78,7 +79,7 @@ BodyGap BodyNeighbours<Dim>::gap_between(std::size_t a, std::size_t b, const std
   const int reach = functions_.per_axis() - 1;
   for (std::size_t k = 0; k < points_.cells(); ++k) {
     std::vector<std::size_t> near;
-    visit_around(grid_.cell_at(points_.cell[k]), reach, [&](int cell) {
+    for_cells_around(grid_, grid_.cell_at(points_.cell[k]), reach, [&](int cell) {
       if (const auto there = of_b.find(cell); there != of_b.end())
         near.insert(near.end(), there->second.begin(), there->second.end());
     });
@@ -144,25 +145,6 @@ double BodyNeighbours<Dim>::gap_along(std::size_t p, std::size_t q, const BodyDe
   const double rounding = 1e-12 * way;
   const double gap = way * (1 - last_in(a, true) - last_in(b, false));
   return gap <= rounding ? 0 : gap;
-}
-
-template <int Dim>
-template <class Visit>
-void BodyNeighbours<Dim>::visit_around(const std::array<int, Dim>& here, int reach, const Visit& visit) const {
-  std::array<int, Dim> low, high;
-  for (int d = 0; d < Dim; ++d) {
-    low[d] = std::max(here[d] - reach, 0);
-    high[d] = std::min(here[d] + reach, grid_.axes[d].cells() - 1);
-  }
-  std::array<int, Dim> cell = low;
-  while (cell[Dim - 1] <= high[Dim - 1]) {
-    visit(grid_.cell_number(cell));
-    int d = 0;
-    while (++cell[d] > high[d] && d < Dim - 1) {
-      cell[d] = low[d];
-      ++d;
-    }
-  }
 }
 
 template class BodyNeighbours<1>;

@@ -4,7 +4,6 @@
 
 #include <stillpoint/problem.hpp>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -43,8 +42,6 @@ class BodyNeighbours {
   double cell_length(int d, std::size_t p) const;
   double half_spacing(std::size_t body, std::size_t p) const;
   double gap_along(std::size_t p, std::size_t q, const BodyDepth& a, const BodyDepth& b) const;
-  template <class Visit>
-  void visit_around(const std::array<int, Dim>& here, int reach, const Visit& visit) const;
 
   const Problem& problem_;
   const GridFunctions<Dim>& functions_;

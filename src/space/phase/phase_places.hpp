@@ -48,8 +48,11 @@ class PhasePlaces final : public PlaceReader {
     mark_occupied();
   }
 
-  bool holds(ConstVec x) const override { return cell_with_points(point_at(x)).has_value(); }
-  bool reaches(ConstVec x) const override { return cell_for(point_at(x)).has_value(); }
+  bool holds(ConstVec x) const override {
+    const Point<dim> at = point_at(x);
+    return cell_with_points(field_at(at), at).has_value();
+  }
+  bool reaches(ConstVec x) const override { return place_of(point_at(x)).has_value(); }
   void put_back(Vec x) const override {
     constexpr double share = 0.1;
     for (int d = 0; d < dim; ++d) {
@@ -65,10 +68,10 @@ class PhasePlaces final : public PlaceReader {
   void strain(ConstVec x, Vec out) const override {
     std::ranges::fill(out, no_value);
     const Point<dim> at = point_at(x);
-    const auto cell = cell_for(at);
-    if (!cell) return;
+    const auto place = place_of(at);
+    if (!place) return;
     std::ranges::fill(out, 0.0);
-    const auto values = functions_->evaluate(field_at(at), *cell, at);
+    const auto values = functions_->evaluate(place->field, place->cell, at);
     const int per_cell = functions_->per_cell();
     double u_r = 0;
     for (int a = 0; a < per_cell; ++a) {
@@ -84,7 +87,7 @@ class PhasePlaces final : public PlaceReader {
   void stress(ConstVec x, Vec out) const override {
     std::ranges::fill(out, no_value);
     const Point<dim> at = point_at(x);
-    if (!cell_for(at)) return;
+    if (!place_of(at)) return;
     std::ranges::fill(out, 0.0);
     for (const auto& share : around_.fit(at, degree_)) {
       const auto& material = *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(share.k))];
@@ -94,7 +97,7 @@ class PhasePlaces final : public PlaceReader {
   }
   double history(const std::string& name, ConstVec x) const override {
     const Point<dim> at = point_at(x);
-    if (!cell_for(at)) return no_value;
+    if (!place_of(at)) return no_value;
     const auto shares = around_.fit(at, degree_);
     const auto material = static_cast<std::size_t>(body_.points.material_of_cell(shares.front().k));  // shared by all
                                                                                                       // of them
@@ -132,7 +135,9 @@ class PhasePlaces final : public PlaceReader {
   int field_at(const Point<dim>& x) const {
     return functions_->fields() == 1 ? 0 : body_.points.field_of_cell(around_.nearest(x).k);
   }
-  char& occupied(int field, int cell) { return occupied_[static_cast<std::size_t>(field * grid_.cells() + cell)]; }
+  std::size_t place_in_list(int field, int cell) const {
+    return static_cast<std::size_t>(field * grid_.cells() + cell);
+  }
   // Marks the cells with material points; for domains the cells that they are partly in.
   void mark_occupied() {
     const MaterialPoints<dim>& points = body_.points;
@@ -140,23 +145,23 @@ class PhasePlaces final : public PlaceReader {
     for (std::size_t k = 0; k < points.cells(); ++k) {
       const int field = points.field_of_cell(k);
       if (!points.has_domains()) {
-        occupied(field, points.cell[k]) = 1;
+        occupied_[place_in_list(field, points.cell[k])] = 1;
         continue;
       }
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         const Point<dim> middle = points.position(p);
         for (Point<dim> x : Domain<dim>::of(points, p).x) {
           for (int d = 0; d < dim; ++d) x[d] = middle[d] + within * (x[d] - middle[d]);
-          occupied(field, grid_.cell_number(grid_.cell_of(x))) = 1;
+          occupied_[place_in_list(field, grid_.cell_number(grid_.cell_of(x)))] = 1;
         }
       }
     }
   }
 
   // Whether material reaches all functions of a cell that do not vanish at x.
-  bool is_whole(const Cell& cell, const Point<dim>& x) const {
+  bool is_whole(int field, const Cell& cell, const Point<dim>& x) const {
     constexpr double rounding = 1e-12;
-    const auto values = functions_->evaluate(field_at(x), cell, x);
+    const auto values = functions_->evaluate(field, cell, x);
     for (int a = 0; a < functions_->per_cell(); ++a) {
       const int unknown = dim * values.function[a];
       if (dofs_.number[static_cast<std::size_t>(unknown)] < 0 && std::abs(values.N[a]) > rounding) return false;
@@ -164,10 +169,9 @@ class PhasePlaces final : public PlaceReader {
     return true;
   }
   // The cell that represents x, if it has points: that of x, or a neighbour if x is on its border.
-  std::optional<Cell> cell_with_points(const Point<dim>& x) const {
+  std::optional<Cell> cell_with_points(int field, const Point<dim>& x) const {
     constexpr double rounding = 1e-9;  // share of a cell
     const Cell here = grid_.cell_of(x);
-    const int field = field_at(x);
     for (int k = 0; k < power(3, dim); ++k) {
       constexpr std::array aside = {0, -1, 1};
       Cell cell = here;
@@ -178,29 +182,33 @@ class PhasePlaces final : public PlaceReader {
                   outside(x, cell, d) <= rounding * width(cell, d);
       }
       if (!is_cell) continue;
-      const auto number = static_cast<std::size_t>(field * grid_.cells() + grid_.cell_number(cell));
-      if (occupied_[number] && is_whole(cell, x)) return cell;
+      if (occupied_[place_in_list(field, grid_.cell_number(cell))] && is_whole(field, cell, x)) return cell;
     }
     return std::nullopt;
   }
-  // The cell that represents x, or whose functions are extrapolated to x.
-  std::optional<Cell> cell_for(const Point<dim>& x) const {
-    if (const auto cell = cell_with_points(x)) return cell;
+  struct Place {
+    int field;
+    Cell cell;
+  };
+  // The field and the cell that represent x, or whose functions are extrapolated to x.
+  std::optional<Place> place_of(const Point<dim>& x) const {
+    const int field = field_at(x);
+    if (const auto cell = cell_with_points(field, x)) return Place{field, *cell};
     const Cell cell = grid_.cell_of(body_.points.position(around_.nearest(x).p));
     for (int d = 0; d < dim; ++d) {
       if (!(outside(x, cell, d) <= width(cell, d))) return std::nullopt;
     }
-    if (!is_whole(cell, x)) return std::nullopt;
-    return cell;
+    if (!is_whole(field, cell, x)) return std::nullopt;
+    return Place{field, cell};
   }
 
   void vector_at(ConstVec x, const std::vector<double>& nodal, Vec out) const {
     std::ranges::fill(out, no_value);
     const Point<dim> at = point_at(x);
-    const auto cell = cell_for(at);
-    if (!cell) return;
+    const auto place = place_of(at);
+    if (!place) return;
     std::ranges::fill(out, 0.0);
-    const auto values = functions_->evaluate(field_at(at), *cell, at);
+    const auto values = functions_->evaluate(place->field, place->cell, at);
     for (int a = 0; a < functions_->per_cell(); ++a) {
       for (int i = 0; i < dim; ++i)
         out[i] += values.N[a] * nodal[static_cast<std::size_t>(dim * values.function[a] + i)];

@@ -1,7 +1,6 @@
 #include "space/points/motion_fields.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <set>
 
@@ -10,6 +9,7 @@
 #include "base/text.hpp"
 #include "scene/contact_bodies.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "space/grid/cells_around.hpp"
 
 namespace stillpoint {
 namespace {
@@ -60,20 +60,8 @@ MotionFields motion_fields(const Problem& problem, const Grid<Dim>& grid,
   // Whether a cell of a shares a function with one of b.
   const auto share = [&](std::size_t a, std::size_t b) {
     std::set<int> around;  // the cells of a, and those next to them
-    for (const int number : cells[a]) {
-      const auto cell = grid.cell_at(number);
-      std::array<int, Dim> low, high;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        low[d] = std::max(cell[d] - reach, 0);
-        high[d] = std::min(cell[d] + reach, grid.axes[d].cells() - 1);
-      }
-      for (auto at = low;;) {
-        around.insert(grid.cell_number(at));
-        std::size_t d = 0;
-        while (d < Dim && ++at[d] > high[d]) at[d] = low[d], ++d;
-        if (d == Dim) break;
-      }
-    }
+    for (const int cell : cells[a])
+      for_cells_around(grid, grid.cell_at(cell), reach, [&](int beside) { around.insert(beside); });
     return std::ranges::any_of(cells[b], [&](int cell) { return around.contains(cell); });
   };
   BondedBodies bonded(bodies);

@@ -47,13 +47,6 @@ Scene scene_of(const std::string& lines) {
   return load_scene(folder.write("scene.toml", text_of(lines)));
 }
 
-std::string complaints(const std::string& text) {
-  const TemporaryFolder folder;
-  std::string all;
-  for (const Mistake& problem : problems_of(folder.write("scene.toml", text))) all += problem.message + "\n";
-  return all;
-}
-
 }  // namespace
 
 TEST_CASE("a contact names two bodies, has no friction unless it says so, and a shorter step") {

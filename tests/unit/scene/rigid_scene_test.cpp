@@ -17,14 +17,6 @@ const std::string kDisc =
 const std::string kBall =
     "sphere = [1, 1.2, 1]\nradius = 0.1\nmotion = [\"0\", \"-0.01*t\", \"0\"]\nbodies = [\"block\"]";
 
-/// What is wrong with a scene, each on a line of its own.
-std::string complaints(const std::string& text) {
-  const TemporaryFolder folder;
-  std::string all;
-  for (const Mistake& problem : problems_of(folder.write("scene.toml", text))) all += problem.message + "\n";
-  return all;
-}
-
 std::string fault_of(const Problem& problem) {
   try {
     (void)resolve(problem);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
+#include "space/boundary/contact_tangent.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "statics.hpp"
 
@@ -38,18 +39,6 @@ std::string ball_at(const std::string& kind, double height) {
   return fmt::format("disc = [{}, {}]\nradius = 0.6", kind == "axisymmetric" ? 0.0 : 0.75, height);
 }
 
-std::vector<double> some_motion(std::size_t n, double size) {
-  std::vector<double> u(n);
-  for (std::size_t k = 0; k < n; ++k) u[k] = size * std::sin(static_cast<double>(3 * k + 1));
-  return u;
-}
-
-std::vector<double> sum_of(const std::vector<double>& a, const std::vector<double>& b, double factor) {
-  std::vector<double> sum = a;
-  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += factor * b[k];
-  return sum;
-}
-
 }  // namespace
 
 TEST_CASE("a rigid body that is apart leaves R as it is to the bit, and reports nothing") {
@@ -76,30 +65,13 @@ TEST_CASE("the tangent of contact is the derivative of its force, and symmetric 
       const std::size_t n = phase->size();
       const std::vector<double> u = some_motion(n, 0.004), du = some_motion(n, 1);
       REQUIRE(phase->supports().contacts(0, u).at(0).area > 0.1);
-      constexpr double h = 1e-6;
-      const std::vector<double> ahead = statics::internal_force(*phase, sum_of(u, du, h)),
-                                behind = statics::internal_force(*phase, sum_of(u, du, -h));
-      std::vector<double> product(n);
-      phase->tangents().apply(Tangent::consistent, 0, u, du, product);
-      const SparseMatrix K = phase->tangents().matrix(Tangent::consistent, 0, u);
-      const Eigen::VectorXd by_matrix = K * Eigen::Map<const Eigen::VectorXd>(du.data(), static_cast<Eigen::Index>(n));
-      double error = 0, difference = 0, scale = 0;
-      for (std::size_t k = 0; k < n; ++k) {
-        const double slope = (ahead[k] - behind[k]) / (2 * h);
-        error = std::max(error, std::abs(slope - product[k]));
-        difference = std::max(difference, std::abs(by_matrix[static_cast<Eigen::Index>(k)] - product[k]));
-        scale = std::max(scale, std::abs(slope));
-      }
-      REQUIRE(scale > 0);
-      CHECK(difference < 1e-13 * scale);  // rounding
+      const ContactTangent tangent(*phase, 0, u, du);
+      REQUIRE(tangent.scale > 0);
+      CHECK(tangent.difference < 1e-13 * tangent.scale);  // rounding
       // The turn of the tangential plane of a curved body is left out where friction acts.
-      CHECK(error < (std::string(friction) == "0" ? 1e-8 : 0.02) * scale);
-      const double unsymmetric = (K - SparseMatrix(K.transpose())).norm() / K.norm();
-      if (std::string(friction) == "0") CHECK(unsymmetric < 1e-14);
-      const SparseMatrix stiffest = phase->tangents().matrix(Tangent::stiffest, 0, u),
-                         elastic = phase->tangents().matrix(Tangent::elastic, 0, u);
-      const Eigen::Map<const Eigen::VectorXd> x(du.data(), static_cast<Eigen::Index>(n));
-      CHECK(x.dot(stiffest * x) > x.dot(elastic * x));
+      CHECK(tangent.error < (std::string(friction) == "0" ? 1e-8 : 0.02) * tangent.scale);
+      if (std::string(friction) == "0") CHECK(tangent.asymmetry() < 1e-14);
+      CHECK(is_stiffer_held(*phase, u, du));
     }
   }
 }
@@ -119,24 +91,11 @@ TEST_CASE("a free rigid body presses with its weight and its force at any state,
       CHECK(report.displacement[1] < -0.04);  // it was 0.1 above the block
       CHECK(phase->supports().contact_state(t, u).balanced);
     }
-    constexpr double h = 1e-6, t = 2;
-    const std::vector<double> ahead = statics::internal_force(*phase, sum_of(u, du, h), t),
-                              behind = statics::internal_force(*phase, sum_of(u, du, -h), t);
-    std::vector<double> product(n);
-    phase->tangents().apply(Tangent::consistent, t, u, du, product);
-    const SparseMatrix K = phase->tangents().matrix(Tangent::consistent, t, u);
-    const Eigen::VectorXd by_matrix = K * Eigen::Map<const Eigen::VectorXd>(du.data(), static_cast<Eigen::Index>(n));
-    double error = 0, difference = 0, scale = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double slope = (ahead[k] - behind[k]) / (2 * h);
-      error = std::max(error, std::abs(slope - product[k]));
-      difference = std::max(difference, std::abs(by_matrix[static_cast<Eigen::Index>(k)] - product[k]));
-      scale = std::max(scale, std::abs(slope));
-    }
-    REQUIRE(scale > 0);
-    CHECK(difference < 1e-12 * scale);  // rounding
-    CHECK(error < 1e-7 * scale);        // of central differences
-    CHECK((K - SparseMatrix(K.transpose())).norm() < 1e-13 * K.norm());
+    const ContactTangent tangent(*phase, 2, u, du);
+    REQUIRE(tangent.scale > 0);
+    CHECK(tangent.difference < 1e-12 * tangent.scale);  // rounding
+    CHECK(tangent.error < 1e-7 * tangent.scale);        // of central differences
+    CHECK(tangent.asymmetry() < 1e-13);
   }
 }
 
