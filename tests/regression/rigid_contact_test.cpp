@@ -20,6 +20,28 @@ Summary run_ladder(const std::string& name, const std::vector<std::string>& set 
   return run(scenes::load("ladder/" + name, set), {.threads = 1});  // tests run side by side
 }
 
+/// Clay around a rigid bar of radius 1/2: half of it, above its plane of symmetry, under a pressure of 20 c that a
+/// plate keeps. Its hole is a polygon of many sides, each a fifth of a cell long.
+std::string around_a_bar(const std::string& motion, const std::string& phase, double strength) {
+  const double pi = std::acos(-1.0);
+  constexpr int sides = 64;
+  std::string hole;
+  for (int i = 0; i <= sides; ++i) {
+    const double angle = pi * (1 - static_cast<double>(i) / sides);
+    hole += fmt::format(", [{:.10f}, {:.10f}]", 0.5 * std::cos(angle), std::abs(0.5 * std::sin(angle)));
+  }
+  return fmt::format(
+      "dim = 2\n[grid]\nmin = [-2, 0]\nmax = [2, 2.25]\ncells = [32, 18]\nbasis = 'quadratic'\n"
+      "[body]\nmaterial = 'clay'\npoints_per_cell = 9\npolygon = [[2, 0], [2, 2], [-2, 2], [-2, 0]{}]\n"
+      "[material.clay]\nlaw = 'drucker-prager'\nE = 1000\nnu = 0.48\nrho = 1\nphi = 0\npsi = 0\nc = {}\n"
+      "cone = 'plane-strain'\n[phase]\n{}\ndilatation = 'cells'\n"
+      "[[support]]\nface = 'bottom'\nkind = 'roller'\n[[support]]\nface = 'left'\nkind = 'roller'\n"
+      "[[support]]\nface = 'right'\nkind = 'roller'\n"
+      "[[rigid]]\nname = 'plate'\nhalf_plane = [[0, 2], [0, -1]]\nfree = true\nforce = ['0', '-80*min(t,1)']\n"
+      "[[rigid]]\nname = 'bar'\ndisc = [0, 0]\nradius = 0.5\nmotion = ['{}', '0']\n",
+      hole, strength, phase, motion);
+}
+
 /// The force of the plate beside the exact one.
 double error_of_plate(const Summary& s) {
   return std::abs(s.contacts.at("plate.force_y") / (-stiffness * 0.01 / 1.03 * 0.55) - 1);
@@ -108,6 +130,26 @@ TEST_CASE("Hertz's cylinder and sphere press with their force and pressure, and 
     const auto force = std::ranges::find_if(s.contacts, [](const auto& of) { return of.first.ends_with("force_y"); });
     CHECK(force->second == Approx(one.force).epsilon(one.tolerance));
   }
+}
+
+TEST_CASE("the sides of an outline that are shorter than a cell touch a round bar all around, and press evenly") {
+  const Summary s = run(load_scene("bar.toml",
+                                   around_a_bar("0", "max_motion = 'none'", 1e6) +
+                                       "[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-6\ntime = 30\n",
+                                   {}),
+                        {.threads = 1});
+  REQUIRE(s.status == RunStatus::equilibrium);
+  CHECK(s.contacts.at("bar.contact_area") == Approx(std::acos(-1.0) / 2).epsilon(0.02));  // the ends of chords may be open
+}
+
+TEST_CASE("clay goes around a bar that is dragged through many phases without letting go of it") {
+  const Summary s = run(load_scene("bar.toml",
+                                   around_a_bar("0.05*max(t-2,0)", "max_motion = 0.1", 1) +
+                                       "[damping]\nstrategy = 'one-sided'\n[stop]\nresidual = 0\ntime = 5\n",
+                                   {}),
+                        {.threads = 1});
+  REQUIRE(s.status == RunStatus::end_time);
+  CHECK(s.contacts.at("bar.contact_area") == Approx(std::acos(-1.0) / 2).epsilon(0.05));
 }
 
 TEST_CASE("a free footing settles until the ground bears its weight, by every way to rest, and always as far") {

@@ -105,7 +105,9 @@ template <Kinematics K>
 void BodyContact<K>::end_phase(const double* u) {
   for (const auto& pair : pairs_) {
     pair->slip = pair->force.slips(0, u);
+    const std::vector<Position> ways = pair->force.ways_to_mean_gap(0, u);
     pair->first.end_phase(u);
+    pair->first.move(ways);
     pair->second.end_phase(u);
   }
 }

@@ -7,12 +7,14 @@
 #include <map>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "scene/body_border.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/point_sums.hpp"
 #include "space/boundary/face_pieces.hpp"
 #include "space/boundary/grid_crossings.hpp"
+#include "space/grid/cells_around.hpp"
 
 namespace stillpoint {
 namespace {
@@ -46,27 +48,130 @@ double width_of_cell(const Grid<Dim>& grid, const std::array<int, Dim>& cell) {
   return std::pow(volume, 1.0 / Dim);
 }
 
-/// The pieces of a surface in space, by the cells that they border.
-template <Kinematics K>
-class PiecesOfCells {
- public:
-  explicit PiecesOfCells(const Grid<3>& grid) : grid_(grid) {}
+template <int Dim>
+double cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b) {
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t d = 0; d < Dim; ++d) ab += a[d] * b[d], aa += a[d] * a[d], bb += b[d] * b[d];
+  return ab / std::sqrt(aa * bb);
+}
+constexpr double smooth = 0.7;  // the cosine between the normals of pieces that one patch may have
 
-  void add(const BorderPiece<K>& piece) { of_cells_[grid_.cell_number(piece.cell_inside(grid_))].push_back(piece); }
-  void append_to(Patches<K>& patches) {
-    for (auto& [cell, pieces] : of_cells_)
-      patches.push_back({width_of_cell<3>(grid_, grid_.cell_at(cell)), 1, std::move(pieces)});
+/// Patches along lines. Many multipliers in a cell would drift, as where a border has sides that are shorter than
+/// cells, or cuts off the corner of one: what is less than three quarters of a cell long goes on with the next.
+template <Kinematics K>
+class PatchesAlong {
+ public:
+  struct Part {
+    Point<2> from, to, normal;
+    double length, full_length;  // along the border: of the part, and where it goes through the whole of its cell [m]
+    BorderPatch<K> patch;
+  };
+
+  void add(Part&& part) {
+    constexpr double enough = 0.75;
+    if (!parts_.empty() && parts_.back().length < enough * part.full_length && goes_on(parts_.back(), part)) {
+      join(parts_.back(), std::move(part));
+    } else {
+      end_part();
+      parts_.push_back(std::move(part));
+    }
+  }
+  Patches<K> patches() {
+    end_part();
+    Patches<K> patches;
+    for (Part& part : parts_) patches.push_back(std::move(part.patch));
+    return patches;
   }
 
  private:
-  const Grid<3>& grid_;
-  std::map<int, std::vector<BorderPiece<K>>> of_cells_;
+  static bool goes_on(const Part& before, const Part& part) {
+    return before.to == part.from && cosine<2>(before.normal, part.normal) > smooth;
+  }
+  static void join(Part& before, Part&& part) {
+    before.to = part.to;
+    before.length += part.length;
+    before.patch.pieces.insert(before.patch.pieces.end(), part.patch.pieces.begin(), part.patch.pieces.end());
+  }
+  // What was left over before a corner goes to the part before it.
+  void end_part() {
+    constexpr double little = 0.5;
+    const std::size_t count = parts_.size();
+    if (count < 2 || parts_[count - 1].length >= little * parts_[count - 1].full_length ||
+        !goes_on(parts_[count - 2], parts_[count - 1]))
+      return;
+    join(parts_[count - 2], std::move(parts_[count - 1]));
+    parts_.pop_back();
+  }
+
+  std::vector<Part> parts_;
 };
+
+/// Patches on a surface in space: the pieces of each cell that they border, but for cells of which less than a quarter
+/// of a face is there, which go to the largest one beside them.
+template <Kinematics K>
+class PatchesOnSurface {
+ public:
+  explicit PatchesOnSurface(const Grid<3>& grid) : grid_(grid) {}
+
+  void add(const BorderPiece<K>& piece) {
+    OfCell& cell = of_cells_[grid_.cell_number(piece.cell_inside(grid_))];
+    cell.pieces.push_back(piece);
+    cell.area += piece.area;
+    for (std::size_t d = 0; d < 3; ++d) cell.vector[d] += piece.vector[d];
+  }
+  void append_to(Patches<K>& patches) {
+    std::map<int, std::vector<BorderPiece<K>>> joined;
+    for (const auto& [number, cell] : of_cells_) {
+      auto& pieces = joined[place_of(number)];
+      pieces.insert(pieces.end(), cell.pieces.begin(), cell.pieces.end());
+    }
+    for (auto& [number, pieces] : joined)
+      patches.push_back({width_of_cell<3>(grid_, grid_.cell_at(number)), 1, std::move(pieces)});
+  }
+
+ private:
+  struct OfCell {
+    std::vector<BorderPiece<K>> pieces;
+    double area = 0;
+    Point<3> vector{};  // Σ n da
+  };
+
+  int place_of(int number) const {
+    constexpr double little = 0.25;
+    const OfCell& cell = of_cells_.at(number);
+    const int largest = largest_around(number);
+    return cell.area < little * of_cells_.at(largest).area ? place_of(largest) : number;
+  }
+  int largest_around(int number) const {
+    int largest = number;
+    for_cells_around(grid_, grid_.cell_at(number), 1, [&](int beside) {
+      const auto found = of_cells_.find(beside);
+      if (found != of_cells_.end() && found->second.area > of_cells_.at(largest).area &&
+          cosine<3>(found->second.vector, of_cells_.at(number).vector) > smooth)
+        largest = beside;
+    });
+    return largest;
+  }
+
+  const Grid<3>& grid_;
+  std::map<int, OfCell> of_cells_;
+};
+
+/// How long a line is that goes this way through the middle of a cell [m].
+double length_through(const Grid<2>& grid, const std::array<int, 2>& cell, const Point<2>& along) {
+  double shares = 0;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const auto& nodes = grid.axes[d].nodes;
+    const auto i = static_cast<std::size_t>(cell[d]);
+    shares = std::max(shares, std::abs(along[d]) / (nodes[i + 1] - nodes[i]));
+  }
+  return std::hypot(along[0], along[1]) / shares;
+}
 
 template <Kinematics K>
 Patches<K> along_lines(const Problem& problem, std::size_t number, const Grid<2>& grid) {
   constexpr std::size_t dim = 2;
-  Patches<K> patches;
+  PatchesAlong<K> patches;
   const BodySpec& body = problem.bodies[number];
   constexpr double on_axis = 1e-12;  // of the grid's length: such a line is no border
   for (const BorderLine& line : whole_border(problem, number)) {
@@ -78,20 +183,35 @@ Patches<K> along_lines(const Problem& problem, std::size_t number, const Grid<2>
     const std::vector<Point<dim>> ends = grid_crossings(line, grid);
     for (std::size_t c = 0; c + 1 < ends.size(); ++c) {
       const Point<dim>&from = ends[c], &to = ends[c + 1];
-      const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
-      std::vector<BorderPiece<K>> pieces;
-      for (const auto& [xi, weight] : rule.points) {
-        Point<dim> x;
-        for (std::size_t d = 0; d < dim; ++d) x[d] = (from[d] + to[d]) / 2 + (to[d] - from[d]) / 2 * xi;
-        const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
-        pieces.push_back(BorderPiece<K>::make(x, length / 2 * weight * depth, line.normal));
-        if (pieces.size() < rule.in_patch) continue;
-        const double cell = width_of_cell<dim>(grid, pieces.back().cell_inside(grid));
-        patches.push_back({cell, depth, std::exchange(pieces, {})});
+      const Point<dim> along = {to[0] - from[0], to[1] - from[1]};
+      const auto at = [&](double xi) {
+        return Point<dim>{(from[0] + to[0]) / 2 + along[0] / 2 * xi, (from[1] + to[1]) / 2 + along[1] / 2 * xi};
+      };
+      const double length = std::hypot(along[0], along[1]);
+      const std::size_t parts = rule.points.size() / rule.in_patch;
+      for (std::size_t part = 0; part < parts; ++part) {
+        std::vector<BorderPiece<K>> pieces;
+        double depth = body.area;
+        for (std::size_t i = part * rule.in_patch; i < (part + 1) * rule.in_patch; ++i) {
+          const auto& [xi, weight] = rule.points[i];
+          const Point<dim> x = at(xi);
+          if (K == Kinematics::axisymmetric) depth = 2 * std::numbers::pi * x[0];
+          pieces.push_back(BorderPiece<K>::make(x, length / 2 * weight * depth, line.normal));
+        }
+        const std::array<int, dim> cell = pieces.back().cell_inside(grid);
+        const auto end = [&](std::size_t of) {
+          return of == 0 ? from : of == parts ? to : at(2 * static_cast<double>(of) / static_cast<double>(parts) - 1);
+        };
+        patches.add({end(part),
+                     end(part + 1),
+                     line.normal,
+                     length / static_cast<double>(parts),
+                     length_through(grid, cell, along) / static_cast<double>(parts),
+                     {width_of_cell<dim>(grid, cell), depth, std::move(pieces)}});
       }
     }
   }
-  return patches;
+  return patches.patches();
 }
 
 template <Kinematics K>
@@ -103,7 +223,7 @@ Patches<K> on_faces(const Problem& problem, std::size_t number, const Grid<3>& g
     const auto normal = static_cast<std::size_t>(axis_of(face));
     Point<dim> outwards{};
     outwards[normal] = is_upper(face) ? 1 : -1;
-    PiecesOfCells<K> pieces(grid);
+    PatchesOnSurface<K> pieces(grid);
     for_face_pieces<dim>(
         grid, normal, (is_upper(face) ? body.max : body.min)[normal], part_of_face(face, {}, {}, body.min, body.max),
         [&](std::size_t along) { return rule_along(problem, body, along).points; },
@@ -123,7 +243,7 @@ Patches<K> on_surfaces(const Problem& problem, std::size_t number, const Grid<3>
   for (std::size_t d = 0; d < dim; ++d) length = std::min(length, smallest_cell(problem.grid, d) / 2);
   for (const BodySurface surface : {BodySurface::outer, BodySurface::inner, BodySurface::start, BodySurface::end}) {
     if (!why_no_surface(body, surface).empty()) continue;
-    PiecesOfCells<K> pieces(grid);
+    PatchesOnSurface<K> pieces(grid);
     for (const SurfacePiece& piece : surface_pieces(body, surface, length)) {
       const auto& [a, b, c] = piece.vector;
       const double area = std::hypot(a, b, c);

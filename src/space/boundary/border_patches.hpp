@@ -2,7 +2,7 @@
 //
 // In a single phase the border is cut at the grid lines, with a Gauss rule in each part; in later phases the pieces are
 // the outer faces of domains, two to a face, or positions that material points carry, one to a point. A patch is the
-// pieces of one face in one cell, or of one domain: what the grid's functions can tell apart.
+// pieces along a cell, or a domain: what the grid's functions can tell apart. Shorter ones are joined.
 #pragma once
 
 #include <vector>

@@ -173,11 +173,11 @@ bool Conditions<K>::ask_for_next_phase(ConstVec u) const {
 }
 
 template <Kinematics K>
-void Conditions<K>::end_phase(const double* u) {
+void Conditions<K>::end_phase(double t, const double* u) {
   for (const auto& condition : all_) condition->end_phase(u);
   weak_supports_.end_phase(u);
   load_control_.end_phase(u);
-  rigid_contact_->end_phase(u);
+  rigid_contact_->end_phase(t, u);
   body_contact_->end_phase(u);
 }
 

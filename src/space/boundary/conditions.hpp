@@ -82,7 +82,7 @@ class Conditions {
   Contact* contact() const { return contact_; }
   void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;
-  void end_phase(const double* u);
+  void end_phase(double t, const double* u);
   void archive(const StateArchive& state);
 
   // --- reactions and displacements; the argument `reactions` as in add_force() --------------------

@@ -272,6 +272,33 @@ void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit
   }
 }
 
+// Only pieces that are hardly off it: what is further away has not come there within a phase.
+template <Kinematics K, class Finder>
+auto ContactForce<K, Finder>::ways_to_mean_gap(double t, const double* u) const -> std::vector<Position> {
+  constexpr double most = 0.01;  // [cells], about what a phase may add
+  struct Mean {
+    double area = 0, gap = 0;
+  };
+  const RigidPlacement<N> placement = this->placement(t, u);
+  const auto patches = surface_.patches();
+  std::vector<Mean> means(patches.size());
+  bool touches = false;
+  for_closed(placement, u, [&](const Touch& touch) {
+    means[touch.patch].area += touch.area;
+    means[touch.patch].gap += touch.area * touch.at.distance;
+    touches = true;
+  });
+  if (!touches) return {};
+  std::vector<Position> ways(surface_.size(), Position::Zero());
+  for_touches(placement, u, most, [&](const Touch& touch) {
+    const Mean& mean = means[touch.patch];
+    if (!(mean.area > 0)) return;
+    const double way = mean.gap / mean.area - touch.at.distance;
+    if (std::abs(way) <= most * patches[touch.patch].cell) ways[touch.piece] = way * touch.at.normal;
+  });
+  return ways;
+}
+
 template <Kinematics K, class Finder>
 ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   constexpr double rounding = 1e-6;  // of the limit: a piece whose anchor was dragged is at it

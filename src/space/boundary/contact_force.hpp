@@ -23,6 +23,10 @@
 // Where it slips, the anchor is dragged along when a step is accepted, so that κ s = λ_t − τ there: R depends on the
 // committed state, and has no potential.
 //
+// From phase to phase what carries the pieces moves those of a patch a little apart, by what no function of the grid
+// feels. The border would become rough, and be touched at ever fewer pieces of all. At the end of a phase the pieces of
+// a patch that touches therefore go to the mean gap of those that do.
+//
 // A free rigid body has no inertia: at any u it is displaced by the d at which its load W and what it touches balance,
 //
 //   W = Σ f(u, d),   so that   δd = (Σ A S)⁻¹ Σ A S δx,   S = −∂f/∂x,
@@ -102,6 +106,9 @@ class ContactForce {
   /// Takes the pressures at (t, u) as multipliers.
   void update_multipliers(double t, const double* u);
   void add_fit(double t, const double* u, ContactFit& fit) const;
+  /// The ways by which pieces of the surface come to the mean gaps of their patches, at the end of a phase, (pieces)
+  /// [m]; empty without contact.
+  std::vector<Position> ways_to_mean_gap(double t, const double* u) const;
   /// The force on the border, and its moment about the placement's centre; without a name.
   ContactReport report(double t, const double* u) const;
   /// How far pieces that touch have moved along what they touch since the phase began, where most [cells].

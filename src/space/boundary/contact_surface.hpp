@@ -126,6 +126,12 @@ class ContactSurface {
   double growth() const { return growth_; }
   /// Moves the pieces at the end of a phase; u: over the grid's functions.
   void end_phase(const double* u);
+  /// Moves them by ways of their own besides, (pieces) or empty [m].
+  template <class Position>
+  void move(const std::vector<Position>& ways) {
+    for (std::size_t s = 0; s < ways.size(); ++s)
+      for (int i = 0; i < dim; ++i) pieces_[s].at.x[static_cast<std::size_t>(i)] += ways[s][i];
+  }
   void archive(const StateArchive& state);
 
  private:

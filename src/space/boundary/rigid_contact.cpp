@@ -63,6 +63,14 @@ void RigidContact<K>::refuse_overlaps(double t) const {
 }
 
 template <Kinematics K>
+void RigidContact<K>::end_phase(double t, const double* u) {
+  std::vector<std::vector<Position>> ways;
+  for (const RigidBody& rigid : bodies_) ways.push_back(rigid.ways_to_mean_gap(t, u));
+  surface_.end_phase(u);
+  for (const std::vector<Position>& of_body : ways) surface_.move(of_body);
+}
+
+template <Kinematics K>
 void RigidContact<K>::archive(const StateArchive& state) {
   if (empty()) return;
   surface_.archive(state.part("surface"));

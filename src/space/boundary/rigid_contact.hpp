@@ -24,7 +24,7 @@ class RigidContact {
 
   /// Throws SceneError if a rigid body overlaps a body when the run begins.
   void begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound);
-  void end_phase(const double* u) { surface_.end_phase(u); }
+  void end_phase(double t, const double* u);
   void archive(const StateArchive& state);
 
   /// The number of forces that add_force() writes: those of each rigid body on each patch, component by component.

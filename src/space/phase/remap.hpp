@@ -92,7 +92,7 @@ class Remap {
     const GridFaces<dim> faces(frame_.problem, next_grid, conditions_.act_on_axis());
     const bool some_past_a_face = find_positions(next_grid, faces, work->u, grid_v);
     motion_since_deformation_ += motion;
-    move_points(*work, grid_v);
+    move_points(t, *work, grid_v);
     if (some_past_a_face) faces.put_back(points_);
     ++frame_.phase;
     frame_.grid_moved = grid_moves_to;
@@ -149,7 +149,7 @@ class Remap {
   }
 
   // Updates the points: x_p += Σ N_ip u_i, V_p *= det f_p, and velocities by the scene's transfer.
-  void move_points(typename InternalForce<B, K>::Work& work, const std::vector<double>& grid_v) {
+  void move_points(double t, typename InternalForce<B, K>::Work& work, const std::vector<double>& grid_v) {
     const double* grid_u = work.u.data();
     transfer_.take_velocity(frame_.grid, points_, frame_.weights, inertia_.node_mass(), work.u, grid_v, start_velocity_,
                             inertia_.impulse(grid_v, start_velocity_));
@@ -168,7 +168,7 @@ class Remap {
       });
     }
     points_.x.swap(transfer_.motion().x);
-    conditions_.end_phase(grid_u);
+    conditions_.end_phase(t, grid_u);
   }
 
   // Transfers the spin of the relative inertia: δ_i has an angular momentum Σ δ_i d_i × ḋ_i, d_i = u_i − Σ_k w_k u_k,
