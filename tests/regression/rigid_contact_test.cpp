@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
@@ -139,7 +140,8 @@ TEST_CASE("the sides of an outline that are shorter than a cell touch a round ba
                                    {}),
                         {.threads = 1});
   REQUIRE(s.status == RunStatus::equilibrium);
-  CHECK(s.contacts.at("bar.contact_area") == Approx(std::acos(-1.0) / 2).epsilon(0.02));  // the ends of chords may be open
+  CHECK(s.contacts.at("bar.contact_area") ==
+        Approx(std::acos(-1.0) / 2).epsilon(0.02));  // the ends of chords may be open
 }
 
 TEST_CASE("clay goes around a bar that is dragged through many phases without letting go of it") {
@@ -150,6 +152,26 @@ TEST_CASE("clay goes around a bar that is dragged through many phases without le
                         {.threads = 1});
   REQUIRE(s.status == RunStatus::end_time);
   CHECK(s.contacts.at("bar.contact_area") == Approx(std::acos(-1.0) / 2).epsilon(0.05));
+}
+
+TEST_CASE(
+    "a border of domains that is drawn to three times its length says that something may pass between its points") {
+  const std::string strip =
+      "dim = 2\n[grid]\nmin = [0, 0]\nmax = [7, 1]\ncells = [28, 4]\n[body]\nmax = [1, 0.5]\nmaterial = 'm'\n"
+      "[material.m]\nlaw = 'neo-hookean'\nE = 1000\nnu = 0\nrho = 1\n"
+      "[phase]\nmax_motion = 0.3\nquadrature = 'domains'\n[[support]]\nface = 'left'\nkind = 'roller'\n"
+      "[[support]]\nface = 'bottom'\nkind = 'roller'\n"
+      "[[traction]]\nline = [[1, 0], [1, 0.5]]\nvalue = ['pull*min(t/10,1)', 0]\n"
+      "[[rigid]]\nname = 'plate'\nhalf_plane = [[0, 0.5], [0, -1]]\nmotion = ['0', '-0.01*min(t,1)']\n"
+      "[damping]\nstrategy = 'cundall'\n[stop]\nresidual = 1e-3\ntime = 30\n[constants]\n";
+  const auto notes_at = [&](const char* pull) {
+    const Summary s = run(load_scene("strip.toml", strip + pull, {}), {.threads = 1});
+    REQUIRE(s.status == RunStatus::equilibrium);
+    return fmt::format("{}", fmt::join(s.notes, "\n"));
+  };
+  CHECK_THAT(notes_at("pull = 500"), !Catch::Contains("may pass between its points"));
+  CHECK_THAT(notes_at("pull = 1700"), Catch::Contains("the border that plate touches is drawn to 3.") &&
+                                          Catch::Contains("may pass between its points"));
 }
 
 TEST_CASE("a free footing settles until the ground bears its weight, by every way to rest, and always as far") {

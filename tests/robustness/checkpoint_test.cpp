@@ -108,6 +108,12 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
       {"sinking_footing",
        {"rigid[0].friction=0.3", "constants.T=2", "stop.steps=900", "checkpoint.every_steps=300", "output.every=0.1"}},
       700);
+  // The border is cut anew before it is broken off, and after.
+  check_same_bits({"ladder/cone_penetration",
+                   {"grid.x=[[0.0, 4.0, 8], [4.0, 14.0, 6, 1.2]]", "grid.y=[[0.0, 6.0, 4], [6.0, 27.0, 42]]",
+                    "rigid[0].friction=0.3", "constants.v=0.4", "stop.steps=1500", "checkpoint.every_steps=300",
+                    "output.every=0.5"}},
+                  1300);
 }
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with bodies that touch each other") {

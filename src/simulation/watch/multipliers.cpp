@@ -52,7 +52,9 @@ class Multipliers : public Watcher {
 
   void fill_state(Summary& summary, RunState& run) override {
     constexpr double negligible = 1e-2;  // of the pressures
-    if (!touches_ || !run.scene.stop.wants_equilibrium()) return;
+    if (!touches_) return;
+    note_stretch(summary, run);
+    if (!run.scene.stop.wants_equilibrium()) return;
     const ContactState state = run.model.phase->supports().contact_state(run.t, run.motion->u());
     if (!state.balanced)
       add_note(summary, "a free rigid body is not in balance: nothing that it touches bears all of the force on it");
@@ -85,6 +87,15 @@ class Multipliers : public Watcher {
                                       "still touch the parts of their borders that were opposite at the start; "
                                       "expected phases, as by phase.max_motion = 0.3",
                                       contact.name, contact.slid));
+  }
+  static void note_stretch(Summary& summary, RunState& run) {
+    constexpr double much = 3;
+    for (const ContactReport& contact : run.model.phase->supports().contacts(run.t, run.motion->u()))
+      if (contact.stretch > much)
+        add_note(summary,
+                 fmt::format("the border that {} touches is drawn to {:.2g} times its length: what draws it may "
+                             "pass between its points; expected smaller cells, or more points in a cell",
+                             contact.name, contact.stretch));
   }
   bool is_small(const ContactState& state) const {
     return state.misfit <= largest_misfit && state.change <= largest_change_;

@@ -108,7 +108,10 @@ void BodyContact<K>::end_phase(const double* u) {
     const std::vector<Position> ways = pair->force.ways_to_mean_gap(0, u);
     pair->first.end_phase(u);
     pair->first.move(ways);
+    const std::vector<PieceOrigin> origins = pair->first.cut_anew();
+    if (!origins.empty()) pair->force.follow(origins, pair->slip);
     pair->second.end_phase(u);
+    pair->second.cut_anew();
   }
 }
 

@@ -76,10 +76,21 @@ class PatchesAlong {
       parts_.push_back(std::move(part));
     }
   }
-  Patches<K> patches() {
+  /// face_at(x, along): the face at which a border ends there that goes that way.
+  template <class FaceAt>
+  Patches<K> patches(const FaceAt& face_at) {
     end_part();
     Patches<K> patches;
-    for (Part& part : parts_) patches.push_back(std::move(part.patch));
+    std::size_t first = 0;  // of the patches that go on
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      Part& part = parts_[k];
+      const Point<2> along = {-part.normal[1], part.normal[0]};
+      part.patch.goes_on = k > 0 && goes_on(parts_[k - 1], part);
+      if (!part.patch.goes_on) first = k;
+      part.patch.closes = goes_on(part, parts_[first]) && k > first;
+      part.patch.ends = {face_at(part.from, along), face_at(part.to, along)};
+      patches.push_back(std::move(part.patch));
+    }
     return patches;
   }
 
@@ -168,6 +179,30 @@ double length_through(const Grid<2>& grid, const std::array<int, 2>& cell, const
   return std::hypot(along[0], along[1]) / shares;
 }
 
+/// Whether a face of the grid holds what touches it, for good, in its normal's direction.
+bool holds_normal(const Problem& problem, Face face) {
+  return std::ranges::any_of(problem.supports, [face](const SupportSpec& support) {
+    const bool normal = !support.holds_one_component() || support.component == axis_of(face);
+    return support.face == face && !support.on_part() && !support.stiffness && normal && support.motion.constant() &&
+           support.motion({}, 0) == 0;
+  });
+}
+
+/// The face of the grid, or the axis, at which a border ends that goes along `along` and through x.
+template <Kinematics K>
+FaceEnd face_at(const Problem& problem, const Grid<2>& grid, const Point<2>& x, const Point<2>& along) {
+  constexpr double rounding = 1e-9, least = 0.3;  // of the grid's length; of the cosine to the face's normal
+  for (const Face face : {Face::left, Face::right, Face::bottom, Face::top}) {
+    const int axis = axis_of(face);
+    const auto d = static_cast<std::size_t>(axis);
+    const double at = is_upper(face) ? grid.axes[d].max() : grid.axes[d].min();
+    const bool on_axis = K == Kinematics::axisymmetric && face == Face::left && at == 0;
+    const bool near = std::abs(x[d] - at) <= rounding * (grid.axes[d].max() - grid.axes[d].min());
+    if (near && std::abs(along[d]) > least && (on_axis || holds_normal(problem, face))) return {axis, at};
+  }
+  return {};
+}
+
 template <Kinematics K>
 Patches<K> along_lines(const Problem& problem, std::size_t number, const Grid<2>& grid) {
   constexpr std::size_t dim = 2;
@@ -211,7 +246,8 @@ Patches<K> along_lines(const Problem& problem, std::size_t number, const Grid<2>
       }
     }
   }
-  return patches.patches();
+  return patches.patches(
+      [&](const Point<dim>& x, const Point<dim>& along) { return face_at<K>(problem, grid, x, along); });
 }
 
 template <Kinematics K>

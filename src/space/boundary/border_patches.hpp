@@ -5,17 +5,30 @@
 // pieces along a cell, or a domain: what the grid's functions can tell apart. Shorter ones are joined.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "space/boundary/border_piece.hpp"
 
 namespace stillpoint {
 
+/// A face of the grid at which a border ends and stays: a plane of symmetry, a held face, or the axis.
+struct FaceEnd {
+  int axis = -1;  // across the face; −1: there is none
+  double at = 0;  // its coordinate [m]
+
+  bool is_there() const { return axis >= 0; }
+};
+
 template <Kinematics K>
 struct BorderPatch {
   double cell;   // the width of its cell, in space ∛(volume) [m]
   double depth;  // thickness, or 2 π r if axisymmetric [m]; 1 in space
   std::vector<BorderPiece<K>> pieces;
+  // In the plane:
+  bool goes_on = false;           // the patch before goes on with this one, without a corner
+  bool closes = false;            // the border goes on with the first patch of those
+  std::array<FaceEnd, 2> ends{};  // where the border begins and ends with this patch
 };
 
 /// body: its number in the scene; a line has no border. grid: that of the first phase.

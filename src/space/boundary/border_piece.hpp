@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "space/boundary/carried_point.hpp"
 #include "space/kernels/change_of_volume.hpp"
@@ -48,6 +49,12 @@ struct BorderPiece {
       for (Entry& entry : at.entries) entry.w /= reached;
     }
     return true;
+  }
+  /// The area when the phase begins [m²].
+  double size() const {
+    double square = 0;
+    for (const double along : vector) square += along * along;
+    return std::sqrt(square);
   }
   /// Moves the piece by the displacement u at the end of a phase.
   void move(const double* u) {

@@ -49,6 +49,7 @@ struct ContactReport {
   double penetration = 0;                // the largest [cells]
   double slipping = 0;                   // share of that area which slips
   double slid = 0;                       // how far bodies have moved along each other in the phase, where most [cells]
+  double stretch = 1;  // by which a piece of the border that touches is drawn out, where most, if it is not cut anew
 };
 
 /// Contact with rigid bodies, and of bodies with each other.

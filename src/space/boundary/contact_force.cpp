@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <map>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,8 @@ namespace stillpoint {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::anchor_at_start(double t, const std::vector<Position>& slip) {
-  const RigidPlacement<N> placement = finder_.placement(t);
+  RigidPlacement<N> placement = finder_.placement(t);
+  placement.u += settled_;
   for (std::size_t s = 0; s < anchor_.size(); ++s) {
     anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.start(s)));
     if (!slip.empty()) anchor_[s] -= slip[s];
@@ -30,6 +32,12 @@ auto ContactForce<K, Finder>::slips(double t, const double* u) const -> std::vec
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::archive(const StateArchive& state) {
+  lambda_.resize(surface_.patches().size());
+  if (remembers()) {
+    lambda_t_.resize(lambda_.size());
+    anchor_.resize(surface_.size());
+    closed_.resize(anchor_.size());
+  }
   state("lambda", Vec(lambda_));
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
   if (!remembers()) return;
@@ -299,6 +307,38 @@ auto ContactForce<K, Finder>::ways_to_mean_gap(double t, const double* u) const 
   return ways;
 }
 
+// κ s = λ_t − τ
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::follow(const std::vector<PieceOrigin>& origins, std::vector<Position>& slip) {
+  const auto patches = surface_.patches();
+  const auto mean_before = [](const auto& all, const PieceOrigin& of) {
+    return std::decay_t<decltype(all[0])>((all[of.patch[0]] + all[of.patch[1]]) / 2);
+  };
+  const auto means_of_patches = [&](const auto& all, auto zero) {
+    std::vector<decltype(zero)> means(patches.size(), zero);
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      double area = 0;
+      for (std::size_t s = patches[k].begin; s < patches[k].end; ++s) {
+        means[k] += surface_.piece(s).size() * mean_before(all, origins[s]);
+        area += surface_.piece(s).size();
+      }
+      if (area > 0) means[k] /= area;
+    }
+    return means;
+  };
+  lambda_ = means_of_patches(lambda_, 0.0);
+  if (!remembers()) return;
+  const std::vector<Position> lambda_t = means_of_patches(lambda_t_, Position(Position::Zero()));
+  slip = of_pieces_cut_anew(slip, origins);
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
+      if (patches[k].stiffness > 0)
+        slip[s] += (lambda_t[k] - mean_before(lambda_t_, origins[s])) / patches[k].stiffness;
+  lambda_t_ = lambda_t;
+  anchor_.resize(slip.size());
+  closed_.assign(slip.size(), 0);
+}
+
 template <Kinematics K, class Finder>
 ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   constexpr double rounding = 1e-6;  // of the limit: a piece whose anchor was dragged is at it
@@ -320,6 +360,7 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
     }
     report.area += touch.area;
     if (touch.tau.norm() >= (1 - rounding) * friction_ * touch.p) slipping += touch.area;
+    report.stretch = std::max(report.stretch, surface_.stretch(touch.piece));
     report.penetration = std::max(report.penetration, -touch.at.distance / surface_.patches()[touch.patch].cell);
   });
   report.slipping = report.area > 0 ? slipping / report.area : 0;

@@ -86,7 +86,7 @@ class ContactForce {
   Finder& finder() { return finder_; }
   const Finder& finder() const { return finder_; }
   bool remembers() const { return friction_ > 0; }
-  /// Sets the anchors where the pieces are when the phase begins, less the slip that each has had.
+  /// Sets the anchors where the pieces are when a phase begins, less the slip that each has had.
   void anchor_at_start(double t, const std::vector<Position>& slip);
   /// The elastic slip of each piece, T⁻¹ x − a, (pieces); empty without friction.
   std::vector<Position> slips(double t, const double* u) const;
@@ -109,6 +109,9 @@ class ContactForce {
   /// The ways by which pieces of the surface come to the mean gaps of their patches, at the end of a phase, (pieces)
   /// [m]; empty without contact.
   std::vector<Position> ways_to_mean_gap(double t, const double* u) const;
+  /// Takes over the multipliers where the surface was cut anew, which makes slip, (pieces), that of the new pieces:
+  /// with it they bear the shear that those before bore. origins: of all pieces.
+  void follow(const std::vector<PieceOrigin>& origins, std::vector<Position>& slip);
   /// The force on the border, and its moment about the placement's centre; without a name.
   ContactReport report(double t, const double* u) const;
   /// How far pieces that touch have moved along what they touch since the phase began, where most [cells].

@@ -11,9 +11,12 @@
 #include <stillpoint/material.hpp>
 #include <stillpoint/problem.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
+#include "space/boundary/border_chain.hpp"
 #include "space/boundary/border_patches.hpp"
 #include "space/boundary/stiffness_at.hpp"
 #include "space/grid/matrix_entries.hpp"
@@ -23,6 +26,7 @@ namespace stillpoint {
 template <Kinematics K>
 class ContactSurface {
   static constexpr int dim = dimensions(K);
+  static constexpr bool in_plane = dim == 2;
 
  public:
   using Parts = PhaseParts<dim>;
@@ -132,6 +136,13 @@ class ContactSurface {
     for (std::size_t s = 0; s < ways.size(); ++s)
       for (int i = 0; i < dim; ++i) pieces_[s].at.x[static_cast<std::size_t>(i)] += ways[s][i];
   }
+  /// Cuts borders in the plane anew where they have stretched or shrunk (border_chain.hpp); after they have moved.
+  /// Where the pieces come from, (pieces); empty if they are what they were.
+  std::vector<PieceOrigin> cut_anew();
+  /// By how much a piece has been drawn out; 1 where borders are cut anew.
+  double stretch(std::size_t s) const {
+    return chains_.empty() ? std::pow(pieces_[s].size() / pieces_[s].area, 1.0 / std::max(1, dim - 1)) : 1;
+  }
   void archive(const StateArchive& state);
 
  private:
@@ -140,21 +151,29 @@ class ContactSurface {
     int first_unknown;  // dim × function
     double w;
   };
+  struct Chain {
+    std::size_t begin, end;  // its patches
+    BorderChain<K> chain;
+  };
   struct Source {
     int component, dof;  // dof: free or prescribed, as numbered by DegreesOfFreedom
     double w;
   };
 
+  void add_chains(const BodySpec& body, const std::vector<BorderPatch<K>>& patches);
   void freeze(const Parts& phase);
   void take_weights(const Parts& phase, const Partners* partners);
   void take_functions();
   void choose_stiffness(const std::vector<double>& G);
   double bound_of_frequency(const Parts& phase) const;
+  typename BorderChain<K>::Link link(std::size_t patch, std::size_t s) const;
+  void archive_numbers(const StateArchive& state);
 
   bool phases_end_, has_begun_ = false;
   int free_ = 0;  // n
   std::vector<BorderPiece<K>> pieces_;
   std::vector<Patch> patches_;
+  std::vector<Chain> chains_;          // of all patches, in the plane and with material points; else empty
   std::vector<double> area_;           // (pieces) [m²]
   std::vector<std::size_t> begin_{0};  // first weight of each piece
   std::vector<Weight> weights_;        // of the functions that material reaches

@@ -64,10 +64,18 @@ void RigidContact<K>::refuse_overlaps(double t) const {
 
 template <Kinematics K>
 void RigidContact<K>::end_phase(double t, const double* u) {
-  std::vector<std::vector<Position>> ways;
-  for (const RigidBody& rigid : bodies_) ways.push_back(rigid.ways_to_mean_gap(t, u));
+  std::vector<std::vector<Position>> ways, slips;
+  for (const RigidBody& rigid : bodies_) {
+    ways.push_back(rigid.ways_to_mean_gap(t, u));
+    slips.push_back(rigid.slips(t, u));
+  }
   surface_.end_phase(u);
   for (const std::vector<Position>& of_body : ways) surface_.move(of_body);
+  const std::vector<PieceOrigin> origins = surface_.cut_anew();
+  for (std::size_t r = 0; r < bodies_.size() && !origins.empty(); ++r) {
+    bodies_[r].follow(origins, slips[r]);
+    bodies_[r].anchor_at_start(t, slips[r]);
+  }
 }
 
 template <Kinematics K>
