@@ -9,16 +9,9 @@
 #include <vector>
 
 #include "space/boundary/border_piece.hpp"
+#include "space/boundary/face_end.hpp"
 
 namespace stillpoint {
-
-/// A face of the grid at which a border ends and stays: a plane of symmetry, a held face, or the axis.
-struct FaceEnd {
-  int axis = -1;  // across the face; −1: there is none
-  double at = 0;  // its coordinate [m]
-
-  bool is_there() const { return axis >= 0; }
-};
 
 template <Kinematics K>
 struct BorderPatch {

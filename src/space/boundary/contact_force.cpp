@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <map>
-#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -48,17 +47,6 @@ void ContactForce<K, Finder>::archive(const StateArchive& state) {
 }
 
 template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::add_friction(const RigidPlacement<N>& placement, Touch& touch) const {
-  const Position& n = touch.at.normal;
-  touch.tau_trial = placement.Q * (lambda_t_[touch.patch] - touch.kappa * (touch.X - anchor_[touch.piece]));
-  touch.tau_trial -= n.dot(touch.tau_trial) * n;
-  const double size = touch.tau_trial.norm(), limit = touch.p > 0 ? friction_ * touch.p : 0;
-  touch.slips = size > limit || touch.p == 0;
-  touch.tau = touch.slips ? Position(limit / std::max(size, limit) * touch.tau_trial) : touch.tau_trial;
-  if (limit == 0) touch.tau.setZero();
-}
-
-template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::add_force(double t, const double* u, Vec R, Vec at_supports, Vec of_patches) const {
   for_closed(placement(t, u), u, [&](const Touch& touch) {
     Point<dim> f{};
@@ -72,53 +60,27 @@ void ContactForce<K, Finder>::add_force(double t, const double* u, Vec R, Vec at
   });
 }
 
-// −∂f/∂x of a piece, times A. With the direction d of τ where it slips at μ p,
-//
-//   ∂τ/∂x = −κ (I − n nᵀ) where it sticks,   −μ κ d nᵀ − κ |τ|/|τ_trial| (I − n nᵀ − d dᵀ) where it slips.
-template <Kinematics K, class Finder>
-auto ContactForce<K, Finder>::stiffness(Tangent kind, const Touch& touch) const -> Matrix {
-  const Position& n = touch.at.normal;
-  Matrix S = touch.kappa * n * n.transpose();
-  if (kind != Tangent::stable) S -= touch.p * touch.at.hessian;
-  if (friction_ > 0) {
-    const Matrix along = Matrix::Identity() - n * n.transpose();
-    if (kind != Tangent::consistent || !touch.slips) {
-      S += touch.kappa * along;
-    } else if (touch.p > 0) {
-      const double size = touch.tau_trial.norm();
-      const Position d = touch.tau_trial / size;
-      S += friction_ * touch.kappa * d * n.transpose() +
-           touch.kappa * touch.tau.norm() / size * (along - d * d.transpose());
-    }
-  }
-  return touch.area * S;
-}
-
 template <Kinematics K, class Finder>
 RigidPlacement<ContactForce<K, Finder>::N> ContactForce<K, Finder>::placement(double t, const double* u) const {
+  constexpr double longest = 0.25;  // [cells]
   RigidPlacement<N> placement = finder_.placement(t);
-  if (finder_.is_free()) settle(t, u, placement);
+  if (!finder_.is_free()) return placement;
+  placement.u += settled_;
+  const double cell = surface_.patches().front().cell;
+  const double rounding = rounding_of(TouchFinder<K>::position_of(surface_.start(0)).norm());
+  settle<N>(
+      placement, {longest * cell, rounding, touching * cell}, [&] { return balance(t, placement, u); },
+      [&] { return way_to_touch(placement, u); });
   return placement;
 }
 
 template <Kinematics K, class Finder>
-bool ContactForce<K, Finder>::Balance::holds() const {
-  constexpr double rounding = 1e-13;
-  return (load - force).norm() <= rounding * std::max(load.norm(), force.norm());
-}
-
-template <Kinematics K, class Finder>
-bool ContactForce<K, Finder>::Balance::is_near() const {
-  constexpr double enough = 1e-6;
-  return (load - force).norm() <= enough * std::max(load.norm(), force.norm());
-}
-
-template <Kinematics K, class Finder>
-auto ContactForce<K, Finder>::balance(double t, const RigidPlacement<N>& placement, const double* u) const -> Balance {
-  Balance balance{.load = finder_.load(t)};
+auto ContactForce<K, Finder>::balance(double t, const RigidPlacement<N>& placement, const double* u) const
+    -> Balance<N> {
+  Balance<N> balance{.load = finder_.load(t)};
   for_touches(placement, u, touching, [&](const Touch& touch) {
     if (touch.p > 0) balance.force += touch.area * (touch.p * touch.at.normal + touch.tau);
-    balance.stiffness += stiffness(Tangent::consistent, touch);
+    balance.stiffness += stiffness_of(Tangent::consistent, friction_, touch);
   });
   if (K == Kinematics::axisymmetric) balance.force[0] = 0;
   balance.stiffness = along_axes(balance.stiffness);
@@ -136,38 +98,6 @@ double ContactForce<K, Finder>::way_to_touch(const RigidPlacement<N>& placement,
     least = std::min(least, near.at.distance - (kappa > 0 ? lambda_[near.patch] / kappa : 0));
   });
   return std::max(0.0, least);
-}
-
-// Newton's method downhill in the potential, whose slope Σ f − W is piecewise linear but for the turn of n. As long as
-// nothing resists the body goes the way of its load, as far as certainly nothing is in the way; a round one that
-// touches a single piece rolls off it until a second one bears it as well.
-template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::settle(double t, const double* u, RigidPlacement<N>& placement) const {
-  constexpr int most = 60, most_halvings = 12;
-  constexpr double longest = 0.25, overshoot = 0.5;  // of a step [cells], and as a share of the slope along it
-  placement.u += settled_;
-  Balance now = balance(t, placement, u);
-  for (int k = 0; k < most && !now.holds(); ++k) {
-    const Position out = now.load - now.force;
-    const double cell = surface_.patches().front().cell;
-    if (now.stiffness.isZero(0)) {
-      const double way = way_to_touch(placement, u);
-      if (!std::isfinite(way)) return;  // nothing to touch
-      placement.u += (way + touching * cell) / out.norm() * out;
-      now = balance(t, placement, u);
-      continue;
-    }
-    Position step = step_downhill<N>(now.stiffness, out);
-    if (step.norm() <= rounding_of(TouchFinder<K>::position_of(surface_.start(0)).norm())) return;
-    if (const double length = step.norm(); length > longest * cell) step *= longest * cell / length;
-    const Position before = placement.u;
-    for (int halving = 0;; ++halving, step /= 2) {
-      placement.u = before + step;
-      now = balance(t, placement, u);
-      if ((now.load - now.force).dot(step) >= -overshoot * out.dot(step)) break;
-      if (halving == most_halvings) return;  // no nearer than by rounding
-    }
-  }
 }
 
 template <Kinematics K, class Finder>
@@ -311,29 +241,16 @@ auto ContactForce<K, Finder>::ways_to_mean_gap(double t, const double* u) const 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::follow(const std::vector<PieceOrigin>& origins, std::vector<Position>& slip) {
   const auto patches = surface_.patches();
-  const auto mean_before = [](const auto& all, const PieceOrigin& of) {
-    return std::decay_t<decltype(all[0])>((all[of.patch[0]] + all[of.patch[1]]) / 2);
-  };
-  const auto means_of_patches = [&](const auto& all, auto zero) {
-    std::vector<decltype(zero)> means(patches.size(), zero);
-    for (std::size_t k = 0; k < patches.size(); ++k) {
-      double area = 0;
-      for (std::size_t s = patches[k].begin; s < patches[k].end; ++s) {
-        means[k] += surface_.piece(s).size() * mean_before(all, origins[s]);
-        area += surface_.piece(s).size();
-      }
-      if (area > 0) means[k] /= area;
-    }
-    return means;
-  };
-  lambda_ = means_of_patches(lambda_, 0.0);
+  const auto size = [this](std::size_t s) { return surface_.piece(s).size(); };
+  lambda_ = of_patches_cut_anew(lambda_, origins, patches, size, 0.0);
   if (!remembers()) return;
-  const std::vector<Position> lambda_t = means_of_patches(lambda_t_, Position(Position::Zero()));
+  const Position none = Position::Zero();
+  const std::vector<Position> lambda_t = of_patches_cut_anew(lambda_t_, origins, patches, size, none);
   slip = of_pieces_cut_anew(slip, origins);
   for (std::size_t k = 0; k < patches.size(); ++k)
     for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
       if (patches[k].stiffness > 0)
-        slip[s] += (lambda_t[k] - mean_before(lambda_t_, origins[s])) / patches[k].stiffness;
+        slip[s] += (lambda_t[k] - of_patch_before(lambda_t_, origins[s])) / patches[k].stiffness;
   lambda_t_ = lambda_t;
   anchor_.resize(slip.size());
   closed_.assign(slip.size(), 0);
@@ -350,14 +267,7 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   for_closed(placement, u, [&](const Touch& touch) {
     const Position f = touch.area * (touch.p * touch.at.normal + touch.tau), arm = touch.x - centre;
     for (int i = 0; i < N; ++i) report.force[static_cast<std::size_t>(i)] += f[i];
-    if constexpr (N == 3) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto j = static_cast<int>((i + 1) % 3), k = static_cast<int>((i + 2) % 3);
-        report.moment[i] += arm[j] * f[k] - arm[k] * f[j];
-      }
-    } else {
-      report.moment[2] += arm[0] * f[1] - arm[1] * f[0];
-    }
+    add_moment<N>(arm, f, report.moment);
     report.area += touch.area;
     if (touch.tau.norm() >= (1 - rounding) * friction_ * touch.p) slipping += touch.area;
     report.stretch = std::max(report.stretch, surface_.stretch(touch.piece));

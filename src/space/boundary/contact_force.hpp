@@ -41,7 +41,9 @@
 #include <vector>
 
 #include "space/boundary/condition_reports.hpp"
+#include "space/boundary/contact_law.hpp"
 #include "space/boundary/contact_surface.hpp"
+#include "space/boundary/free_rigid_body.hpp"
 #include "space/boundary/touch_finder.hpp"
 
 namespace stillpoint {
@@ -64,14 +66,7 @@ class ContactForce {
   using Position = Eigen::Vector<double, N>;
   using Matrix = Eigen::Matrix<double, N, N>;
 
-  /// What touches at a piece.
-  struct Touch : TouchFinder<K>::Near {
-    double area, kappa;
-    double p;            // [Pa]
-    Position tau;        // τ, in the scene's axes [Pa]
-    Position tau_trial;  // λ_t − κ s before the limit, likewise
-    bool slips;
-  };
+  using Touch = ContactTouch<K>;
 
   /// The surface must outlive this object.
   ContactForce(const ContactSurface<K>& surface, Finder finder, double friction)
@@ -119,17 +114,9 @@ class ContactForce {
 
  private:
   static constexpr double touching = 1e-6;  // [cells]
-  /// What a body that is displaced by d bears, and how it would change.
-  struct Balance {
-    Position load = Position::Zero(), force = Position::Zero();  // W, Σ f [N]
-    Matrix stiffness = Matrix::Zero();                           // Σ A S [N/m]
-    bool holds() const, is_near() const;
-  };
-
   /// T, of a free body with its d.
   RigidPlacement<N> placement(double t, const double* u) const;
-  void settle(double t, const double* u, RigidPlacement<N>& placement) const;
-  Balance balance(double t, const RigidPlacement<N>& placement, const double* u) const;
+  Balance<N> balance(double t, const RigidPlacement<N>& placement, const double* u) const;
   // What acts on a body of an axisymmetric scene across the axis is none, as it cancels around it.
   static Matrix along_axes(Matrix stiffness) {
     if (K == Kinematics::axisymmetric) stiffness.row(0).setZero(), stiffness.col(0).setZero();
@@ -139,7 +126,8 @@ class ContactForce {
   /// Calls visit(piece, A S) for each piece that touches, or all but does.
   template <class Visit>
   void for_stiffness(Tangent kind, const RigidPlacement<N>& placement, const double* u, const Visit& visit) const {
-    for_touches(placement, u, touching, [&](const Touch& touch) { visit(touch.piece, stiffness(kind, touch)); });
+    for_touches(placement, u, touching,
+                [&](const Touch& touch) { visit(touch.piece, stiffness_of(kind, friction_, touch)); });
   }
 
   /// Calls visit(touch) for each piece with λ − κ g ≥ −κ slack; slack: in cells.
@@ -152,8 +140,6 @@ class ContactForce {
       if (touch.p > 0) visit(touch);
     });
   }
-  void add_friction(const RigidPlacement<N>& placement, Touch& touch) const;
-  Matrix stiffness(Tangent kind, const Touch& touch) const;
   void drag(const RigidPlacement<N>& placement, const Touch& touch);
 
   const ContactSurface<K>& surface_;
@@ -178,14 +164,11 @@ void ContactForce<K, Finder>::for_touches(const RigidPlacement<N>& placement, co
   };
   finder_.for_near(placement, u, reach, [&](const typename TouchFinder<K>::Near& near) {
     const double kappa = patches[near.patch].stiffness;
-    Touch touch{near,
-                surface_.area(near.piece),
-                kappa,
-                std::max(0.0, lambda_[near.patch] - kappa * near.at.distance),
-                Position::Zero(),
-                Position::Zero(),
-                false};
-    if (friction_ > 0) add_friction(placement, touch);
+    Touch touch{near, surface_.area(near.piece), kappa, std::max(0.0, lambda_[near.patch] - kappa * near.at.distance)};
+    if (friction_ > 0) {
+      const Position slip = near.X - anchor_[near.piece];
+      add_friction<K>(friction_, placement.Q * (lambda_t_[near.patch] - kappa * slip), touch);
+    }
     visit(touch);
   });
 }

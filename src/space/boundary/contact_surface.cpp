@@ -2,51 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
-#include <utility>
 
 #include <Eigen/Core>
 
 namespace stillpoint {
-namespace {
-
-/// Whether numbers are those at which parts of so many end, none of them empty.
-bool are_ends(const std::vector<std::size_t>& ends, std::size_t of) {
-  const bool ascend = std::ranges::adjacent_find(ends, std::ranges::greater_equal{}) == ends.end();
-  return !ends.empty() && ascend && ends.front() > 0 && ends.back() == of;
-}
-
-}  // namespace
-
 template <Kinematics K>
 ContactSurface<K>::ContactSurface(const Problem& problem, const std::vector<char>& touched, const Grid<dim>& grid)
     : phases_end_(problem.phase.ends()) {
-  const bool stretches = in_plane && problem.phase.ends() &&
+  const bool stretches = dim == 2 && problem.phase.ends() &&
                          problem.phase.quadrature != Quadrature::domains;  // as pieces that are carried
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
     if (!touched[k]) continue;
     const std::vector<BorderPatch<K>> patches = border_patches<K>(problem, k, grid);
-    if (stretches) add_chains(problem.bodies[k], patches);
+    if (stretches) chains_.add(problem.bodies[k], patches, patches_.size());
     for (const BorderPatch<K>& patch : patches) {
       const std::size_t begin = pieces_.size();
       pieces_.insert(pieces_.end(), patch.pieces.begin(), patch.pieces.end());
       patches_.push_back({.body = k, .begin = begin, .end = pieces_.size(), .cell = patch.cell, .depth = patch.depth});
     }
-  }
-}
-
-template <Kinematics K>
-void ContactSurface<K>::add_chains(const BodySpec& body, const std::vector<BorderPatch<K>>& patches) {
-  const int along = std::min(body.points_per_cell[0], body.points_per_cell[1]);
-  const double longest = std::min(1.2, 1.5 / along);  // [cells]: they begin 1/along apart
-  for (std::size_t k = 0; k < patches.size();) {
-    std::size_t end = k + 1;
-    while (end < patches.size() && patches[end].goes_on) ++end;
-    const std::array<FaceEnd, 2> ends = {patches[k].ends[0], patches[end - 1].ends[1]};
-    chains_.push_back(
-        {patches_.size() + k, patches_.size() + end, BorderChain<K>(patches[end - 1].closes, ends, longest)});
-    k = end;
   }
 }
 
@@ -196,57 +169,9 @@ void ContactSurface<K>::end_phase(const double* u) {
 }
 
 template <Kinematics K>
-std::vector<PieceOrigin> ContactSurface<K>::cut_anew() {
-  std::vector<PieceOrigin> origins;
-  if constexpr (in_plane) {
-    using LinkedPatch = typename BorderChain<K>::LinkedPatch;
-    std::vector<std::vector<LinkedPatch>> cut;
-    bool changed = false;
-    for (const Chain& chain : chains_) {
-      std::vector<LinkedPatch>& patches = cut.emplace_back();
-      for (std::size_t k = chain.begin; k < chain.end; ++k) {
-        patches.push_back({patches_[k].cell, patches_[k].depth, {}});
-        for (std::size_t s = patches_[k].begin; s < patches_[k].end; ++s) patches.back().links.push_back(link(k, s));
-      }
-      changed = chain.chain.cut(patches) || changed;
-    }
-    std::vector<BorderPiece<K>> pieces;
-    std::vector<Patch> patches;
-    for (std::size_t c = 0; c < chains_.size(); ++c) {
-      const std::size_t begin = patches.size();
-      for (const LinkedPatch& linked : cut[c]) {
-        Patch patch = patches_[linked.links.front().origin.patch[0]];
-        patch.begin = pieces.size(), patch.stiffness = 0;
-        for (const auto& [piece, length, origin] : linked.links) {
-          pieces.push_back(piece), origins.push_back(origin);
-          for (const std::size_t before : origin.patch)
-            patch.stiffness += patches_[before].stiffness / static_cast<double>(2 * linked.links.size());
-        }
-        patch.end = pieces.size();
-        patches.push_back(patch);
-      }
-      if (changed) chains_[c].begin = begin, chains_[c].end = patches.size();
-    }
-    if (!chains_.empty()) pieces_ = std::move(pieces);
-    if (!changed) return {};
-    patches_ = std::move(patches);
-  }
-  return origins;
-}
-
-// With its undeformed length along the border.
-template <Kinematics K>
-auto ContactSurface<K>::link(std::size_t patch, std::size_t s) const -> typename BorderChain<K>::Link {
-  const BorderPiece<K>& piece = pieces_[s];
-  const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * piece.X[0] : patches_[patch].depth;
-  return {piece, piece.area / depth, {{s, s}, {patch, patch}}};
-}
-
-// Of chains the numbers of patches and pieces are part of the state.
-template <Kinematics K>
 void ContactSurface<K>::archive(const StateArchive& state) {
   if (empty()) return;
-  if (!chains_.empty()) archive_numbers(state);
+  if (!chains_.empty()) chains_.archive(state.part("chains"), pieces_, patches_);
   state.each(
       "positions", pieces_, [](BorderPiece<K> & piece) -> auto& { return piece.at.x; });
   state.each(
@@ -255,39 +180,6 @@ void ContactSurface<K>::archive(const StateArchive& state) {
   for (const Patch& patch : patches_) stiffness.push_back(patch.stiffness);
   state("stiffness", Vec(stiffness));
   for (std::size_t k = 0; k < patches_.size(); ++k) patches_[k].stiffness = stiffness[k];
-}
-
-template <Kinematics K>
-void ContactSurface<K>::archive_numbers(const StateArchive& state) {
-  std::vector<std::size_t> ends_of_chains, ends;
-  std::vector<double> lengths;  // undeformed areas, and X
-  for (const Chain& chain : chains_) ends_of_chains.push_back(chain.end);
-  for (const Patch& patch : patches_) ends.push_back(patch.end);
-  state("chains", ends_of_chains, "patches", ends);
-  if (state.restores()) {
-    if (ends_of_chains.size() != chains_.size() || !are_ends(ends_of_chains, ends.size()) || ends.empty() ||
-        !are_ends(ends, ends.back()))
-      throw StateError("'chains' and 'patches' are not those of a border");
-    std::vector<Patch> patches;
-    for (Chain& chain : chains_) {
-      const Patch like = patches_[chain.begin];
-      chain.begin = patches.size(), chain.end = ends_of_chains[static_cast<std::size_t>(&chain - chains_.data())];
-      for (std::size_t k = chain.begin; k < chain.end; ++k) {
-        patches.push_back(like);
-        patches[k].begin = k == 0 ? 0 : ends[k - 1], patches[k].end = ends[k];
-      }
-    }
-    patches_ = std::move(patches);
-    pieces_.resize(ends.back(), pieces_.front());
-  }
-  state.each(
-      "undeformed", pieces_, [](BorderPiece<K> & piece) -> auto& { return piece.X; });
-  for (const BorderPiece<K>& piece : pieces_) lengths.push_back(piece.area);
-  for (const Patch& patch : patches_) lengths.push_back(patch.cell), lengths.push_back(patch.depth);
-  state("sizes", Vec(lengths));
-  auto from = lengths.begin();
-  for (BorderPiece<K>& piece : pieces_) piece.area = *from++;
-  for (Patch& patch : patches_) patch.cell = *from++, patch.depth = *from++;
 }
 
 // The bound max_a κ_a/m_a, κ_a = Σ_s A_s κ |w_sa| Σ_b |w_sb|, on how much all pieces together add to ω_max² [1/s²]; 0

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "space/boundary/border_chain.hpp"
+#include "space/boundary/border_chains.hpp"
 #include "space/boundary/border_patches.hpp"
 #include "space/boundary/stiffness_at.hpp"
 #include "space/grid/matrix_entries.hpp"
@@ -26,22 +26,12 @@ namespace stillpoint {
 template <Kinematics K>
 class ContactSurface {
   static constexpr int dim = dimensions(K);
-  static constexpr bool in_plane = dim == 2;
 
  public:
   using Parts = PhaseParts<dim>;
   using Entry = typename CarriedPoint<dim>::Entry;
 
-  struct Patch {
-    std::size_t body = 0;            // number in the scene
-    std::size_t begin = 0, end = 0;  // its pieces
-    double cell = 0;                 // the width of its cell, ∛(volume) in space [m]
-    double depth = 1;                // thickness, or 2 π r if axisymmetric [m]; 1 in space
-    double stiffness = 0;            // κ [N/m³]
-    // In the present phase:
-    std::size_t first_function = 0, end_function = 0;  // its functions, in functions_of_patches()
-    double weight = 0;                                 // the largest Σ_a |w_a| of its pieces
-  };
+  using Patch = SurfacePatch;
 
   /// touched: whether a body may be touched, (bodies); grid: that of the first phase.
   ContactSurface(const Problem& problem, const std::vector<char>& touched, const Grid<dim>& grid);
@@ -138,7 +128,7 @@ class ContactSurface {
   }
   /// Cuts borders in the plane anew where they have stretched or shrunk (border_chain.hpp); after they have moved.
   /// Where the pieces come from, (pieces); empty if they are what they were.
-  std::vector<PieceOrigin> cut_anew();
+  std::vector<PieceOrigin> cut_anew() { return chains_.cut_anew(pieces_, patches_); }
   /// By how much a piece has been drawn out; 1 where borders are cut anew.
   double stretch(std::size_t s) const {
     return chains_.empty() ? std::pow(pieces_[s].size() / pieces_[s].area, 1.0 / std::max(1, dim - 1)) : 1;
@@ -151,29 +141,22 @@ class ContactSurface {
     int first_unknown;  // dim × function
     double w;
   };
-  struct Chain {
-    std::size_t begin, end;  // its patches
-    BorderChain<K> chain;
-  };
   struct Source {
     int component, dof;  // dof: free or prescribed, as numbered by DegreesOfFreedom
     double w;
   };
 
-  void add_chains(const BodySpec& body, const std::vector<BorderPatch<K>>& patches);
   void freeze(const Parts& phase);
   void take_weights(const Parts& phase, const Partners* partners);
   void take_functions();
   void choose_stiffness(const std::vector<double>& G);
   double bound_of_frequency(const Parts& phase) const;
-  typename BorderChain<K>::Link link(std::size_t patch, std::size_t s) const;
-  void archive_numbers(const StateArchive& state);
 
   bool phases_end_, has_begun_ = false;
   int free_ = 0;  // n
   std::vector<BorderPiece<K>> pieces_;
   std::vector<Patch> patches_;
-  std::vector<Chain> chains_;          // of all patches, in the plane and with material points; else empty
+  BorderChains<K> chains_;             // of all patches, in the plane and with material points; else empty
   std::vector<double> area_;           // (pieces) [m²]
   std::vector<std::size_t> begin_{0};  // first weight of each piece
   std::vector<Weight> weights_;        // of the functions that material reaches
