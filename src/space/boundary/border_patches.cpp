@@ -55,7 +55,7 @@ double cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b
   for (std::size_t d = 0; d < Dim; ++d) ab += a[d] * b[d], aa += a[d] * a[d], bb += b[d] * b[d];
   return ab / std::sqrt(aa * bb);
 }
-constexpr double smooth = 0.7;  // the cosine between the normals of pieces that one patch may have
+constexpr double like = 0.7;  // the cosine between the normals of pieces that one patch may have
 
 /// Patches along lines. Many multipliers in a cell would drift, as where a border has sides that are shorter than
 /// cells, or cuts off the corner of one: what is less than three quarters of a cell long goes on with the next.
@@ -97,7 +97,7 @@ class PatchesAlong {
 
  private:
   static bool goes_on(const Part& before, const Part& part) {
-    return before.to == part.from && cosine<2>(before.normal, part.normal) > smooth;
+    return before.to == part.from && cosine<2>(before.normal, part.normal) > like;
   }
   static void join(Part& before, Part&& part) {
     before.to = part.to;
@@ -159,7 +159,7 @@ class PatchesOnSurface {
     for_cells_around(grid_, grid_.cell_at(number), 1, [&](int beside) {
       const auto found = of_cells_.find(beside);
       if (found != of_cells_.end() && found->second.area > of_cells_.at(largest).area &&
-          cosine<3>(found->second.vector, of_cells_.at(number).vector) > smooth)
+          cosine<3>(found->second.vector, of_cells_.at(number).vector) > like)
         largest = beside;
     });
     return largest;
