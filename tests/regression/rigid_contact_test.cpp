@@ -133,7 +133,7 @@ TEST_CASE("Hertz's cylinder and sphere press with their force and pressure, and 
   }
 }
 
-TEST_CASE("the sides of an outline that are shorter than a cell touch a round bar all around, and press evenly") {
+TEST_CASE("the sides of an outline that are shorter than a cell touch a round bar all around") {
   const Summary s = run(load_scene("bar.toml",
                                    around_a_bar("0", "max_motion = 'none'", 1e6) +
                                        "[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-6\ntime = 30\n",

@@ -44,6 +44,9 @@ auto BorderChains<K>::linked(const Chain& chain, const Pieces& pieces, const Pat
 
 template <Kinematics K>
 std::vector<PieceOrigin> BorderChains<K>::cut_anew(Pieces& pieces, Patches& patches) {
+  if (empty()) return {};
+  // The weights are those of the phase that has ended, and would be copied with the pieces.
+  for (BorderPiece<K>& piece : pieces) piece.at.entries.clear();
   std::vector<PieceOrigin> origins;
   Pieces next_pieces;
   Patches next_patches;
@@ -65,7 +68,7 @@ std::vector<PieceOrigin> BorderChains<K>::cut_anew(Pieces& pieces, Patches& patc
     }
     chain.end = next_patches.size();
   }
-  if (!empty()) pieces = std::move(next_pieces);  // their areas have changed
+  pieces = std::move(next_pieces);  // their areas have changed
   if (!changed) return {};
   patches = std::move(next_patches);
   return origins;
