@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "files.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
@@ -152,6 +153,23 @@ TEST_CASE("clay goes around a bar that is dragged through many phases without le
                         {.threads = 1});
   REQUIRE(s.status == RunStatus::end_time);
   CHECK(s.contacts.at("bar.contact_area") == Approx(std::acos(-1.0) / 2).epsilon(0.05));
+}
+
+TEST_CASE("a cone that draws the surface of clay to many times its length bears on as it goes") {
+  const TemporaryFolder folder;
+  const Scene scene = scenes::load("ladder/cone_penetration",
+                                   {"grid.x=[[0.0, 4.0, 8], [4.0, 14.0, 6, 1.2]]",
+                                    "grid.y=[[0.0, 6.0, 4], [6.0, 27.0, 42]]", "constants.v=0.4", "stop.time=15"});
+  REQUIRE(run(scene, {.out = folder.path(), .threads = 1}).status == RunStatus::end_time);
+  const auto history = columns_of(folder.path() / "history.csv");
+  const std::vector<double>&t = history.at("t"), &force = history.at("cone.force_y");
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < t.size(); ++k)
+    if (t[k] > 10) sum -= force[k], count += 1;  // from four radii on
+  REQUIRE(count > 20);
+  // Of a deep cone 10.8 π; here it is less deep, and its cells are half as long as it is wide.
+  CHECK(sum / count > 7 * std::acos(-1.0));
+  CHECK(sum / count < 12 * std::acos(-1.0));
 }
 
 TEST_CASE(
