@@ -1,0 +1,189 @@
+// An increment of deformation for laws that store the Cauchy stress: the elastic trial, turned with the material, and
+// the nominal stress at the end.
+//
+// With f = I + H at the end of the increment and g = f − dH/2 half-way [Hughes and Winget 1980],
+//   l = dH g⁻¹ = d + w,   σ_trial = R σ Rᵀ + R½ (C : d) R½ᵀ,   R½ R½ = R the rotation by 2 arctan(w/2),
+// so that a rotation turns the stress exactly, in any number of increments, and any other path is of second order.
+#pragma once
+
+#include <stillpoint/tensor.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace stillpoint {
+
+template <StressState S, class Number>
+using GradientOf = std::array<Number, gradient_components(S)>;
+
+/// A deviator in the plane: half the difference of the normal stresses, the shear stress, and that across the plane.
+template <class Number>
+struct PlaneDeviator {
+  Number half, shear, zz;  // (s_xx − s_yy)/2, s_xy, s_zz
+};
+template <class Number>
+constexpr PlaneDeviator<Number> operator*(const Number& a, const PlaneDeviator<Number>& s) {
+  return {a * s.half, a * s.shear, a * s.zz};
+}
+template <class Number>
+constexpr Number second_invariant(const PlaneDeviator<Number>& s) {
+  return s.half * s.half + s.shear * s.shear + 0.75 * (s.zz * s.zz);
+}
+template <class Number>
+constexpr Number second_invariant(const SpaceTensorOf<Number>& s) {
+  return (s.xx * s.xx + s.yy * s.yy + s.zz * s.zz) / 2 + (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx);
+}
+
+template <StressState S, class Number>
+using DeviatorOf = std::conditional_t<S == StressState::space, SpaceTensorOf<Number>, PlaneDeviator<Number>>;
+
+/// The stress p I + s in the components of Stress<S>.
+template <class Number>
+constexpr std::array<Number, 4> stress_of(const Number& p, const PlaneDeviator<Number>& s) {
+  return {p - s.zz / 2 + s.half, p - s.zz / 2 - s.half, p + s.zz, s.shear};
+}
+template <class Number>
+constexpr std::array<Number, 6> stress_of(const Number& p, const SpaceTensorOf<Number>& s) {
+  return {p + s.xx, p + s.yy, p + s.zz, s.xy, s.yz, s.zx};
+}
+
+/// The elastic trial of an increment. Number: double, or a Dual, which carries derivatives by H and dH.
+template <StressState S, class Number>
+struct StressTrial {
+  double mean;              // p at the start [Pa]
+  Number volume_change;     // tr d
+  DeviatorOf<S, Number> s;  // R s Rᵀ + 2 G R½ dev d R½ᵀ [Pa]
+  Number det_g;
+};
+
+/// The hoop increment d_θθ.
+template <StressState S, class Number>
+constexpr Number hoop_increment(const GradientOf<S, Number>& H, const GradientOf<S, Number>& dH) {
+  if constexpr (S == StressState::axisymmetric) {
+    return dH[4] / (1 + H[4] - dH[4] / 2);
+  } else {
+    return 0;
+  }
+}
+
+/// The trial from the stress sigma, with the shear modulus shear_modulus(tr d) [Pa].
+template <StressState S, class Number, class ShearModulus>
+[[gnu::always_inline]] inline StressTrial<S, Number> stress_trial(const GradientOf<S, Number>& H,
+                                                                  const GradientOf<S, Number>& dH,
+                                                                  const Stress<S>& sigma,
+                                                                  const ShearModulus& shear_modulus) {
+  using std::sqrt;
+  if constexpr (S == StressState::space) {
+    using T = SpaceTensorOf<Number>;
+    const auto [s_xx, s_yy, s_zz, s_xy, s_yz, s_zx] = sigma;
+    const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
+    const T df{dH[0], dH[1], dH[2], dH[3], dH[4], dH[5], dH[6], dH[7], dH[8]};
+
+    const T g = f - 0.5 * df, cof_g = cofactor(g);
+    const Number det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
+    const T l = (1 / det_g) * (df * transpose(cof_g));
+    const Number tr_d = trace(l), third = tr_d * (1.0 / 3);
+
+    // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
+    // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
+    const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
+    const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
+    const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
+    const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
+    const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
+    const T R_half{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
+                   c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+
+    // s = R½ (R½ s_n R½ᵀ + 2 G dev d) R½ᵀ
+    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
+    const Number xy_n = s_xy, yz_n = s_yz, zx_n = s_zx;
+    const T s_n{s_xx - p_n, xy_n, zx_n, xy_n, s_yy - p_n, yz_n, zx_n, yz_n, s_zz - p_n};
+    const auto G = shear_modulus(tr_d);
+    const Number mean = 2 * G * third, xy_d = G * (l.xy + l.yx), yz_d = G * (l.yz + l.zy), zx_d = G * (l.zx + l.xz);
+    const T dev_d{2 * G * l.xx - mean, xy_d, zx_d, xy_d, 2 * G * l.yy - mean, yz_d, zx_d, yz_d, 2 * G * l.zz - mean};
+    return {p_n, tr_d, turned(R_half, turned(R_half, s_n) + dev_d), det_g};
+  } else {
+    const auto [s_xx, s_yy, s_zz, s_xy] = sigma;
+    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
+    const Number det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
+    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
+    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
+    const Number dzz = hoop_increment<S, Number>(H, dH), tr_d = lxx + lyy + dzz;
+
+    // The rotation by θ, tan(θ/2) = q = w_yx/2; a tensor turns by 2θ in (half difference, shear), by θ under R½.
+    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
+    const Number cos = (1 - q * q) * over, sin = 2 * q * over, cos2 = 1 - 2 * sin * sin, sin2 = 2 * sin * cos;
+    const double half_n = (s_xx - s_yy) / 2;
+    const auto G = shear_modulus(tr_d);
+    const Number half_d = G * (lxx - lyy), shear_d = G * (lxy + lyx);
+    const Number half = cos2 * half_n - sin2 * s_xy + (cos * half_d - sin * shear_d);
+    const Number shear = sin2 * half_n + cos2 * s_xy + (sin * half_d + cos * shear_d);
+
+    // s_zz = s_zz,n + 2 G dev d_zz
+    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
+    const Number dev_zz = s_zz - p_n + 2 * G * (dzz - tr_d * (1.0 / 3));
+    return {p_n, tr_d, {half, shear, dev_zz}, det_g};
+  }
+}
+
+/// P = det(f) σ f⁻ᵀ = σ cof f; NaN, through the shear stresses, if f or g is turned inside out.
+template <StressState S, class Number>
+[[gnu::always_inline]] inline GradientOf<S, Number> nominal_stress(
+    const GradientOf<S, Number>& H, const Number& det_g, const std::array<Number, stress_components(S)>& sigma) {
+  const Number nan = std::numeric_limits<double>::quiet_NaN();
+  if constexpr (S == StressState::space) {
+    using T = SpaceTensorOf<Number>;
+    const auto& [xx, yy, zz, xy, yz, zx] = sigma;
+    const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]}, cof_f = cofactor(f);
+    const Number det_f = f.xx * cof_f.xx + f.xy * cof_f.xy + f.xz * cof_f.xz;
+    const Number one = 1, good = det_f > 0 && det_g > 0 ? one : nan;
+    const T P = T{xx, good * xy, good * zx, good * xy, yy, good * yz, good * zx, good * yz, zz} * cof_f;
+    return {P.xx, P.xy, P.xz, P.yx, P.yy, P.yz, P.zx, P.zy, P.zz};
+  } else {
+    const auto& [xx, yy, zz, xy] = sigma;
+    const Number fxx = 1 + H[0], fxy = H[1], fyx = H[2], fyy = 1 + H[3], det_f = fxx * fyy - fxy * fyx;
+    if constexpr (S == StressState::axisymmetric) {
+      const Number hoop = 1 + H[4], s = det_f > 0 && det_g > 0 && hoop > 0 ? xy : nan;
+      return {hoop * (xx * fyy - s * fxy), hoop * (s * fxx - xx * fyx), hoop * (s * fyy - yy * fxy),
+              hoop * (yy * fxx - s * fyx), zz * det_f};
+    } else {
+      const Number s = det_f > 0 && det_g > 0 ? xy : nan;
+      return {xx * fyy - s * fxy, s * fxx - xx * fyx, s * fyy - yy * fxy, yy * fxx - s * fyx};
+    }
+  }
+}
+
+/// The elastic rate from a committed stress σ: δσ = C : d + w σ − σ w. The derivative of the trial also has the term
+/// σ tr d, which is left out as if Jaumann's rate of τ were the elastic one: ∂P/∂H is then symmetric and frequencies
+/// are real, at an error of σ/K.
+template <StressState S>
+class ElasticRate {
+  using Tensor = TensorFor<S>;
+
+ public:
+  ElasticRate(const Gradient<S>& H, const Stress<S>& stress, double bulk_modulus, double shear_modulus)
+      : f_(deformation_gradient<S>(H)),
+        sigma_(stress_tensor<S>(stress)),
+        J_(determinant(f_)),
+        lambda_(bulk_modulus - 2 * shear_modulus / 3),
+        G_(shear_modulus) {}
+
+  /// The rate of P under dH.
+  Gradient<S> rate(const Gradient<S>& dH) const { return stress_rate<S>(inverse(f_), J_ * sigma_, rate_of_tau(), dH); }
+  Moduli<S> moduli() const { return moduli_of_rate<S>(f_, J_ * sigma_, rate_of_tau()); }
+
+ private:
+  auto rate_of_tau() const {
+    return [this](const Tensor& l) {
+      const Tensor d = 0.5 * (l + transpose(l)), w = l - d;
+      return J_ * ((lambda_ * trace(d)) * identity<Tensor> + 2 * G_ * d + w * sigma_ - sigma_ * w);
+    };
+  }
+
+  Tensor f_, sigma_;
+  double J_, lambda_, G_;
+};
+
+}  // namespace stillpoint
