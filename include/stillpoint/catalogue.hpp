@@ -39,6 +39,8 @@ struct LawInfo {
   std::vector<ChoiceInfo> choices{};
   bool history_dependent = false;  // the stress depends on more than the deformation
   bool finite_strain = true;
+  bool softens_by_rows = false;  // takes MaterialSpec::softening
+  bool has_strength = false;     // in the parameters c, phi, psi and tension, which a factor of safety divides
 };
 
 /// A damping strategy, named by damping.strategy: a damping force, or a relaxation, which is an iteration to rest.

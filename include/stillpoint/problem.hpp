@@ -83,10 +83,16 @@ struct BodySpec {    // [body], or several [[body]]: material points in a shape 
   bool has_shape() const { return !is_box() && shape() != BodyShape::points; }
 };
 
+struct StrengthRow {                   // a row of material.<name>.softening: the strength from a plastic strain on
+  double plastic_strain, c, phi, psi;  // [1], [Pa], [degrees]
+};
+inline constexpr std::size_t most_strength_rows = 8;
+
 struct MaterialSpec {  // [material.<name>]
   std::string name, law;
   std::map<std::string, double> parameters;    // complete: defaults filled in
   std::map<std::string, std::string> choices;  // likewise complete, for parameters that are words (cone = "mean")
+  std::vector<StrengthRow> softening{};        // by plastic strain > 0; empty: the strength stays as it is
 };
 
 struct ExactSpec {                             // [exact]: the exact solution, if it is known

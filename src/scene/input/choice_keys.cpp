@@ -67,6 +67,12 @@ std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
   for (const LawInfo& law : catalogue.laws) {
     std::vector<Key>& of_law = keys[std::string(law.name)] = keys_of_choice<MaterialSpec>(law);
     of_law.insert(of_law.begin(), law_key);
+    if (law.softens_by_rows)
+      of_law.push_back(
+          key_of<MaterialSpec>("softening", &MaterialSpec::softening,
+                               "the strength by plastic strain, from c, phi and psi at 0 and straight "
+                               "from row to row; after the last it stays",
+                               {.list = true, .row = "[plastic strain, c, phi, psi]", .row_lengths = {4, 4}}));
     tables.push_back({.path = "material.<name>",
                       .help = law.equation,
                       .repeat = Repeat::named,

@@ -83,21 +83,45 @@ std::optional<std::string> read_string(const Value& value, const KeyInfo& key) {
   return std::nullopt;
 }
 
-std::optional<GridPiece> read_piece(const Value& value, const KeyInfo& key) {
+namespace {
+
+/// The entries of a row; none, and a problem is added, if they are too few or too many.
+std::vector<Value> entries_of_row(const Value& value, const KeyInfo& key) {
   const toml::array* const row = value.node.as_array();
-  if (!row || row->size() < 3 || row->size() > 4) {
-    value.problem(fmt::format("expected {}, found {}", key.row,
-                              row ? fmt::format("{} values", row->size()) : kind_of(value.node)));
-    return std::nullopt;
+  const int found = row ? static_cast<int>(row->size()) : 0;
+  std::vector<Value> entries;
+  if (!row || found < key.row_lengths[0] || found > key.row_lengths[1]) {
+    value.problem(
+        fmt::format("expected {}, found {}", key.row, row ? fmt::format("{} values", found) : kind_of(value.node)));
+    return entries;
   }
-  const auto entry = [&](std::size_t k) {
-    return Value{*row->get(k), fmt::format("{}[{}]", value.path, k), value.reading};
-  };
-  const auto from = read_number(entry(0)), to = read_number(entry(1));
-  const auto cells = read_whole(entry(2), kCells);
-  const auto ratio = row->size() > 3 ? read_number(entry(3), kPositive) : std::optional(1.0);
+  for (std::size_t k = 0; k < row->size(); ++k)
+    entries.push_back({*row->get(k), fmt::format("{}[{}]", value.path, k), value.reading});
+  return entries;
+}
+
+}  // namespace
+
+template <>
+std::optional<GridPiece> read_row(const Value& value, const KeyInfo& key) {
+  const std::vector<Value> row = entries_of_row(value, key);
+  if (row.empty()) return std::nullopt;
+  const auto from = read_number(row[0]), to = read_number(row[1]);
+  const auto cells = read_whole(row[2], kCells);
+  const auto ratio = row.size() > 3 ? read_number(row[3], kPositive) : std::optional(1.0);
   if (!from || !to || !cells || !ratio) return std::nullopt;
   return GridPiece{.from = *from, .to = *to, .cells = static_cast<int>(*cells), .ratio = *ratio};
+}
+
+template <>
+std::optional<StrengthRow> read_row(const Value& value, const KeyInfo& key) {
+  const std::vector<Value> row = entries_of_row(value, key);
+  if (row.empty()) return std::nullopt;
+  constexpr Range angle{0, 90, true, false};
+  const auto plastic_strain = read_number(row[0], kPositive), c = read_number(row[1], kNotNegative);
+  const auto phi = read_number(row[2], angle), psi = read_number(row[3], angle);
+  if (!plastic_strain || !c || !phi || !psi) return std::nullopt;
+  return StrengthRow{.plastic_strain = *plastic_strain, .c = *c, .phi = *phi, .psi = *psi};
 }
 
 std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested) {

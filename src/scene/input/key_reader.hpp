@@ -38,20 +38,28 @@ struct Unwrapped<std::vector<T>> {
   static constexpr bool is_optional = false;
   static constexpr int depth = 1 + Unwrapped<T>::depth;
 };
-template <>
-struct Unwrapped<GridPiece> {  // a row of numbers
+template <class Row>
+struct UnwrappedRow {  // of numbers
   using type = double;
-  using value = GridPiece;
+  using value = Row;
   static constexpr bool is_optional = false;
   static constexpr int depth = 1;
 };
+template <>
+struct Unwrapped<GridPiece> : UnwrappedRow<GridPiece> {};
+template <>
+struct Unwrapped<StrengthRow> : UnwrappedRow<StrengthRow> {};
+template <class T>
+inline constexpr bool is_row = std::is_base_of_v<UnwrappedRow<T>, Unwrapped<T>>;
 
 /// An option: its word, by number. A whole number may be written as a word too.
 std::optional<std::int64_t> read_word(const Value& value, const KeyInfo& key);
 /// True if the value of a key that takes a number or a word is the word; a misspelt word is reported, and counts.
 bool is_word(const Value& value, const KeyInfo& key);
 std::optional<std::string> read_string(const Value& value, const KeyInfo& key);
-std::optional<GridPiece> read_piece(const Value& value, const KeyInfo& key);
+/// A row of numbers.
+template <class Row>
+std::optional<Row> read_row(const Value& value, const KeyInfo& key);
 /// The entries of an array: as many as there are coordinates, or components of a stress, or any number of them (list).
 std::optional<std::vector<Value>> entries_of(const Value& value, const KeyInfo& key, bool list, bool nested);
 std::string variables_of(const KeyInfo& key, int dim);
@@ -59,8 +67,8 @@ std::string variables_of(const KeyInfo& key, int dim);
 template <class T>
 std::optional<T> read_value(const Value& value, const KeyInfo& key, bool nested = false) {
   const auto converted = [](auto&& read) { return read ? std::optional(static_cast<T>(*read)) : std::nullopt; };
-  if constexpr (std::is_same_v<T, GridPiece>) {
-    return read_piece(value, key);
+  if constexpr (is_row<T>) {
+    return read_row<T>(value, key);
   } else if constexpr (Unwrapped<T>::depth > 0) {
     const auto entries = entries_of(value, key, key.list && !nested, nested);
     if (!entries) return std::nullopt;
@@ -69,7 +77,7 @@ std::optional<T> read_value(const Value& value, const KeyInfo& key, bool nested 
       auto one = read_value<typename T::value_type>(entry, key, /*nested=*/true);
       if (one) result.push_back(std::move(*one));
       // The entries of one row that stands alone are no rows, for one reason.
-      if (!one && std::is_same_v<typename T::value_type, GridPiece>) break;
+      if (!one && is_row<typename T::value_type>) break;
     }
     return result.size() == entries->size() ? std::optional(std::move(result)) : std::nullopt;
   } else if constexpr (std::is_same_v<T, double>) {

@@ -116,7 +116,8 @@ Json schema_of(const KeyInfo& key) {
                 : may_be_one               ? Json{{"anyOf", {one, array(one)}}}
                 : key.shape == Shape::list ? array(one)
                                            : array(array(one));
-  if (key.shape == Shape::rows) schema["items"].update({{"minItems", 3}, {"maxItems", 4}});
+  if (key.shape == Shape::rows)
+    schema["items"].update({{"minItems", key.row_lengths[0]}, {"maxItems", key.row_lengths[1]}});
   schema["description"] =
       told_help(key) + (key.unit.empty() ? "" : fmt::format(" [{}]", key.unit)) +
       (told_default(key).empty() ? "" : fmt::format("; {}{}", key.required ? "" : "default: ", told_default(key)));

@@ -55,6 +55,7 @@ struct KeyInfo {
   bool on_face = false;    // one value for each axis but that of a face's normal
   bool in_plane = false;   // positions of two coordinates
   std::string_view row{};  // of an array of rows, each of which is an array: how a scene writes one
+  std::array<int, 2> row_lengths{};  // the least and the largest number of entries of a row
   bool may_be_empty = false;
   Dims dims = kAnyDim;
   std::string_view listed_by{};  // the command that lists the words, if they are many

@@ -20,7 +20,11 @@ TableInfo constants() {
 void add_grid(Tables& tables) {
   const std::vector<std::string_view> by_pieces = {"x", "y", "z"};
   const auto pieces = [](Dims dims) {
-    return KeyInfo{.unit = "m", .list = true, .row = "[from, to, cells] or [from, to, cells, ratio]", .dims = dims};
+    return KeyInfo{.unit = "m",
+                   .list = true,
+                   .row = "[from, to, cells] or [from, to, cells, ratio]",
+                   .row_lengths = {3, 4},
+                   .dims = dims};
   };
   tables
       .add({"grid", "the background grid", Repeat::once, "a scene has a background grid with min, max and cells"},

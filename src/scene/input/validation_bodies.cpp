@@ -90,10 +90,27 @@ void check_material(SceneCheck& check, std::size_t k) {
 
 /// A material that dilates more than it rubs would create energy.
 void check_dilation(SceneCheck& check, const MaterialSpec& material) {
+  constexpr const char* fault = "must be at most phi = {}, not {}";
   const auto phi = material.parameters.find("phi"), psi = material.parameters.find("psi");
   if (phi == material.parameters.end() || psi == material.parameters.end()) return;
-  check.wrong_if(psi->second > phi->second, fmt::format("material.{}.psi", material.name),
-                 "must be at most phi = {}, not {}", phi->second, psi->second);
+  check.wrong_if(psi->second > phi->second, fmt::format("material.{}.psi", material.name), fault, phi->second,
+                 psi->second);
+  for (std::size_t k = 0; k < material.softening.size(); ++k) {
+    const StrengthRow& row = material.softening[k];
+    check.wrong_if(row.psi > row.phi, fmt::format("material.{}.softening[{}][3]", material.name, k), fault, row.phi,
+                   row.psi);
+  }
+}
+
+void check_softening(SceneCheck& check, const MaterialSpec& material) {
+  const std::vector<StrengthRow>& rows = material.softening;
+  check.wrong_if(rows.size() > most_strength_rows, fmt::format("material.{}.softening", material.name),
+                 "has {} rows; expected at most {}", rows.size(), most_strength_rows);
+  for (std::size_t k = 1; k < rows.size(); ++k)
+    check.wrong_if(!(rows[k].plastic_strain > rows[k - 1].plastic_strain),
+                   fmt::format("material.{}.softening[{}][0]", material.name, k),
+                   "must be larger than {}, that of the row before, not {}", rows[k - 1].plastic_strain,
+                   rows[k].plastic_strain);
 }
 
 /// Keys of a body that exclude each other, or need one another.
@@ -148,7 +165,10 @@ std::optional<NamedBox> check_bodies(SceneCheck& check, bool grid, const std::ve
   }
   for (std::size_t k = 0; k < count; ++k) check.contact_name(scene.bodies[k].name, check.body_key(k, "name"));
   check.unique_names("body", scene.bodies);
-  for (const auto& [name, material] : scene.materials) check_dilation(check, material);
+  for (const auto& [name, material] : scene.materials) {
+    check_dilation(check, material);
+    check_softening(check, material);
+  }
   if (grid) check_number_of_points(check, in_order);
 
   if (count == 0 || std::ranges::find(in_order, false) != in_order.end()) return std::nullopt;

@@ -85,7 +85,24 @@ std::vector<LawInfo> built_in() {
         same_as("c", optional("c_residual", "Pa", "cohesion after softening", infinity, 0)),
         optional("softening_strain", "1", "plastic strain of full softening; 0: none", infinity, 0)},
        {{"cone", "match to Mohr-Coulomb", cone_names(), "plane-strain"}},
-       /*history_dependent=*/true},
+       /*history_dependent=*/true,
+       /*finite_strain=*/true,
+       /*softens_by_rows=*/false,
+       /*has_strength=*/true},
+      {"mohr-coulomb",
+       "(s1 - s3) + (s1 + s3) sin(phi) - 2 c cos(phi) <= 0 of principal stresses, flow by psi, tension cut-off s1 <= "
+       "tension, finite strain; Tresca for phi = 0",
+       "Clausen, Damkilde and Andersen 2007",
+       {plane_strain, axisymmetric, space},
+       {youngs_modulus, poissons_ratio, density, optional("c", "Pa", "cohesion", infinity, 0),
+        optional("phi", "degrees", "angle of internal friction", 90, 0),
+        optional("psi", "degrees", "angle of dilatancy", 90, 0),
+        optional("tension", "Pa", "largest principal stress; never above the apex", infinity, infinity)},
+       {},
+       /*history_dependent=*/true,
+       /*finite_strain=*/true,
+       /*softens_by_rows=*/true,
+       /*has_strength=*/true},
   };
 }
 

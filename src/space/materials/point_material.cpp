@@ -4,6 +4,7 @@
 #include <stillpoint/drucker_prager.hpp>
 #include <stillpoint/hencky.hpp>
 #include <stillpoint/linear_elastic.hpp>
+#include <stillpoint/mohr_coulomb.hpp>
 #include <stillpoint/neo_hookean.hpp>
 
 #include <stdexcept>
@@ -30,9 +31,15 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
   if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
   if (material.law == "hencky") return elastic(Hencky<S>(lame));
   if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric || S == StressState::space) {
-    if (material.law == "drucker-prager") {
-      const DruckerPrager<S> law(DruckerPragerParameters::from(material));
-      return std::make_unique<HistoryMaterial<DruckerPrager<S>>>(law, begin, count);
+    const auto with_history = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
+      return std::make_unique<HistoryMaterial<Law>>(law, begin, count);
+    };
+    if (material.law == "drucker-prager")
+      return with_history(DruckerPrager<S>(DruckerPragerParameters::from(material)));
+    if (material.law == "mohr-coulomb") {
+      const auto parameters = MohrCoulombParameters::from(material);
+      if (parameters.softening.empty()) return with_history(MohrCoulomb<S>(parameters));
+      return with_history(MohrCoulomb<S, true>(parameters));
     }
   }
   throw std::logic_error("a material law without an instantiation for this stress state");

@@ -2,6 +2,7 @@
 #include <stillpoint/drucker_prager.hpp>
 #include <stillpoint/hencky.hpp>
 #include <stillpoint/linear_elastic.hpp>
+#include <stillpoint/mohr_coulomb.hpp>
 #include <stillpoint/neo_hookean.hpp>
 
 #include <cmath>
@@ -22,7 +23,18 @@ namespace {
 
 constexpr double E = 210.0, nu = 0.3;
 const LameParameters lame = LameParameters::from(E, nu);
-const DruckerPragerParameters soil = {.E = 1e7, .nu = 0.25, .phi = 30, .psi = 10, .c = 2e3, .tension = 1e3};
+struct Cone {
+  template <StressState S>
+  using Law = DruckerPrager<S>;
+  static constexpr DruckerPragerParameters soil = {
+      .E = 1e7, .nu = 0.25, .phi = 30, .psi = 10, .c = 2e3, .tension = 1e3};
+};
+struct Pyramid {
+  template <StressState S>
+  using Law = MohrCoulomb<S>;
+  static inline const MohrCoulombParameters soil = {.E = 1e7, .nu = 0.25, .c = 2e3, .phi = 30, .psi = 10};
+};
+const DruckerPragerParameters& soil = Cone::soil;
 
 static_assert(HistoryLaw<DruckerPrager<space>> && ElasticLaw<Hencky<space>>);
 
@@ -136,9 +148,10 @@ TEMPLATE_TEST_CASE("a law without history in space is not a number where the bod
 }
 
 TEMPLATE_TEST_CASE_SIG("a walk of plastic strain in space ends where it ends in the plane and around an axis", "",
-                       ((StressState S), S), plane_strain, axisymmetric) {
-  const DruckerPrager<S> flat(soil);
-  const DruckerPrager<space> law(soil);
+                       ((class Soil, StressState S), Soil, S), (Cone, plane_strain), (Cone, axisymmetric),
+                       (Pyramid, plane_strain), (Pyramid, axisymmetric)) {
+  const typename Soil::template Law<S> flat(Soil::soil);
+  const typename Soil::template Law<space> law(Soil::soil);
   for (const int first : {0, 1, 2}) {
     auto now = flat.initial_history({-3e3, -5e3, -2e3, 1e3});
     auto in_space = law.initial_history(raised_stress<S>({-3e3, -5e3, -2e3, 1e3}, first));
@@ -161,10 +174,10 @@ TEMPLATE_TEST_CASE_SIG("a walk of plastic strain in space ends where it ends in 
   }
 }
 
-TEST_CASE("a walk of plastic strain that is seen from turned axes has the turned stress") {
+TEMPLATE_TEST_CASE("a walk of plastic strain that is seen from turned axes has the turned stress", "", Cone, Pyramid) {
   const SpaceTensor Q = checks::rotation<SpaceTensor>(0.8);
   const auto turned = [&](const Gradient<space>& H) { return gradient_part<space>(Q * in_space(H) * transpose(Q)); };
-  const DruckerPrager<space> law(soil);
+  const typename TestType::template Law<space> law(TestType::soil);
   auto here = law.initial_history({-3e3, -5e3, -2e3, 1e3, 500, -700});
   auto there = law.initial_history(checks::turned<space>(Q, law.cauchy(here)));
   Gradient<space> last{};
@@ -195,8 +208,9 @@ TEST_CASE("a rotation in space by 90 degrees turns the stress exactly, in any nu
   }
 }
 
-TEST_CASE("Drucker-Prager's moduli in space are the derivative of the stress, on the cone, on its edge and elastic") {
-  const DruckerPrager<space> law(soil);
+TEMPLATE_TEST_CASE("moduli in space are the derivative of the stress: yielding, opening and elastic", "", Cone,
+                   Pyramid) {
+  const typename TestType::template Law<space> law(TestType::soil);
   for (const double size : {1e-5, 2e-3, 0.05}) {
     for (const double spread : {-1.0, 0.0, 1.0}) {
       auto now = law.initial_history({-3e3, -5e3, -2e3, 1e3, 500, -700});

@@ -1,0 +1,171 @@
+// Mohr–Coulomb plasticity with a tension cut-off; Tresca's for φ = 0. Tension is positive. The return in principal
+// stresses is that of mohr_coulomb_return.hpp, exact on faces, edges, the apex and the cut-off's planes and corners.
+//
+// Where all three principal stresses reach the cut-off, what opens is kept as a gap, a volumetric strain that closes
+// before the stress can fall again, as in Drucker–Prager's law. A crack under one or two principal stresses has no
+// memory of its width.
+//
+// The plastic strain γᵖ = ∫ (d₁ᵖ − d₃ᵖ) dt is, in simple shear, the plastic part of γ.
+//
+// Softening, or hardening: c cos φ, sin φ and sin ψ are linear between the rows of a table in γᵖ. The strength is that
+// of the committed γᵖ, one increment late, so that the return stays closed.
+#pragma once
+
+#include <stillpoint/mohr_coulomb_return.hpp>
+#include <stillpoint/problem.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+namespace stillpoint {
+
+struct MohrCoulombParameters {
+  double E, nu = 0;                // [Pa], [1]
+  double c = 0, phi = 0, psi = 0;  // cohesion [Pa], friction and dilatancy [degrees], at γᵖ = 0
+  double tension = std::numeric_limits<double>::infinity();  // σ_t [Pa]; above the apex: the apex
+  std::vector<StrengthRow> softening{};                      // by γᵖ > 0, which rises from row to row
+
+  static MohrCoulombParameters from(const MaterialSpec& material) {
+    const auto value = [&](const char* key) { return material.parameters.at(key); };
+    return {.E = value("E"),
+            .nu = value("nu"),
+            .c = value("c"),
+            .phi = value("phi"),
+            .psi = value("psi"),
+            .tension = value("tension"),
+            .softening = material.softening};
+  }
+};
+
+/// softens: whether the strength is that of a table.
+template <StressState S, bool softens = false>
+class MohrCoulomb : public StressHistory<MohrCoulomb<S, softens>, S, 2> {
+  using Base = StressHistory<MohrCoulomb<S, softens>, S, 2>;
+
+ public:
+  using typename Base::History, typename Base::Internal;
+  static constexpr auto history_names = Base::names_of_history({"gap", "plastic_strain"});
+
+  explicit MohrCoulomb(const MohrCoulombParameters& m)
+      : elastic_{m.E / (3 * (1 - 2 * m.nu)), m.E / (2 * (1 + m.nu))}, tension_(m.tension), at_first_(shares(m)) {
+    if (m.softening.size() > (softens ? most_strength_rows : 0))
+      throw std::invalid_argument("a table of softening has too many rows");
+    Shares before = at_first_;
+    double begin = 0;
+    for (std::size_t k = 0; k < m.softening.size(); ++k) {
+      const auto& row = m.softening[k];
+      const Shares at = shares(row);
+      const double over = 1 / (row.plastic_strain - begin);
+      ramps_[k] = {
+          begin,
+          row.plastic_strain - begin,
+          {(at.sin_phi - before.sin_phi) * over, (at.sin_psi - before.sin_psi) * over, (at.k - before.k) * over}};
+      before = at;
+      begin = row.plastic_strain;
+    }
+  }
+
+  template <class Number>
+  [[gnu::always_inline]] StressAfter<S, Number, 2> advanced(const GradientOf<S, Number>& H,
+                                                            const GradientOf<S, Number>& dH, const Stress<S>& sigma,
+                                                            const Internal& internal, double /*dt*/) const {
+    const auto [gap, plastic_strain] = internal;
+    const auto trial = stress_trial<S, Number>(H, dH, sigma, [G = elastic_.shear](const Number&) { return G; });
+    const Number p = trial.mean + elastic_.bulk * (trial.volume_change + gap);
+    const PrincipalOf<S, Number> axes(trial.s);
+    const Principal<Number> s = axes.values(), x{p + s[0], p + s[1], p + s[2]};
+
+    const MohrCoulombStrength strength = strength_at(plastic_strain);
+    const Principal<Number> y = returned(x, strength, elastic_);
+    const Number mean = (y[0] + y[1] + y[2]) * (1.0 / 3);
+    const bool stays = !(yield_function(x[0], x[2], strength) > Number(0)) & !(x[0] > Number(strength.tension));
+    const bool at_vertex = !(value_of(y[2]) < strength.tension) & !stays;
+    const double opened = (value_of(p) - strength.tension) / elastic_.bulk;
+    const double sheared = (value_of(x[0]) - value_of(x[2]) - (value_of(y[0]) - value_of(y[2]))) / (2 * elastic_.shear);
+    return {stress_of(either(stays, p, mean), either_deviator(stays, trial.s, axes.with(y, mean))),
+            {either(at_vertex & (opened > 0), opened, 0.0), plastic_strain + larger(sheared, 0.0)},
+            trial.det_g};
+  }
+  Internal initial_internal(const Stress<S>&) const { return {}; }
+  IsotropicModuli elasticity(const Stress<S>&, const Internal&) const { return elastic_; }
+
+  /// Whether a zero increment returns the committed stress: not under softening, as a step takes the strength at its
+  /// start, and that at its end is another.
+  bool stress_stays() const { return !softens; }
+  bool is_viscous() const { return false; }
+  /// The yield state on the pyramid, for the direction of the present deviator; the cut-off is never exceeded.
+  YieldState yield_state(const History& now) const {
+    const Stress<S> sigma = Base::cauchy(now);
+    const double p = (sigma[0] + sigma[1] + sigma[2]) / 3;
+    const DeviatorOf<S, double> s = deviator(sigma, p);
+    const Principal<double> of_s = PrincipalOf<S, double>(s).values();
+    const MohrCoulombStrength strength = strength_at(now[Base::stresses + 1]);
+    const double root_J2 = std::sqrt(second_invariant(s));
+    const double mobilised = of_s[0] * (1 + strength.sin_phi) - of_s[2] * (1 - strength.sin_phi);
+    const double available = 2 * (strength.k - p * strength.sin_phi);
+    return {.f = (mobilised - available) / 2,
+            .strength = mobilised > 0 ? root_J2 * available / mobilised : available / 2,
+            .root_J2 = root_J2};
+  }
+
+ private:
+  struct Shares {
+    double sin_phi, sin_psi, k;
+  };
+  struct Ramp {
+    double begin, length;  // in γᵖ
+    Shares slopes;
+  };
+
+  template <class Row>
+  static Shares shares(const Row& row) {
+    constexpr double degree = std::numbers::pi / 180;
+    return {std::sin(row.phi * degree), std::sin(row.psi * degree), row.c * std::cos(row.phi * degree)};
+  }
+  [[gnu::always_inline]] MohrCoulombStrength strength_at(double plastic_strain) const {
+    Shares at = at_first_;
+    if constexpr (softens) {
+      const auto add = [&](const Ramp& ramp) __attribute__((always_inline)) {
+        const double beyond = plastic_strain - ramp.begin, from_0 = beyond > 0 ? beyond : 0;
+        const double way = from_0 < ramp.length ? from_0 : ramp.length;
+        at.sin_phi += way * ramp.slopes.sin_phi;
+        at.sin_psi += way * ramp.slopes.sin_psi;
+        at.k += way * ramp.slopes.k;
+      };
+      [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) { (add(ramps_[k]), ...); }
+      (std::make_index_sequence<most_strength_rows>());
+    }
+    return MohrCoulombStrength::from(at.sin_phi, at.sin_psi, at.k, tension_);
+  }
+
+  static DeviatorOf<S, double> deviator(const Stress<S>& sigma, double p) {
+    if constexpr (S == StressState::space) {
+      return {sigma[0] - p, sigma[3], sigma[5], sigma[3], sigma[1] - p, sigma[4], sigma[5], sigma[4], sigma[2] - p};
+    } else {
+      return {(sigma[0] - sigma[1]) / 2, sigma[3], sigma[2] - p};
+    }
+  }
+  template <class Number>
+  [[gnu::always_inline]] static PlaneDeviator<Number> either_deviator(bool first, const PlaneDeviator<Number>& a,
+                                                                      const PlaneDeviator<Number>& b) {
+    return {either(first, a.half, b.half), either(first, a.shear, b.shear), either(first, a.zz, b.zz)};
+  }
+  template <class Number>
+  [[gnu::always_inline]] static SpaceTensorOf<Number> either_deviator(bool first, const SpaceTensorOf<Number>& a,
+                                                                      const SpaceTensorOf<Number>& b) {
+    const Number xy = either(first, a.xy, b.xy), yz = either(first, a.yz, b.yz), zx = either(first, a.zx, b.zx);
+    return {either(first, a.xx, b.xx), xy, zx, xy, either(first, a.yy, b.yy), yz, zx, yz, either(first, a.zz, b.zz)};
+  }
+
+  IsotropicModuli elastic_;
+  double tension_;
+  Shares at_first_;
+  std::array<Ramp, softens ? most_strength_rows : 0> ramps_{};
+};
+
+}  // namespace stillpoint
