@@ -3,6 +3,7 @@
 
 #include <stillpoint/compare.hpp>
 #include <stillpoint/converge.hpp>
+#include <stillpoint/safety.hpp>
 
 #include <filesystem>
 #include <string>
@@ -39,9 +40,17 @@ struct ConvergeArguments {
   bool quiet = false;
 };
 
+struct SafetyArguments {
+  SceneArguments scene;
+  std::filesystem::path out;  // empty: out/<scene's stem>-safety
+  SafetyOptions options;
+  bool quiet = false;
+};
+
 int run(const RunArguments& arguments);
 int compare(const CompareArguments& arguments);
 int converge(const ConvergeArguments& arguments);
+int safety(const SafetyArguments& arguments);
 int check(const SceneArguments& arguments);
 int spectrum(const SceneArguments& arguments);
 /// topic: integrators, dampings, relaxations, solvers, materials, bases, keys, or empty for all. format: text, or for

@@ -102,6 +102,20 @@ CLI::App& add_converge(CLI::App& app, ConvergeArguments& arguments) {
   return converge;
 }
 
+CLI::App& add_safety(CLI::App& app, SafetyArguments& arguments) {
+  CLI::App& safety = *app.add_subcommand("safety", "factor of safety by strength reduction, as a bracket");
+  stillpoint::SafetyOptions& options = arguments.options;
+  const CLI::Validator positive = CLI::PositiveNumber;
+  add_scene(safety, arguments.scene);
+  safety.add_option("--out", arguments.out, "folder to write into (default: out/<scene>-safety)")->type_name("DIR");
+  safety.add_option("--from", options.from, "first factor, with which the body rests (default: 1)")->check(positive);
+  safety.add_option("--to", options.to, "largest factor to try (default: 3)")->check(positive);
+  safety.add_option("--width", options.width, "of the bracket (default: 0.01)")->check(positive);
+  safety.add_option("--threads", options.threads, "threads to use (default: all)")->check(CLI::Range(1, 1024));
+  safety.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  return safety;
+}
+
 // OpenMP's threads wait for the next loop by spinning, for milliseconds: best alone on a machine, but ten times slower
 // than one thread if another program wants a core. They therefore wait for microseconds here, unless the user has
 // chosen otherwise. The OpenMP library reads its environment before main(): the program starts itself once more, which
@@ -147,6 +161,9 @@ int dispatch(int argc, char** argv) {
   ConvergeArguments converge_arguments;
   CLI::App& converge_app = add_converge(app, converge_arguments);
 
+  SafetyArguments safety_arguments;
+  CLI::App& safety_app = add_safety(app, safety_arguments);
+
   SceneArguments scene_arguments;
   CLI::App& check_app = *app.add_subcommand("check", "say what would be modelled; nothing runs");
   add_scene(check_app, scene_arguments);
@@ -187,6 +204,15 @@ int dispatch(int argc, char** argv) {
     return compare(compare_arguments);
   }
   if (converge_app.parsed()) return converge(converge_arguments);
+  if (safety_app.parsed()) {
+    if (!(safety_arguments.options.to > safety_arguments.options.from)) {
+      fmt::print(stderr, "--to {}: expected more than --from, {}\n", safety_arguments.options.to,
+                 safety_arguments.options.from);
+      return bad_input;
+    }
+    wait_briefly(argv, safety_arguments.options.threads);
+    return safety(safety_arguments);
+  }
   if (check_app.parsed()) return check(scene_arguments);
   if (spectrum_app.parsed()) return spectrum(scene_arguments);
   if (format != "text" && topic != "keys") {

@@ -186,6 +186,6 @@ function showRun(data, page) {
 
 function show(data, page) {
   page.append(element("h1", {}, document.title));
-  ({run: showRun, compare: showComparison, converge: showConvergence})[data.kind](data, page);
+  ({run: showRun, compare: showComparison, converge: showConvergence, safety: showSafety})[data.kind](data, page);
   document.documentElement.dataset.drawn = performance.now().toFixed(0);  // [ms] since the page was opened
 }

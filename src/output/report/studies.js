@@ -207,3 +207,44 @@ function showConvergence(data, page) {
   versions(page, study.versions);
   sceneText(page, data.scene);
 }
+
+function showSafety(data, page) {
+  const study = data.study, trials = [...study.verdicts].sort((a, b) => a.factor - b.factor);
+  const low = study.factor_low, high = study.factor_high;
+  const end = (factor) => trials.find((trial) => trial.factor === factor);
+  verdict(page, study.found ? "good" : "doubt",
+    low === null ? "No factor is at rest"
+    : high === null ? `At rest up to ${short(low)}; no factor that moves was found`
+    : `The factor of safety lies between ${short(low)} and ${short(high)}${study.found ? "" : ", wider than was asked"}`, [
+      low !== null && `${short(low)} rests: ${end(low).reason}.`,
+      high !== null && `${short(high)} moves: ${end(high).reason}.`,
+    ]);
+
+  const made = section(page, "Displacement against factor", "factors");
+  const holder = element("div", {class: "charts"});
+  made.append(holder);
+  const lines = ["rests", "moves", "undecided"].map((name) => [name, trials.filter((trial) => trial.verdict === name && trial.displacement > 0)
+    .map((trial) => [trial.factor, trial.displacement])]).filter(([, points]) => points.length);
+  if (lines.length)
+    chart(holder, {title: "Largest displacement since the first factor [m]", x: "factor", names: lines.map(([name]) => name),
+                   rows: rowsOf(lines.map(([, points]) => points)), log: true, choosesLog: true, points: true, wide: true});
+  sortableTable(made, "The factors that were tried", [
+    {name: "factor", of: (row) => row.factor, text: (row) => short(row.factor, 6)},
+    {name: "verdict", of: (row) => row.verdict, text: (row) => row.verdict},
+    {name: "displacement [m]", of: (row) => row.displacement},
+    {name: "evaluations", of: (row) => row.evaluations},
+    {name: "time", of: (row) => row.wall_s, text: (row) => seconds(row.wall_s)},
+    {name: "reason", of: (row) => row.reason, text: (row) => row.reason},
+  ], trials, 0);
+
+  if (data.mechanism) {
+    const picture = section(page, `The mechanism at ${short(data.mechanism.factor)}`, "mechanism");
+    picture.append(element("p", {}, "What moves since the equilibrium with the first factor; its size is that of the time it was followed."));
+    bodyPicture(picture, data.mechanism.picture, []);
+  }
+  const model = section(page, "Model", "model");
+  facts(model, [["Wall time", seconds(study.wall_s)], ["Width asked for", short(study.width)]]);
+  notes(model, study.notes);
+  versions(page, study.versions);
+  sceneText(page, data.scene);
+}

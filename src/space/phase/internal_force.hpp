@@ -54,6 +54,9 @@ class InternalForce {
     if (frame_.phase == 0 && !frame_.remembers && some_law_is_finite()) undeformed_bound_ = bound_at_rest();
   }
 
+  /// The strength of the points is another one since the last commit.
+  void take_new_materials() { materials_are_new_ = true; }
+
   const PointLaws<B, K>& laws() const { return laws_; }
   /// The loops over blocks of points.
   const NodalForce<B, K>& points() const { return points_; }
@@ -129,6 +132,7 @@ class InternalForce {
     if (laws_.share_dilatation()) committed_.averages.swap(trial.arrays->averages);
     committed_.t = trial.t;
     committed_.motion = trial.motion;
+    materials_are_new_ = false;
   }
 
   // --- the tangent at work.u -------------------------------------------------------------------------
@@ -223,8 +227,8 @@ class InternalForce {
 
   // Whether the trial is at the beginning of a phase after the first, where the committed stresses still hold.
   bool stands_as_committed(const PhaseTrial& trial) const {
-    const bool begins =
-        frame_.remembers && frame_.phase > 0 && trial.t == frame_.held().start() && trial.t == committed_.t;
+    const bool begins = !materials_are_new_ && frame_.remembers && frame_.phase > 0 &&
+                        trial.t == frame_.held().start() && trial.t == committed_.t;
     return begins && !laws_.share_dilatation() &&
            std::ranges::all_of(frame_.body.materials, [](const auto& law) { return law->info().stress_stays; }) &&
            std::ranges::all_of(trial.arrays->u, [](double u) { return u == 0; });
@@ -250,6 +254,7 @@ class InternalForce {
   const PhaseFrame<B, K>& frame_;
   NodalForce<B, K> points_;
   CommittedState committed_;
+  bool materials_are_new_ = false;
   PointLaws<B, K> laws_{frame_, points_, committed_};
   ElasticCells<has_elastic_cells ? dim : 2> elastic_cells_;  // for a linear body in bilinear or trilinear cells
   double undeformed_bound_ = 0;                              // stiffness bound of the points as placed

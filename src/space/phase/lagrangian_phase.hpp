@@ -11,6 +11,7 @@
 #include <stillpoint/state_archive.hpp>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -122,6 +123,9 @@ class PhaseControl {
   /// Takes the pressures of contact at (t, u) as multipliers, which changes R there: the body may go on to where
   /// nothing penetrates.
   virtual void update_multipliers(double t, ConstVec u) = 0;
+  /// Gives the points materials of the same laws and the same elasticity with other parameters, from the next
+  /// evaluation on; stress and history stay. materials: by their names.
+  virtual void change_materials(const std::map<std::string, MaterialSpec>& materials) = 0;
   /// Saves the phase as it is between two steps, or restores it, which also restores its unknowns.
   virtual void archive(const StateArchive& state) = 0;
 };

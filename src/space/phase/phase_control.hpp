@@ -40,6 +40,10 @@ class PhaseControlOf final : public PhaseControl {
     all_.frame.unknowns.spread(t, u, work->u);
     all_.conditions.update_multipliers(t, work->u.data());
   }
+  void change_materials(const std::map<std::string, MaterialSpec>& materials) override {
+    stillpoint::change_materials(all_.frame.body, materials, all_.problem, all_.frame.moves_on());
+    all_.force.take_new_materials();
+  }
   TransferErrors transfer_errors() const override {
     const auto& kept = all_.remap.conservation();
     return {kept.mass(), kept.momentum(), kept.angular_momentum(), all_.inertia.of_functions().largest_added_mass()};

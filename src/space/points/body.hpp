@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,24 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }
 
 }  // namespace detail
+
+/// Gives each material other parameters of the same law; its points keep their stored states.
+template <Kinematics K>
+void change_materials(Body<K>& body, const std::map<std::string, MaterialSpec>& materials, const Problem& problem,
+                      bool updated_lagrangian) {
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    const MaterialSpec& spec = materials.at(body.material_names[m]);
+    const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
+    const std::size_t count = static_cast<std::size_t>(body.points.material_begin[m + 1]) - begin;
+    auto changed = make_point_material<K>(problem.solve.is_static() ? rate_independent(spec) : spec, problem.state,
+                                          begin, count, updated_lagrangian);
+    const Vec before = body.materials[m]->memory(), now = changed->memory();
+    if (before.size() != now.size())
+      throw std::invalid_argument("a material cannot be changed into one of another law");
+    std::ranges::copy(before, now.begin());
+    body.materials[m] = std::move(changed);
+  }
+}
 
 /// Transfers the stored states of the materials to a changed set of points: point p is a copy of the former from[p].
 template <Kinematics K>
