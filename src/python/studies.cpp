@@ -2,6 +2,7 @@
 #include <stillpoint/compare.hpp>
 #include <stillpoint/converge.hpp>
 #include <stillpoint/run.hpp>
+#include <stillpoint/safety.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -128,6 +129,22 @@ std::string converge_to_json(const std::vector<Scene>& scenes, const std::vector
   });
 }
 
+std::string safety_to_json(const Scene& scene, const std::string& out, const py::object& progress,
+                           const py::kwargs& given) {
+  SafetyOptions options;
+  take(given, "first", options.from);
+  take(given, "last", options.to);
+  take(given, "width", options.width);
+  take(given, "threads", options.threads);
+  options.progress = study_progress_to(progress);
+  return interruptible([&](const auto& asked) {
+    options.interrupted = asked;
+    const SafetyStudy study = safety(scene, options);
+    if (!out.empty()) write_safety(study, out);
+    return to_json(study);
+  });
+}
+
 py::dict spectrum_as_dict(const Scene& scene) {
   using namespace py::literals;
   const SpectrumStudy study =
@@ -153,6 +170,7 @@ void bind_studies(py::module_& module) {
   module.def("run", run_to_json, scene, by_name, out, py::arg("threads"), progress);
   module.def("compare", compare_to_json, scene, by_name, out, progress);
   module.def("converge", converge_to_json, py::arg("scenes"), by_name, py::arg("varied"), out, progress);
+  module.def("safety", safety_to_json, scene, by_name, out, progress);
   module.def("settings_of_series", settings_of_series, py::arg("vary"));
   module.def("spectrum", spectrum_as_dict);
 }

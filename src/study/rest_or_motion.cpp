@@ -41,7 +41,9 @@ double remaining_way(const std::vector<Period>& periods) {
 
 bool goes_on(const std::vector<Period>& periods) {
   constexpr std::size_t least = 5;
-  return periods.size() >= least && periods.back().way > periods[periods.size() - 2].way && remaining_way(periods) > 1;
+  constexpr double far = 0.5;  // slopes that came to rest had 0.2 to 0.31 left, even 0.4 % below the factor that moves
+  return periods.size() >= least && periods.back().way > periods[periods.size() - 2].way &&
+         remaining_way(periods) > far;
 }
 
 class CriticallyDampedMotion {
@@ -96,7 +98,7 @@ class CriticallyDampedMotion {
       if (times_going_on == few)
         return ended(moves, fmt::format("after {} periods of 2 pi/omega_1 of a critically damped motion the mean "
                                         "residual is {:.3g}, and falls so slowly with the way that the body would have "
-                                        "to go at least as far again as it went",
+                                        "to go at least half as far again as it went",
                                         periods_.size(), periods_.back().residual));
       if (limits_.settles && periods_.size() % between_statics == 0 && limits_.settles(t_, first_half(y_.span())))
         return ended(rests, fmt::format("Newton's method found the equilibrium after {} periods of a critically damped "

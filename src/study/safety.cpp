@@ -10,12 +10,14 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
 #include "output/point_fields.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/thread_choice.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "study/rest_or_motion.hpp"
 #include "study/setting.hpp"
@@ -84,6 +86,7 @@ class ReducedBody {
 
   /// The body with its strength over `factor`, from the equilibrium with the first one.
   SafetyTrial try_factor(double factor) {
+    const ThreadScope scope(threads());
     const Stopwatch watch;
     SafetyTrial trial{.factor = factor};
     std::string of_newton;
@@ -132,6 +135,11 @@ class ReducedBody {
  private:
   LagrangianPhase& phase() { return simulation_.parts().phase; }
   double t() const { return simulation_.t(); }
+  int threads() {
+    constexpr std::size_t few_points = 20'000;  // which one thread moves as quickly
+    if (options_.threads > 0) return options_.threads;
+    return phase().points() < few_points ? 1 : omp_get_max_threads();
+  }
   double residual() const {
     constexpr double otherwise = 1e-6;
     return scene_.stop.residual > 0 ? scene_.stop.residual : otherwise;
@@ -218,7 +226,8 @@ std::optional<double> next_factor(const SafetyStudy& study, const SafetyOptions&
       known.push_back(trial.factor);
   std::ranges::sort(known);
   const double above_low = known[1] - known[0], below_high = known.back() - known[known.size() - 2];
-  if (std::max(above_low, below_high) <= options.width) return std::nullopt;
+  constexpr double finest = 1.0 / 8;  // of the width
+  if (std::max(above_low, below_high) <= finest * options.width) return std::nullopt;
   return above_low >= below_high ? (known[0] + known[1]) / 2 : (known.back() + known[known.size() - 2]) / 2;
 }
 

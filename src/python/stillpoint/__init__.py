@@ -20,7 +20,7 @@ from .progress import ProgressBar
 from .scenes import load
 from .simulations import Simulation, resume, run
 from .strategies import add_damping, add_load, add_relaxation
-from .studies import compare, converge, spectrum
+from .studies import compare, converge, safety, spectrum
 
 __all__ = [
     "Figures",
@@ -43,5 +43,6 @@ __all__ = [
     "load",
     "resume",
     "run",
+    "safety",
     "spectrum",
 ]

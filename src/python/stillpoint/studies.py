@@ -1,4 +1,4 @@
-"""Studies of many runs of one scene, with the figures of `stillpoint compare`, `converge` and `spectrum` as arrays."""
+"""Studies of many runs of one scene, with the figures of `stillpoint compare`, `converge`, `safety` and `spectrum`."""
 
 from __future__ import annotations
 
@@ -94,6 +94,37 @@ def converge(
         one["sizes"] = numbers_of([level["size"] for level in one["levels"]])
         one["h"] = numbers_of([level["h"] for level in one["levels"]])
         one["dofs"] = np.array([level["dofs"] for level in one["levels"]])
+    return study
+
+
+def safety(
+    scene: _core.Scene | Source,
+    overrides: Mapping[str, Any] | None = None,
+    *,
+    first: float = 1,
+    last: float = 3,
+    width: float = 0.01,
+    threads: int = 0,
+    out: str | os.PathLike[str] | None = None,
+    progress: Told = None,
+) -> Figures:
+    """The factor of safety by strength reduction: the figures of safety.json.
+
+    It lies between .factor_low, which rests, and .factor_high, which moves; both are looked for between `first`, with
+    which the body has to rest, and `last`, until they are no farther apart than `width`: then .found is True. .verdicts
+    has one for each factor, with .factor, .verdict, .reason and .displacement [m]; .factors and .displacements are arrays
+    in rising order. out: a folder for safety.json, safety.csv and report.html.
+    """
+    told = telling(progress)
+    text = _core.safety(
+        scene_of(scene, override_texts(overrides or {})), out=_folder(out), progress=told, first=first, last=last,
+        width=width, threads=threads,
+    )  # fmt: skip
+    close(told)
+    study = figures_in(text)
+    rising = sorted(study["verdicts"], key=lambda one: one["factor"])
+    study["factors"] = np.array([one["factor"] for one in rising])
+    study["displacements"] = numbers_of([one["displacement"] for one in rising])
     return study
 
 
