@@ -16,6 +16,30 @@ struct IsotropicModuli {
   double bulk, shear;  // K, G [Pa]
 };
 
+/// Calls body(0), …, body(N − 1): a loop that is unrolled before the vectoriser runs.
+template <std::size_t N, class Body>
+[[gnu::always_inline]] inline void for_each(const Body& body) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+    (body(std::integral_constant<std::size_t, k>()), ...);
+  }
+  (std::make_index_sequence<N>());
+}
+
+/// The consistent tangent [Simo and Taylor 1985]: the derivative of first_piola() to rounding, H and dH changing alike.
+/// It is symmetric only without stress and plastic flow: a flow that is not associated makes it unsymmetric, and the
+/// elastic rate is one of σ and not of τ, which leaves a term of the size of σ/K.
+template <class Law>
+Moduli<Law::state> moduli_by_duals(const Law& law, const Gradient<Law::state>& H, const Gradient<Law::state>& dH,
+                                   double dt, typename Law::History now) {
+  constexpr std::size_t n = gradient_components(Law::state);
+  const auto P = law.first_piola(variables(H), variables(dH), dt, now);
+  Moduli<Law::state> A;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b) A[n * a + b] = P[a].derivative[b];
+  }
+  return A;
+}
+
 /// What an increment leaves. internal: a law's internal variables, plain values.
 template <StressState S, class Number, std::size_t internals>
 struct StressAfter {
@@ -74,22 +98,14 @@ class StressHistory {
     return first;
   }
 
-  /// The consistent tangent [Simo and Taylor 1985]: the derivative of first_piola() to rounding, H and dH changing
-  /// alike. It is symmetric only without stress and plastic flow: a flow that is not associated makes it unsymmetric,
-  /// and the elastic rate is one of σ and not of τ, which leaves a term of the size of σ/K.
-  Moduli<S> moduli(const Gradient<S>& H, const Gradient<S>& dH, double dt, History now) const {
-    constexpr std::size_t n = gradient_components(S);
-    const auto P = first_piola(variables(H), variables(dH), dt, now);
-    Moduli<S> A;
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) A[n * a + b] = P[a].derivative[b];
-    }
-    return A;
+  Moduli<S> moduli(const Gradient<S>& H, const Gradient<S>& dH, double dt, const History& now) const {
+    return moduli_by_duals(*this, H, dH, dt, now);
   }
   Gradient<S> elastic_rate(const Gradient<S>& H, const Gradient<S>& dH, const History& now) const {
     return elastic(H, now).rate(dH);
   }
   Moduli<S> elastic_moduli(const Gradient<S>& H, const History& now) const { return elastic(H, now).moduli(); }
+  IsotropicModuli moduli_at(const History& now) const { return law().elasticity(cauchy(now), internal(now)); }
 
  protected:
   [[gnu::always_inline]] static Internal internal(const History& now) {
@@ -101,17 +117,8 @@ class StressHistory {
  private:
   const Law& law() const { return static_cast<const Law&>(*this); }
   ElasticRate<S> elastic(const Gradient<S>& H, const History& now) const {
-    const Stress<S> sigma = cauchy(now);
-    const IsotropicModuli at = law().elasticity(sigma, internal(now));
-    return {H, sigma, at.bulk, at.shear};
-  }
-  // A loop that is unrolled before the vectoriser runs.
-  template <std::size_t N, class Body>
-  [[gnu::always_inline]] static void for_each(const Body& body) {
-    [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
-      (body(std::integral_constant<std::size_t, k>()), ...);
-    }
-    (std::make_index_sequence<N>());
+    const IsotropicModuli at = moduli_at(now);
+    return {H, cauchy(now), at.bulk, at.shear};
   }
 };
 
