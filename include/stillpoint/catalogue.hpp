@@ -22,6 +22,7 @@ struct ParameterInfo {
   bool required;
   double fallback;                // value if the scene gives none and it is not required
   std::string_view same_as = {};  // name of an earlier parameter whose value is the fallback; empty: none
+  bool by_place = false;          // may be a formula of the material's position before the motion
 };
 
 /// A word that a law or an exact solution takes, one of `values`.

@@ -8,7 +8,8 @@
 // The plastic strain γᵖ = ∫ (d₁ᵖ − d₃ᵖ) dt is, in simple shear, the plastic part of γ.
 //
 // Softening, or hardening: c cos φ, sin φ and sin ψ are linear between the rows of a table in γᵖ. The strength is that
-// of the committed γᵖ, one increment late, so that the return stays closed.
+// of the committed γᵖ, one increment late, so that the return stays closed. By place: each point has a factor of c,
+// which it takes along.
 #pragma once
 
 #include <stillpoint/mohr_coulomb_return.hpp>
@@ -42,18 +43,25 @@ struct MohrCoulombParameters {
   }
 };
 
-/// softens: whether the strength is that of a table.
-template <StressState S, bool softens = false>
-class MohrCoulomb : public StressHistory<MohrCoulomb<S, softens>, S, 2> {
-  using Base = StressHistory<MohrCoulomb<S, softens>, S, 2>;
+/// varies: whether the strength changes with plastic strain or from place to place. The internal variables are the gap
+/// and γᵖ, and then the factor of c.
+template <StressState S, bool varies = false>
+class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 : 2> {
+  static constexpr std::size_t internals = varies ? 3 : 2;
+  using Base = StressHistory<MohrCoulomb<S, varies>, S, internals>;
 
  public:
   using typename Base::History, typename Base::Internal;
   static constexpr auto history_names = Base::names_of_history({"gap", "plastic_strain"});
+  /// Where in the history the factor of c is, by which it varies from place to place.
+  static constexpr std::size_t share_row = varies ? Base::stresses + 2 : no_share_row;
 
   explicit MohrCoulomb(const MohrCoulombParameters& m)
-      : elastic_{m.E / (3 * (1 - 2 * m.nu)), m.E / (2 * (1 + m.nu))}, tension_(m.tension), at_first_(shares(m)) {
-    if (m.softening.size() > (softens ? most_strength_rows : 0))
+      : elastic_{m.E / (3 * (1 - 2 * m.nu)), m.E / (2 * (1 + m.nu))},
+        tension_(m.tension),
+        at_first_(shares(m)),
+        softens_(!m.softening.empty()) {
+    if (m.softening.size() > (varies ? most_strength_rows : 0))
       throw std::invalid_argument("a table of softening has too many rows");
     Shares before = at_first_;
     double begin = 0;
@@ -71,32 +79,38 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, softens>, S, 2> {
   }
 
   template <class Number>
-  [[gnu::always_inline]] StressAfter<S, Number, 2> advanced(const GradientOf<S, Number>& H,
-                                                            const GradientOf<S, Number>& dH, const Stress<S>& sigma,
-                                                            const Internal& internal, double /*dt*/) const {
-    const auto [gap, plastic_strain] = internal;
+  [[gnu::always_inline]] StressAfter<S, Number, internals> advanced(const GradientOf<S, Number>& H,
+                                                                    const GradientOf<S, Number>& dH,
+                                                                    const Stress<S>& sigma, const Internal& internal,
+                                                                    double /*dt*/) const {
+    const double gap = internal[0], plastic_strain = internal[1];
     const auto trial = stress_trial<S, Number>(H, dH, sigma, [G = elastic_.shear](const Number&) { return G; });
     const Number p = trial.mean + elastic_.bulk * (trial.volume_change + gap);
     const PrincipalOf<S, Number> axes(trial.s);
     const Principal<Number> s = axes.values(), x{p + s[0], p + s[1], p + s[2]};
 
-    const MohrCoulombStrength strength = strength_at(plastic_strain);
+    const MohrCoulombStrength strength = strength_at(internal);
     const Principal<Number> y = returned(x, strength, elastic_);
     const Number mean = (y[0] + y[1] + y[2]) * (1.0 / 3);
     const bool stays = !(yield_function(x[0], x[2], strength) > Number(0)) & !(x[0] > Number(strength.tension));
     const bool at_vertex = !(value_of(y[2]) < strength.tension) & !stays;
     const double opened = (value_of(p) - strength.tension) / elastic_.bulk;
     const double sheared = (value_of(x[0]) - value_of(x[2]) - (value_of(y[0]) - value_of(y[2]))) / (2 * elastic_.shear);
-    return {stress_of(either(stays, p, mean), either_deviator(stays, trial.s, axes.with(y, mean))),
-            {either(at_vertex & (opened > 0), opened, 0.0), plastic_strain + larger(sheared, 0.0)},
-            trial.det_g};
+    Internal next = internal;
+    next[0] = either(at_vertex & (opened > 0), opened, 0.0);
+    next[1] = plastic_strain + larger(sheared, 0.0);
+    return {stress_of(either(stays, p, mean), either_deviator(stays, trial.s, axes.with(y, mean))), next, trial.det_g};
   }
-  Internal initial_internal(const Stress<S>&) const { return {}; }
+  Internal initial_internal(const Stress<S>&) const {
+    Internal first{};
+    if constexpr (varies) first[2] = 1;
+    return first;
+  }
   IsotropicModuli elasticity(const Stress<S>&, const Internal&) const { return elastic_; }
 
   /// Whether a zero increment returns the committed stress: not under softening, as a step takes the strength at its
   /// start, and that at its end is another.
-  bool stress_stays() const { return !softens; }
+  bool stress_stays() const { return !softens_; }
   bool is_viscous() const { return false; }
   /// The yield state on the pyramid, for the direction of the present deviator; the cut-off is never exceeded.
   YieldState yield_state(const History& now) const {
@@ -104,7 +118,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, softens>, S, 2> {
     const double p = (sigma[0] + sigma[1] + sigma[2]) / 3;
     const DeviatorOf<S, double> s = deviator(sigma, p);
     const Principal<double> of_s = PrincipalOf<S, double>(s).values();
-    const MohrCoulombStrength strength = strength_at(now[Base::stresses + 1]);
+    const MohrCoulombStrength strength = strength_at(Base::internal(now));
     const double root_J2 = std::sqrt(second_invariant(s));
     const double mobilised = of_s[0] * (1 + strength.sin_phi) - of_s[2] * (1 - strength.sin_phi);
     const double available = 2 * (strength.k - p * strength.sin_phi);
@@ -127,9 +141,10 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, softens>, S, 2> {
     constexpr double degree = std::numbers::pi / 180;
     return {std::sin(row.phi * degree), std::sin(row.psi * degree), row.c * std::cos(row.phi * degree)};
   }
-  [[gnu::always_inline]] MohrCoulombStrength strength_at(double plastic_strain) const {
+  [[gnu::always_inline]] MohrCoulombStrength strength_at(const Internal& internal) const {
     Shares at = at_first_;
-    if constexpr (softens) {
+    if constexpr (varies) {
+      const double plastic_strain = internal[1];
       const auto add = [&](const Ramp& ramp) __attribute__((always_inline)) {
         const double beyond = plastic_strain - ramp.begin, from_0 = beyond > 0 ? beyond : 0;
         const double way = from_0 < ramp.length ? from_0 : ramp.length;
@@ -139,6 +154,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, softens>, S, 2> {
       };
       [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) { (add(ramps_[k]), ...); }
       (std::make_index_sequence<most_strength_rows>());
+      at.k *= internal[2];
     }
     return MohrCoulombStrength::from(at.sin_phi, at.sin_psi, at.k, tension_);
   }
@@ -165,7 +181,8 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, softens>, S, 2> {
   IsotropicModuli elastic_;
   double tension_;
   Shares at_first_;
-  std::array<Ramp, softens ? most_strength_rows : 0> ramps_{};
+  bool softens_;
+  std::array<Ramp, varies ? most_strength_rows : 0> ramps_{};
 };
 
 }  // namespace stillpoint

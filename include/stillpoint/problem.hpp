@@ -93,6 +93,11 @@ struct MaterialSpec {  // [material.<name>]
   std::map<std::string, double> parameters;    // complete: defaults filled in
   std::map<std::string, std::string> choices;  // likewise complete, for parameters that are words (cone = "mean")
   std::vector<StrengthRow> softening{};        // by plastic strain > 0; empty: the strength stays as it is
+  /// Parameters that are formulas of x, y, z; in `parameters` they are 1.
+  std::map<std::string, Expression> by_place{};
+  bool undrained = false;                 // saturated with water that cannot flow
+  std::optional<double> water_modulus{};  // K_w [Pa]; empty: such that the undrained Poisson's ratio is 0.495
+  double porosity = 1;                    // n, beside water_modulus
 };
 
 struct ExactSpec {                             // [exact]: the exact solution, if it is known

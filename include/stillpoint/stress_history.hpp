@@ -40,6 +40,9 @@ Moduli<Law::state> moduli_by_duals(const Law& law, const Gradient<Law::state>& H
   return A;
 }
 
+/// The share_row of a law whose strength is the same everywhere.
+inline constexpr std::size_t no_share_row = static_cast<std::size_t>(-1);
+
 /// What an increment leaves. internal: a law's internal variables, plain values.
 template <StressState S, class Number, std::size_t internals>
 struct StressAfter {

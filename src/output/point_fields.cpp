@@ -15,10 +15,15 @@ std::vector<std::string> suffixes(const LagrangianPhase& phase, const std::strin
   const PhaseInfo& info = phase.info();
   std::vector<std::string> components;
   if (name == "u" || name == "v") components = axis_names(info.dim);
-  if (name == "stress") components = stress_names(info.stress_components);
+  if (name == "stress" || name == "effective_stress") components = stress_names(info.stress_components);
   if (name == "strain") components = gradient_names(info.dim, info.gradient_components);
   if (components.size() < 2) return {""};
   return components;
+}
+
+bool remembers(const LagrangianPhase& phase, const std::string& name) {
+  const std::vector<std::string>& remembered = phase.info().history_names;
+  return std::ranges::find(remembered, name) != remembered.end();
 }
 
 }  // namespace
@@ -34,6 +39,15 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
     phase.fields().point_strain(t, u, values);
   } else if (name == "stress") {
     phase.fields().point_stress(t, u, values);
+  } else if (name == "effective_stress") {
+    // σ' = σ + p_w I; without water the stress itself
+    phase.fields().point_stress(t, u, values);
+    if (!remembers(phase, "pore_pressure")) return values;
+    std::vector<double> pressure(phase.points());
+    phase.fields().point_history("pore_pressure", pressure);
+    const std::size_t components = values.size() / pressure.size();
+    for (std::size_t p = 0; p < pressure.size(); ++p)
+      for (std::size_t a = 0; a < 3; ++a) values[components * p + a] += pressure[p];
   } else if (name == "volume") {
     phase.fields().point_field(PointQuantity::volume, t, u, values);
   } else {
@@ -45,8 +59,8 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
 
 bool is_field(const LagrangianPhase& phase, const std::string& name) {
   constexpr std::array always = {"u", "v", "strain", "stress", "volume"};
-  const std::vector<std::string>& remembered = phase.info().history_names;
-  return std::ranges::find(always, name) != always.end() || std::ranges::find(remembered, name) != remembered.end();
+  const bool is_effective = name == "effective_stress" && phase.info().stress_components > 1;
+  return std::ranges::find(always, name) != always.end() || is_effective || remembers(phase, name);
 }
 
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u) {

@@ -60,12 +60,54 @@ bool loads_vary(const Problem& problem) {
 std::vector<std::string> probe_fields(int dim) {
   if (dim == 1) return {"u", "v", "strain", "stress"};
   if (dim == 3) {
-    return {"u.x",       "u.y",       "u.z",       "v.x",       "v.y",       "v.z",           "stress.xx", "stress.yy",
-            "stress.zz", "stress.xy", "stress.yz", "stress.zx", "strain.xx", "strain.xy",     "strain.xz", "strain.yx",
-            "strain.yy", "strain.yz", "strain.zx", "strain.zy", "strain.zz", "plastic_strain"};
+    return {"u.x",
+            "u.y",
+            "u.z",
+            "v.x",
+            "v.y",
+            "v.z",
+            "stress.xx",
+            "stress.yy",
+            "stress.zz",
+            "stress.xy",
+            "stress.yz",
+            "stress.zx",
+            "strain.xx",
+            "strain.xy",
+            "strain.xz",
+            "strain.yx",
+            "strain.yy",
+            "strain.yz",
+            "strain.zx",
+            "strain.zy",
+            "strain.zz",
+            "plastic_strain",
+            "pore_pressure",
+            "effective_stress.xx",
+            "effective_stress.yy",
+            "effective_stress.zz",
+            "effective_stress.xy",
+            "effective_stress.yz",
+            "effective_stress.zx"};
   }
-  return {"u.x",       "u.y",       "v.x",       "v.y",       "stress.xx", "stress.yy",     "stress.zz",
-          "stress.xy", "strain.xx", "strain.xy", "strain.yx", "strain.yy", "plastic_strain"};
+  return {"u.x",
+          "u.y",
+          "v.x",
+          "v.y",
+          "stress.xx",
+          "stress.yy",
+          "stress.zz",
+          "stress.xy",
+          "strain.xx",
+          "strain.xy",
+          "strain.yx",
+          "strain.yy",
+          "plastic_strain",
+          "pore_pressure",
+          "effective_stress.xx",
+          "effective_stress.yy",
+          "effective_stress.zz",
+          "effective_stress.xy"};
 }
 
 std::vector<std::string> body_fields(int dim) {

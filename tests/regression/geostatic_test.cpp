@@ -30,6 +30,18 @@ TEST_CASE("level ground whose cells are full is in balance at the start to round
   }
 }
 
+TEST_CASE(
+    "ground in layers bears the weight of those above, each with its own density, and is in balance at the start") {
+  driven::Motion motion(
+      ground({"body=[{max=[1, 0.5], material='sand', state='plane-strain', points_per_cell=4}, "
+              "{min=[0, 0.5], max=[1, 1], material='peat', state='plane-strain', points_per_cell=4}]",
+              "material.peat={law='drucker-prager', E=2e6, nu=0.3, rho=600, phi=35}"}));
+  CHECK(StateNorms(motion.relaxation()).residual(0, motion.u()) < 1e-5);  // the way over the border is 1e-6 of a cell
+  motion.run_to(1);
+  CHECK(StateNorms(motion.relaxation()).residual(1, motion.u()) < 1e-5);
+  CHECK(largest_magnitude(motion.u()) < 1e-7 * H);
+}
+
 TEST_CASE("level ground thrusts K0 rho g H^2/2 against a smooth wall, less what a fixed base holds") {
   // The nodes' shares add up to Σ V_p σ_xx/Δx, exact for a linear stress. The base's node holds, of that,
   //   h/2 [3/4 σ(h/4) + 1/4 σ(3h/4)] = K0 ρ g h/2 (H − 3h/8)   with the points at h/4 and 3h/4.

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +14,20 @@
 namespace stillpoint {
 namespace {
 
+/// A parameter that may be a formula of the position. Where it is one, its number is 1.
+void read_by_place(MaterialSpec& material, const std::string& name, const Value& value, const KeyInfo& info) {
+  if (value.node.is_string()) {
+    const auto formula = read_formula(value, variables_of(info, value.reading.dim));
+    if (!formula) return;
+    if (formula->uses_position()) {
+      material.by_place[name] = *formula;
+      material.parameters[name] = 1;
+      return;
+    }
+  }
+  if (const auto number = read_number(value, info.range)) material.parameters[name] = *number;
+}
+
 /// The keys of a row of the catalogue, into parts that have its parameters and choices.
 template <class Spec, class Row>
 std::vector<Key> keys_of_choice(const Row& row) {
@@ -22,10 +37,17 @@ std::vector<Key> keys_of_choice(const Row& row) {
     keys.push_back(key_of<Spec>(p.name, value, p.meaning,
                                 {.range = {p.lower, p.upper, p.lower_allowed, false},
                                  .unit = p.unit,
+                                 .variables = p.by_place ? "x" : "",
                                  .fallback = p.required          ? ""
                                              : p.same_as.empty() ? fmt::format("{}", p.fallback)
                                                                  : std::string(p.same_as),
                                  .required = p.required}));
+    if constexpr (std::is_same_v<Spec, MaterialSpec>) {
+      if (p.by_place)
+        keys.back().read = [name = std::string(p.name)](void* part, const Value& given, const KeyInfo& info) {
+          read_by_place(*static_cast<MaterialSpec*>(part), name, given, info);
+        };
+    }
   }
   for (const ChoiceInfo& c : row.choices) {
     const auto value = [name = std::string(c.name)](Spec& of) -> std::string& { return of.choices[name]; };
@@ -67,6 +89,17 @@ std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
   for (const LawInfo& law : catalogue.laws) {
     std::vector<Key>& of_law = keys[std::string(law.name)] = keys_of_choice<MaterialSpec>(law);
     of_law.insert(of_law.begin(), law_key);
+    if (law.history_dependent) {
+      of_law.push_back(key_of<MaterialSpec>("undrained", &MaterialSpec::undrained,
+                                            "saturated with water that cannot flow: the law is that of the effective "
+                                            "stress, and pore_pressure is a field",
+                                            {}));
+      of_law.push_back(key_of<MaterialSpec>(
+          "water_modulus", &MaterialSpec::water_modulus, "bulk modulus of the water in undrained ground",
+          {.range = kPositive, .unit = "Pa", .fallback = "such that the undrained Poisson's ratio is 0.495"}));
+      of_law.push_back(key_of<MaterialSpec>("porosity", &MaterialSpec::porosity, "share of the water in the volume",
+                                            {.range = {0, 1, false, true}, .unit = "1"}));
+    }
     if (law.softens_by_rows)
       of_law.push_back(
           key_of<MaterialSpec>("softening", &MaterialSpec::softening,

@@ -37,6 +37,7 @@ std::string told_type(const KeyInfo& key) {
   std::vector<std::string> kinds;
   const bool word_only = key.kind == Kind::text && !key.words.empty();
   if (key.kind == Kind::number) kinds.push_back(told("number", key.range));
+  if (key.kind == Kind::number && !key.variables.empty()) kinds.emplace_back("formula of x, y");
   if (key.kind == Kind::whole)
     kinds.push_back(told("whole number", key.words.empty() ? key.range : key.numbers_in(kAnyDim)));
   if (key.kind == Kind::text && !word_only) kinds.push_back("text");

@@ -102,8 +102,27 @@ void check_dilation(SceneCheck& check, const MaterialSpec& material) {
   }
 }
 
+void check_water(SceneCheck& check, const MaterialSpec& material) {
+  const auto key = [&](const char* name) { return fmt::format("material.{}.{}", material.name, name); };
+  for (const char* name : {"water_modulus", "porosity"})
+    check.wrong_if(!material.undrained && check.written(key(name)), key(name), "goes with undrained = true");
+  check.wrong_if(material.undrained && check.written(key("porosity")) && !material.water_modulus, key("porosity"),
+                 "goes with water_modulus");
+  if (!material.undrained) return;
+  double psi = 0;
+  if (const auto found = material.parameters.find("psi"); found != material.parameters.end()) psi = found->second;
+  for (const StrengthRow& row : material.softening) psi = std::max(psi, row.psi);
+  check.wrong_if(
+      psi > 0, key("undrained"),
+      "does not go with dilatancy, which would draw the water apart and make the ground stronger without end; "
+      "expected psi = 0, not {}",
+      psi);
+}
+
 void check_softening(SceneCheck& check, const MaterialSpec& material) {
   const std::vector<StrengthRow>& rows = material.softening;
+  check.wrong_if(!rows.empty() && !material.by_place.empty(), fmt::format("material.{}.softening", material.name),
+                 "does not go with a cohesion that is a formula of the position");
   check.wrong_if(rows.size() > most_strength_rows, fmt::format("material.{}.softening", material.name),
                  "has {} rows; expected at most {}", rows.size(), most_strength_rows);
   for (std::size_t k = 1; k < rows.size(); ++k)
@@ -168,6 +187,7 @@ std::optional<NamedBox> check_bodies(SceneCheck& check, bool grid, const std::ve
   for (const auto& [name, material] : scene.materials) {
     check_dilation(check, material);
     check_softening(check, material);
+    check_water(check, material);
   }
   if (grid) check_number_of_points(check, in_order);
 

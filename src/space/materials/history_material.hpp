@@ -69,6 +69,13 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
   std::optional<YieldState> yield_state(std::size_t p) const override { return law_.yield_state(history(p)); }
 
+  Vec strength_shares() override {
+    if constexpr (requires { Law::share_row; }) {
+      if constexpr (Law::share_row < Law::history) return Vec(committed_).subspan(count_ * Law::share_row, count_);
+    }
+    return {};
+  }
+
   void end_phase(const Block&) override {}
   Vec memory() override { return committed_; }
   void reorder(const Reordering& order, std::vector<double>& work) override {

@@ -35,6 +35,11 @@ constexpr ParameterInfo same_as(std::string_view other, ParameterInfo parameter)
   return parameter;
 }
 
+constexpr ParameterInfo by_place(ParameterInfo parameter) {
+  parameter.by_place = true;
+  return parameter;
+}
+
 constexpr ParameterInfo youngs_modulus = positive("E", "Pa", "Young's modulus");
 constexpr ParameterInfo poissons_ratio{"nu", "1", "Poisson's ratio", -1, 0.5, false, false, 0};
 // A strongly auxetic neo-Hookean section has no unique lateral stretch in compression.
@@ -94,7 +99,7 @@ std::vector<LawInfo> built_in() {
        "tension, finite strain; Tresca for phi = 0",
        "Clausen, Damkilde and Andersen 2007",
        {plane_strain, axisymmetric, space},
-       {youngs_modulus, poissons_ratio, density, optional("c", "Pa", "cohesion", infinity, 0),
+       {youngs_modulus, poissons_ratio, density, by_place(optional("c", "Pa", "cohesion", infinity, 0)),
         optional("phi", "degrees", "angle of internal friction", 90, 0),
         optional("psi", "degrees", "angle of dilatancy", 90, 0),
         optional("tension", "Pa", "largest principal stress; never above the apex", infinity, infinity)},
@@ -148,6 +153,15 @@ bool is_viscous(const MaterialSpec& material) {
   const auto beta = material.parameters.find(fluidity);
   return law != material_laws().end() && law->history_dependent && beta != material.parameters.end() &&
          beta->second > 0;
+}
+
+// K_u = 2 G (1 + ν_u)/(3 (1 − 2 ν_u)) = K + K_w/n
+double water_stiffness(const MaterialSpec& material) {
+  if (material.water_modulus) return *material.water_modulus / material.porosity;
+  constexpr double nu_u = 0.495;
+  const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
+  const double G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu));
+  return std::max(0.0, 2 * G * (1 + nu_u) / (3 * (1 - 2 * nu_u)) - K);
 }
 
 MaterialSpec rate_independent(MaterialSpec material) {

@@ -12,6 +12,10 @@
 
 namespace stillpoint {
 
+/// K_w/n of an undrained material [Pa]: that of its water or, without one, such that the undrained Poisson's ratio is
+/// 0.495.
+double water_stiffness(const MaterialSpec& material);
+
 /// All laws, including those that the program has added.
 const std::vector<LawInfo>& material_laws();
 

@@ -6,6 +6,7 @@
 #include <stillpoint/linear_elastic.hpp>
 #include <stillpoint/mohr_coulomb.hpp>
 #include <stillpoint/neo_hookean.hpp>
+#include <stillpoint/undrained.hpp>
 
 #include <stdexcept>
 
@@ -32,13 +33,16 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
   if (material.law == "hencky") return elastic(Hencky<S>(lame));
   if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric || S == StressState::space) {
     const auto with_history = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
+      if (material.undrained)
+        return std::make_unique<HistoryMaterial<Undrained<Law>>>(Undrained<Law>(law, water_stiffness(material)), begin,
+                                                                 count);
       return std::make_unique<HistoryMaterial<Law>>(law, begin, count);
     };
     if (material.law == "drucker-prager")
       return with_history(DruckerPrager<S>(DruckerPragerParameters::from(material)));
     if (material.law == "mohr-coulomb") {
       const auto parameters = MohrCoulombParameters::from(material);
-      if (parameters.softening.empty()) return with_history(MohrCoulomb<S>(parameters));
+      if (parameters.softening.empty() && material.by_place.empty()) return with_history(MohrCoulomb<S>(parameters));
       return with_history(MohrCoulomb<S, true>(parameters));
     }
   }

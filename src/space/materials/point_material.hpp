@@ -116,6 +116,9 @@ class PointMaterial {
   /// Sets the initial Cauchy stresses of the points, (points × stress components).
   virtual void set_stress(const std::vector<Stresses>& stress) = 0;
 
+  /// The factor of each point's strength, if that varies from place to place; otherwise empty. set_stress() makes it 1.
+  virtual Vec strength_shares() { return {}; }
+
   /// The arrays that are stored for each point.
   virtual std::vector<PointArray> arrays() const = 0;
   /// The committed history that users may want to see: name and values in the order of the points.

@@ -157,43 +157,9 @@ double BodyAccount<K>::shortest_time() const {
   return shortest;
 }
 
-template <Kinematics K>
-void set_geostatic_stress(const Problem& problem, Body<K>& body) {
-  if constexpr (dimensions(K) > 1) {
-    const double b_y = problem.body_force.at(1)({}, 0);
-    for (std::size_t m = 0; m < body.materials.size(); ++m) {
-      const double rho = problem.materials.at(body.material_names[m]).parameters.at("rho");
-      std::vector<std::array<double, stress_components(K)>> stress;
-      for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
-        const double depth = problem.geostatic->surface - body.points.x[1][static_cast<std::size_t>(p)];
-        const double vertical = rho * b_y * std::max(0.0, depth), side = problem.geostatic->K0 * vertical;
-        stress.push_back({side, vertical, side});
-      }
-      body.materials[m]->set_stress(stress);
-    }
-  }
-}
-
-template <Kinematics K>
-void set_initial_velocity(const Problem& problem, Body<K>& body) {
-  if (problem.initial_v.empty()) return;
-  for (std::size_t p = 0; p < body.points.size(); ++p) {
-    for (std::size_t i = 0; i < dimensions(K); ++i)
-      body.points.v[i][p] = problem.initial_v[i](body.points.position(p), 0);
-  }
-}
-
 template class BodyAccount<Kinematics::line>;
 template class BodyAccount<Kinematics::plane>;
 template class BodyAccount<Kinematics::axisymmetric>;
 template class BodyAccount<Kinematics::space>;
-template void set_geostatic_stress(const Problem&, Body<Kinematics::line>&);
-template void set_geostatic_stress(const Problem&, Body<Kinematics::plane>&);
-template void set_geostatic_stress(const Problem&, Body<Kinematics::axisymmetric>&);
-template void set_geostatic_stress(const Problem&, Body<Kinematics::space>&);
-template void set_initial_velocity(const Problem&, Body<Kinematics::line>&);
-template void set_initial_velocity(const Problem&, Body<Kinematics::plane>&);
-template void set_initial_velocity(const Problem&, Body<Kinematics::axisymmetric>&);
-template void set_initial_velocity(const Problem&, Body<Kinematics::space>&);
 
 }  // namespace stillpoint

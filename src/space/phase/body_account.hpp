@@ -71,11 +71,4 @@ void write_points(const Body<K>& body, Vec out, const ValueAt& value_at) {
   });
 }
 
-/// Sets the initial stress of a scene that has one: σ_yy = −ρ b_y (surface − y) from ∂σ_yy/∂y + ρ b_y = 0, σ_xx = σ_zz
-/// = K0 σ_yy.
-template <Kinematics K>
-void set_geostatic_stress(const Problem& problem, Body<K>& body);
-template <Kinematics K>
-void set_initial_velocity(const Problem& problem, Body<K>& body);
-
 }  // namespace stillpoint

@@ -11,6 +11,7 @@
 #include "space/boundary/conditions.hpp"
 #include "space/grid/cut_cells.hpp"
 #include "space/grid/sliver_extension.hpp"
+#include "space/phase/initial_state.hpp"
 #include "space/phase/internal_force.hpp"
 #include "space/phase/motion_limit.hpp"
 #include "space/phase/phase_frame.hpp"
@@ -29,7 +30,7 @@ struct PhaseAssembly {
         conditions(problem, whole, frame.grid, frame.body, frame.origin, frame.account().shortest_time()) {
     extend_into_slivers();
     if (frame.moves_on()) frame.origin = frame.account().positions();
-    if (problem.geostatic) set_geostatic_stress(problem, frame.body);
+    set_initial_state(problem, frame.body);
     if (frame.moves_on()) set_initial_velocity(problem, frame.body);
     begin_phase(0);
   }

@@ -1,0 +1,124 @@
+// Saturated ground from which no water flows: any law with a history for the effective stress σ', and the pore pressure
+// p_w of water that is compressed with the pores (positive, as the stress that it causes is −p_w I),
+//
+//   σ = σ' − p_w I,   p_w = p_0 − (K_w/n) ln J,
+//
+// with the bulk modulus K_w of water and the porosity n. Grains are incompressible beside it [Wood 2004, Geotechnical
+// Modelling, §4.5]. Its change is that of ln det f since the last commit, so that it depends on J alone.
+#pragma once
+
+#include <stillpoint/logarithm.hpp>
+#include <stillpoint/stress_history.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace stillpoint {
+
+/// ln x with its derivatives.
+template <std::size_t N>
+inline Dual<N> logarithm_of(const Dual<N>& x, const Dual<N>& x_minus_1) {
+  Dual<N> result(logarithm(x.value, x_minus_1.value));
+  for (std::size_t k = 0; k < N; ++k) result.derivative[k] = x.derivative[k] / x.value;
+  return result;
+}
+inline double logarithm_of(double x, double x_minus_1) { return logarithm(x, x_minus_1); }
+
+/// The ratio of volumes det(I + H).
+template <StressState S, class Number>
+[[gnu::always_inline]] inline Number volume_ratio(const GradientOf<S, Number>& H) {
+  if constexpr (S == StressState::space) {
+    return determinant(SpaceTensorOf<Number>{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]});
+  } else if constexpr (S == StressState::axisymmetric) {
+    return ((1 + H[0]) * (1 + H[3]) - H[1] * H[2]) * (1 + H[4]);
+  } else {
+    return (1 + H[0]) * (1 + H[3]) - H[1] * H[2];
+  }
+}
+
+/// A StressHistory in which the history of the law is followed by the pore pressure [Pa].
+template <class Law>
+class Undrained {
+ public:
+  static constexpr StressState state = Law::state;
+  static constexpr std::size_t history = Law::history + 1;
+  using History = std::array<double, history>;
+  static constexpr std::array<std::string_view, history> history_names = [] {
+    std::array<std::string_view, history> names{};
+    std::ranges::copy(Law::history_names, names.begin());
+    names.back() = "pore_pressure";
+    return names;
+  }();
+
+  static constexpr std::size_t share_row = [] {
+    if constexpr (requires { Law::share_row; })
+      return Law::share_row;
+    else
+      return no_share_row;
+  }();
+
+  /// stiffness: K_w/n [Pa].
+  Undrained(const Law& law, double stiffness) : law_(law), stiffness_(stiffness) {}
+
+  template <class Number>
+  [[gnu::always_inline]] GradientOf<state, Number> first_piola(const GradientOf<state, Number>& H,
+                                                               const GradientOf<state, Number>& dH, double dt,
+                                                               History& next) const {
+    typename Law::History of_skeleton = skeleton(next);
+    GradientOf<state, Number> P = law_.first_piola(H, dH, dt, of_skeleton);
+    GradientOf<state, Number> before = H;
+    for_each<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { before[c] = H[c] - dH[c]; });
+    const Number J = volume_ratio<state>(H), J_before = volume_ratio<state>(before);
+    const Number growth = logarithm_of(J / J_before, (J - J_before) / J_before);
+    const Number pressure = next[Law::history] - stiffness_ * growth;
+    std::array<Number, stress_components(state)> of_water{};
+    for_each<3>([&](auto a) __attribute__((always_inline)) { of_water[a] = -pressure; });
+    const GradientOf<state, Number> P_of_water = nominal_stress<state, Number>(H, J_before, of_water);
+    for_each<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { P[c] = P[c] + P_of_water[c]; });
+    for_each<Law::history>([&](auto h) __attribute__((always_inline)) { next[h] = of_skeleton[h]; });
+    next[Law::history] = value_of(pressure);
+    return P;
+  }
+
+  /// The total stress.
+  [[gnu::always_inline]] static Stress<state> cauchy(const History& now) {
+    Stress<state> sigma = Law::cauchy(skeleton(now));
+    for_each<3>([&](auto a) __attribute__((always_inline)) { sigma[a] -= now[Law::history]; });
+    return sigma;
+  }
+  /// For ground under this effective stress, with no pore pressure but that of water at rest, which is not counted.
+  History initial_history(const Stress<state>& effective) const {
+    History first{};
+    std::ranges::copy(law_.initial_history(effective), first.begin());
+    return first;
+  }
+  bool stress_stays() const { return law_.stress_stays(); }
+  bool is_viscous() const { return law_.is_viscous(); }
+  YieldState yield_state(const History& now) const { return law_.yield_state(skeleton(now)); }
+
+  Moduli<state> moduli(const Gradient<state>& H, const Gradient<state>& dH, double dt, History now) const {
+    return moduli_by_duals(*this, H, dH, dt, now);
+  }
+  Gradient<state> elastic_rate(const Gradient<state>& H, const Gradient<state>& dH, const History& now) const {
+    return elastic(H, now).rate(dH);
+  }
+  Moduli<state> elastic_moduli(const Gradient<state>& H, const History& now) const { return elastic(H, now).moduli(); }
+
+ private:
+  [[gnu::always_inline]] static typename Law::History skeleton(const History& now) {
+    typename Law::History of_skeleton;
+    for_each<Law::history>([&](auto h) __attribute__((always_inline)) { of_skeleton[h] = now[h]; });
+    return of_skeleton;
+  }
+  ElasticRate<state> elastic(const Gradient<state>& H, const History& now) const {
+    const IsotropicModuli at = law_.moduli_at(skeleton(now));
+    return {H, cauchy(now), at.bulk + stiffness_, at.shear};
+  }
+
+  Law law_;
+  double stiffness_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,123 @@
+#include "space/phase/initial_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scene/body_depth.hpp"
+#include "scene/throw_scene_error.hpp"
+
+namespace stillpoint {
+namespace {
+
+/// The mass above a position, per area.
+class MassAbove {
+ public:
+  explicit MassAbove(const Problem& problem) : problem_(problem), step_(touching * smallest_height(problem)) {
+    for (const BodySpec& body : problem.bodies) {
+      depths_.emplace_back(body);
+      densities_.push_back(problem.materials.at(body.material).parameters.at("rho"));
+    }
+    is_uniform_ = std::ranges::adjacent_find(densities_, std::ranges::not_equal_to()) == densities_.end() ||
+                  std::ranges::any_of(depths_, [](const BodyDepth& depth) { return !depth.is_known(); });
+  }
+
+  /// of: the density of the point itself [kg/m³].
+  double operator()(std::vector<double> X, double of) const {
+    const double surface = problem_.geostatic->surface;
+    if (is_uniform_) return of * std::max(0.0, surface - X[1]);
+    double mass = 0;
+    for (std::optional<std::size_t> k = body_at(X); k && X[1] < surface; k = body_at(X)) {
+      const double rest = surface - X[1],
+                   up = std::clamp(depths_[*k].along(X, 1, true, rest).value_or(rest), 0.0, rest);
+      of = densities_[*k];
+      mass += of * (up + step_);
+      X[1] += up + step_;
+    }
+    return mass + of * (surface - X[1]);
+  }
+
+ private:
+  static double smallest_height(const Problem& problem) {
+    return (problem.grid.max[1] - problem.grid.min[1]) / problem.grid.cells.at(1);
+  }
+  std::optional<std::size_t> body_at(const std::vector<double>& X) const {
+    for (std::size_t k = 0; k < depths_.size(); ++k)
+      if (depths_[k].contains(X)) return k;
+    return std::nullopt;
+  }
+
+  const Problem& problem_;
+  double step_;  // over the border of a body [m]
+  std::vector<BodyDepth> depths_;
+  std::vector<double> densities_;
+  bool is_uniform_ = true;
+};
+
+template <Kinematics K>
+void set_geostatic_stress(const Problem& problem, Body<K>& body) {
+  if constexpr (dimensions(K) > 1) {
+    const double b_y = problem.body_force.at(1)({}, 0);
+    const MassAbove mass_above(problem);
+    for (std::size_t m = 0; m < body.materials.size(); ++m) {
+      const double rho = problem.materials.at(body.material_names[m]).parameters.at("rho");
+      std::vector<std::array<double, stress_components(K)>> stress;
+      for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
+        const auto x = body.points.position(static_cast<std::size_t>(p));
+        const double vertical = b_y * mass_above({x.begin(), x.end()}, rho), side = problem.geostatic->K0 * vertical;
+        stress.push_back({side, vertical, side});
+      }
+      body.materials[m]->set_stress(stress);
+    }
+  }
+}
+
+template <Kinematics K>
+void set_parameters_by_place(const Problem& problem, Body<K>& body) {
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
+    const Vec shares = body.materials[m]->strength_shares();
+    for (const auto& [name, formula] : problem.materials.at(body.material_names[m]).by_place) {
+      for (std::size_t k = 0; k < shares.size(); ++k) {
+        const auto x = body.points.position(begin + k);
+        shares[k] = formula(x, 0);
+        if (!(shares[k] >= 0) || !std::isfinite(shares[k]))
+          throw_scene_error(fmt::format("material.{}.{}", body.material_names[m], name),
+                            fmt::format("must be >= 0 everywhere, not {} at ({:.6g})", shares[k], fmt::join(x, ", ")));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <Kinematics K>
+void set_initial_state(const Problem& problem, Body<K>& body) {
+  if (problem.geostatic) set_geostatic_stress(problem, body);
+  set_parameters_by_place(problem, body);
+}
+
+template <Kinematics K>
+void set_initial_velocity(const Problem& problem, Body<K>& body) {
+  if (problem.initial_v.empty()) return;
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
+    for (std::size_t i = 0; i < dimensions(K); ++i)
+      body.points.v[i][p] = problem.initial_v[i](body.points.position(p), 0);
+  }
+}
+
+template void set_initial_state(const Problem&, Body<Kinematics::line>&);
+template void set_initial_state(const Problem&, Body<Kinematics::plane>&);
+template void set_initial_state(const Problem&, Body<Kinematics::axisymmetric>&);
+template void set_initial_state(const Problem&, Body<Kinematics::space>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::line>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::plane>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::axisymmetric>&);
+template void set_initial_velocity(const Problem&, Body<Kinematics::space>&);
+
+}  // namespace stillpoint

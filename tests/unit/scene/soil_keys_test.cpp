@@ -1,0 +1,81 @@
+// Keys of soils: tables of softening, water, parameters that are formulas of the position.
+#include <stillpoint/scene_error.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+const std::string soil = "material.soil.";
+
+MaterialSpec soil_with(const std::vector<std::string>& overrides) {
+  std::vector<std::string> all;
+  for (const std::string& one : overrides) all.push_back(soil + one);
+  return scenes::load("stable_slope", all).materials.at("soil");
+}
+
+}  // namespace
+
+TEST_CASE("a table of softening has its rows, by plastic strain") {
+  const auto rows = soil_with({"softening=[[0.05, 5e3, 18, 0], ['0.1*2', 2e3, 15, 0]]"}).softening;
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].plastic_strain == 0.05);
+  CHECK(rows[1].plastic_strain == 0.2);
+  CHECK(rows[1].c == 2e3);
+  CHECK(rows[1].phi == 15);
+}
+
+TEST_CASE("a cohesion may be a formula of the position, and a friction angle may not") {
+  const MaterialSpec by_place = soil_with({"c=1e3*(H - y) + x"});
+  CHECK(by_place.by_place.at("c")(std::vector<double>{2, 4}, 0) == Approx(6002));
+  CHECK(by_place.parameters.at("c") == 1);
+  const MaterialSpec constant = soil_with({"c=1e3*H"});
+  CHECK(constant.by_place.empty());
+  CHECK(constant.parameters.at("c") == 1e4);
+  CHECK_THAT(scenes::refusal("stable_slope", {soil + "phi=20 + y"}), Catch::Contains("'y' cannot be used here"));
+  CHECK_THAT(scenes::refusal("stable_slope", {soil + "c=1e3*(H - t)"}), Catch::Contains("'t' cannot be used here"));
+  CHECK_THAT(scenes::refusal("stable_slope", {soil + "c=-3"}), Catch::Contains("must be at least 0, not -3"));
+  CHECK_THROWS_WITH(make_phase(scenes::load("stable_slope", {soil + "c=1e3*(5 - y)"})),
+                    Catch::Contains("material.soil.c: must be >= 0 everywhere, not -"));
+}
+
+TEST_CASE("soil that cannot be is refused by name") {
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {"softening=[[0.1, 1e3, 20]]", "softening[0]: expected [plastic strain, c, phi, psi], found 3 values"},
+      {"softening=[0.1, 1e3, 20, 0]", "expected [plastic strain, c, phi, psi]"},
+      {"softening=[[0.1, 1e3, 20, 0], [0.1, 1e3, 20, 0]]", "softening[1][0]: must be larger than 0.1"},
+      {"softening=[[0, 1e3, 20, 0]]", "softening[0][0]: must be greater than 0"},
+      {"softening=[[0.1, 1e3, 20, 21]]", "softening[0][3]: must be at most phi = 20, not 21"},
+      {"softening=[[0.1,1,9,0],[0.2,1,9,0],[0.3,1,9,0],[0.4,1,9,0],[0.5,1,9,0],[0.6,1,9,0],[0.7,1,9,0],[0.8,1,9,0],[0."
+       "9,1,"
+       "9,0]]",
+       "has 9 rows; expected at most 8"},
+      {"psi=25", "psi: must be at most phi = 20, not 25"},
+      {"water_modulus=2e9", "water_modulus: goes with undrained = true"},
+      {"porosity=0.3", "porosity: goes with undrained = true"}};
+  for (const auto& [set, message] : all) {
+    CAPTURE(set);
+    CHECK_THAT(scenes::refusal("stable_slope", {soil + set}), Catch::Contains(message));
+  }
+  CHECK_THAT(scenes::refusal("stable_slope", {soil + "undrained=true", soil + "psi=5"}),
+             Catch::Contains("undrained: does not go with dilatancy"));
+  CHECK_THAT(scenes::refusal("stable_slope", {soil + "c=1e3*(11 - y)", soil + "softening=[[0.1, 1e3, 20, 0]]"}),
+             Catch::Contains("softening: does not go with a cohesion that is a formula"));
+  CHECK_THAT(scenes::refusal("column", {"material.soil.undrained=true"}), Catch::Contains("unknown key 'undrained'"));
+}
+
+TEST_CASE("undrained ground has a pore pressure and an effective stress among its fields") {
+  const auto dry = make_phase(scenes::load("stable_slope", {}));
+  const auto wet = make_phase(scenes::load("stable_slope", {soil + "undrained=true"}));
+  const auto names = [](const auto& phase) { return phase->info().history_names; };
+  CHECK_THAT(names(wet), Catch::VectorContains(std::string("pore_pressure")));
+  CHECK_THAT(names(dry), !Catch::VectorContains(std::string("pore_pressure")));
+}
