@@ -188,7 +188,7 @@ TEST_CASE(
     return fmt::format("{}", fmt::join(s.notes, "\n"));
   };
   CHECK_THAT(notes_at("pull = 500"), !Catch::Contains("may pass between its points"));
-  CHECK_THAT(notes_at("pull = 1700"), Catch::Contains("the border that plate touches is drawn to 3.") &&
+  CHECK_THAT(notes_at("pull = 1700"), Catch::Contains("a border in the contact plate is drawn to 3.") &&
                                           Catch::Contains("may pass between its points"));
 }
 

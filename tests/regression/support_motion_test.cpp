@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
+#include "temporary_folder.hpp"
 
 using namespace stillpoint;
 
@@ -205,4 +206,32 @@ TEST_CASE("a motion that has no value before t = 0 can be prescribed") {
   const Summary s =
       run(scenes::bar({"force=[]", "support=[{at=0.0, u='0.01*t^1.5'}]", "stop.residual=0", "stop.time=5"}));
   CHECK(s.status == RunStatus::end_time);
+}
+
+TEST_CASE("ground that remembers answers a displacement that is there at the start, as an elastic body does") {
+  // A block held in a box whose lid has come down by 0.1 %: σ_yy = (λ + 2 μ) ε
+  const std::string soils[] = {"law = 'linear-elastic'", "law = 'drucker-prager'\nphi = 30\nc = 1e7",
+                               "law = 'mohr-coulomb'\nphi = 30\nc = 1e7"};
+  const double modulus = 12e6 * 0.7 / (1.3 * 0.4);
+  for (const std::string& soil : soils) {
+    for (const std::string way : {"solve.method=newton", "damping.strategy=viscous"}) {
+      for (const std::string dilatation : {"phase.dilatation=points", "phase.dilatation=cells"}) {
+        CAPTURE(soil, way, dilatation);
+        const test::TemporaryFolder folder;
+        const auto file =
+            folder.write("lid.toml", "dim = 2\n[grid]\nmin = [0, 0]\nmax = [1, 1]\ncells = [4, 4]\n" +
+                                         ("[body]\nmaterial = 'soil'\n[material.soil]\nE = 12e6\nnu = 0.3\n"
+                                          "rho = 2000\n" +
+                                          soil) +
+                                         "\n[[support]]\nface = 'bottom'\n[[support]]\nface = 'left'\n"
+                                         "kind = 'roller'\n[[support]]\nface = 'right'\nkind = 'roller'\n"
+                                         "[[support]]\nface = 'top'\nkind = 'roller'\nu = -1e-3\n"
+                                         "[[probe]]\nname = 'middle'\nat = [0.5, 0.5]\n"
+                                         "fields = ['stress.yy']\n");
+        const Summary s = run(load_scene(file, {way, dilatation, "phase.max_motion=none"}));
+        CHECK(s.status == RunStatus::equilibrium);
+        CHECK(scenes::probe(s, "middle", "stress.yy") == Approx(-1e-3 * modulus).epsilon(2e-3));  // finite strain
+      }
+    }
+  }
 }

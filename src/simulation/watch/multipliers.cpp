@@ -93,7 +93,7 @@ class Multipliers : public Watcher {
     for (const ContactReport& contact : run.model.phase->supports().contacts(run.t, run.motion->u()))
       if (contact.stretch > much)
         add_note(summary,
-                 fmt::format("the border that {} touches is drawn to {:.2g} times its length: what draws it may "
+                 fmt::format("a border in the contact {} is drawn to {:.2g} times its length: what draws it may "
                              "pass between its points; expected smaller cells, or more points in a cell",
                              contact.name, contact.stretch));
   }

@@ -7,8 +7,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "largest.hpp"
+#include "random_values.hpp"
 #include "scenes.hpp"
 #include "space/phase/lagrangian_phase.hpp"
+#include "statics.hpp"
 
 using namespace stillpoint;
 
@@ -78,4 +81,21 @@ TEST_CASE("undrained ground has a pore pressure and an effective stress among it
   const auto names = [](const auto& phase) { return phase->info().history_names; };
   CHECK_THAT(names(wet), Catch::VectorContains(std::string("pore_pressure")));
   CHECK_THAT(names(dry), !Catch::VectorContains(std::string("pore_pressure")));
+}
+
+TEST_CASE("points have the cohesion of their places: the forces are those of two soils, one above the other") {
+  const std::string above = "{law='mohr-coulomb', E=1e8, nu=0.3, rho=2000, phi=20, c=1e3}";
+  const std::string one =
+      "body=[{max=[12, 5], material='soil', state='plane-strain'}, {min=[0, 5], max=[12, 10], "
+      "material='%', state='plane-strain'}]";
+  const auto bodies = [&](const std::string& upper) { return std::string(one).replace(one.find('%'), 1, upper); };
+  const auto forces_of = [&](const std::vector<std::string>& overrides) {
+    const auto phase = make_phase(scenes::load("stable_slope", overrides));
+    return statics::internal_force(*phase, test::random_values(phase->size(), 1e-2, 1), 0);
+  };
+  const auto two = forces_of({bodies("upper"), "material.upper=" + above, soil + "c=3e3"});
+  const auto by_place = forces_of({bodies("soil"), soil + "c=1e3 + 2e3*(y < 5)"});
+  CHECK(two == by_place);
+  const auto other = forces_of({bodies("soil"), soil + "c=3e3"});
+  CHECK(largest_difference(two, other) > 0.01 * largest_magnitude(two));
 }

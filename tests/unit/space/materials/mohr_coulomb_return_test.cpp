@@ -98,7 +98,7 @@ TEST_CASE(
   std::mt19937 random(1);
   std::uniform_real_distribution<double> stress(-6e4, 6e4);
   int compared = 0;
-  for (int n = 0; n < 2000; ++n) {
+  for (int n = 0; n < 400; ++n) {
     Vector3d x{stress(random), stress(random), stress(random)};
     if (n % 5 == 0) x[1] = x[0];  // equal ones, which a triaxial test has
     std::sort(x.data(), x.data() + 3, std::greater<>());
@@ -109,7 +109,7 @@ TEST_CASE(
     for (int a = 0; a < 3; ++a) REQUIRE(std::abs(found[a] - right[a]) <= 1e-10 * 6e4);
     ++compared;
   }
-  CHECK(compared == 2000);
+  CHECK(compared == 400);
 }
 
 }  // namespace stillpoint
