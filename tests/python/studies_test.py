@@ -40,6 +40,22 @@ def _(_folder):
     assert moving.status == "equilibrium" and np.linalg.norm(moving.unknowns.residual()) < 1e-3
 
 
+@claim("a factor of safety is a bracket with its reasons, of a file and of a dictionary")
+def _(folder):
+    slope = {"grid.cells": [34, 11]}
+    study = stillpoint.safety("problems/stable_slope.toml", slope, first=1.2, last=1.6, width=0.1, out=folder)
+    assert study.found and 1.3 < study.factor_low < study.factor_high < 1.5
+    assert np.all(np.diff(study.factors) > 0) and study.displacements[-1] > 0
+    assert {one.verdict for one in study.verdicts} == {"rests", "moves"} and all(one.reason for one in study.verdicts)
+    written = json.loads((folder / "safety.json").read_text(encoding="utf-8"))
+    assert written["factor_low"] == study.factor_low and (folder / "report.html").exists()
+    table = {**table_of("problems/stable_slope.toml"), "grid": {"min": [0, 0], "max": [34, 11], "cells": [34, 11]}}
+    again = stillpoint.safety(table, first=1.2, last=1.6, width=0.1)
+    assert [one.verdict for one in again.verdicts] == [one.verdict for one in study.verdicts]
+    raised(ValueError, stillpoint.safety, table, width=0)
+    raised(stillpoint.SceneError, stillpoint.safety, BAR)
+
+
 @claim("a comparison has its runs with their ways as arrays, of a file and of a dictionary")
 def _(folder):
     options = {"strategies": ["auto", "kinetic"], "integrators": ["leapfrog"], "repeats": 1}
