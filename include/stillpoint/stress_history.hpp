@@ -51,13 +51,11 @@ struct StressAfter {
   Number det_g;  // of the StressTrial
 };
 
-/// Base class of such a law, which has an `advanced` for Number = double or a Dual:
+/// Base class of such a law, which has history_names, made by names_of_history(), and
 ///
-///   static constexpr auto history_names = Base::names_of_history({…});
-///   template <class Number>
-///   StressAfter<S, Number, internals> advanced(H, dH, stress, internal, dt) const
-///   Internal initial_internal(stress) const
-///   IsotropicModuli elasticity(stress, internal) const
+///     StressAfter advanced(H, dH, stress, internal, dt) const, a template of the number type, double or a Dual,
+///     Internal initial_internal(stress) const,
+///     IsotropicModuli elasticity(stress, internal) const.
 template <class Law, StressState S, std::size_t internals>
 class StressHistory {
   static_assert(S == StressState::plane_strain || S == StressState::axisymmetric || S == StressState::space,

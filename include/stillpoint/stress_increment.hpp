@@ -39,7 +39,7 @@ constexpr Number second_invariant(const SpaceTensorOf<Number>& s) {
 template <StressState S, class Number>
 using DeviatorOf = std::conditional_t<S == StressState::space, SpaceTensorOf<Number>, PlaneDeviator<Number>>;
 
-/// The stress p I + s in the components of Stress<S>.
+/// The stress p I + s in the order of components of a Stress.
 template <class Number>
 constexpr std::array<Number, 4> stress_of(const Number& p, const PlaneDeviator<Number>& s) {
   return {p - s.zz / 2 + s.half, p - s.zz / 2 - s.half, p + s.zz, s.shear};

@@ -35,7 +35,8 @@ std::optional<std::vector<double>> material_at(const std::vector<double>& x, con
 /// The fields that can be read at a place.
 class PlaceFields {
  public:
-  PlaceFields(const LagrangianPhase& phase, const std::vector<std::string>& names) {
+  PlaceFields(const LagrangianPhase& phase, const std::vector<std::string>& names)
+      : has_water_(is_field(phase, "pore_pressure")) {
     for (const std::string& name : names) fields_.push_back(find_point_field(phase, name));
   }
   std::size_t size() const { return fields_.size(); }
@@ -52,8 +53,10 @@ class PlaceFields {
         places.velocity(x, all);
       } else if (field.name == "strain") {
         places.strain(x, all);
-      } else if (field.name == "stress") {
+      } else if (field.name == "stress" || field.name == "effective_stress") {
         places.stress(x, all);
+        const double pressure = field.name == "stress" || !has_water_ ? 0 : places.history("pore_pressure", x);
+        for (std::size_t a = 0; a < std::min<std::size_t>(3, all.size()); ++a) all[a] += pressure;
       } else {
         all[0] = places.history(field.name, x);
       }
@@ -63,6 +66,7 @@ class PlaceFields {
 
  private:
   std::vector<PointFieldComponent> fields_;
+  bool has_water_;
 };
 
 /// A place that moves by x += Σ_a N_a(x) u_a when a phase ends. Once no material reaches it, it is lost: its values are

@@ -39,7 +39,8 @@ std::string example_of(const KeyInfo& key, int dim) {
   if (key.shape == Shape::axes) return times(key.on_face ? dim - 1 : dim);
   if (key.of_turn) return times(dim == 2 ? 1 : 3);
   if (key.shape == Shape::components) return times(dim == 1 ? 1 : dim == 2 ? 4 : 6);
-  if (key.shape == Shape::rows) return "[[0, 1, 2], [1, 3.5, 4, 2]]";
+  if (key.shape == Shape::rows)
+    return key.row_lengths[0] == 4 ? "[[1, 2, 4, 2], [3, 5, 6, 0]]" : "[[0, 1, 2], [1, 3.5, 4, 2]]";
   if (key.shape == Shape::list) return fmt::format("[{}]", one);
   if (key.shape == Shape::positions)
     return dim == 2 || key.in_plane ? "[[0, 0], [1, 0], [0, 1]]" : "[[0, 0, 0], [1, 0, 0]]";

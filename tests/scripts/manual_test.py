@@ -27,7 +27,7 @@ def options(text):
 @claim("the manual page has every command and every option that the help has, and no other")
 def _(_folder):
     page = (ROOT / "src/command/stillpoint.1.in").read_text(encoding="utf-8").replace("\\-", "-")
-    assert len(commands()) == 6
+    assert len(commands()) == 7
     for command in commands():
         assert f"\n.B {command}\n" in page, command
     offered = set().union(options(help_of()), *(options(help_of(command)) for command in commands()))

@@ -122,7 +122,7 @@ def safety(
     )  # fmt: skip
     close(told)
     study = figures_in(text)
-    rising = sorted(study["verdicts"], key=lambda one: one["factor"])
+    rising = sorted(study["verdicts"], key=lambda one: float(one["factor"]))
     study["factors"] = np.array([one["factor"] for one in rising])
     study["displacements"] = numbers_of([one["displacement"] for one in rising])
     return study

@@ -27,10 +27,11 @@ class MassAbove {
                   std::ranges::any_of(depths_, [](const BodyDepth& depth) { return !depth.is_known(); });
   }
 
+  /// Whether the ground has one density, so that the depth alone counts.
+  bool is_uniform() const { return is_uniform_; }
   /// of: the density of the point itself [kg/m³].
   double operator()(std::vector<double> X, double of) const {
     const double surface = problem_.geostatic->surface;
-    if (is_uniform_) return of * std::max(0.0, surface - X[1]);
     double mass = 0;
     for (std::optional<std::size_t> k = body_at(X); k && X[1] < surface; k = body_at(X)) {
       const double rest = surface - X[1],
@@ -69,7 +70,10 @@ void set_geostatic_stress(const Problem& problem, Body<K>& body) {
       std::vector<std::array<double, stress_components(K)>> stress;
       for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
         const auto x = body.points.position(static_cast<std::size_t>(p));
-        const double vertical = b_y * mass_above({x.begin(), x.end()}, rho), side = problem.geostatic->K0 * vertical;
+        const double depth = problem.geostatic->surface - x[1];
+        const double vertical =
+            mass_above.is_uniform() ? rho * b_y * std::max(0.0, depth) : b_y * mass_above({x.begin(), x.end()}, rho);
+        const double side = problem.geostatic->K0 * vertical;
         stress.push_back({side, vertical, side});
       }
       body.materials[m]->set_stress(stress);
