@@ -92,8 +92,8 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
     const MohrCoulombStrength strength = strength_at(internal);
     const Principal<Number> y = returned(x, strength, elastic_);
     const Number mean = (y[0] + y[1] + y[2]) * (1.0 / 3);
-    const bool stays = !(yield_function(x[0], x[2], strength) > Number(0)) & !(x[0] > Number(strength.tension));
-    const bool at_vertex = !(value_of(y[2]) < strength.tension) & !stays;
+    const bool yields = yield_function(x[0], x[2], strength) > Number(0), opens = x[0] > Number(strength.tension);
+    const bool stays = !(yields | opens), is_free = !(value_of(y[2]) < strength.tension), at_vertex = is_free & !stays;
     const double opened = (value_of(p) - strength.tension) / elastic_.bulk;
     const double sheared = (value_of(x[0]) - value_of(x[2]) - (value_of(y[0]) - value_of(y[2]))) / (2 * elastic_.shear);
     Internal next = internal;

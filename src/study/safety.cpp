@@ -151,7 +151,8 @@ class ReducedBody {
 
   void begin(double factor) {
     phase().control().archive(StateArchive::restoring(at_rest_));
-    phase().control().change_materials(with_strength_over(scene_, factor / options_.from).materials);
+    const Problem& problem = scene_;
+    phase().control().change_materials(with_strength_over(problem, factor / options_.from).materials);
   }
 
   // In a single load step, which commits nothing unless it succeeds.
