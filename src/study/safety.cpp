@@ -73,9 +73,14 @@ class ReducedBody {
     if (!simulation_.loads_settled())
       throw_scene_error(
           "", "loads still change when the body has come to rest; expected loads that have come to their end");
+    u_.assign(simulation_.u().begin(), simulation_.u().end());
+    if (const double strain = largest_strain(u_); strain > too_much)
+      throw_scene_error("",
+                        fmt::format("with a strength over {:g} the body rests only strained by {:.0f} % in a single "
+                                    "phase, whose grid then bears what the ground does not; expected a smaller factor",
+                                    options.from, 100 * strain));
     first_.verdict = SafetyVerdict::rests;
     first_.reason = summary.reason;
-    u_.assign(simulation_.u().begin(), simulation_.u().end());
     phase().control().archive(StateArchive::saving(at_rest_));
     points_ = field("u", u_);
     plastic_strain_ = plastic_strain(u_);
@@ -103,6 +108,7 @@ class ReducedBody {
         trial.verdict = SafetyVerdict::rests;
         trial.reason = of_newton;
         look(u, trial);
+        doubt_if_squeezed(u, trial);
         trial.wall_s = watch.seconds();
         return trial;
       }
@@ -118,6 +124,7 @@ class ReducedBody {
     trial.reason = found.reason;
     if (trial.verdict != SafetyVerdict::rests && !of_newton.empty()) trial.reason += "; " + of_newton;
     look(found.u, trial);
+    doubt_if_squeezed(found.u, trial);
     trial.wall_s = watch.seconds();
     return trial;
   }
@@ -153,6 +160,26 @@ class ReducedBody {
     phase().control().archive(StateArchive::restoring(at_rest_));
     const Problem& problem = scene_;
     phase().control().change_materials(with_strength_over(problem, factor / options_.from).materials);
+  }
+
+  static constexpr double too_much = 0.3;  // strain in a phase; slopes near their factor are strained by 0.05 at rest
+
+  // The largest component of ∂u/∂x at the points, since the phase began.
+  double largest_strain(ConstVec u) {
+    double largest = 0;
+    for (const double component : field("strain", u)) largest = std::max(largest, std::abs(component));
+    return largest;
+  }
+  // A grid that is squeezed bears loads that the material does not: such a rest is none.
+  void doubt_if_squeezed(ConstVec u, SafetyTrial& trial) {
+    if (trial.verdict != SafetyVerdict::rests) return;
+    const double strain = largest_strain(u);
+    if (!(strain > too_much)) return;
+    trial.verdict = SafetyVerdict::undecided;
+    trial.reason = fmt::format(
+        "at rest only strained by {:.0f} % in a single phase, whose grid then bears what the ground "
+        "does not; {}",
+        100 * strain, trial.reason);
   }
 
   // In a single load step, which commits nothing unless it succeeds.
