@@ -95,8 +95,8 @@ TEST_CASE("the fields of a point have a component each in two dimensions") {
   CHECK(probe_fields(1) == std::vector<std::string>{"u", "v", "strain", "stress"});
   const auto fields = probe_fields(2);
   for (const char* field : {"u.x", "u.y", "v.x", "v.y", "stress.xx", "stress.yy", "stress.zz", "stress.xy", "strain.xx",
-                            "strain.xy", "strain.yx", "strain.yy", "plastic_strain", "pore_pressure", "effective_stress.xx",
-                            "effective_stress.yy", "effective_stress.zz", "effective_stress.xy"})
+                            "strain.xy", "strain.yx", "strain.yy", "plastic_strain", "pore_pressure",
+                            "effective_stress.xx", "effective_stress.yy", "effective_stress.zz", "effective_stress.xy"})
     CHECK(std::ranges::find(fields, field) != fields.end());
   CHECK(fields.size() == 18);
 }
