@@ -24,7 +24,7 @@ struct MohrCoulombStrength {
 
   /// The strength for a σ_t that may lie beyond the apex.
   [[gnu::always_inline]] static MohrCoulombStrength from(double sin_phi, double sin_psi, double k, double tension) {
-    const double apex = k / (sin_phi + nothing);
+    const double apex = k / (sin_phi + vanishing_product);
     const bool is_apex = !(tension < apex);
     const double cut = is_apex ? apex : tension, line = (cut * (1 + sin_phi) - 2 * k) / (1 - sin_phi);
     return {sin_phi, sin_psi, k, cut, is_apex ? cut : line};

@@ -30,7 +30,7 @@ template <class Number>
 
 /// A product of stresses [Pa²] beside which none is left: quotients stay finite where both terms vanish, and so do
 /// cubes of its root.
-inline constexpr double nothing = 1e-180;
+inline constexpr double vanishing_product = 1e-180;
 
 /// In the plane two principal values are s_m ± r, r = |((s_xx − s_yy)/2, s_xy)|, and the third is s_zz = −2 s_m.
 template <class Number>
@@ -39,7 +39,7 @@ class PlanePrincipal {
   [[gnu::always_inline]] explicit PlanePrincipal(const PlaneDeviator<Number>& s)
       : half_(s.half), shear_(s.shear), across_(s.zz) {  // one by one: a copied aggregate is not vectorised
     using std::sqrt;
-    radius_ = sqrt(s.half * s.half + s.shear * s.shear + nothing);
+    radius_ = sqrt(s.half * s.half + s.shear * s.shear + vanishing_product);
     upper_ = radius_ - s.zz / 2;
     lower_ = -radius_ - s.zz / 2;
   }
@@ -77,7 +77,7 @@ class SpacePrincipal {
   [[gnu::always_inline]] explicit SpacePrincipal(const T& s) {
     using std::sqrt;
     // Cayley and Hamilton: s³ = J₂ s + J₃ I
-    const Number J2 = second_invariant(s) + nothing, root = sqrt(J2 / 3);
+    const Number J2 = second_invariant(s) + vanishing_product, root = sqrt(J2 / 3);
     const Number J3 =
         s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.zx) + s.zx * (s.xy * s.yz - s.yy * s.zx);
     const Number cosine = J3 / (2 * root * root * root);
@@ -95,7 +95,7 @@ class SpacePrincipal {
     const Number half = x_ / 2, f = 1.5 * x_;
     D_ = symmetric(s.xx + half - f * N_.xx, s.yy + half - f * N_.yy, s.zz + half - f * N_.zz, s.xy - f * N_.xy,
                    s.yz - f * N_.yz, s.zx - f * N_.zx);
-    delta_ = sqrt(second_invariant(D_) + nothing);
+    delta_ = sqrt(second_invariant(D_) + vanishing_product);
   }
   [[gnu::always_inline]] Principal<Number> values() const {
     const Number upper = delta_ - x_ / 2, lower = -delta_ - x_ / 2;

@@ -30,10 +30,10 @@ function(add_stillpoint_library target)
   endif()
 endfunction()
 
-# With CMAKE_UNITY_BUILD, for what is built once, the files of a room are compiled as one; those of space/phase, which
-# are large by themselves, stay apart.
+# With CMAKE_UNITY_BUILD, for what is built once, the files of a room are compiled as one; those of space/phase and
+# the laws of each kinematics, which are large by themselves, stay apart.
 foreach(source IN LISTS STILLPOINT_SOURCES)
-  if(source MATCHES "/src/(.*)/[^/]*$" AND NOT CMAKE_MATCH_1 STREQUAL space/phase)
+  if(NOT source MATCHES point_material_ AND source MATCHES "/src/(.*)/[^/]*$" AND NOT CMAKE_MATCH_1 STREQUAL space/phase)
     string(MAKE_C_IDENTIFIER ${CMAKE_MATCH_1} group)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endif()

@@ -1,5 +1,6 @@
-// The instantiations of laws for stress states.
-#include "space/materials/point_material.hpp"
+// The laws of a stress state, made by their names. Each kinematics has a file of its own that includes this one, so
+// that they are compiled side by side.
+#pragma once
 
 #include <stillpoint/drucker_prager.hpp>
 #include <stillpoint/hencky.hpp>
@@ -8,20 +9,24 @@
 #include <stillpoint/neo_hookean.hpp>
 #include <stillpoint/undrained.hpp>
 
+#include <memory>
 #include <stdexcept>
 
 #include "space/materials/elastic_material.hpp"
 #include "space/materials/history_material.hpp"
 #include "space/materials/own_material.hpp"
+#include "space/materials/point_material.hpp"
 
 namespace stillpoint {
-namespace {
 
+/// What make_point_material() makes.
 template <Kinematics K>
 using Made = std::unique_ptr<PointMaterial<K>>;
 
+/// Makes a material of this stress state; the arguments are those of make_point_material().
 template <StressState S>
-Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::size_t count, bool updated_lagrangian) {
+Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t begin, std::size_t count,
+                                     bool updated_lagrangian) {
   if (auto answers = own_law_answers(material.law, S, material.parameters))
     return std::make_unique<OwnMaterial<S>>(OwnLawAtPoint<S>(std::move(answers)), begin, count, updated_lagrangian);
   const auto lame = LameParameters::from(material.parameters.at("E"), material.parameters.at("nu"));
@@ -47,36 +52,6 @@ Made<kinematics(S)> make(const MaterialSpec& material, std::size_t begin, std::s
     }
   }
   throw std::logic_error("a material law without an instantiation for this stress state");
-}
-
-}  // namespace
-
-template <>
-Made<Kinematics::line> make_point_material(const MaterialSpec& material, StressState state, std::size_t begin,
-                                           std::size_t count, bool updated_lagrangian) {
-  if (state == StressState::uniaxial_stress)
-    return make<StressState::uniaxial_stress>(material, begin, count, updated_lagrangian);
-  return make<StressState::uniaxial_strain>(material, begin, count, updated_lagrangian);
-}
-
-template <>
-Made<Kinematics::plane> make_point_material(const MaterialSpec& material, StressState state, std::size_t begin,
-                                            std::size_t count, bool updated_lagrangian) {
-  if (state == StressState::plane_stress)
-    return make<StressState::plane_stress>(material, begin, count, updated_lagrangian);
-  return make<StressState::plane_strain>(material, begin, count, updated_lagrangian);
-}
-
-template <>
-Made<Kinematics::axisymmetric> make_point_material(const MaterialSpec& material, StressState, std::size_t begin,
-                                                   std::size_t count, bool updated_lagrangian) {
-  return make<StressState::axisymmetric>(material, begin, count, updated_lagrangian);
-}
-
-template <>
-Made<Kinematics::space> make_point_material(const MaterialSpec& material, StressState, std::size_t begin,
-                                            std::size_t count, bool updated_lagrangian) {
-  return make<StressState::space>(material, begin, count, updated_lagrangian);
 }
 
 }  // namespace stillpoint
