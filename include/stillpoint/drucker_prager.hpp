@@ -94,11 +94,10 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
   bool is_viscous() const { return fluidity_ > 0; }
   /// The yield state on the cone; the cut-off is never exceeded.
   YieldState yield_state(const History& now) const {
-    const double p = (now[0] + now[1] + now[2]) / 3, x = now[0] - p, y = now[1] - p, z = now[2] - p;
-    double J2 = (x * x + y * y + z * z) / 2;
-    for (std::size_t a = 3; a < Base::stresses; ++a) J2 += now[a] * now[a];
+    const Stress<S> sigma = Base::cauchy(now);
+    const double p = (sigma[0] + sigma[1] + sigma[2]) / 3;
+    const double root_J2 = std::sqrt(second_invariant(deviator_of<S>(sigma, p)));
     const auto [eta, k] = cone_at(now[Base::stresses + 1]);
-    const double root_J2 = std::sqrt(J2);
     return {.f = root_J2 + eta * p - k, .strength = k - eta * p, .root_J2 = root_J2};
   }
 

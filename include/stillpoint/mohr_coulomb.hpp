@@ -53,7 +53,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
  public:
   using typename Base::History, typename Base::Internal;
   static constexpr auto history_names = Base::names_of_history({"gap", "plastic_strain"});
-  /// Where in the history the factor of c is, by which it varies from place to place.
+  /// That of c.
   static constexpr std::size_t share_row = varies ? Base::stresses + 2 : no_share_row;
 
   explicit MohrCoulomb(const MohrCoulombParameters& m)
@@ -116,7 +116,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
   YieldState yield_state(const History& now) const {
     const Stress<S> sigma = Base::cauchy(now);
     const double p = (sigma[0] + sigma[1] + sigma[2]) / 3;
-    const DeviatorOf<S, double> s = deviator(sigma, p);
+    const DeviatorOf<S, double> s = deviator_of<S>(sigma, p);
     const Principal<double> of_s = PrincipalOf<S, double>(s).values();
     const MohrCoulombStrength strength = strength_at(Base::internal(now));
     const double root_J2 = std::sqrt(second_invariant(s));
@@ -152,20 +152,12 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
         at.sin_psi += way * ramp.slopes.sin_psi;
         at.k += way * ramp.slopes.k;
       };
-      [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) { (add(ramps_[k]), ...); }
-      (std::make_index_sequence<most_strength_rows>());
+      unroll<most_strength_rows>([&](auto k) __attribute__((always_inline)) { add(ramps_[k]); });
       at.k *= internal[2];
     }
     return MohrCoulombStrength::from(at.sin_phi, at.sin_psi, at.k, tension_);
   }
 
-  static DeviatorOf<S, double> deviator(const Stress<S>& sigma, double p) {
-    if constexpr (S == StressState::space) {
-      return {sigma[0] - p, sigma[3], sigma[5], sigma[3], sigma[1] - p, sigma[4], sigma[5], sigma[4], sigma[2] - p};
-    } else {
-      return {(sigma[0] - sigma[1]) / 2, sigma[3], sigma[2] - p};
-    }
-  }
   template <class Number>
   [[gnu::always_inline]] static PlaneDeviator<Number> either_deviator(bool first, const PlaneDeviator<Number>& a,
                                                                       const PlaneDeviator<Number>& b) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <stillpoint/material.hpp>
+#include <stillpoint/unroll.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -80,9 +81,9 @@ class AnswersOf final : public LawAnswers {
 #endif
       for (std::size_t q = begin; q < end; ++q) {
         Tensor of_point;
-        for_components([&](auto c) __attribute__((always_inline)) { of_point[c] = H[stride * c + q]; });
+        unroll<components>([&](auto c) __attribute__((always_inline)) { of_point[c] = H[stride * c + q]; });
         const Tensor answer = law.first_piola(of_point);  // called here, as GCC inlines it nowhere deeper
-        for_components([&](auto c) __attribute__((always_inline)) { P[stride * c + q] = answer[c]; });
+        unroll<components>([&](auto c) __attribute__((always_inline)) { P[stride * c + q] = answer[c]; });
       }
       if (end == points) return;
     }
@@ -91,14 +92,6 @@ class AnswersOf final : public LawAnswers {
   void moduli(const double* H, double* A) const noexcept override { std::ranges::copy(law_.moduli(at(H)), A); }
 
  private:
-  // Calls body(0), body(1), …, unrolled before the vectoriser runs
-  template <class Body>
-  [[gnu::always_inline]] static void for_components(const Body& body) {
-    [&]<std::size_t... c>(std::index_sequence<c...>) __attribute__((always_inline)) {
-      (body(std::integral_constant<std::size_t, c>()), ...);
-    }
-    (std::make_index_sequence<components>());
-  }
   static Tensor at(const double* H) {
     Tensor tensor;
     std::copy_n(H, components, tensor.begin());

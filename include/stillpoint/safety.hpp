@@ -19,6 +19,8 @@ struct SafetyOptions {
   int threads = 0;          // 0: as many as OpenMP would take
   std::function<bool()> interrupted{};
   std::function<void(const StudyProgress&)> progress{};
+  /// Describes the fault of the options; empty if there is none.
+  std::string validate() const;
 };
 
 enum class SafetyVerdict {

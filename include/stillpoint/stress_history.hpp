@@ -4,6 +4,7 @@
 
 #include <stillpoint/dual.hpp>
 #include <stillpoint/stress_increment.hpp>
+#include <stillpoint/unroll.hpp>
 
 #include <array>
 #include <cstddef>
@@ -15,15 +16,6 @@ namespace stillpoint {
 struct IsotropicModuli {
   double bulk, shear;  // K, G [Pa]
 };
-
-/// Calls body(0), …, body(N − 1): a loop that is unrolled before the vectoriser runs.
-template <std::size_t N, class Body>
-[[gnu::always_inline]] inline void for_each(const Body& body) {
-  [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
-    (body(std::integral_constant<std::size_t, k>()), ...);
-  }
-  (std::make_index_sequence<N>());
-}
 
 /// The consistent tangent [Simo and Taylor 1985]: the derivative of first_piola() to rounding, H and dH changing alike.
 /// It is symmetric only without stress and plastic flow: a flow that is not associated makes it unsymmetric, and the
@@ -65,6 +57,8 @@ class StressHistory {
   static constexpr StressState state = S;
   static constexpr std::size_t stresses = stress_components(S);
   static constexpr std::size_t history = stresses + internals;
+  /// Where in the history a law has the factor of its strength, if that varies from place to place.
+  static constexpr std::size_t share_row = no_share_row;
   using History = std::array<double, history>;  // σ_xx, σ_yy, σ_zz, σ_xy, in space σ_yz, σ_zx [Pa]; internal variables
   using Internal = std::array<double, internals>;
   static constexpr std::array<std::string_view, history> names_of_history(
@@ -81,14 +75,14 @@ class StressHistory {
                                                            History& next) const {
     const StressAfter<S, Number, internals> after =
         law().template advanced<Number>(H, dH, cauchy(next), internal(next), dt);
-    for_each<stresses>([&](auto a) __attribute__((always_inline)) { next[a] = value_of(after.stress[a]); });
-    for_each<internals>([&](auto k) __attribute__((always_inline)) { next[stresses + k] = after.internal[k]; });
+    unroll<stresses>([&](auto a) __attribute__((always_inline)) { next[a] = value_of(after.stress[a]); });
+    unroll<internals>([&](auto k) __attribute__((always_inline)) { next[stresses + k] = after.internal[k]; });
     return nominal_stress<S, Number>(H, after.det_g, after.stress);
   }
 
   [[gnu::always_inline]] static Stress<S> cauchy(const History& now) {
     Stress<S> sigma;
-    for_each<stresses>([&](auto a) __attribute__((always_inline)) { sigma[a] = now[a]; });
+    unroll<stresses>([&](auto a) __attribute__((always_inline)) { sigma[a] = now[a]; });
     return sigma;
   }
   History initial_history(const Stress<S>& sigma) const {
@@ -111,7 +105,7 @@ class StressHistory {
  protected:
   [[gnu::always_inline]] static Internal internal(const History& now) {
     Internal of_law;
-    for_each<internals>([&](auto k) __attribute__((always_inline)) { of_law[k] = now[stresses + k]; });
+    unroll<internals>([&](auto k) __attribute__((always_inline)) { of_law[k] = now[stresses + k]; });
     return of_law;
   }
 

@@ -39,6 +39,16 @@ constexpr Number second_invariant(const SpaceTensorOf<Number>& s) {
 template <StressState S, class Number>
 using DeviatorOf = std::conditional_t<S == StressState::space, SpaceTensorOf<Number>, PlaneDeviator<Number>>;
 
+/// The deviator of a stress with the mean p.
+template <StressState S>
+constexpr DeviatorOf<S, double> deviator_of(const Stress<S>& sigma, double p) {
+  if constexpr (S == StressState::space) {
+    return {sigma[0] - p, sigma[3], sigma[5], sigma[3], sigma[1] - p, sigma[4], sigma[5], sigma[4], sigma[2] - p};
+  } else {
+    return {(sigma[0] - sigma[1]) / 2, sigma[3], sigma[2] - p};
+  }
+}
+
 /// The stress p I + s in the order of components of a Stress.
 template <class Number>
 constexpr std::array<Number, 4> stress_of(const Number& p, const PlaneDeviator<Number>& s) {

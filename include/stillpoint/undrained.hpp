@@ -51,13 +51,7 @@ class Undrained {
     names.back() = "pore_pressure";
     return names;
   }();
-
-  static constexpr std::size_t share_row = [] {
-    if constexpr (requires { Law::share_row; })
-      return Law::share_row;
-    else
-      return no_share_row;
-  }();
+  static constexpr std::size_t share_row = Law::share_row;
 
   /// stiffness: K_w/n [Pa].
   Undrained(const Law& law, double stiffness) : law_(law), stiffness_(stiffness) {}
@@ -69,15 +63,15 @@ class Undrained {
     typename Law::History of_skeleton = skeleton(next);
     GradientOf<state, Number> P = law_.first_piola(H, dH, dt, of_skeleton);
     GradientOf<state, Number> before = H;
-    for_each<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { before[c] = H[c] - dH[c]; });
+    unroll<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { before[c] = H[c] - dH[c]; });
     const Number J = volume_ratio<state>(H), J_before = volume_ratio<state>(before);
     const Number growth = logarithm_of(J / J_before, (J - J_before) / J_before);
     const Number pressure = next[Law::history] - stiffness_ * growth;
     std::array<Number, stress_components(state)> of_water{};
-    for_each<3>([&](auto a) __attribute__((always_inline)) { of_water[a] = -pressure; });
+    unroll<3>([&](auto a) __attribute__((always_inline)) { of_water[a] = -pressure; });
     const GradientOf<state, Number> P_of_water = nominal_stress<state, Number>(H, J_before, of_water);
-    for_each<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { P[c] = P[c] + P_of_water[c]; });
-    for_each<Law::history>([&](auto h) __attribute__((always_inline)) { next[h] = of_skeleton[h]; });
+    unroll<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { P[c] = P[c] + P_of_water[c]; });
+    unroll<Law::history>([&](auto h) __attribute__((always_inline)) { next[h] = of_skeleton[h]; });
     next[Law::history] = value_of(pressure);
     return P;
   }
@@ -85,7 +79,7 @@ class Undrained {
   /// The total stress.
   [[gnu::always_inline]] static Stress<state> cauchy(const History& now) {
     Stress<state> sigma = Law::cauchy(skeleton(now));
-    for_each<3>([&](auto a) __attribute__((always_inline)) { sigma[a] -= now[Law::history]; });
+    unroll<3>([&](auto a) __attribute__((always_inline)) { sigma[a] -= now[Law::history]; });
     return sigma;
   }
   /// For ground under this effective stress, with no pore pressure but that of water at rest, which is not counted.
@@ -109,7 +103,7 @@ class Undrained {
  private:
   [[gnu::always_inline]] static typename Law::History skeleton(const History& now) {
     typename Law::History of_skeleton;
-    for_each<Law::history>([&](auto h) __attribute__((always_inline)) { of_skeleton[h] = now[h]; });
+    unroll<Law::history>([&](auto h) __attribute__((always_inline)) { of_skeleton[h] = now[h]; });
     return of_skeleton;
   }
   ElasticRate<state> elastic(const Gradient<state>& H, const History& now) const {

@@ -205,9 +205,8 @@ int dispatch(int argc, char** argv) {
   }
   if (converge_app.parsed()) return converge(converge_arguments);
   if (safety_app.parsed()) {
-    if (!(safety_arguments.options.to > safety_arguments.options.from)) {
-      fmt::print(stderr, "--to {}: expected more than --from, {}\n", safety_arguments.options.to,
-                 safety_arguments.options.from);
+    if (const std::string wrong = safety_arguments.options.validate(); !wrong.empty()) {
+      fmt::print(stderr, "--{}\n", wrong);
       return bad_input;
     }
     wait_briefly(argv, safety_arguments.options.threads);

@@ -53,10 +53,11 @@ class PlaceFields {
         places.velocity(x, all);
       } else if (field.name == "strain") {
         places.strain(x, all);
-      } else if (field.name == "stress" || field.name == "effective_stress") {
+      } else if (field.name == "stress") {
         places.stress(x, all);
-        const double pressure = field.name == "stress" || !has_water_ ? 0 : places.history("pore_pressure", x);
-        for (std::size_t a = 0; a < std::min<std::size_t>(3, all.size()); ++a) all[a] += pressure;
+      } else if (field.name == "effective_stress") {
+        places.stress(x, all);
+        if (has_water_) make_effective(all, places.history("pore_pressure", x));
       } else {
         all[0] = places.history(field.name, x);
       }

@@ -40,14 +40,13 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
   } else if (name == "stress") {
     phase.fields().point_stress(t, u, values);
   } else if (name == "effective_stress") {
-    // σ' = σ + p_w I; without water the stress itself
     phase.fields().point_stress(t, u, values);
     if (!remembers(phase, "pore_pressure")) return values;
     std::vector<double> pressure(phase.points());
     phase.fields().point_history("pore_pressure", pressure);
     const std::size_t components = values.size() / pressure.size();
     for (std::size_t p = 0; p < pressure.size(); ++p)
-      for (std::size_t a = 0; a < 3; ++a) values[components * p + a] += pressure[p];
+      make_effective(Vec(values).subspan(components * p, components), pressure[p]);
   } else if (name == "volume") {
     phase.fields().point_field(PointQuantity::volume, t, u, values);
   } else {
@@ -55,6 +54,20 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
     phase.fields().point_history(name, values);
   }
   return values;
+}
+
+void make_effective(Vec stress, double pore_pressure) {
+  for (double& normal : stress.first(3)) normal += pore_pressure;
+}
+
+LargestStrain largest_strain(const LagrangianPhase& phase, double t, ConstVec u) {
+  const auto components = static_cast<std::size_t>(phase.info().gradient_components);
+  std::vector<double> gradient(components * phase.points());
+  phase.fields().point_strain(t, u, gradient);
+  LargestStrain most;
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    if (std::abs(gradient[k]) > most.strain) most = {std::abs(gradient[k]), k / components};
+  return most;
 }
 
 bool is_field(const LagrangianPhase& phase, const std::string& name) {

@@ -13,6 +13,16 @@ namespace stillpoint {
 std::vector<double> point_field(const LagrangianPhase& phase, const std::string& name, double t, ConstVec u,
                                 ConstVec v);
 
+/// The effective stress σ' = σ + p_w I in the place of a stress in the order of components of a Stress [Pa].
+void make_effective(Vec stress, double pore_pressure);
+
+/// The largest component of ∂u/∂x at the points, by its size, since the phase began, and the number of its point.
+struct LargestStrain {
+  double strain = 0;
+  std::size_t point = 0;
+};
+LargestStrain largest_strain(const LagrangianPhase& phase, double t, ConstVec u);
+
 /// Whether there is a field of this name.
 bool is_field(const LagrangianPhase& phase, const std::string& name);
 

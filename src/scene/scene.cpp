@@ -59,55 +59,18 @@ bool loads_vary(const Problem& problem) {
 
 std::vector<std::string> probe_fields(int dim) {
   if (dim == 1) return {"u", "v", "strain", "stress"};
-  if (dim == 3) {
-    return {"u.x",
-            "u.y",
-            "u.z",
-            "v.x",
-            "v.y",
-            "v.z",
-            "stress.xx",
-            "stress.yy",
-            "stress.zz",
-            "stress.xy",
-            "stress.yz",
-            "stress.zx",
-            "strain.xx",
-            "strain.xy",
-            "strain.xz",
-            "strain.yx",
-            "strain.yy",
-            "strain.yz",
-            "strain.zx",
-            "strain.zy",
-            "strain.zz",
-            "plastic_strain",
-            "pore_pressure",
-            "effective_stress.xx",
-            "effective_stress.yy",
-            "effective_stress.zz",
-            "effective_stress.xy",
-            "effective_stress.yz",
-            "effective_stress.zx"};
-  }
-  return {"u.x",
-          "u.y",
-          "v.x",
-          "v.y",
-          "stress.xx",
-          "stress.yy",
-          "stress.zz",
-          "stress.xy",
-          "strain.xx",
-          "strain.xy",
-          "strain.yx",
-          "strain.yy",
-          "plastic_strain",
-          "pore_pressure",
-          "effective_stress.xx",
-          "effective_stress.yy",
-          "effective_stress.zz",
-          "effective_stress.xy"};
+  const std::vector<std::string> axes = axis_names(dim), stresses = stress_names(dim == 3 ? 6 : 4);
+  std::vector<std::string> fields;
+  const auto add = [&](std::string_view figure, const std::vector<std::string>& components) {
+    std::ranges::move(component_names(figure, components), std::back_inserter(fields));
+  };
+  add("u", axes);
+  add("v", axes);
+  add("stress", stresses);
+  add("strain", gradient_names(dim, dim * dim));
+  fields.insert(fields.end(), {"plastic_strain", "pore_pressure"});
+  add("effective_stress", stresses);
+  return fields;
 }
 
 std::vector<std::string> body_fields(int dim) {

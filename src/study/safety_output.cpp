@@ -64,10 +64,11 @@ std::string to_json(const SafetyStudy& study) { return file_text(json(study)); }
 
 void write_safety(const SafetyStudy& study, const std::filesystem::path& folder) {
   write_file(folder / "safety.csv", csv(study));
-  write_file(folder / "safety.json", to_json(study));
+  const Json whole = json(study);
+  write_file(folder / "safety.json", file_text(whole));
   const std::string page = report_page(study.title.empty() ? study.scene : study.title,
                                        {{"kind", "safety"},
-                                        {"study", json(study)},
+                                        {"study", whole},
                                         {"mechanism", study.mechanism ? json(*study.mechanism) : Json(nullptr)},
                                         {"scene", {{"text", study.scene_text}, {"set", study.overrides}}}});
   write_file(folder / report_name, page);

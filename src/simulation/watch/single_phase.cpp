@@ -2,12 +2,9 @@
 // equilibrium is left, and the residual ends at the share of the load that it does not bear; but the frozen grid
 // stiffens as it is squeezed, and bears any load in the end. So the strain tells how far the answer can be trusted. A
 // hyperelastic body is computed rightly at any strain in one phase.
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 #include <fmt/format.h>
 
+#include "output/point_fields.hpp"
 #include "simulation/watcher.hpp"
 
 namespace stillpoint {
@@ -17,21 +14,10 @@ namespace {
 // which twice the load that it bears takes it to.
 constexpr double largest_single_phase_strain = 0.9;
 
-struct SinglePhaseStrain {
-  double strain = 0;      // the largest component of ∂u/∂x at the points
-  std::size_t point = 0;  // the point that has this strain
-};
-
 // The strain at (t, u); empty if the points move on, or nothing remembers its path.
-std::optional<SinglePhaseStrain> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u) {
+std::optional<LargestStrain> strain_in_single_phase(const LagrangianPhase& phase, double t, ConstVec u) {
   if (phase.info().updated_lagrangian || !phase.info().remembers) return std::nullopt;
-  const auto components = static_cast<std::size_t>(phase.info().gradient_components);
-  std::vector<double> gradient(components * phase.points());
-  phase.fields().point_strain(t, u, gradient);
-  SinglePhaseStrain most;
-  for (std::size_t k = 0; k < gradient.size(); ++k)
-    if (std::abs(gradient[k]) > most.strain) most = {std::abs(gradient[k]), k / components};
-  return most;
+  return largest_strain(phase, t, u);
 }
 
 // A note on the strain; empty: there is nothing to say.

@@ -46,6 +46,8 @@ class HeldUnknowns {
   const std::vector<int>& prescribed() const { return prescribed_; }
   const PrescribedMotion& motion(std::size_t s) const { return *motions_[s]; }
   std::size_t owner(std::size_t s) const { return owners_[s]; }
+  /// The displacement of prescribed unknown s relative to the grid with which the phase begins, without a strain.
+  double from(std::size_t s) const { return from_[s]; }
   double start() const { return start_; }  // when the phase begins [s]
   /// Displacement of prescribed unknown s since the phase began; in the first phase, from the undeformed body.
   double displacement(std::size_t s, double t) const {

@@ -6,6 +6,8 @@
 //   CubicHermite   value and slope at both nodes, C¹; a slope's degree of freedom is du/dx
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +16,6 @@
 #include <vector>
 
 #include "base/lanes.hpp"
-#include "base/unroll.hpp"
 #include "space/grid/grid.hpp"
 
 namespace stillpoint {

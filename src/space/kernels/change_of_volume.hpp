@@ -2,10 +2,11 @@
 // and I. j is summed from H itself, so that a small one keeps the digits that J loses beside 1.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <array>
 #include <cstddef>
 
-#include "base/unroll.hpp"
 #include "space/materials/point_material.hpp"
 
 namespace stillpoint {

@@ -17,12 +17,13 @@
 // a_p = κ V_p t̄, so that the law's V P̄ is V P.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <array>
 #include <cstddef>
 #include <vector>
 
 #include "base/lanes.hpp"
-#include "base/unroll.hpp"
 #include "space/kernels/point_weights.hpp"
 
 namespace stillpoint {

@@ -3,11 +3,12 @@
 // and all functions in space have specialisations.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <array>
 #include <cstddef>
 
 #include "base/lanes.hpp"
-#include "base/unroll.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/materials/point_material.hpp"
 

@@ -19,12 +19,13 @@
 //   H̄ = H + (t̄ − tr H)/d I,   t̄ = Σ V_p tr H_p/W,      V P = V P̄ + (A V/W − a) I,   a_p = V_p tr P̄_p/d.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "base/unroll.hpp"
 #include "space/kernels/change_of_volume.hpp"
 
 namespace stillpoint {

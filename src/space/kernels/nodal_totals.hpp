@@ -10,6 +10,8 @@
 // Either mass conserves the mass of each cell.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -17,7 +19,6 @@
 
 #include "base/lanes.hpp"
 #include "base/parallel_loop.hpp"
-#include "base/unroll.hpp"
 #include "space/kernels/nodal_sum.hpp"
 
 namespace stillpoint {

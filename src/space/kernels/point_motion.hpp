@@ -5,13 +5,14 @@
 // They are kept apart from the points, which stay unchanged if one of them would leave the grid.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <array>
 #include <cstddef>
 #include <vector>
 
 #include "base/lanes.hpp"
 #include "base/parallel_loop.hpp"
-#include "base/unroll.hpp"
 #include "space/kernels/point_weights.hpp"
 
 namespace stillpoint {

@@ -17,6 +17,8 @@
 // Points of different materials have separate means.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -28,7 +30,6 @@
 #include "base/lanes.hpp"
 #include "base/memory_report.hpp"
 #include "base/parallel_loop.hpp"
-#include "base/unroll.hpp"
 #include "space/grid/basis.hpp"
 #include "space/grid/domain_basis.hpp"
 #include "space/kernels/corner_sum.hpp"

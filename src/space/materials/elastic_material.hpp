@@ -1,13 +1,14 @@
 // Material laws without history, applied to blocks of points.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/unroll.hpp"
 #include "space/materials/law_material.hpp"
 
 namespace stillpoint {

@@ -1,12 +1,13 @@
 // Material laws with history, applied to blocks of points.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/unroll.hpp"
 #include "space/materials/law_material.hpp"
 
 namespace stillpoint {
@@ -70,9 +71,7 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   std::optional<YieldState> yield_state(std::size_t p) const override { return law_.yield_state(history(p)); }
 
   Vec strength_shares() override {
-    if constexpr (requires { Law::share_row; }) {
-      if constexpr (Law::share_row < Law::history) return Vec(committed_).subspan(count_ * Law::share_row, count_);
-    }
+    if constexpr (Law::share_row != no_share_row) return Vec(committed_).subspan(count_ * Law::share_row, count_);
     return {};
   }
 

@@ -2,11 +2,12 @@
 // compiler vectorises.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "base/unroll.hpp"
 #include "space/materials/point_material.hpp"
 
 namespace stillpoint {

@@ -1,10 +1,11 @@
 // User-defined laws applied to blocks of points.
 #pragma once
 
+#include <stillpoint/unroll.hpp>
+
 #include <memory>
 #include <utility>
 
-#include "base/unroll.hpp"
 #include "space/materials/elastic_material.hpp"
 #include "space/materials/material_laws.hpp"
 

@@ -5,6 +5,7 @@
 #include <stillpoint/problem.hpp>
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/types.hpp>
+#include <stillpoint/unroll.hpp>
 
 #include <array>
 #include <memory>
@@ -15,7 +16,6 @@
 
 #include "base/memory_report.hpp"
 #include "base/reordering.hpp"
-#include "base/unroll.hpp"
 #include "space/materials/deformation.hpp"
 
 namespace stillpoint {

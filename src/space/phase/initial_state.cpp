@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "scene/body_depth.hpp"
+#include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
 
 namespace stillpoint {
@@ -18,17 +19,18 @@ namespace {
 /// The mass above a position, per area.
 class MassAbove {
  public:
-  explicit MassAbove(const Problem& problem) : problem_(problem), step_(touching * smallest_height(problem)) {
+  explicit MassAbove(const Problem& problem) : problem_(problem), step_(touching * smallest_cell(problem.grid, 1)) {
     for (const BodySpec& body : problem.bodies) {
       depths_.emplace_back(body);
       densities_.push_back(problem.materials.at(body.material).parameters.at("rho"));
     }
-    is_uniform_ = std::ranges::adjacent_find(densities_, std::ranges::not_equal_to()) == densities_.end() ||
-                  std::ranges::any_of(depths_, [](const BodyDepth& depth) { return !depth.is_known(); });
+    by_depth_ = std::ranges::adjacent_find(densities_, std::ranges::not_equal_to()) == densities_.end() ||
+                std::ranges::any_of(depths_, [](const BodyDepth& depth) { return !depth.is_known(); });
   }
 
-  /// Whether the ground has one density, so that the depth alone counts.
-  bool is_uniform() const { return is_uniform_; }
+  /// Whether the depth of a point and its own density are all that counts: the ground has one density, or the surface
+  /// of a body is not known.
+  bool by_depth() const { return by_depth_; }
   /// of: the density of the point itself [kg/m³].
   double operator()(std::vector<double> X, double of) const {
     const double surface = problem_.geostatic->surface;
@@ -44,9 +46,6 @@ class MassAbove {
   }
 
  private:
-  static double smallest_height(const Problem& problem) {
-    return (problem.grid.max[1] - problem.grid.min[1]) / problem.grid.cells.at(1);
-  }
   std::optional<std::size_t> body_at(const std::vector<double>& X) const {
     for (std::size_t k = 0; k < depths_.size(); ++k)
       if (depths_[k].contains(X)) return k;
@@ -57,7 +56,7 @@ class MassAbove {
   double step_;  // over the border of a body [m]
   std::vector<BodyDepth> depths_;
   std::vector<double> densities_;
-  bool is_uniform_ = true;
+  bool by_depth_ = true;
 };
 
 template <Kinematics K>
@@ -72,7 +71,7 @@ void set_geostatic_stress(const Problem& problem, Body<K>& body) {
         const auto x = body.points.position(static_cast<std::size_t>(p));
         const double depth = problem.geostatic->surface - x[1];
         const double vertical =
-            mass_above.is_uniform() ? rho * b_y * std::max(0.0, depth) : b_y * mass_above({x.begin(), x.end()}, rho);
+            mass_above.by_depth() ? rho * b_y * std::max(0.0, depth) : b_y * mass_above({x.begin(), x.end()}, rho);
         const double side = problem.geostatic->K0 * vertical;
         stress.push_back({side, vertical, side});
       }

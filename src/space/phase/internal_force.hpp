@@ -44,9 +44,8 @@ class InternalForce {
   void take_points() { points_.rebuild(frame_.body.points, frame_.weights, frame_.corner_sum); }
   /// Prepares evaluations in the phase that begins at t.
   void begin_phase(double t) {
-    committed_.u.assign(static_cast<std::size_t>(dim) * frame_.functions_of_grid(), 0);
-    // Where a support has displaced the body when the run begins, that is a strain which laws have yet to answer.
-    if (frame_.phase > 0) frame_.unknowns.spread_others(t, committed_.u);
+    committed_.u.resize(static_cast<std::size_t>(dim) * frame_.functions_of_grid());
+    frame_.unknowns.spread_start(committed_.u);
     committed_.t = t;
     committed_.motion = 0;
     laws_.begin_phase();

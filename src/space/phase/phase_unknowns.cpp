@@ -34,6 +34,13 @@ void PhaseUnknowns::spread_others(double t, std::vector<double>& grid) const {
   dofs_->extend(grid.data());
 }
 
+void PhaseUnknowns::spread_start(std::vector<double>& grid) const {
+  std::ranges::fill(grid, 0.0);
+  for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s)
+    grid[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.from(s);
+  dofs_->extend(grid.data());
+}
+
 double PhaseUnknowns::spread_and_measure(double t, ConstVec u, const std::vector<double>& weight,
                                          std::vector<double>& grid) const {
   const auto spread_one = [u = u.data(), to = grid.data(), number = dofs_->free.data(),

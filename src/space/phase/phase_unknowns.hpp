@@ -28,8 +28,9 @@ class PhaseUnknowns {
 
   /// Sets the displacements of all functions from those of the free unknowns, u, and those of the supports at t.
   void spread(double t, ConstVec u, std::vector<double>& grid) const;
-  /// Sets the displacements of the unknowns that are not free.
-  void spread_others(double t, std::vector<double>& grid) const;
+  /// Sets the displacements with which the phase begins, from which points are strained: 0, and of what a support holds
+  /// HeldUnknowns::from(). The displacement of a support when a run begins is a strain that laws have yet to answer.
+  void spread_start(std::vector<double>& grid) const;
   /// The same as spread() in one pass with the largest |u_k| weight_k, which it returns.
   double spread_and_measure(double t, ConstVec u, const std::vector<double>& weight, std::vector<double>& grid) const;
   /// Sets a direction of motion of all functions from that of the free unknowns; supports stay where they are.
@@ -40,6 +41,9 @@ class PhaseUnknowns {
   std::vector<double> free_values(const std::vector<double>& grid) const;
 
  private:
+  /// Sets the displacements of the unknowns that are not free.
+  void spread_others(double t, std::vector<double>& grid) const;
+
   int dim_;
   HeldUnknowns held_;
   std::vector<char> reached_, untouched_;  // (functions)

@@ -39,6 +39,14 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// With a static solver, in which no time passes, no material is viscous.
+template <Kinematics K>
+std::unique_ptr<PointMaterial<K>> make_material(const MaterialSpec& material, const Problem& problem, std::size_t begin,
+                                                std::size_t count, bool updated_lagrangian) {
+  return make_point_material<K>(problem.solve.is_static() ? rate_independent(material) : material, problem.state, begin,
+                                count, updated_lagrangian);
+}
+
 }  // namespace detail
 
 /// Gives each material other parameters of the same law; its points keep their stored states.
@@ -49,8 +57,7 @@ void change_materials(Body<K>& body, const std::map<std::string, MaterialSpec>& 
     const MaterialSpec& spec = materials.at(body.material_names[m]);
     const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
     const std::size_t count = static_cast<std::size_t>(body.points.material_begin[m + 1]) - begin;
-    auto changed = make_point_material<K>(problem.solve.is_static() ? rate_independent(spec) : spec, problem.state,
-                                          begin, count, updated_lagrangian);
+    auto changed = detail::make_material<K>(spec, problem, begin, count, updated_lagrangian);
     const Vec before = body.materials[m]->memory(), now = changed->memory();
     if (before.size() != now.size())
       throw std::invalid_argument("a material cannot be changed into one of another law");
@@ -112,9 +119,8 @@ Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool 
       for (std::size_t p = 0; p < part.size(); ++p) points.number.push_back(first_number + static_cast<int>(p));
     }
     const auto begin = static_cast<std::size_t>(points.material_begin.back());
-    const MaterialSpec& material = problem.materials.at(name);
-    body.materials.push_back(make_point_material<K>(problem.solve.is_static() ? rate_independent(material) : material,
-                                                    problem.state, begin, points.size() - begin, updated_lagrangian));
+    body.materials.push_back(detail::make_material<K>(problem.materials.at(name), problem, begin, points.size() - begin,
+                                                      updated_lagrangian));
     body.material_names.push_back(name);
   }
   points.material_begin.push_back(static_cast<int>(points.size()));
