@@ -13,7 +13,7 @@
 #include "simulation/advice/notes.hpp"
 #include "simulation/loads/load_schedule.hpp"
 #include "simulation/setup/balanced_leapfrog.hpp"
-#include "simulation/setup/stages.hpp"
+#include "simulation/setup/set_up_state.hpp"
 #include "simulation/setup/stiffening_step.hpp"
 #include "solvers/spectrum/local_damping_gain.hpp"
 

@@ -9,7 +9,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "simulation/advice/mechanism.hpp"
 #include "simulation/advice/notes.hpp"
-#include "simulation/setup/stages.hpp"
+#include "simulation/setup/set_up_state.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 
 namespace stillpoint {

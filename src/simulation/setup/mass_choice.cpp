@@ -9,7 +9,7 @@
 
 #include "scene/throw_scene_error.hpp"
 #include "simulation/setup/multigrid_mass.hpp"
-#include "simulation/setup/stages.hpp"
+#include "simulation/setup/set_up_state.hpp"
 
 namespace stillpoint {
 namespace {

@@ -16,7 +16,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "simulation/advice/notes.hpp"
 #include "simulation/loads/load_schedule.hpp"
-#include "simulation/setup/stages.hpp"
+#include "simulation/setup/set_up_state.hpp"
 
 namespace stillpoint {
 namespace {
@@ -144,31 +144,31 @@ void choose_way_to_rest(SetUpState& set_up) {
     model.initial_stiffening = model.phase->stiffening(0, model.u);
 }
 
-struct Stage {
+struct Part {
   const char* makes;
   void (*run)(SetUpState&);
 };
-constexpr std::array stages{
-    Stage{"the material points, their weights and the mass", &make_first_phase},
-    Stage{"the initial state", &begin_at_initial_state},
-    Stage{"the choice of a mass, and the hierarchy of multigrid", &begin_motion},
-    Stage{"the highest frequency", &find_omega_max},
-    Stage{"the lowest frequency, with a factor of the stiffness", &find_omega_1},
-    Stage{"the norm of errors", &choose_norm_of_errors},
-    Stage{"the damping and the step", &choose_way_to_rest},
+constexpr std::array parts_in_order{
+    Part{"the material points, their weights and the mass", &make_first_phase},
+    Part{"the initial state", &begin_at_initial_state},
+    Part{"the choice of a mass, and the hierarchy of multigrid", &begin_motion},
+    Part{"the highest frequency", &find_omega_max},
+    Part{"the lowest frequency, with a factor of the stiffness", &find_omega_1},
+    Part{"the norm of errors", &choose_norm_of_errors},
+    Part{"the damping and the step", &choose_way_to_rest},
 };
 
 }  // namespace
 
 Model make_model(const Problem& problem, Plan plan, SetUpStore* store) {
   SetUpState set_up{.problem = problem, .plan = std::move(plan), .parts = SetUp(store)};
-  for (const Stage& stage : stages) {
+  for (const Part& part : parts_in_order) {
     heed_stop_request();
     try {
-      stage.run(set_up);
+      part.run(set_up);
     } catch (const std::bad_alloc&) {
       throw std::runtime_error(
-          fmt::format("no memory is left in the set-up for {}; expected fewer cells or points", stage.makes));
+          fmt::format("no memory is left in the set-up for {}; expected fewer cells or points", part.makes));
     }
   }
   set_up.model.parts = set_up.parts.parts();

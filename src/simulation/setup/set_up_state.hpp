@@ -1,4 +1,4 @@
-// The stages of a set-up, in the order in which make_model() goes through them after the phase and its initial state.
+// A set-up under way, and its parts in the order in which make_model() goes through them after the initial state.
 #pragma once
 
 #include "plan/plan.hpp"
@@ -7,7 +7,7 @@
 
 namespace stillpoint {
 
-/// A set-up under way: the stages fill the model by the plan.
+/// The parts fill the model by the plan.
 struct SetUpState {
   const Problem& problem;
   Plan plan;
