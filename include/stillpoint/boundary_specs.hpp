@@ -8,6 +8,7 @@
 #include <stillpoint/scene_options.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +29,7 @@ struct SupportSpec {                  // [[support]]: u = motion(X, t) at a posi
   Expression motion{};                // prescribed displacement, a formula of the undeformed position and t [m]; 0:
                                       // fixed
   std::optional<double> stiffness{};  // stiffness of an elastic support: at a position [N/m], on a face per area [N/m³]
+  std::size_t number = 0;             // which support of the problem it is, in all its stages
 
   bool on_part() const { return !from.empty() || !to.empty(); }
   bool holds_one_component() const { return face && (roller || component.is_asked()); }

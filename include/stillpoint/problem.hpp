@@ -63,6 +63,7 @@ struct BodySpec {    // [body], or several [[body]]: material points in a shape 
   std::string material;                       // name of a [material.<name>]
   std::optional<StressState> state;           // as written; Scene::state holds for all bodies
   double area = 1;                            // cross-section in one dimension [m²], thickness in two [m]
+  std::size_t number = 0;                     // which body of the problem it is, in all its stages
   Placement placement = Placement::uniform;
   std::vector<int> points_per_cell = {2};  // along each coordinate
   double jitter = 0;                       // random shift of each point, as a share of half its spacing at most
@@ -177,8 +178,10 @@ struct PhaseSpec {  // [phase]: when the points move on and the grid is reset
   Dilatation dilatation = Dilatation::points;
 
   bool ends_by_motion() const { return max_motion < never; }
+  bool at_stages = false;  // or when a stage of the scene ends; set by what the scene has
+
   /// Whether a phase ever ends, so that bodies move on.
-  bool ends() const { return ends_by_motion() || max_strain; }
+  bool ends() const { return ends_by_motion() || max_strain || at_stages; }
 };
 
 struct MassSpec {  // [mass]
@@ -192,6 +195,18 @@ struct MassSpec {  // [mass]
 struct GeostaticSpec {  // [initial.geostatic]: initial stress below a horizontal surface
   double K0 = 0;        // σ_yy = −ρ b_y (surface − y) with the body force b, σ_xx = σ_zz = K0 σ_yy
   double surface = 0;   // [m]
+};
+
+struct StageSpec {  // [[stage]]: what changes at a time of the run
+  /// When the stage begins, at the earliest [s].
+  double at = 0;
+  std::vector<std::string> add, remove;       // the names of bodies that appear without stress, and of those that go
+  std::vector<std::string> hold, release;     // the names of supports that begin and end
+  std::vector<std::string> change, material;  // the names of bodies, and of the material that each has from now on
+  /// Whether it lasts until the body is in equilibrium, at least.
+  bool equilibrium = false;
+  /// The time over which its changes come into force [s]; open: half its length, see stage_ramp().
+  Choice<double> ramp = Choice<double>::open(0);
 };
 
 /// The frame of a probe: it moves with the material, or stays in space.
@@ -229,6 +244,14 @@ struct Problem : BoundarySpecs {
   PhaseSpec phase;
   std::vector<Expression> initial_u, initial_v;  // formulas of x, y, z [m], [m/s]; empty: 0
   std::optional<GeostaticSpec> geostatic;
+  std::filesystem::path initial_from;  // a checkpoint of another scene whose points the bodies take over; empty: none
+  bool displacements_from_zero = false;  // whether their displacements count from there
+  // Stages. The members above are what there is in the present one.
+  std::vector<StageSpec> stages;             // those that follow, in time
+  std::vector<BodySpec> later_bodies;        // that they add
+  std::vector<SupportSpec> later_supports;   // that they begin to hold
+  std::vector<std::string> named_supports;   // the names of those of all stages, as written
+  std::optional<StageSpec> present_stage{};  // what the present stage is; empty: the beginning of the run
   ExactSpec exact;
   SolveSpec solve;
   DampingSpec damping;

@@ -45,6 +45,11 @@ class StateArchive {
   /// The archive of a part, whose names cannot clash with those of others.
   StateArchive part(std::string_view name) const { return {to_, from_, path(name) + "/"}; }
 
+  /// Whether something of this part was saved, in an archive that restores.
+  bool has_part(std::string_view name) const;
+  /// Saves or restores all values of this part, with their paths in it.
+  void everything(SavedState& values) const;
+
   /// Saves or restores a value. Restoring throws StateError if there is no value of that name and kind, or if it is of
   /// another size than its destination.
   template <class T>

@@ -47,6 +47,15 @@ struct ExactError {
   std::optional<double> stress_rel_l2;
 };
 
+/// A stage of the run that has ended.
+struct StageFigures {
+  double begin = 0, end = 0;              // [s]
+  RunStatus status = RunStatus::running;  // equilibrium, or what a test at its end made of that; end_time: no claim
+  std::string reason;                     // the inequality that told equilibrium
+  double residual = 0;                    // ‖F − R‖/‖F‖ at its end
+  long steps = 0;                         // up to its end
+};
+
 struct LoadFigures {                      // figures of loads that a displacement drives
   double factor = 0, largest_factor = 0;  // λ at the end, and the largest so far
   double displacement = 0;                // their mean displacement [m]
@@ -104,6 +113,7 @@ struct Summary {
   std::optional<double> single_phase_strain;  // largest component of ∂u/∂x, if a body that yields has one phase
   std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]
   std::vector<Snapshot> snapshots;
+  std::vector<StageFigures> stages;                             // before the last one, of which the other figures are
   std::map<std::string, std::vector<double>> reactions;         // forces that named supports exert on the body [N]
   std::map<std::string, std::vector<double>> reaction_moments;  // moments of the reactions about the origin, in space
                                                                 // [N m]

@@ -19,6 +19,22 @@ void StateArchive::all(std::string_view name, std::string& text) const {
   text = get<std::string>(name);
 }
 
+bool StateArchive::has_part(std::string_view name) const {
+  const std::string prefix = path(name) + "/";
+  const auto first = from_->lower_bound(prefix);
+  return first != from_->end() && first->first.starts_with(prefix);
+}
+
+void StateArchive::everything(SavedState& values) const {
+  if (!restores()) {
+    for (const auto& [name, value] : values) put(name, value);
+    return;
+  }
+  values.clear();
+  for (auto one = from_->lower_bound(prefix_); one != from_->end() && one->first.starts_with(prefix_); ++one)
+    values[one->first.substr(prefix_.size())] = one->second;
+}
+
 void StateArchive::put(std::string_view name, SavedValue value) const {
   const auto [place, is_new] = to_->insert_or_assign(path(name), std::move(value));
   if (!is_new) throw std::logic_error(fmt::format("two values of a state are called '{}'", place->first));

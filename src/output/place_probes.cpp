@@ -74,33 +74,47 @@ class PlaceFields {
 /// NaN.
 class MovingPlace final : public Probe {
  public:
-  MovingPlace(const LagrangianPhase& phase, const ProbeSpec& spec)
-      : name_(spec.name), fields_(phase, spec.fields), start_(spec.at), x_(spec.at), next_(spec.at) {}
+  MovingPlace(const LagrangianPhase& phase, const ProbeSpec& spec, bool waits)
+      : name_(spec.name), fields_(phase, spec.fields), start_(spec.at), x_(spec.at), next_(spec.at) {
+    if (!waits) return;
+    const std::vector<double> nothing(phase.size(), 0.0);
+    waits_ = !phase.fields().read_places(0, nothing, nothing)->holds(start_);
+  }
   void read(ProbedMoment& moment, std::vector<double>& values) override {
-    if (lost_at_) return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
+    if (lost_at_ || waits_)
+      return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<double> moved = x_;
     for (std::size_t d = 0; d < moved.size(); ++d) moved[d] -= start_[d];
     fields_.read(moment.places(), x_, moved, values);
   }
   std::vector<double> position() const override { return start_; }
   void end_phase(ProbedMoment& moment) override {
-    if (lost_at_) return;
+    if (lost_at_ || waits_) return;
     std::vector<double> u(x_.size());
     moment.places().displacement(x_, u);
     for (std::size_t d = 0; d < u.size(); ++d) next_[d] = x_[d] + u[d];
   }
   // Called only now because the place is read once more if the next phase cannot begin.
   void begin_phase(ProbedMoment& moment) override {
-    if (lost_at_) return;
+    if (lost_at_ || waits_) return;
     x_ = next_;
     moment.places().put_back(x_);
     if (!moment.places().reaches(x_)) lost_at_ = moment.t();
   }
+  void end_stage() override { x_ = next_; }
+  void begin_stage(ProbedMoment& moment) override {
+    waits_ = waits_ && !moment.places().holds(start_);
+    next_ = x_;
+    begin_phase(moment);
+  }
   void archive(const StateArchive& state) override {
     state("x", Vec(x_));
-    state("lost_at", lost_at_);
+    state("lost_at", lost_at_, "waits", waits_);
   }
   std::optional<std::string> note() const override {
+    if (waits_)
+      return fmt::format("probe {}: no stage has brought material to its place ({:.6g}) so far, and its values are nan",
+                         name_, fmt::join(start_, ", "));
     if (!lost_at_) return std::nullopt;
     return fmt::format(
         "probe {}: no material reaches its place ({:.6g}) since t = {:.6g} s, and its values are nan; "
@@ -113,6 +127,7 @@ class MovingPlace final : public Probe {
   PlaceFields fields_;
   std::vector<double> start_, x_, next_;  // at the beginning of the run, of this phase and of the next [m]
   std::optional<double> lost_at_;         // time of the loss [s]
+  bool waits_ = false;                    // for a stage that brings material to the place
 };
 
 /// Reads the material at the place at each moment: that whose place X when the phase began has X + u(X) = x. NaN while
@@ -133,8 +148,8 @@ class FixedPlace final : public Probe {
 
 }  // namespace
 
-std::unique_ptr<Probe> moving_place(const LagrangianPhase& phase, const ProbeSpec& spec) {
-  return std::make_unique<MovingPlace>(phase, spec);
+std::unique_ptr<Probe> moving_place(const LagrangianPhase& phase, const ProbeSpec& spec, bool waits) {
+  return std::make_unique<MovingPlace>(phase, spec, waits);
 }
 std::unique_ptr<Probe> fixed_place(const LagrangianPhase& phase, const ProbeSpec& spec) {
   return std::make_unique<FixedPlace>(phase, spec);

@@ -51,15 +51,21 @@ class Probe {
   /// end_phase() is called before a phase ends, begin_phase() once the next has begun, if it has.
   virtual void end_phase(ProbedMoment&) {}
   virtual void begin_phase(ProbedMoment&) {}
+  /// end_stage() is called after end_phase(); begin_stage() of the probe that is made for the next stage, once
+  /// archive() has restored what this one saved.
+  virtual void end_stage() {}
+  virtual void begin_stage(ProbedMoment&) {}
   virtual void archive(const StateArchive&) {}
   /// A sentence on the values that the user should know, if any.
   virtual std::optional<std::string> note() const { return std::nullopt; }
 };
 
 // Kinds that have a file of their own:
-std::unique_ptr<Probe> moving_place(const LagrangianPhase& phase, const ProbeSpec& spec);
+/// waits: until there is material at the place, which a later stage may bring.
+std::unique_ptr<Probe> moving_place(const LagrangianPhase& phase, const ProbeSpec& spec, bool waits);
 std::unique_ptr<Probe> fixed_place(const LagrangianPhase& phase, const ProbeSpec& spec);
-/// Throws std::invalid_argument if no point is in the box.
+/// Its values are NaN if no point is in the box.
+bool has_points_in_box(const PointData& data, const ProbeSpec& spec);
 std::unique_ptr<Probe> mean_in_box(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec);
 std::unique_ptr<Probe> body_sums(const PointData& data, const ProbeSpec& spec);
 

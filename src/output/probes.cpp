@@ -1,5 +1,6 @@
 #include "output/probes.hpp"
 
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -63,6 +64,18 @@ class SlopeAngleInBox final : public Probe {
   const ProbeSpec& spec_;
 };
 
+/// Of fields that no law of this stage has.
+class NoValues final : public Probe {
+ public:
+  explicit NoValues(const ProbeSpec& spec) : count_(spec.fields.size()) {}
+  void read(ProbedMoment&, std::vector<double>& values) override {
+    values.resize(values.size() + count_, std::numeric_limits<double>::quiet_NaN());
+  }
+
+ private:
+  std::size_t count_;
+};
+
 std::unique_ptr<Probe> make_probe(const Problem& problem, const LagrangianPhase& phase, const PointData& data,
                                   const ProbeSpec& spec) {
   switch (spec.kind) {
@@ -77,7 +90,7 @@ std::unique_ptr<Probe> make_probe(const Problem& problem, const LagrangianPhase&
       break;
   }
   if (spec.point) return std::make_unique<PointProbe>(phase, data, spec);
-  if (spec.frame == ProbeFrame::material) return moving_place(phase, spec);
+  if (spec.frame == ProbeFrame::material) return moving_place(phase, spec, problem.phase.at_stages);
   return fixed_place(phase, spec);
 }
 
@@ -88,15 +101,18 @@ std::vector<std::string> shear_components(const WallReaction& wall, int dim) {
   return component_names(".shear", along);
 }
 
-/// Throws SceneError if a field of the probe exists in no law of the scene's materials.
-void require_fields(const Problem& problem, const LagrangianPhase& phase, std::size_t number) {
+/// Whether some law of the materials has each field of the probe. Throws SceneError if not, unless another stage may
+/// have other laws.
+bool has_fields(const Problem& problem, const LagrangianPhase& phase, std::size_t number) {
   const ProbeSpec& probe = problem.probes[number];
   for (std::size_t f = 0; f < probe.fields.size() && probe.kind != ProbeKind::body; ++f) {
     const std::string name = find_point_field(phase, probe.fields[f]).name;
     if (is_field(phase, name)) continue;
+    if (problem.phase.at_stages) return false;
     throw_scene_error(fmt::format("probe[{}].fields[{}]", number, f),
                       fmt::format("no law of these materials remembers '{}'", name));
   }
+  return true;
 }
 
 }  // namespace
@@ -122,8 +138,8 @@ Probes::Probes(const Problem& problem, const LagrangianPhase& phase) : problem_(
   const PointData data = problem.probes.empty() ? PointData() : phase.fields().point_data();
   for (std::size_t k = 0; k < problem.probes.size(); ++k) {
     const ProbeSpec& spec = problem.probes[k];
-    require_fields(problem, phase, k);
-    probes_.push_back(make_probe(problem, phase, data, spec));
+    probes_.push_back(has_fields(problem, phase, k) ? make_probe(problem, phase, data, spec)
+                                                    : std::make_unique<NoValues>(spec));
     if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
     for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
   }
@@ -163,6 +179,15 @@ void Probes::begin_phase(double t, ConstVec u, ConstVec v) {
   for (const auto& probe : probes_) probe->begin_phase(moment);
 }
 
+void Probes::end_stage() {
+  for (const auto& probe : probes_) probe->end_stage();
+}
+
+void Probes::begin_stage(double t, ConstVec u, ConstVec v) {
+  ProbedMoment moment(problem_, phase_, t, u, v);
+  for (const auto& probe : probes_) probe->begin_stage(moment);
+}
+
 void Probes::archive(const StateArchive& state) {
   for (std::size_t k = 0; k < probes_.size(); ++k) probes_[k]->archive(state.part(fmt::format("{}", k)));
 }
@@ -176,6 +201,7 @@ std::vector<std::string> Probes::notes() const {
 }
 
 void check_probes(const Problem& problem, const LagrangianPhase& phase) {
+  if (problem.phase.at_stages) return;  // a later stage may bring the material
   const std::vector<double> nothing(phase.size());
   const PointData data = problem.probes.empty() ? PointData() : phase.fields().point_data();
   std::unique_ptr<PlaceReader> places;
@@ -190,11 +216,7 @@ void check_probes(const Problem& problem, const LagrangianPhase& phase) {
       if (!places->holds(probe.at)) throw_scene_error(key + ".at", "there is no material at this place");
     }
     if (probe.kind != ProbeKind::mean) continue;
-    try {
-      mean_in_box(phase, data, probe);
-    } catch (const std::invalid_argument& error) {
-      throw_scene_error(key + ".min", error.what());
-    }
+    if (!has_points_in_box(data, probe)) throw_scene_error(key + ".min", "there is no material point in this box");
   }
 }
 

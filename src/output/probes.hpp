@@ -26,6 +26,8 @@ class Probes {
   /// end_phase() is called before a phase ends at (t, u, v), begin_phase() once the next has begun, if it has.
   void end_phase(double t, ConstVec u, ConstVec v);
   void begin_phase(double t, ConstVec u, ConstVec v);
+  void end_stage();
+  void begin_stage(double t, ConstVec u, ConstVec v);
   void archive(const StateArchive& state);
   /// Remarks on the values that the user should know, a sentence each.
   std::vector<std::string> notes() const;

@@ -9,21 +9,25 @@
 namespace stillpoint {
 namespace {
 
+// The points that were in the box of a probe when the run began, or when a stage placed them.
+std::vector<std::size_t> points_in_box(const PointData& data, const ProbeSpec& spec) {
+  std::vector<std::size_t> points;
+  const std::size_t dim = data.initial_positions.size() / std::max<std::size_t>(1, data.masses.size());
+  for (std::size_t p = 0; p < data.masses.size(); ++p) {
+    const double* const x = data.initial_positions.data() + dim * p;
+    bool inside = true;
+    for (std::size_t d = 0; d < dim; ++d) inside = inside && x[d] >= spec.min[d] && x[d] <= spec.max[d];
+    if (inside) points.push_back(p);
+  }
+  return points;
+}
+
 /// Σ_p v_p f_p/Σ_p v_p over the points that were in a box when the run began, with their present volumes v_p.
 class MeanInBox final : public Probe {
  public:
-  /// Throws std::invalid_argument if no point is in the box.
   MeanInBox(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec) {
     for (const std::string& name : spec.fields) fields_.push_back(find_point_field(phase, name));
-    const std::vector<double>& x = data.initial_positions;
-    const auto dim = static_cast<std::size_t>(phase.dim());
-    for (std::size_t p = 0; p < phase.points(); ++p) {
-      bool inside = true;
-      for (std::size_t d = 0; d < dim; ++d)
-        inside = inside && x[dim * p + d] >= spec.min[d] && x[dim * p + d] <= spec.max[d];
-      if (inside) points_.push_back(p);
-    }
-    if (points_.empty()) throw std::invalid_argument("there is no material point in this box");
+    points_ = points_in_box(data, spec);
   }
   void read(ProbedMoment& moment, std::vector<double>& values) override {
     const std::vector<double>& volume = moment.field("volume");
@@ -85,6 +89,7 @@ class BodySums final : public Probe {
 
 }  // namespace
 
+bool has_points_in_box(const PointData& data, const ProbeSpec& spec) { return !points_in_box(data, spec).empty(); }
 std::unique_ptr<Probe> mean_in_box(const LagrangianPhase& phase, const PointData& data, const ProbeSpec& spec) {
   return std::make_unique<MeanInBox>(phase, data, spec);
 }

@@ -65,6 +65,15 @@ std::string to_json(const Summary& s) {
                              {"stiffness", number(weak.stiffness)},
                              {"gap", number(weak.gap)},
                              {"share_of_displacement", number(weak.share)}});
+  Json ended_stages = Json::array();
+  for (const StageFigures& stage : s.stages) {
+    ended_stages.push_back({{"begin", number(stage.begin)},
+                            {"end", number(stage.end)},
+                            {"status", to_string(stage.status)},
+                            {"reason", stage.reason},
+                            {"residual", number(stage.residual)},
+                            {"steps", stage.steps}});
+  }
   Json stages = Json::array();
   for (const Snapshot& stage : s.snapshots)
     stages.push_back({{"t", number(stage.t)}, {"slope_angle", number(stage.slope_angle)}});
@@ -110,6 +119,7 @@ std::string to_json(const Summary& s) {
                      {"null_space_stress", number(s.null_space_stress)},
                      {"slope_angle", number(s.slope_angle)},
                      {"stages", stages},
+                     {"ended_stages", ended_stages},
                      {"method", s.method},
                      {"integrator", text(s.integrator)},
                      {"damping", text(s.damping)},

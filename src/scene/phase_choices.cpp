@@ -20,7 +20,8 @@ bool damps(const Problem& problem, const Catalogue& catalogue) {
 // overshoots into a shape that no force takes back.
 void resolve_quadrature(Problem& problem, const Catalogue& catalogue, bool remembers) {
   PhaseSpec& phase = problem.phase;
-  const bool rests = damps(problem, catalogue) && problem.grid.basis != BasisKind::hermite && !remembers;
+  const bool rests =
+      damps(problem, catalogue) && problem.grid.basis != BasisKind::hermite && !remembers && !phase.at_stages;
   if (rests && why_no_domains(problem).empty()) {
     phase.quadrature.take(Quadrature::domains, "the points of elastic boxes, damped, lie side by side");
   } else {
@@ -71,7 +72,7 @@ void resolve_phases(Problem& problem, const Catalogue& catalogue) {
   } else {
     phase.max_motion.take(PhaseSpec::never);
   }
-  if (problem.solve.is_static() || !phase.ends()) {
+  if ((problem.solve.is_static() && !phase.at_stages) || !phase.ends()) {
     phase.quadrature.take(Quadrature::points);
     phase.transfer.take(Transfer::flip);
     phase.deformation.take(DeformationRule::positions);

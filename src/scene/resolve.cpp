@@ -13,6 +13,7 @@
 #include "scene/grid_fault.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/point_file.hpp"
+#include "scene/stages.hpp"
 
 namespace stillpoint {
 namespace {
@@ -93,6 +94,7 @@ class Resolution {
         rigid.from_stl = triangles_in(rigid.stl, rigid.from_stl, FileMistake::Owner::rigid, k);
     if (has_grid_) resolve_positions();
     resolve_phases(problem_, catalogue_);
+    resolve_stages(problem_);
     resolve_step();
     if (has_grid_) problem_.damping.alpha.take(usual_alpha(problem_), "by how loads and walls move");
     return std::move(mistakes_);

@@ -49,6 +49,14 @@ void EnergyBalance::begin_phase(double t, const RelaxationSystem& system) {
            phase_.supports().support_displacements(t)};
 }
 
+void EnergyBalance::go_on(double work, double t, const RelaxationSystem& system) {
+  work_ = work;
+  t_ = t;
+  if (!watches_) return;
+  power_ = wall_power(t);
+  begin_phase(t, system);
+}
+
 void EnergyBalance::archive(const StateArchive& state) {
   state("work", work_, "t", t_, "power", power_);
   state.none_or(phase_.size(), "u", last_.u);

@@ -31,6 +31,9 @@ class EnergyBalance {
   /// A phase has begun at t, with u = 0, and was evaluated.
   void begin_phase(double t, const RelaxationSystem& system);
 
+  /// A stage has begun at t, in which the system was evaluated; work: so far [J].
+  void go_on(double work, double t, const RelaxationSystem& system);
+
   void archive(const StateArchive& state);
 
  private:

@@ -117,11 +117,27 @@ void Recorder::begin_phase(RunState& run) {
 }
 
 void Recorder::archive(const StateArchive& state) {
-  state("rows", rows_, "last_row", last_row_, "largest_factor", largest_factor_);
-  probes_.archive(state.part("probes"));
+  archive_files(state);
   energy_balance_.archive(state.part("energy"));
+}
+
+void Recorder::archive_files(const StateArchive& state) {
+  state("rows", rows_, "interval", interval_, "last_row", last_row_, "largest_factor", largest_factor_);
+  probes_.archive(state.part("probes"));
   history_.archive(state.part("history"));
   snapshots_.archive(state.part("snapshots"));
+}
+
+void Recorder::end_stage(const StateArchive& state) {
+  probes_.end_stage();
+  archive_files(state);
+}
+
+void Recorder::go_on(const StateArchive& state, RunState& run, double work) {
+  archive_files(state);
+  probes_.begin_stage(run.t, run.motion->u(), run.motion->v());
+  run.motion->evaluate(run.t);
+  energy_balance_.go_on(work, run.t, run.motion->system);
 }
 
 void Recorder::finish(double t, const PhaseMotion* motion) {

@@ -21,6 +21,12 @@ class Recorder {
   Recorder(RunState& run, bool resumed);
   void archive(const StateArchive& state);
 
+  /// Saves what the records of the next stage go on with, after end_phase().
+  void end_stage(const StateArchive& state);
+  /// Goes on with the records of the stage before, as it saved them, at the begin of a stage; work: as external_work().
+  void go_on(const StateArchive& state, RunState& run, double work);
+  double external_work() const { return energy_balance_.external_work(); }  // [J]
+
   /// The next time that a step must not pass [s].
   double next_time() const;
   /// After an accepted step: takes a row and a snapshot if they are due; last: a row in any case.
@@ -34,6 +40,7 @@ class Recorder {
   void fill(Summary& summary, RunState& run);
 
  private:
+  void archive_files(const StateArchive& state);
   double next_row_time() const;
   void add_row(RunState& run);
   std::vector<std::string> columns() const;

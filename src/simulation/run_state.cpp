@@ -1,5 +1,6 @@
 #include "simulation/run_state.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/stop_request.hpp"
+#include "simulation/other_run.hpp"
 #include "simulation/setup/model.hpp"
 
 namespace stillpoint {
@@ -34,11 +36,36 @@ RunState::RunState(Scene of, SimulationOptions with)
       measured(*this, model),
       t(model.t) {}
 
+RunState::RunState(RunState& before, Scene of, StageBegin begins)
+    : scene(std::move(of)),
+      options(before.options),
+      end_request(before.end_request),
+      wall(before.wall),
+      stage(std::move(begins)),
+      model(set_up()),
+      schedule(scene, *model.phase, scene.stop.time),
+      giving_way(scene, *model.phase),
+      measured(*this, model),
+      t(model.t),
+      phases(before.phases + 1),
+      earlier_steps(before.steps()),
+      earlier_evaluations(before.evaluations()),
+      earlier_rejected(before.rejected_steps()),
+      stepping_s(before.stepping_s),
+      earlier_wall_s(before.earlier_wall_s) {
+  std::vector<std::string> notes = before.model.notes;
+  for (std::string& note : model.notes)
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
+  model.notes = std::move(notes);
+}
+
 Model RunState::set_up() {
   const StopScope scope(asks_to_end());
   try {
     heed_stop_request();
-    return make_model(scene, require_memory(make_plan(scene)), options.store);
+    if (!scene.initial_from.empty() && !stage.carried) stage.carried = points_of_other_run(scene);
+    return make_model(scene, require_memory(make_plan(scene)), stage.carried ? nullptr : options.store,
+                      {.carried = stage.carried.get(), .t = stage.t});
   } catch (const Stopped&) {
     throw SetUpStopped(end_request.status(), end_request.reason() + " in the set-up; the run has not begun",
                        wall.seconds());
@@ -56,7 +83,8 @@ void RunState::begin_next_phase(ConstVec v0) {
 
 bool RunState::loads_settled() const {
   const Contact* const contact = model.phase->contact();
-  return schedule.settled(t) && (!contact || contact->is_settled()) && contact_settled;
+  const double ramp = scene.present_stage && stage.carried ? scene.present_stage->ramp.value() : 0;
+  return schedule.settled(t) && t >= stage.t + ramp && (!contact || contact->is_settled()) && contact_settled;
 }
 
 Verdict RunState::failed(const std::string& what) const {

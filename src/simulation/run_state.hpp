@@ -5,6 +5,7 @@
 #include <stillpoint/simulation.hpp>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,17 +19,26 @@
 
 namespace stillpoint {
 
+/// What a stage begins with.
+struct StageBegin {
+  double t = 0;                            // [s]
+  int number = 0;                          // of stages before it
+  std::shared_ptr<CarriedBody> carried{};  // what its points had been; null: it is the first stage
+};
+
 struct RunState {
   /// Sets the scene up; there is no motion yet. Throws as the constructor of Simulation does.
   RunState(Scene scene, SimulationOptions options);
+  /// The next stage of a run: `begins` with what the stage before has handed on. That stage is of no more use.
+  RunState(RunState& before, Scene scene, StageBegin begins);
 
   /// Begins the first phase, or the next one at rest in its own unknowns; v0: (n) [m/s].
   void begin_phase(ConstVec u0, ConstVec v0) { motion.emplace(model, scene, vectors, t, u0, v0); }
   void begin_next_phase(ConstVec v0);
 
-  long steps() const { return earlier_steps + motion->stepper->steps(); }
-  long evaluations() const { return earlier_evaluations + motion->system.evaluations(); }
-  long rejected_steps() const { return earlier_rejected + motion->stepper->rejected_steps(); }
+  long steps() const { return earlier_steps + (motion ? motion->stepper->steps() : 0); }
+  long evaluations() const { return earlier_evaluations + (motion ? motion->system.evaluations() : 0); }
+  long rejected_steps() const { return earlier_rejected + (motion ? motion->stepper->rejected_steps() : 0); }
   double wall_s() const { return earlier_wall_s + wall.seconds(); }
   /// True if all that acts on the body is what it will be at the end, walls that are still on their way and multipliers
   /// of contact included.
@@ -40,11 +50,12 @@ struct RunState {
 
   void archive(const StateArchive& state);
 
-  Scene scene;
+  Scene scene;  // in the present stage
   SimulationOptions options;
   EndRequest end_request;
   Stopwatch wall;
   VectorSpace vectors;
+  StageBegin stage;
   Model model;
   LoadSchedule schedule;
   GivingWay giving_way;

@@ -25,34 +25,34 @@ int threads_asked_for(const RunState& run, int all) {
 }  // namespace
 
 Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
-    : run_(std::move(scene), std::move(options)),
-      thread_choice_(threads_asked_for(run_, threads), threads),
-      watchers_(make_watchers(run_)) {
-  const SimulationOptions& asked = run_.options;
+    : run_(std::make_unique<RunState>(std::move(scene), std::move(options))),
+      thread_choice_(threads_asked_for(*run_, threads), threads),
+      watchers_(make_watchers(*run_)) {
+  const SimulationOptions& asked = run_->options;
   const bool resumes = !asked.resume.empty();
   if (asked.records && !asked.out.empty()) folder_lock_ = prepare_folder(asked.out, resumes);
-  if (asked.records) recorder_.emplace(run_, resumes);
+  if (asked.records) recorder_.emplace(*run_, resumes);
   if (resumes) {
     resume(asked.resume);
   } else {
-    run_.begin_phase(run_.model.u, run_.model.v);
+    run_->begin_phase(run_->model.u, run_->model.v);
   }
 }
 
 // Another simulation may take up the phase from the store. What looks at the phase goes first.
 Simulation::Impl::~Impl() {
-  if (!run_.options.store) return;
+  if (!run_->options.store) return;
   recorder_.reset();
   watchers_.clear();
-  run_.motion.reset();
-  run_.options.store->give_back(run_.model.mass, std::move(run_.model.phase));
+  run_->motion.reset();
+  run_->options.store->give_back(run_->model.mass, std::move(run_->model.phase));
 }
 
 RunStatus Simulation::Impl::step(double t_stop) {
   if (done()) return verdict_.status;
   const Stopwatch watch;
   if (!std::exchange(started_, true)) {
-    run_.motion->accept(run_.t);
+    run_->motion->accept(run_->t);
     observe();
     record(true);
     if (leaves_checkpoints()) leave_checkpoint();
@@ -60,10 +60,10 @@ RunStatus Simulation::Impl::step(double t_stop) {
   try {
     take_step(t_stop);
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error(run_.failed("no memory is left for what a step takes").reason);
+    throw std::runtime_error(run_->failed("no memory is left for what a step takes").reason);
   }
   const double seconds = watch.seconds();
-  run_.stepping_s += seconds;
+  run_->stepping_s += seconds;
   thread_choice_.observe(seconds);
   if (done()) finish();
   return verdict_.status;
@@ -73,40 +73,43 @@ void Simulation::Impl::take_step(double t_stop) {
   const double landing = landing_time(t_stop);
   const std::optional<StepReport> report = try_step(landing);
   if (!report) return;
-  run_.t = report->t;
+  run_->t = report->t;
   if (report->status != StepReport::Status::ok) return give_up(*report);
-  run_.step = report->h;
-  run_.is_cut = run_.t >= landing;
-  run_.measured.discard();
-  run_.motion->accept(run_.t);
-  run_.progress = run_.model.phase->control().progress(run_.t, run_.motion->u());
+  run_->step = report->h;
+  run_->is_cut = run_->t >= landing;
+  run_->measured.discard();
+  run_->motion->accept(run_->t);
+  run_->progress = run_->model.phase->control().progress(run_->t, run_->motion->u());
   observe();
-  if (run_.options.stops) judge();
+  if (run_->options.stops) judge();
   record(done());
   report_progress();
-  if (!done() && run_.progress >= 1) next_phase();
+  if (!done() && stage_is_over()) return next_stage();
+  if (!done() && run_->progress >= 1) next_phase();
   if (!done()) end_if_asked();
 }
 
 // The time that a step must not pass. Without records to land on, and without an end, it is so far away that the method
 // takes the steps that it would take by itself.
 double Simulation::Impl::landing_time(double t_stop) const {
-  const double horizon = 1e9 * run_.model.integrator.max_step;
-  double landing = std::min(t_stop, std::max({horizon, 2 * run_.t, run_.model.dwell}));
+  const double horizon = 1e9 * run_->model.integrator.max_step;
+  double landing = std::min(t_stop, std::max({horizon, 2 * run_->t, run_->model.dwell}));
   if (recorder_) landing = std::min(landing, recorder_->next_time());
-  if (run_.options.stops && run_.scene.stop.time > 0) landing = std::min(landing, run_.scene.stop.time);
+  if (!run_->scene.stages.empty() && run_->t < run_->scene.stages.front().at)
+    landing = std::min(landing, run_->scene.stages.front().at);
+  if (run_->options.stops && run_->scene.stop.time > 0) landing = std::min(landing, run_->scene.stop.time);
   return landing;
 }
 
 // A step of a static solver may take long: it is broken off on request, at the last equilibrium on its way. Empty: so
 // it was.
 std::optional<StepReport> Simulation::Impl::try_step(double landing) {
-  const StopScope scope(run_.model.static_method ? run_.asks_to_end() : nullptr);
+  const StopScope scope(run_->model.static_method ? run_->asks_to_end() : nullptr);
   try {
-    return run_.motion->stepper->step(landing);
+    return run_->motion->stepper->step(landing);
   } catch (const Stopped&) {
     end_as_asked("the step was not finished");
-    run_.measured.discard();
+    run_->measured.discard();
     record(true);
     if (leaves_checkpoints()) leave_checkpoint();
     return std::nullopt;
@@ -116,23 +119,25 @@ std::optional<StepReport> Simulation::Impl::try_step(double landing) {
 // A cell that is about to turn inside out is good again in the next phase. Otherwise the last good state is recorded.
 void Simulation::Impl::give_up(const StepReport& report) {
   const bool may_go_on = report.status == StepReport::Status::inadmissible &&
-                         run_.model.phase->info().updated_lagrangian && run_.motion->stepper->steps() > 0;
+                         run_->model.phase->info().updated_lagrangian && run_->motion->stepper->steps() > 0;
   if (may_go_on) return next_phase();
-  const std::string load = load_without_value(run_.scene, *run_.model.phase, run_.t, report.h);
-  verdict_ = run_.failed(load.empty() ? report.message : load + "; expected a finite number at any time");
+  const std::string load = load_without_value(run_->scene, *run_->model.phase, run_->t, report.h);
+  verdict_ = run_->failed(load.empty() ? report.message : load + "; expected a finite number at any time");
   if (report.status != StepReport::Status::failed) verdict_.status = RunStatus::diverged;
   record(true);
 }
 
 void Simulation::Impl::observe() {
-  for (const Watched& watched : watchers_) watched.watcher->observe(run_);
+  for (const Watched& watched : watchers_) watched.watcher->observe(*run_);
 }
 
 void Simulation::Impl::judge() {
-  const StopScope scope(run_.asks_to_end());
+  const StopScope scope(run_->asks_to_end());
   try {
     for (const Watched& watched : watchers_) {
-      verdict_ = watched.watcher->judge(run_);
+      verdict_ = watched.watcher->judge(*run_);
+      if (verdict_.status == RunStatus::equilibrium && !run_->scene.stages.empty())
+        stage_verdict_ = std::exchange(verdict_, {});
       if (done()) return;
     }
   } catch (const Stopped&) {
@@ -141,49 +146,64 @@ void Simulation::Impl::judge() {
   }
 }
 
+void Simulation::Impl::end_phase() {
+  run_->motion->stepper->finish(run_->t);
+  if (recorder_) recorder_->end_phase(*run_);
+  for (const Watched& watched : watchers_) watched.watcher->end_phase(*run_, /*is_last=*/false);
+  tell_phase_change(/*begun=*/false);
+}
+
 void Simulation::Impl::next_phase() {
-  const auto& tell = run_.options.at_phase_change;
-  run_.motion->stepper->finish(run_.t);
-  if (recorder_) recorder_->end_phase(run_);
-  for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/false);
-  if (tell) tell(false);
+  end_phase();
   try {
     // A fictitious inertia has no velocity that a phase could hand on: the next one begins at rest.
-    const std::vector<double> rest(run_.model.multigrid ? run_.model.phase->size() : 0, 0.0);
-    const ConstVec v = run_.model.multigrid ? ConstVec(rest) : run_.motion->v();
-    const std::vector<double> v0 = run_.model.phase->control().begin_next(run_.t, run_.motion->u(), v);
-    follow_multigrid(run_.scene, run_.model);
-    run_.begin_next_phase(v0);
-    std::ranges::move(run_.model.body_notes.later(run_.scene, *run_.model.phase), std::back_inserter(run_.model.notes));
-    if (recorder_) recorder_->begin_phase(run_);
-    ++run_.phases;
-    if (tell) tell(true);
+    const std::vector<double> rest(run_->model.multigrid ? run_->model.phase->size() : 0, 0.0);
+    const ConstVec v = run_->model.multigrid ? ConstVec(rest) : run_->motion->v();
+    const std::vector<double> v0 = run_->model.phase->control().begin_next(run_->t, run_->motion->u(), v);
+    follow_multigrid(run_->scene, run_->model);
+    run_->begin_next_phase(v0);
+    std::ranges::move(run_->model.body_notes.later(run_->scene, *run_->model.phase),
+                      std::back_inserter(run_->model.notes));
+    if (recorder_) recorder_->begin_phase(*run_);
+    ++run_->phases;
+    tell_phase_change(/*begun=*/true);
   } catch (const PointLost& lost) {
-    verdict_ = run_.failed(lost.what());
-    for (const Watched& watched : watchers_) watched.watcher->explain(run_, verdict_);
+    end_with(lost);
   } catch (const SceneError& error) {  // it is no bad input, which was looked at before the run
-    verdict_ = run_.failed(fmt::format("phase {} cannot begin at t = {:.6g}: {}", run_.phases + 1, run_.t,
-                                       run_.scene.located(error).what()));
-    is_readable_ = false;
+    end_between_phases(fmt::format("phase {}", run_->phases + 1), run_->scene.located(error).what());
   }
+  let_watchers_begin();
+}
+
+void Simulation::Impl::end_with(const PointLost& lost) {
+  verdict_ = run_->failed(lost.what());
+  for (const Watched& watched : watchers_) watched.watcher->explain(*run_, verdict_);
+}
+
+void Simulation::Impl::end_between_phases(const std::string& next, const std::string& why) {
+  verdict_ = run_->failed(fmt::format("{} cannot begin at t = {:.6g}: {}", next, run_->t, why));
+  is_readable_ = false;
+}
+
+void Simulation::Impl::let_watchers_begin() {
   for (auto watched = watchers_.begin(); watched != watchers_.end() && !done(); ++watched) {
-    verdict_ = watched->watcher->begin_phase(run_);
+    verdict_ = watched->watcher->begin_phase(*run_);
     if (done()) record(true);
   }
 }
 
 void Simulation::Impl::report_progress() {
   constexpr double seconds_between = 0.2;
-  const SimulationOptions& asked = run_.options;
-  if (!asked.progress || run_.wall.seconds() < next_progress_s_) return;
-  next_progress_s_ = run_.wall.seconds() + seconds_between;
-  const StopSpec& stop = run_.scene.stop;
-  asked.progress({run_.t, stop.time, run_.steps(), run_.measured.last().residual, stop.residual, run_.wall.seconds(),
-                  run_.waits_for});
+  const SimulationOptions& asked = run_->options;
+  if (!asked.progress || run_->wall.seconds() < next_progress_s_) return;
+  next_progress_s_ = run_->wall.seconds() + seconds_between;
+  const StopSpec& stop = run_->scene.stop;
+  asked.progress({run_->t, stop.time, run_->steps(), run_->measured.last().residual, stop.residual,
+                  run_->wall.seconds(), run_->waits_for});
 }
 
 void Simulation::Impl::end_if_asked() {
-  const bool ends = run_.options.stops && run_.end_request.asked();
+  const bool ends = run_->options.stops && run_->end_request.asked();
   if (ends) end_as_asked("the step was finished");
   if (leaves_checkpoints() && (checkpoint_is_due() || ends)) leave_checkpoint();
   if (ends) record(true);
@@ -191,28 +211,29 @@ void Simulation::Impl::end_if_asked() {
 
 void Simulation::Impl::finish() {
   if (is_readable_) {
-    run_.motion->stepper->finish(run_.t);
-    for (const Watched& watched : watchers_) watched.watcher->end_phase(run_, /*is_last=*/true);
+    run_->motion->stepper->finish(run_->t);
+    for (const Watched& watched : watchers_) watched.watcher->end_phase(*run_, /*is_last=*/true);
   }
   const RunStatus reached = verdict_.status;
   const bool is_limit =
       reached == RunStatus::end_time || reached == RunStatus::step_limit || reached == RunStatus::time_limit;
   for (const Watched& watched : watchers_) {
-    if (is_limit && exit_status() != 0) watched.watcher->explain(run_, verdict_);
-    if (verdict_.status == RunStatus::equilibrium) watched.watcher->confirm(run_, verdict_);
+    if (is_limit && exit_status() != 0) watched.watcher->explain(*run_, verdict_);
+    if (verdict_.status == RunStatus::equilibrium) watched.watcher->confirm(*run_, verdict_);
   }
-  const bool was_asked_to_end = verdict_.status != reached && verdict_.status == run_.end_request.status();
-  if (was_asked_to_end && leaves_checkpoints()) leave_checkpoint();
-  if (recorder_) recorder_->finish(run_.t, is_readable_ ? &*run_.motion : nullptr);
+  // Other runs may begin with what this one leaves. A run that went wrong keeps the last state that was good.
+  const bool went_wrong = verdict_.status == RunStatus::diverged || verdict_.status == RunStatus::failed;
+  if (is_readable_ && leaves_checkpoints() && !went_wrong) leave_checkpoint();
+  if (recorder_) recorder_->finish(run_->t, is_readable_ ? &*run_->motion : nullptr);
   folder_lock_.reset();
 }
 
 ConstVec Simulation::Impl::field(std::string_view name) {
   if (!is_readable_) throw std::logic_error("there are no fields between two phases: " + verdict_.reason);
-  const LagrangianPhase& phase = *run_.model.phase;
-  const PhaseMotion& motion = *run_.motion;
-  field_ = name == "position" ? current_positions(phase, run_.t, motion.u())
-                              : point_field(phase, std::string(name), run_.t, motion.u(), motion.v());
+  const LagrangianPhase& phase = *run_->model.phase;
+  const PhaseMotion& motion = *run_->motion;
+  field_ = name == "position" ? current_positions(phase, run_->t, motion.u())
+                              : point_field(phase, std::string(name), run_->t, motion.u(), motion.v());
   return field_;
 }
 

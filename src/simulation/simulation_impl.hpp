@@ -29,7 +29,7 @@ class Simulation::Impl {
   Summary summary();                           // simulation_summary.cpp
   void save(const std::filesystem::path& to);  // simulation_state.cpp
 
-  RunState run_;
+  std::unique_ptr<RunState> run_;  // in the present stage
   Verdict verdict_;
   ThreadChoice thread_choice_;
   bool is_readable_ = true;  // false if the points are between two phases, because the second could not begin
@@ -42,16 +42,32 @@ class Simulation::Impl {
   void observe();
   void judge();
   void next_phase();
+  /// Ends the phase, with its watchers and records.
+  void end_phase();
+  void end_with(const PointLost& lost);
+  /// Ends the run as a phase or a stage cannot begin.
+  void end_between_phases(const std::string& next, const std::string& why);
+  void let_watchers_begin();
+  void tell_phase_change(bool begun) const {
+    if (run_->options.at_phase_change) run_->options.at_phase_change(begun);
+  }
+  // simulation_stages.cpp
+  /// Whether the next stage begins now.
+  bool stage_is_over() const;
+  void next_stage();
+  void begin_stage(StageBegin begins);
+  StageFigures figures_of_stage();
+  void archive_stages(const StateArchive& state);
   void record(bool last) {
-    if (recorder_) recorder_->sample(run_, last);
+    if (recorder_) recorder_->sample(*run_, last);
   }
   void report_progress();
   void end_if_asked();
 
-  void end_as_asked(const std::string& where) { verdict_ = run_.end_request.verdict(where); }
+  void end_as_asked(const std::string& where) { verdict_ = run_->end_request.verdict(where); }
   void finish();
 
-  bool leaves_checkpoints() const { return recorder_ && !run_.options.out.empty() && run_.scene.checkpoint.wanted(); }
+  bool leaves_checkpoints() const { return recorder_ && !run_->options.out.empty() && run_->scene.checkpoint.wanted(); }
   bool checkpoint_is_due();
   void leave_checkpoint();
   void archive(const StateArchive& state);
@@ -61,6 +77,8 @@ class Simulation::Impl {
   void fill_state(Summary& s);
 
   std::vector<Watched> watchers_;
+  std::vector<StageFigures> stages_;         // that have ended
+  Verdict stage_verdict_;                    // that the present one is in equilibrium; by default: not so far
   std::shared_ptr<FolderLock> folder_lock_;  // until the run is over
   std::optional<Recorder> recorder_;
   bool started_ = false;

@@ -73,26 +73,27 @@ Scene load_scene_of(const fs::path& checkpoint) {
 
 void Simulation::Impl::save(const fs::path& to) {
   SavedState state;
-  origin_of(run_.scene).archive(StateArchive::saving(state).part("origin"));
+  origin_of(run_->scene).archive(StateArchive::saving(state).part("origin"));
   archive(StateArchive::saving(state));
   write_checkpoint(to, state);
 }
 
 void Simulation::Impl::resume(const fs::path& from) {
   restoring(from, [this](const SavedState& saved) {
-    require_same(origin_of(saved), origin_of(run_.scene));
+    require_same(origin_of(saved), origin_of(run_->scene));
     archive(StateArchive::restoring(saved));
-    if (std::min({run_.steps(), run_.evaluations(), run_.earlier_rejected}) < 0)
+    if (std::min({run_->steps(), run_->evaluations(), run_->earlier_rejected}) < 0)
       throw StateError("its counts are negative");
   });
-  last_checkpoint_ = run_.steps();
-  next_checkpoint_s_ = run_.wall.seconds() + run_.scene.checkpoint.every;
+  last_checkpoint_ = run_->steps();
+  next_checkpoint_s_ = run_->wall.seconds() + run_->scene.checkpoint.every;
 }
 
 void Simulation::Impl::archive(const StateArchive& state) {
-  run_.archive(state);
+  archive_stages(state);
+  run_->archive(state);
   state("started", started_);
-  for (const auto& [name, watcher] : watchers_) watcher->archive(state.part(name), run_);
+  for (const auto& [name, watcher] : watchers_) watcher->archive(state.part(name), *run_);
   if (recorder_) recorder_->archive(state.part("records"));
 }
 
@@ -101,21 +102,21 @@ void Simulation::Impl::archive(const StateArchive& state) {
 // A method that begins anew when it is restored does so at fixed steps without that as well, and is saved there: with
 // checkpoints a run has the same bits whether it was resumed or not.
 bool Simulation::Impl::checkpoint_is_due() {
-  const CheckpointSpec& when = run_.scene.checkpoint;
-  const long steps = run_.steps();
-  if (run_.model.method.begins_anew && !run_.model.static_method) {
+  const CheckpointSpec& when = run_->scene.checkpoint;
+  const long steps = run_->steps();
+  if (run_->model.method.begins_anew && !run_->model.static_method) {
     constexpr long default_interval = 1000;  // [steps]
     if (steps % (when.every_steps > 0 ? when.every_steps : default_interval) != 0) return false;
-    run_.motion->stepper->start(run_.t, run_.motion->y);
+    run_->motion->stepper->start(run_->t, run_->motion->y);
   }
   return (when.every_steps > 0 && steps - last_checkpoint_ >= when.every_steps) ||
-         (when.every > 0 && run_.wall.seconds() >= next_checkpoint_s_);
+         (when.every > 0 && run_->wall.seconds() >= next_checkpoint_s_);
 }
 
 void Simulation::Impl::leave_checkpoint() {
-  last_checkpoint_ = run_.steps();
-  next_checkpoint_s_ = run_.wall.seconds() + run_.scene.checkpoint.every;
-  save(run_.options.out / "checkpoint.h5");
+  last_checkpoint_ = run_->steps();
+  next_checkpoint_s_ = run_->wall.seconds() + run_->scene.checkpoint.every;
+  save(run_->options.out / "checkpoint.h5");
 }
 
 }  // namespace stillpoint

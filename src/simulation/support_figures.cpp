@@ -12,8 +12,13 @@
 namespace stillpoint {
 namespace {
 
-bool has_named_supports(const Problem& problem) {
-  return std::ranges::any_of(problem.supports, [](const SupportSpec& support) { return !support.name.empty(); });
+// Those of all stages: one that does not hold bears nothing.
+std::vector<std::string> names_of_supports(const Problem& problem) {
+  if (problem.phase.at_stages) return problem.named_supports;
+  std::vector<std::string> names;
+  for (const SupportSpec& support : problem.supports)
+    if (!support.name.empty()) names.push_back(support.name);
+  return names;
 }
 
 int moment_components(const Problem& problem) { return dimension_info(problem.dim).moment_components; }
@@ -44,12 +49,11 @@ std::string note_on_gap(const SupportGap& weak, const SupportSpec& support) {
 
 std::vector<std::string> reaction_columns(const Problem& problem) {
   std::vector<std::string> columns;
-  for (const SupportSpec& support : problem.supports) {
-    if (support.name.empty()) continue;
+  for (const std::string& name : names_of_supports(problem)) {
     std::vector<std::string> axes = axis_names(problem.dim);
-    std::ranges::move(component_names(support.name + ".reaction", axes, "_"), std::back_inserter(columns));
+    std::ranges::move(component_names(name + ".reaction", axes, "_"), std::back_inserter(columns));
     axes.resize(static_cast<std::size_t>(moment_components(problem)));
-    std::ranges::move(component_names(support.name + ".moment", axes, "_"), std::back_inserter(columns));
+    std::ranges::move(component_names(name + ".moment", axes, "_"), std::back_inserter(columns));
   }
   return columns;
 }
@@ -57,9 +61,13 @@ std::vector<std::string> reaction_columns(const Problem& problem) {
 std::vector<double> reaction_values(const Problem& problem, const LagrangianPhase& phase, double t,
                                     PhaseMotion& motion) {
   std::vector<double> values;
-  if (!has_named_supports(problem)) return values;
-  for (const SupportReaction& support :
-       phase.supports().support_reactions(t, motion.u(), motion.system.last().trial->reactions)) {
+  const std::vector<std::string> names = names_of_supports(problem);
+  if (names.empty()) return values;
+  const std::vector<SupportReaction> reactions =
+      phase.supports().support_reactions(t, motion.u(), motion.system.last().trial->reactions);
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(reactions, name, &SupportReaction::name);
+    const SupportReaction support = found == reactions.end() ? SupportReaction{name, {}} : *found;
     values.insert(values.end(), support.force.begin(), support.force.begin() + problem.dim);
     values.insert(values.end(), support.moment.begin(), support.moment.begin() + moment_components(problem));
   }
@@ -68,7 +76,7 @@ std::vector<double> reaction_values(const Problem& problem, const LagrangianPhas
 
 void fill_supports(const Problem& problem, const LagrangianPhase& phase, double t, PhaseMotion& motion,
                    Summary& summary) {
-  if (has_named_supports(problem)) {
+  if (!names_of_supports(problem).empty()) {
     motion.residual(t);
     for (const SupportReaction& support :
          phase.supports().support_reactions(t, motion.u(), motion.system.last().trial->reactions)) {

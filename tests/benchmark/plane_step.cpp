@@ -18,7 +18,7 @@
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/nodal_force.hpp"
 #include "space/phase/lagrangian_phase.hpp"
-#include "space/points/body.hpp"
+#include "space/points/make_body.hpp"
 
 namespace {
 

@@ -11,6 +11,7 @@
 #include "scene/input/scene_check.hpp"
 #include "scene/input/toml_source.hpp"
 #include "scene/resolve.hpp"
+#include "scene/stages.hpp"
 
 namespace stillpoint {
 namespace {
@@ -75,8 +76,26 @@ void find_files(Scene& scene) {
   for (BodySpec& body : scene.bodies)
     for (std::filesystem::path* const file : {&body.file, &body.stl})
       if (!file->empty()) *file = scene.file.parent_path() / *file;
+  if (!scene.initial_from.empty()) scene.initial_from = scene.file.parent_path() / scene.initial_from;
   for (RigidSpec& rigid : scene.rigid)
     if (!rigid.stl.empty()) rigid.stl = scene.file.parent_path() / rigid.stl;
+}
+
+/// Reports what is wrong with the first of the later stages in which something is.
+void check_later_stages(Scene scene, Reading& reading, const Catalogue& catalogue) {
+  while (!scene.stages.empty()) {
+    begin_next_stage(scene);
+    Reading of_stage{.dim = reading.dim, .constants = reading.constants};
+    try {
+      validate(scene, resolve(scene, catalogue), of_stage, catalogue);
+    } catch (const EnoughProblems&) {
+    }
+    for (Mistake& problem : of_stage.problems) {
+      problem.message = fmt::format("in the stage at t = {:.6g}: {}", scene.present_stage->at, problem.message);
+      reading.add(std::move(problem));
+    }
+    if (!of_stage.problems.empty()) return;
+  }
 }
 
 /// A scene under overrides, with all that it may choose from.
@@ -108,8 +127,10 @@ class SceneText {
     try {
       if (read_tables(tables_, *root, scene, reading)) {
         find_files(scene);
+        set_later_parts_aside(scene, scene.where);
         const std::vector<FileMistake> files = resolve(scene, catalogue_);
         validate(scene, files, reading, catalogue_);
+        if (reading.problems.empty()) check_later_stages(scene, reading, catalogue_);
       }
     } catch (const EnoughProblems&) {
     }
@@ -190,8 +211,10 @@ Problem resolved(Problem problem, const Catalogue& catalogue) {
   Scene scene(std::move(problem));
   Reading reading{.dim = scene.dim, .constants = scene.constants};
   try {
+    set_later_parts_aside(scene, scene.where);
     const std::vector<FileMistake> files = resolve(scene, catalogue);
     validate(scene, files, reading, catalogue);
+    if (reading.problems.empty()) check_later_stages(scene, reading, catalogue);
   } catch (const EnoughProblems&) {
   }
   if (!reading.problems.empty()) throw SceneError(std::move(reading.problems));

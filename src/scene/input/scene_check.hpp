@@ -154,6 +154,8 @@ void check_rigid_shape(SceneCheck& check, std::size_t k);
 void check_loads(SceneCheck& check, const std::optional<NamedBox>& body);
 void check_exact(SceneCheck& check, bool bodies);
 void check_phases(SceneCheck& check, bool grid);
+/// Checks the stages to come, of a scene in its first one.
+void check_stages(SceneCheck& check);
 void check_output(SceneCheck& check, const std::optional<NamedBox>& body);
 
 /// True for a motion that is none.

@@ -50,7 +50,12 @@ void add_grid(Tables& tables) {
 [[gnu::no_sanitize_address]] void add_initial(Tables& tables) {
   tables.add({"initial", "the state at t = 0"}, std::identity())
       .key("u", &Scene::initial_u, "displacement", {.unit = "m", .variables = "x", .fallback = "0"})
-      .key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"});
+      .key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"})
+      .key("from", &Scene::initial_from,
+           "a checkpoint of another scene: bodies of the same names begin with its points, at rest, and with what they "
+           "remember")
+      .key("displacements", &Scene::displacements_from_zero, "with from: whether they count from there on",
+           {.words = {"kept", "zero"}});
 
   tables
       .add({"initial.geostatic", "level ground: sigma_yy = -rho b_y (surface - y), sigma_xx = sigma_zz = K0 sigma_yy"},
@@ -107,6 +112,7 @@ void add_grid(Tables& tables) {
            {.words = {"points", "cells", "splines"}, .dims = kNotLine});
   add_boundary(tables);
   add_initial(tables);
+  add_stages(tables);
   for (TableInfo& exact : exact_tables(catalogue)) tables.all.push_back(std::move(exact));
   add_method(tables, catalogue);
   add_output(tables);

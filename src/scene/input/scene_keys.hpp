@@ -18,6 +18,8 @@ void add_body(Tables& tables);
 void add_boundary(Tables& tables);
 /// [[rigid]] and [[contact]] alone.
 void add_contact(Tables& tables);
+/// [[stage]].
+void add_stages(Tables& tables);
 /// [solve], [damping], [integrator] and [stop].
 void add_method(Tables& tables, const Catalogue& catalogue);
 /// [output], [checkpoint], [[probe]] and [[variant]].

@@ -1,12 +1,15 @@
 // The order of all checks of a scene, and those of its grid, mass, integrator, damping, solver and stop.
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "scene/grid_fault.hpp"
 #include "scene/input/keys.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/stages.hpp"
 
 namespace stillpoint {
 namespace {
@@ -173,6 +176,21 @@ void check_stop(SceneCheck& check, const StopSpec& stop) {
                  "nothing would ever stop this run: set residual, distance, time, steps or wall_time");
 }
 
+// The box around the bodies of all stages; those of later ones are not cut to the grid.
+NamedBox box_of_all_stages(const Scene& scene) {
+  std::vector<BodySpec> all = bodies_of_all_stages(scene);
+  for (BodySpec& body : all) {
+    body.min.take(scene.grid.min);
+    body.max.take(scene.grid.max);
+  }
+  auto [low, high] = box_around(all);
+  for (std::size_t d = 0; d < low.size(); ++d) {
+    low[d] = std::max(low[d], scene.grid.min[d]);
+    high[d] = std::min(high[d], scene.grid.max[d]);
+  }
+  return {std::move(low), std::move(high), "bodies"};
+}
+
 }  // namespace
 
 void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading& reading, const Catalogue& catalogue) {
@@ -186,7 +204,9 @@ void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading
   check_loads(check, body);
   check_exact(check, body.has_value());
   check_phases(check, grid);
-  check_output(check, body);
+  const bool is_first_stage = !scene.present_stage || scene.present_stage->at == 0;
+  if (is_first_stage) check_stages(check);
+  if (is_first_stage) check_output(check, scene.phase.at_stages && body ? box_of_all_stages(scene) : body);
   if (const StaticMethodInfo* const solver = catalogue.static_method(scene.solve.method)) {
     check_static_solver(check, scene, *solver);
   } else {

@@ -103,7 +103,7 @@ void check_probes(SceneCheck& check, const std::optional<NamedBox>& body) {
   }
 }
 
-void check_stages(SceneCheck& check) {
+void check_snapshots(SceneCheck& check) {
   const std::vector<double>& stages = check.scene().output.snapshots;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const std::string key = fmt::format("output.stages[{}]", k);
@@ -118,7 +118,7 @@ void check_stages(SceneCheck& check) {
 
 void check_output(SceneCheck& check, const std::optional<NamedBox>& body) {
   check_probes(check, body);
-  check_stages(check);
+  check_snapshots(check);
 }
 
 }  // namespace stillpoint

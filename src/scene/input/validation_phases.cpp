@@ -13,6 +13,7 @@ namespace {
 
 /// How a scene does without phases.
 std::string for_one_phase(const PhaseSpec& phase) {
+  if (phase.at_stages) return "or leave out [[stage]] and initial.from";
   const bool by_motion = phase.ends_by_motion(), by_strain = phase.max_strain.has_value();
   return fmt::format("or {}{}{} for a single phase", by_motion ? "phase.max_motion = \"none\"" : "",
                      by_motion && by_strain ? " and " : "", by_strain ? "no phase.max_strain" : "");
@@ -82,20 +83,27 @@ void check_phases(SceneCheck& check, bool grid) {
   const Scene& scene = check.scene();
   const PhaseSpec& phase = scene.phase;
   check_keys_of_phases(check);
-  if (scene.solve.is_static() || !phase.ends()) return check_single_phase(check);
+  if (scene.solve.is_static() || !phase.ends()) check_single_phase(check);
+  if ((scene.solve.is_static() && !phase.at_stages) || !phase.ends()) return;
   const auto materials = materials_in_use(scene, check.catalogue());
   // The key that asks for phases; a history brings them unasked.
   const bool by_motion = phase.max_motion.is_asked() || !phase.max_strain;
-  const std::string asked = by_motion ? "phase.max_motion" : "phase.max_strain";
+  const std::string asked = phase.at_stages ? (scene.initial_from.empty() ? "stage[0]" : "initial.from")
+                            : by_motion     ? "phase.max_motion"
+                                            : "phase.max_strain";
   check.refuse_if(any_remembers(materials, check.catalogue()), "phase", {"deformation"},
                   "goes with laws without history only, whose stress follows from the deformation");
   const std::string why_not = why_no_domains(scene), one_phase = for_one_phase(phase);
   check.wrong_if(phase.quadrature == Quadrature::domains && !why_not.empty(), "phase.quadrature",
                  "{}: there are no domains side by side; take \"points\"", why_not);
+  const auto is_finite = [&](const MaterialSpec* one) { return check.catalogue().law(one->law)->finite_strain; };
+  // At the end of a stage such laws keep their strains; beside others, whose points move, they cannot.
+  const bool stays_in_place =
+      phase.at_stages && !phase.ends_by_motion() && !phase.max_strain && std::ranges::none_of(materials, is_finite);
   for (const MaterialSpec* material : materials) {
-    const bool unasked = !phase.max_motion.is_asked() && !phase.max_strain;
-    if (check.wrong_if(!check.catalogue().law(material->law)->finite_strain,
-                       unasked ? fmt::format("material.{}.law", material->name) : asked,
+    if (stays_in_place) break;
+    const bool unasked = !phase.max_motion.is_asked() && !phase.max_strain && !phase.at_stages;
+    if (check.wrong_if(!is_finite(material), unasked ? fmt::format("material.{}.law", material->name) : asked,
                        "'{}' is a law of small strain, whose positions never change, so that no phase ends; take "
                        "hencky or neo-hookean, {}",
                        material->law, one_phase))

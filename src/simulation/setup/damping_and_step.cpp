@@ -26,21 +26,22 @@ double displacement_scale(const SetUpState& set_up) {
   const Problem& problem = set_up.problem;
   const Model& model = set_up.model;
   const LagrangianPhase& phase = *model.phase;
+  const double begin = set_up.begin.t;
   double scale = 0;
   std::vector<double> at_points(phase.points() * static_cast<std::size_t>(phase.dim()));
   const auto widen = [&](double factor) {
     for (const double u : at_points) scale = std::max(scale, factor * std::abs(u));
   };
-  phase.fields().point_displacement(0, model.u, at_points);
+  phase.fields().point_displacement(begin, model.u, at_points);
   widen(1);
-  phase.fields().point_velocity(0, model.v, at_points);
+  phase.fields().point_velocity(begin, model.v, at_points);
   widen(1 / *model.omega_1);
 
-  const SparseCholesky K(phase.tangents().matrix(Tangent::elastic, 0, model.u));
-  const double span = problem.stop.time > 0 ? problem.stop.time : 2 * std::numbers::pi / *model.omega_1;
+  const SparseCholesky K(phase.tangents().matrix(Tangent::elastic, begin, model.u));
+  const double span = problem.stop.time > 0 ? problem.stop.time - begin : 2 * std::numbers::pi / *model.omega_1;
   const int samples = loads_vary(problem) ? 32 : 0;
   for (int k = 0; k <= samples; ++k) {
-    const double t = samples > 0 ? span * k / samples : 0;
+    const double t = begin + (samples > 0 ? span * k / samples : 0);
     std::vector<double> u = total_load_at(phase, t);
     K.solve(u, u);
     phase.fields().point_displacement(t, u, at_points);
@@ -97,7 +98,7 @@ void choose_step(SetUpState& set_up) {
   const IntegratorSpec& spec = problem.integrator;
   const bool adaptive = spec.rtol.has_value();
   if (model.method.amplification) {
-    const double gain = local_damping_gain(*model.phase, 0, model.u, *model.damping, model.omega_max);
+    const double gain = local_damping_gain(*model.phase, set_up.begin.t, model.u, *model.damping, model.omega_max);
     const DampedSpectrum spectrum =
         damped_spectrum(model.omega_1.value_or(0), gain * model.omega_max, *model.damping, model.phase->mass());
     constexpr double most_radians = 1e3;  // h omega_max of a step whose method has no limit of its own

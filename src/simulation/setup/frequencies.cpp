@@ -18,24 +18,24 @@ namespace {
 // By Lanczos' method, whose answer is above ω_max by no more than its tolerance. A spectrum that is crowded at its end
 // keeps it from that: then by power iteration, which underestimates, and, if that has not converged, by ARPACK; with a
 // margin, or the guaranteed bound, if that has not either. A large body takes what few applications of K give.
-double highest_frequency(const LagrangianPhase& phase, ConstVec u) {
+double highest_frequency(const LagrangianPhase& phase, double t, ConstVec u) {
   const bool is_large = phase.size() > direct_solver_limit;
   constexpr double tolerance = 1e-7;
   FrequencyEstimate estimate =
-      is_large ? omega_max_by_lanczos(phase, 0, u, 30) : omega_max_by_lanczos(phase, 0, u, 100, tolerance);
+      is_large ? omega_max_by_lanczos(phase, t, u, 30) : omega_max_by_lanczos(phase, t, u, 100, tolerance);
   const SpectrumOptions options{.tolerance = 1e-9, .max_iterations = 300};
-  if (!estimate.converged) estimate = omega_max_by_power_iteration(phase, 0, u, options);
+  if (!estimate.converged) estimate = omega_max_by_power_iteration(phase, t, u, options);
   if (!(estimate.omega > 0) || !std::isfinite(estimate.omega)) {
     throw_scene_error("initial", fmt::format("the initial state has no highest frequency ({}); expected a stable state",
                                              estimate.status));
   }
   if (estimate.converged) return estimate.omega;
   if (!is_large) {
-    const FrequencyEstimate by_arpack = omega_max_by_arpack(phase, 0, u, options);
+    const FrequencyEstimate by_arpack = omega_max_by_arpack(phase, t, u, options);
     if (by_arpack.converged) return by_arpack.omega;
   }
   constexpr double margin = 1.02;  // after 300 iterations an underestimate of 0.1 % is usual
-  return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, 0, u).omega);
+  return std::min(margin * estimate.omega, omega_max_bound_by_gershgorin(phase, t, u).omega);
 }
 
 // Throws SceneError if something cannot do without ω₁.
@@ -67,7 +67,8 @@ void find_omega_max(SetUpState& set_up) {
   SetUp& parts = set_up.parts;
   Model& model = set_up.model;
   if (plan.chooses_mass || plan.multigrid) return;
-  model.omega_max = parts.shared("omega_max", model.mass, [&] { return highest_frequency(*model.phase, model.u); });
+  model.omega_max =
+      parts.shared("omega_max", model.mass, [&] { return highest_frequency(*model.phase, model.t, model.u); });
 }
 
 void find_omega_1(SetUpState& set_up) {
@@ -86,7 +87,7 @@ void find_omega_1(SetUpState& set_up) {
     return;
   }
   const FrequencyEstimate lowest =
-      parts.shared(part_omega_1, model.mass, [&] { return omega_1_by_lanczos(*model.phase, 0, model.u); });
+      parts.shared(part_omega_1, model.mass, [&] { return omega_1_by_lanczos(*model.phase, model.t, model.u); });
   if (lowest.converged) {
     model.omega_1 = lowest.omega;
     if (!plan.chooses_mass && problem.mass.scaling == MassScaling::uniform)

@@ -78,8 +78,9 @@ void make_multigrid_as_planned(SetUpState& set_up) {
 
 // ω_max for auto, which counts what it spends.
 double quick_omega_max(SetUpState& set_up, const MassSpec& mass, const LagrangianPhase& phase) {
+  const double t = set_up.begin.t;
   const FrequencyEstimate estimate = set_up.parts.shared(
-      "omega_max of auto", mass, [&] { return omega_max_by_lanczos(phase, 0, phase.initial_displacement(0)); });
+      "omega_max of auto", mass, [&] { return omega_max_by_lanczos(phase, t, phase.initial_displacement(t)); });
   set_up.model.tangent_applications += estimate.iterations;
   if (estimate.converged) return estimate.omega;
   throw_scene_error("initial", fmt::format("the initial state has no highest frequency ({}); expected a stable state",
@@ -104,7 +105,7 @@ void choose_scaled_mass(SetUpState& set_up) {
   Problem scaled = problem;
   scaled.mass.kind = MassKind::lumped;
   scaled.mass.scaling = MassScaling::gershgorin;
-  std::unique_ptr<LagrangianPhase> phase = parts.phase(scaled);
+  std::unique_ptr<LagrangianPhase> phase = parts.phase(scaled, set_up.begin);
   const double omega_max = quick_omega_max(set_up, scaled.mass, *phase);
   const double gain = model.omega_max * model.omega_max / (omega_max * omega_max);
   constexpr double worthwhile_gain = 1.05;

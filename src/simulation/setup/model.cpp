@@ -13,6 +13,7 @@
 
 #include "base/stop_request.hpp"
 #include "output/probes.hpp"
+#include "scene/stages.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/advice/notes.hpp"
 #include "simulation/loads/load_schedule.hpp"
@@ -22,10 +23,10 @@ namespace stillpoint {
 namespace {
 
 // Throws SceneError if R cannot be evaluated where the motion begins.
-void check_initial_state(const LagrangianPhase& phase, ConstVec u) {
+void check_initial_state(const LagrangianPhase& phase, double t, ConstVec u) {
   std::vector<double> R(phase.size());
   const auto trial = phase.make_trial();
-  if (phase.internal_force(0, u, R, *trial)) return;
+  if (phase.internal_force(t, u, R, *trial)) return;
   throw_scene_error("initial", "the initial state cannot be evaluated: " + phase.diagnosis().refusal(*trial));
 }
 
@@ -38,7 +39,8 @@ void make_first_phase(SetUpState& set_up) {
   model.relaxation = plan.relaxation;
   model.factor_fits = plan.stiffness.factor_fits(plan.room);
   model.method = find_method(problem.integrator.method, problem.integrator.treatment);
-  model.phase = parts.phase(problem);
+  model.phase = parts.phase(problem, set_up.begin);
+  model.t = set_up.begin.t;
   model.mass = problem.mass;
 }
 
@@ -46,10 +48,11 @@ void begin_at_initial_state(SetUpState& set_up) {
   const Problem& problem = set_up.problem;
   Plan& plan = set_up.plan;
   Model& model = set_up.model;
-  model.u = model.phase->initial_displacement(0);
-  check_probes(problem, *model.phase);
-  check_initial_state(*model.phase, model.u);
-  const bool linear = !model.phase->info().nonlinear && model.phase->tangents().of_loads(0, model.u).nonZeros() == 0;
+  model.u = model.phase->initial_displacement(model.t);
+  if (!set_up.begin.carried) check_probes(problem, *model.phase);
+  check_initial_state(*model.phase, model.t, model.u);
+  const bool linear =
+      !model.phase->info().nonlinear && model.phase->tangents().of_loads(model.t, model.u).nonZeros() == 0;
   revise(problem, {.unknowns = static_cast<double>(model.phase->size()), .linear = linear}, plan);
 }
 
@@ -59,8 +62,8 @@ void begin_motion(SetUpState& set_up) {
   choose_mass(set_up);
   set_up.note(model.body_notes.at_start(problem, *model.phase));
   set_up.note(accuracy_notes(problem, *model.phase, model.mass.scaling));
-  set_up.note(load_notes(problem, *model.phase, model.u));
-  model.v = model.phase->initial_velocity(0);
+  if (set_up.begin.t == 0) set_up.note(load_notes(problem, *model.phase, model.u));
+  model.v = model.phase->initial_velocity(model.t);
 }
 
 // V and its ω₁; empty if K has no lowest eigenvalue.
@@ -99,7 +102,7 @@ void choose_norm_of_errors(SetUpState& set_up) {
         "loads or supports go on to depend on t and stop.time is not set: a plateau that outlasts stop.hold counts as "
         "equilibrium");
   }
-  if (plan.static_method && plan.static_method->takes_end_of_loads) model.t = problem.stop.time;
+  if (plan.static_method && plan.static_method->takes_end_of_loads) model.t = end_of_stage(problem);
 }
 
 // The time that equilibrium has to last. A body that is not held has no lowest frequency, and a hundred of its shortest
@@ -141,7 +144,7 @@ void choose_way_to_rest(SetUpState& set_up) {
   choose_damping_and_step(set_up);
   set_up.note(viscosity_notes(problem, model.integrator.max_step));
   if (model.phase->info().stiffens && !problem.integrator.step)
-    model.initial_stiffening = model.phase->stiffening(0, model.u);
+    model.initial_stiffening = model.phase->stiffening(set_up.begin.t, model.u);
 }
 
 struct Part {
@@ -160,8 +163,8 @@ constexpr std::array parts_in_order{
 
 }  // namespace
 
-Model make_model(const Problem& problem, Plan plan, SetUpStore* store) {
-  SetUpState set_up{.problem = problem, .plan = std::move(plan), .parts = SetUp(store)};
+Model make_model(const Problem& problem, Plan plan, SetUpStore* store, const PhaseBegin& begin) {
+  SetUpState set_up{.problem = problem, .begin = begin, .plan = std::move(plan), .parts = SetUp(store)};
   for (const Part& part : parts_in_order) {
     heed_stop_request();
     try {

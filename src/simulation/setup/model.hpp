@@ -25,7 +25,7 @@ struct Model {
   std::unique_ptr<LagrangianPhase> phase;
   MassSpec mass;             // the phase's own; auto may have chosen another than the problem's
   std::vector<double> u, v;  // initial values, (n) each
-  double t = 0;              // the start of the run; for a static solver the end of the loads [s]
+  double t = 0;              // the start of the run or stage; for a static solver the end of its loads [s]
 
   // Its inertia and frequencies:
   std::shared_ptr<const MultigridMass> multigrid;  // in the place of the phase's mass; null: there is none
@@ -61,8 +61,8 @@ struct Model {
 
 /// Executes the plan of a problem. Throws SceneError for what only shows once the problem is discretised: a body that
 /// is not held if c = "critical", a step past the critical one without a reason, a method that does not fit the
-/// damping. store: what other simulations of the same body have made; null: nothing.
-Model make_model(const Problem& problem, Plan plan, SetUpStore* store = nullptr);
+/// damping. store: what other simulations of the same body have made; null: nothing. begin: how a stage begins.
+Model make_model(const Problem& problem, Plan plan, SetUpStore* store = nullptr, const PhaseBegin& begin = {});
 /// Plans the problem first.
 Model make_model(const Problem& problem, SetUpStore* store = nullptr);
 

@@ -10,6 +10,7 @@ namespace stillpoint {
 /// The parts fill the model by the plan.
 struct SetUpState {
   const Problem& problem;
+  PhaseBegin begin;
   Plan plan;
   SetUp parts;
   Model model{};

@@ -11,9 +11,9 @@ std::string to_string(const MassSpec& mass) {
                      mass.factor);
 }
 
-SetUpStore::MadePhase SetUpStore::make(const Problem& problem) {
+SetUpStore::MadePhase SetUpStore::make(const Problem& problem, const PhaseBegin& begin) {
   const Stopwatch watch;
-  MadePhase made{make_phase(problem)};
+  MadePhase made{make_phase(problem, begin)};
   made.seconds = watch.seconds();
   return made;
 }
@@ -41,8 +41,8 @@ void SetUpStore::give_back(const MassSpec& mass, std::unique_ptr<LagrangianPhase
   phases_[to_string(mass)].idle.push_back(std::move(phase));
 }
 
-std::unique_ptr<LagrangianPhase> SetUp::phase(const Problem& problem) {
-  SetUpStore::MadePhase made = store_ ? store_->phase(problem) : SetUpStore::make(problem);
+std::unique_ptr<LagrangianPhase> SetUp::phase(const Problem& problem, const PhaseBegin& begin) {
+  SetUpStore::MadePhase made = store_ ? store_->phase(problem) : SetUpStore::make(problem, begin);
   add("phase", made.seconds, made.made_now);
   return std::move(made.phase);
 }

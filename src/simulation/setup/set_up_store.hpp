@@ -32,7 +32,7 @@ class SetUpStore {
     double seconds = 0;  // that it took to make, then or now
     bool made_now = true;
   };
-  static MadePhase make(const Problem& problem);  // without a store
+  static MadePhase make(const Problem& problem, const PhaseBegin& begin = {});  // without a store
   MadePhase phase(const Problem& problem);
   /// Keeps a phase for whoever asks next, if runs leave nothing in it: no history, no contact and no other phase.
   void give_back(const MassSpec& mass, std::unique_ptr<LagrangianPhase> phase);
@@ -84,7 +84,8 @@ class SetUp {
   /// store: null if there is none; outlives this object.
   explicit SetUp(SetUpStore* store) : store_(store) {}
 
-  std::unique_ptr<LagrangianPhase> phase(const Problem& problem);
+  /// A stage after the first one has nothing in common with other simulations.
+  std::unique_ptr<LagrangianPhase> phase(const Problem& problem, const PhaseBegin& begin);
   /// Leaves a phase that this set-up does without to the store, if there is one.
   void give_back(const MassSpec& mass, std::unique_ptr<LagrangianPhase> phase) {
     if (store_) store_->give_back(mass, std::move(phase));

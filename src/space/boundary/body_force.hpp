@@ -36,6 +36,7 @@ class BodyForce final : public BoundaryCondition<Dim> {
     add_point_loads(phase, at_points(phase, 0), sum);
     for (std::size_t k = 0; k < F.size(); ++k) F[k] += sum[k];
   }
+  std::string_view kind() const override { return "body_force"; }
   bool varies() const override {
     return std::ranges::any_of(b_, [](const Expression& b) { return b.uses('t'); });
   }

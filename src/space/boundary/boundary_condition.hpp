@@ -4,6 +4,7 @@
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/state_archive.hpp>
 
+#include <string_view>
 #include <vector>
 
 #include "space/boundary/condition_reports.hpp"
@@ -88,6 +89,9 @@ class BoundaryCondition {
   using Functions = GridFunctions<Dim>;
 
   virtual ~BoundaryCondition() = default;
+
+  /// The kind, by which the next stage finds what this one remembers.
+  virtual std::string_view kind() const = 0;
 
   // Called when a phase begins, in this order:
   /// Marks the unknowns that are held. reached: whether material reaches a function, (functions); gaps: the distance of

@@ -49,6 +49,7 @@ void Conditions<K>::begin_phase(const Parts& phase, double t, const StiffnessBou
   load_control_.begin_phase(phase, stiffness_bound);
   rigid_contact_->begin_phase(phase, t, stiffness_bound);
   body_contact_->begin_phase(phase, stiffness_bound);
+  fading_.begin_phase(phase);
 }
 
 template <Kinematics K>
@@ -58,7 +59,8 @@ void Conditions<K>::begin_motion(const Parts& phase, double t, Vec v) {
 
 template <Kinematics K>
 bool Conditions<K>::loads_are_constant() const {
-  return std::ranges::none_of(all_, [](const auto& condition) { return condition->varies() || condition->follows(); });
+  return !fading_.acts() &&
+         std::ranges::none_of(all_, [](const auto& condition) { return condition->varies() || condition->follows(); });
 }
 
 template <Kinematics K>
@@ -69,6 +71,7 @@ bool Conditions<K>::loads_follow() const {
 template <Kinematics K>
 void Conditions<K>::add_loads(const Parts& phase, double t, Vec F) const {
   for (const auto& condition : all_) condition->add_load(phase, t, F);
+  fading_.add_load(t, F);
 }
 
 template <Kinematics K>
@@ -179,15 +182,25 @@ void Conditions<K>::end_phase(double t, const double* u) {
   load_control_.end_phase(u);
   rigid_contact_->end_phase(t, u);
   body_contact_->end_phase(u);
+  fading_.end_phase(u);
 }
 
 template <Kinematics K>
 void Conditions<K>::archive(const StateArchive& state) {
-  for (std::size_t k = 0; k < all_.size(); ++k) all_[k]->archive(state.part(fmt::format("condition_{}", k)));
+  for (const auto& condition : all_) condition->archive(state.part(condition->kind()));
   weak_supports_.archive(state.part("weak_supports"));
   load_control_.archive(state.part("load"));
   rigid_contact_->archive(state.part("rigid"));
   body_contact_->archive(state.part("bodies"));
+  if (problem_.phase.at_stages) fading_.archive(state.part("fading"));
+}
+
+template <Kinematics K>
+void Conditions<K>::take_over(const SavedState& from_stage) {
+  const auto state = StateArchive::restoring(from_stage);
+  for (const auto& condition : all_)
+    if (state.has_part(condition->kind())) condition->archive(state.part(condition->kind()));
+  weak_supports_.archive(state.part("weak_supports"));
 }
 
 template <Kinematics K>

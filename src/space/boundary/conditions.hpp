@@ -12,6 +12,7 @@
 #include "space/boundary/axis_of_symmetry.hpp"
 #include "space/boundary/boundary_conditions.hpp"
 #include "space/boundary/condition_reports.hpp"
+#include "space/boundary/fading_force.hpp"
 #include "space/boundary/load_control.hpp"
 #include "space/boundary/weak_supports.hpp"
 #include "space/points/surface_depths.hpp"
@@ -85,6 +86,15 @@ class Conditions {
   void end_phase(double t, const double* u);
   void archive(const StateArchive& state);
 
+  // --- from stage to stage --------------------------------------------------------------------------
+  /// Before the first phase: takes over what the conditions of the stage before remember, as archive() saved it.
+  void take_over(const SavedState& from_stage);
+  /// Balances the force that a stage puts out of balance, F − R at its begin, (n) [N], and lets that fade until the
+  /// time `over` [s].
+  void let_fade(const Parts& phase, double t, double over, ConstVec out_of_balance) {
+    fading_.begin(phase, t, over, out_of_balance);
+  }
+
   // --- reactions and displacements; the argument `reactions` as in add_force() --------------------
   std::vector<WallReaction> wall_reactions(double t) const;
   std::vector<double> support_displacements(const HeldUnknowns& held, double t) const;
@@ -107,6 +117,7 @@ class Conditions {
   AxisOfSymmetry<K> axis_;
   WeakSupports<K> weak_supports_;
   LoadControl<K> load_control_;
+  FadingForce<dim> fading_;
   std::unique_ptr<RigidContact<K>> rigid_contact_;
   std::unique_ptr<BodyContact<K>> body_contact_;
   Contact* contact_ = nullptr;  // contact of one of the conditions; null if there is none

@@ -33,6 +33,7 @@ class OwnBodyForceCondition final : public BoundaryCondition<Dim> {
     steady_ = *ask(phase.held.start());
     add_point_loads(phase, at_points(steady_), F);
   }
+  std::string_view kind() const override { return "own_load"; }
   bool varies() const override { return own_->about.settles_at > 0; }
   void add_load(const Parts& phase, double t, Vec F) const override {
     if (!varies()) return;

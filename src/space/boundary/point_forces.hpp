@@ -41,6 +41,7 @@ class PointForces final : public BoundaryCondition<Dim> {
       }
     }
   }
+  std::string_view kind() const override { return "forces"; }
   bool varies() const override { return !varying_.empty(); }
   void add_load(const Parts&, double t, Vec F) const override {
     for (const Varying& load : varying_) add(load, t, F);

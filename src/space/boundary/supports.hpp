@@ -52,13 +52,18 @@ class Supports final : public BoundaryCondition<Dim> {
       }
     }
   }
+  std::string_view kind() const override { return "supports"; }
   bool varies() const override { return false; }
   // Material that reaches the face is held from then on, which needs a new phase.
   bool asks_for_next_phase(ConstVec u) const override {
     return std::ranges::any_of(waiting_, [u](const Waiting& one) { return one.outward * u[one.dof] >= one.gap; });
   }
   void archive(const StateArchive& state) override {
-    for (std::size_t s = 0; s < touched_.size(); ++s) touched_[s].archive(state.part(fmt::format("support_{}", s)));
+    for (std::size_t s = 0; s < touched_.size(); ++s) {
+      const std::string name = fmt::format("support_{}", problem_.supports[s].number);
+      if (problem_.phase.at_stages && state.restores() && !state.has_part(name)) continue;  // it begins with this stage
+      touched_[s].archive(state.part(name));
+    }
   }
 
  private:
@@ -101,7 +106,7 @@ class Supports final : public BoundaryCondition<Dim> {
     std::erase_if(on_face, [&](int function) {
       return !reached[static_cast<std::size_t>(function)] || !is_in_part(support, functions, function);
     });
-    const bool is_first = held.start() == 0;
+    const bool is_first = held.start() == 0 || !touched_[s].has_begun();
     const int count = functions.count();
     const std::vector<int> touched = is_first ? touched_[s].first(*support.face, on_face, gaps, count)
                                               : touched_[s].next(*support.face, on_face, gaps, count);

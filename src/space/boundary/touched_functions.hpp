@@ -31,6 +31,7 @@ class TouchedFunctions {
     double gap;
   };
 
+  bool has_begun() const { return functions_ > 0; }
   /// The touched functions when the first phase begins, from the functions of a face that material reaches, in
   /// ascending order: nothing is held across a gap. If a body touches the face between its points, the functions of the
   /// points nearest to it.

@@ -48,6 +48,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     for (Piece& piece : pieces_)
       if (!piece.freeze_in_single_phase(phase)) throw_scene_error("traction", "there is no material at this face");
   }
+  std::string_view kind() const override { return "tractions"; }
   bool varies() const override {
     return std::ranges::any_of(problem_.tractions, [](const TractionSpec& traction) {
       return std::ranges::any_of(traction.formulas(), [](const Expression& formula) { return formula.uses('t'); });

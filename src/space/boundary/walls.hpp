@@ -68,6 +68,7 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
                                phase.mass.diagonal(), std::move(nodes), v);
     }
   }
+  std::string_view kind() const override { return "walls"; }
   bool varies() const override { return false; }
   bool asks_for_next_phase(ConstVec /*u*/) const override {
     return std::ranges::any_of(walls_, [](const Wall& wall) { return wall.contact.asks_for_next_phase(); });

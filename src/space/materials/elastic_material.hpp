@@ -15,7 +15,8 @@ namespace stillpoint {
 
 /// A law without history. In a body that moves on it stores the deformation F_0 = I + H_0 with which the phase began:
 ///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began,
-/// in the form of H_0, and H = f F_0 − I = H + H_0 + H H_0, so that small strains lose no digits beside 1.
+/// in the form of H_0, and H = f F_0 − I = H + H_0 + H H_0, so that small strains lose no digits beside 1. For a law of
+/// small strain H_0 is added to H, and P is the stress as it is.
 template <ElasticLaw Law>
 class ElasticMaterial : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
@@ -28,7 +29,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool updated_lagrangian)
       : Base(law, begin, count,
              {.finite_strain = Law::finite_strain, .stress_stays = true, .wave_modulus = law.moduli({})[0]}) {
-    if (updated_lagrangian && Law::finite_strain) H0_.assign(components * count, 0.0);
+    if (updated_lagrangian) H0_.assign(components * count, 0.0);
   }
 
   [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
@@ -60,7 +61,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   void commit(std::vector<double>&) override {}
 
   ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
-    if (!moved()) return law_.moduli(H);
+    if (!moved() || !Law::finite_strain) return law_.moduli(H);
     // Column b is the response to a unit dH_b, dF = dH F_0
     const Tensor F_0 = plus_identity<K>(H0(p));
     const ModuliMatrix A = law_.moduli(total(H0(p), H));
@@ -112,10 +113,11 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   // The composition (I + H)(I + H_0) − I.
   static Tensor total(const Tensor& H_0, const Tensor& H) {
     Tensor all = product<K>(H, H_0);
-    for (int c = 0; c < components; ++c) all[c] += H[c] + H_0[c];
+    for (int c = 0; c < components; ++c) all[c] = (Law::finite_strain ? all[c] : 0) + H[c] + H_0[c];
     return all;
   }
   static Tensor push(const Tensor& F_0, const Tensor& P) {
+    if constexpr (!Law::finite_strain) return P;
     Tensor pushed = product<K>(P, transposed<K>(F_0));
     const double J = determinant<K>(F_0);
     for (double& component : pushed) component /= J;

@@ -81,13 +81,19 @@ void set_geostatic_stress(const Problem& problem, Body<K>& body) {
 }
 
 template <Kinematics K>
-void set_parameters_by_place(const Problem& problem, Body<K>& body) {
+void set_parameters_by_place(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
+  const auto place_of = [&](std::size_t p) {
+    auto x = body.points.position(p);
+    const auto at = static_cast<std::size_t>(body.points.number[p]) * x.size();
+    for (std::size_t d = 0; d < x.size() && !origin.empty(); ++d) x[d] = origin[at + d];
+    return x;
+  };
   for (std::size_t m = 0; m < body.materials.size(); ++m) {
     const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
     const Vec shares = body.materials[m]->strength_shares();
     for (const auto& [name, formula] : problem.materials.at(body.material_names[m]).by_place) {
       for (std::size_t k = 0; k < shares.size(); ++k) {
-        const auto x = body.points.position(begin + k);
+        const auto x = place_of(begin + k);
         shares[k] = formula(x, 0);
         if (!(shares[k] >= 0) || !std::isfinite(shares[k]))
           throw_scene_error(fmt::format("material.{}.{}", body.material_names[m], name),
@@ -100,9 +106,9 @@ void set_parameters_by_place(const Problem& problem, Body<K>& body) {
 }  // namespace
 
 template <Kinematics K>
-void set_initial_state(const Problem& problem, Body<K>& body) {
+void set_initial_state(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
   if (problem.geostatic) set_geostatic_stress(problem, body);
-  set_parameters_by_place(problem, body);
+  set_parameters_by_place(problem, body, origin);
 }
 
 template <Kinematics K>
@@ -114,10 +120,10 @@ void set_initial_velocity(const Problem& problem, Body<K>& body) {
   }
 }
 
-template void set_initial_state(const Problem&, Body<Kinematics::line>&);
-template void set_initial_state(const Problem&, Body<Kinematics::plane>&);
-template void set_initial_state(const Problem&, Body<Kinematics::axisymmetric>&);
-template void set_initial_state(const Problem&, Body<Kinematics::space>&);
+template void set_initial_state(const Problem&, Body<Kinematics::line>&, const std::vector<double>&);
+template void set_initial_state(const Problem&, Body<Kinematics::plane>&, const std::vector<double>&);
+template void set_initial_state(const Problem&, Body<Kinematics::axisymmetric>&, const std::vector<double>&);
+template void set_initial_state(const Problem&, Body<Kinematics::space>&, const std::vector<double>&);
 template void set_initial_velocity(const Problem&, Body<Kinematics::line>&);
 template void set_initial_velocity(const Problem&, Body<Kinematics::plane>&);
 template void set_initial_velocity(const Problem&, Body<Kinematics::axisymmetric>&);

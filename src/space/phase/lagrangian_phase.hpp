@@ -22,6 +22,7 @@
 #include "linalg/nodal_layout.hpp"
 #include "space/boundary/condition_reports.hpp"
 #include "space/phase/place_reader.hpp"
+#include "space/points/carried_points.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint {
@@ -119,6 +120,9 @@ class PhaseControl {
   /// Returns v, (size()); u is 0. Throws PointLost if a point leaves the grid, and std::logic_error if the scene has a
   /// single phase, or if initial_velocity() has not begun the first one.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
+  /// Ends the phase as begin_next() does, and returns what the points hand on to another stage; nothing but their
+  /// fields may be asked of this phase from then on. Throws as begin_next().
+  virtual std::unique_ptr<CarriedBody> hand_over(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
   /// Takes the pressures of contact at (t, u) as multipliers, which changes R there: the body may go on to where
   /// nothing penetrates.
@@ -239,9 +243,17 @@ class PointLost : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// How the first phase of a run or of a stage begins.
+struct PhaseBegin {
+  const CarriedBody* carried = nullptr;  // what the points hand on that were there before; null: nothing, at the start
+  double t = 0;                          // [s]
+};
+
 /// Makes the first phase: places the bodies, evaluates and freezes the weights, assembles the mass. The instantiation
 /// for the scene's kinematics and basis is chosen here, once. Throws SceneError for faults that only show now: a
 /// support that no material reaches, a force where there is no material, a mass matrix that is not positive definite.
-std::unique_ptr<LagrangianPhase> make_phase(const Problem& problem);
+std::unique_ptr<LagrangianPhase> make_phase(const Problem& problem, const PhaseBegin& begin = {});
+/// For a body that is handed on in a scene of this kinematics, to be restored.
+std::unique_ptr<CarriedBody> make_carried_body(const Problem& problem);
 
 }  // namespace stillpoint

@@ -20,8 +20,8 @@ namespace stillpoint {
 template <AxisBasis B, Kinematics K>
 class MaterialPointPhase final : public LagrangianPhase {
  public:
-  explicit MaterialPointPhase(const Problem& problem)
-      : LagrangianPhase({fields_, supports_, shape_, control_, diagnosis_}), all_(problem) {
+  MaterialPointPhase(const Problem& problem, const PhaseBegin& begin)
+      : LagrangianPhase({fields_, supports_, shape_, control_, diagnosis_}), all_(problem, begin) {
     info_ = all_.frame.account().describe(all_.conditions.hold_by_springs());
     points_stiffen_ = info_.stiffens && !info_.remembers;
     if (all_.conditions.may_touch()) {
@@ -29,6 +29,7 @@ class MaterialPointPhase final : public LagrangianPhase {
       info_.stiffens = info_.stiffens || all_.frame.moves_on();
     }
     history_dependent_ = all_.frame.remembers || all_.conditions.remember();
+    if (begin.carried && problem.present_stage) balance_begin_of_stage(begin.t, problem.present_stage->ramp);
     loads_are_constant_ = all_.conditions.loads_are_constant();
     contact_ = all_.conditions.contact();
   }
@@ -98,6 +99,17 @@ class MaterialPointPhase final : public LagrangianPhase {
   }
 
  private:
+  // Lets the forces that the stage puts out of balance come on over the ramp. A state that cannot be evaluated is
+  // refused by whoever evaluates it first.
+  void balance_begin_of_stage(double t, double ramp) {
+    if (!(ramp > 0)) return;
+    const std::vector<double> rest(size(), 0.0);
+    std::vector<double> Q(size()), R(size());
+    if (!MaterialPointPhase::internal_force(t, rest, R, *MaterialPointPhase::make_trial())) return;
+    MaterialPointPhase::external_force(t, rest, Q);
+    for (std::size_t k = 0; k < Q.size(); ++k) Q[k] -= R[k];
+    all_.conditions.let_fade(all_.inertia.parts(), t, t + ramp, Q);
+  }
   PhaseTrial& own(TrialState& trial) const {
     const auto mine = dynamic_cast<PhaseTrial*>(&trial);
     if (!mine || mine->of != this || mine->phase != all_.frame.phase)

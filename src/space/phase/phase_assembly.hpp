@@ -24,15 +24,20 @@ template <AxisBasis B, Kinematics K>
 struct PhaseAssembly {
   static constexpr int dim = dimensions(K);
 
-  /// Places the bodies and begins the first phase.
-  explicit PhaseAssembly(const Problem& whole)
+  /// Places the bodies and begins the first phase, or the first one of a stage.
+  PhaseAssembly(const Problem& whole, const PhaseBegin& begin)
       : problem(without_reference_loads(whole)),
+        frame(problem, static_cast<const CarriedBodyOf<K>*>(begin.carried)),
         conditions(problem, whole, frame.grid, frame.body, frame.origin, frame.account().shortest_time()) {
     extend_into_slivers();
     if (frame.moves_on()) frame.origin = frame.account().positions();
-    set_initial_state(problem, frame.body);
+    if (begin.carried) {
+      static_cast<const CarriedBodyOf<K>*>(begin.carried)->take_origin(problem, frame.body.first_number, frame.origin);
+      conditions.take_over(begin.carried->conditions);
+    }
+    set_initial_state(problem, frame.body, frame.origin);
     if (frame.moves_on()) set_initial_velocity(problem, frame.body);
-    begin_phase(0);
+    begin_phase(begin.t);
   }
   PhaseAssembly(const PhaseAssembly&) = delete;
   PhaseAssembly& operator=(const PhaseAssembly&) = delete;
@@ -51,7 +56,7 @@ struct PhaseAssembly {
   }
 
   const Problem problem;  // without the loads that a displacement drives
-  PhaseFrame<B, K> frame{problem};
+  PhaseFrame<B, K> frame;
   Conditions<K> conditions;
   InternalForce<B, K> force{frame};
   PhaseInertia<B, K> inertia{frame};

@@ -8,10 +8,10 @@
 namespace stillpoint {
 
 template <Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of(const Problem& problem);
+std::unique_ptr<LagrangianPhase> make_phase_of(const Problem& problem, const PhaseBegin& begin);
 
 /// Makes a phase in which points represent domains; on a line and in the plane.
 template <Kinematics K>
-std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Problem& problem);
+std::unique_ptr<LagrangianPhase> make_phase_of_domains(const Problem& problem, const PhaseBegin& begin);
 
 }  // namespace stillpoint

@@ -17,7 +17,7 @@
 #include "space/kernels/point_weights.hpp"
 #include "space/phase/body_account.hpp"
 #include "space/phase/phase_unknowns.hpp"
-#include "space/points/body.hpp"
+#include "space/points/make_body.hpp"
 
 namespace stillpoint {
 
@@ -26,13 +26,15 @@ struct PhaseFrame {
   static constexpr int dim = dimensions(K);
   using Basis = TensorBasis<B, dim>;
 
-  /// Places the bodies; the problem must outlive this object.
-  explicit PhaseFrame(const Problem& of)
+  /// Places the bodies, or takes those that a stage has left; the problem must outlive this object.
+  PhaseFrame(const Problem& of, const CarriedBodyOf<K>* carried)
       : problem(of),
-        grid(grid_at<dim>(of, 0)),
-        body(make_body<K>(of, grid, of.phase.ends())),
+        grid_moved(carried ? carried->grid_moved() : 0),
+        grid(grid_at<dim>(of, grid_moved)),
+        body(make_body<K>(of, grid, of.phase.ends(), carried)),
         remembers(std::ranges::any_of(body.materials, [](const auto& law) { return law->info().history_dependent; })),
-        total_mass(account().total_mass()) {}
+        total_mass(account().total_mass()),
+        phase(carried ? carried->phase() : 0) {}
   PhaseFrame(const PhaseFrame&) = delete;
   PhaseFrame& operator=(const PhaseFrame&) = delete;
 
@@ -77,15 +79,15 @@ struct PhaseFrame {
   }
 
   const Problem& problem;
+  double grid_moved;  // displacement of the wall that the grid follows [m]
   Grid<dim> grid;
-  double grid_moved = 0;  // displacement of the wall that the grid follows [m]
   Body<K> body;
   const FunctionsOfBasis<B, dim> functions{grid, body.fields};
   const bool remembers;     // whether some of the points have a history
-  const double total_mass;  // Σ_p m_p at the start [kg]
+  const double total_mass;  // Σ_p m_p at the start of the stage [kg]
   // Positions at the start of the run, by the points' numbers, (P × dim); empty if points do not move on.
   std::vector<double> origin;
-  long phase = 0;  // number of the phase
+  long phase;  // number of the phase
   PointWeights<B, K> weights;
   CornerSum corner_sum;
   NodalTotals<B, K> totals;     // sums over the points when the phase begins

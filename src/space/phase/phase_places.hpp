@@ -16,6 +16,7 @@
 #include "space/grid/grid_functions.hpp"
 #include "space/phase/place_reader.hpp"
 #include "space/points/body.hpp"
+#include "space/points/point_domains.hpp"
 #include "space/points/points_around.hpp"
 
 namespace stillpoint {

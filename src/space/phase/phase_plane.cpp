@@ -2,6 +2,7 @@
 
 namespace stillpoint {
 
-template std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::plane>(const Problem& problem);
+template std::unique_ptr<LagrangianPhase> make_phase_of<Kinematics::plane>(const Problem& problem,
+                                                                           const PhaseBegin& begin);
 
 }  // namespace stillpoint

@@ -12,7 +12,6 @@
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/motion_fields.hpp"
-#include "space/points/point_order.hpp"
 
 namespace stillpoint {
 
@@ -33,11 +32,6 @@ struct Body {
 };
 
 namespace detail {
-
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
 
 /// With a static solver, in which no time passes, no material is viscous.
 template <Kinematics K>
@@ -73,66 +67,6 @@ void take_materials(Body<K>& body, const std::vector<int>& from) {
     const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
     body.materials[m]->take(from, begin, static_cast<std::size_t>(body.points.material_begin[m + 1]) - begin);
   }
-}
-
-/// Places every body of the scene. Points are numbered body by body, in the order in which a body is filled.
-/// updated_lagrangian: whether points will change cells. With a static solver, in which no time passes, no material is
-/// viscous.
-template <Kinematics K>
-Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool updated_lagrangian) {
-  constexpr int dim = dimensions(K);
-  Body<K> body;
-  MaterialPoints<dim>& points = body.points;
-  std::vector<MaterialPoints<dim>> of_bodies;
-  int number = 0;
-  for (const BodySpec& spec : problem.bodies) {
-    PlacedBody<dim> placed = place_body<dim>(spec, grid, problem.materials.at(spec.material).parameters.at("rho"),
-                                             problem.state, problem.phase.quadrature == Quadrature::domains);
-    body.quadrature.add(placed.quadrature);
-    if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
-    body.first_number.push_back(number);
-    number += static_cast<int>(placed.points.size());
-    of_bodies.push_back(std::move(placed.points));
-  }
-  body.first_number.push_back(number);
-  const MotionFields fields = motion_fields<dim>(problem, grid, of_bodies);
-  body.fields = fields.count;
-  std::map<std::pair<std::string, int>, std::vector<std::size_t>> by_material;  // the bodies of a material in a field
-  for (std::size_t k = 0; k < of_bodies.size(); ++k)
-    by_material[{problem.bodies[k].material, fields.of_body[k]}].push_back(k);
-  if (fields.count > 1) points.field_of_body = fields.of_body;
-  for (const auto& [material_in_field, bodies] : by_material) {
-    const auto& [name, field] = material_in_field;
-    points.material_begin.push_back(static_cast<int>(points.size()));
-    if (fields.count > 1) points.field_of_material.push_back(field);
-    for (const std::size_t k : bodies) {
-      const MaterialPoints<dim>& part = of_bodies[k];
-      const int first_number = body.first_number[k];
-      for (int d = 0; d < dim; ++d) detail::append(points.x[d], part.x[d]);
-      detail::append(points.volume, part.volume);
-      detail::append(points.mass, part.mass);
-      for (std::size_t c = 0; c < points.corner.size(); ++c) detail::append(points.corner[c], part.corner[c]);
-      for (int d = 0; d < dim; ++d) {
-        detail::append(points.half[d], part.half[d]);
-        detail::append(points.rest[d], part.rest[d]);
-      }
-      for (std::size_t p = 0; p < part.size(); ++p) points.number.push_back(first_number + static_cast<int>(p));
-    }
-    const auto begin = static_cast<std::size_t>(points.material_begin.back());
-    body.materials.push_back(detail::make_material<K>(problem.materials.at(name), problem, begin, points.size() - begin,
-                                                      updated_lagrangian));
-    body.material_names.push_back(name);
-  }
-  points.material_begin.push_back(static_cast<int>(points.size()));
-  if (body.covered.size() < problem.bodies.size()) body.covered.clear();
-  if (updated_lagrangian) {
-    for (auto& v : points.v) v.assign(points.size(), 0);
-    if (problem.phase.transfer == Transfer::apic) {
-      for (auto& B : points.B_apic) B.assign(points.size(), 0);
-    }
-  }
-  PointOrder<dim>().sort(points, grid);
-  return body;
 }
 
 }  // namespace stillpoint

@@ -15,7 +15,7 @@
 #include "space/boundary/boundary_conditions.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/point_weights.hpp"
-#include "space/points/body.hpp"
+#include "space/points/make_body.hpp"
 
 namespace stillpoint::test {
 

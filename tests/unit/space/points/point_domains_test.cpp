@@ -9,8 +9,8 @@
 #include "space/grid/domain_basis.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/point_weights.hpp"
-#include "space/points/body.hpp"
 #include "space/points/domain_halving.hpp"
+#include "space/points/make_body.hpp"
 
 using namespace stillpoint;
 using Catch::Contains;

@@ -13,8 +13,8 @@
 #include "space/grid/domain_basis.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/point_weights.hpp"
-#include "space/points/body.hpp"
 #include "space/points/domain_halving.hpp"
+#include "space/points/make_body.hpp"
 #include "space/points/nearest_point.hpp"
 
 using namespace stillpoint;

@@ -1,0 +1,181 @@
+// Checks of the stages of a run, and of what they do not go with.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "scene/input/scene_check.hpp"
+#include "scene/stages.hpp"
+
+namespace stillpoint {
+namespace {
+
+template <class Part>
+std::vector<std::string> named(const std::vector<Part>& present, const std::vector<Part>& later) {
+  std::vector<std::string> names;
+  for (const auto* parts : {&present, &later})
+    for (const Part& part : *parts)
+      if (!part.name.empty()) names.push_back(part.name);
+  return names;
+}
+
+/// The names of the bodies or supports that there are at a time, as one stage follows another.
+class Presence {
+ public:
+  template <class Part>
+  Presence(SceneCheck& check, const std::string& what, const std::vector<Part>& present, const std::vector<Part>& later)
+      : check_(check), what_(what), all_(named(present, later)) {
+    for (const Part& part : present) now_.insert(part.name);
+  }
+
+  void begin(const std::string& key, const std::vector<std::string>& names) {
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
+        check_.wrong_if(!came_.insert(names[k]).second || !now_.insert(names[k]).second, one, "{} {} comes twice",
+                        what_, in_quotes(names[k]));
+  }
+  void end(const std::string& key, const std::vector<std::string>& names) {
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
+        check_.wrong_if(now_.erase(names[k]) == 0, one, "{} {} is not there then", what_, in_quotes(names[k]));
+  }
+  void expect(const std::string& key, const std::vector<std::string>& names) {
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
+        check_.wrong_if(!now_.contains(names[k]), one, "{} {} is not there then", what_, in_quotes(names[k]));
+  }
+
+ private:
+  bool is_known(const std::string& key, const std::string& name) {
+    const bool known = std::ranges::find(all_, name) != all_.end();
+    if (!known) check_.add_unknown(key, what_, "[[" + what_ + "]] with a name", name, all_);
+    return known;
+  }
+
+  SceneCheck& check_;
+  std::string what_;
+  std::vector<std::string> all_;
+  std::set<std::string> now_, came_;
+};
+
+/// A law without history knows no stress but that of its deformation, which another material did not have.
+void check_new_materials(SceneCheck& check, const StageSpec& stage, const std::string& key) {
+  const Scene& scene = check.scene();
+  check.wrong_if(stage.change.size() != stage.material.size(), key + ".material",
+                 "must be a material for each of the {} bodies that change, not {}", stage.change.size(),
+                 stage.material.size());
+  std::vector<std::string> names;
+  for (const auto& [name, material] : scene.materials) names.push_back(name);
+  for (std::size_t k = 0; k < stage.material.size(); ++k) {
+    const std::string one = fmt::format("{}.material[{}]", key, k);
+    const auto material = scene.materials.find(stage.material[k]);
+    if (material == scene.materials.end()) {
+      check.add_unknown(one, "material", "[material.<name>]", stage.material[k], names);
+      continue;
+    }
+    const LawInfo* const law = check.catalogue().law(material->second.law);
+    check.wrong_if(law && !law->history_dependent, one,
+                   "'{}' is a law without history, whose stress follows from its own deformation alone: it cannot take "
+                   "over the stress of another material",
+                   material->second.law);
+  }
+}
+
+/// What stages cannot be had with.
+void check_company_of_stages(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  const std::string first = scene.initial_from.empty() ? "stage[0]" : "initial.from";
+  check.wrong_if(scene.may_touch(), first,
+                 "stages and contact with rigid bodies or between bodies cannot be had together yet; take supports or "
+                 "walls");
+  check.wrong_if(scene.load.has_value(), first,
+                 "stages and loads that a displacement drives cannot be had together yet; give the loads as formulas "
+                 "of t");
+  check.wrong_if(scene.phase.quadrature == Quadrature::domains, "phase.quadrature",
+                 "domains cannot be carried on from stage to stage yet; take \"points\"");
+  check.wrong_if(scene.mass.kind == MassKind::multigrid, "mass.kind",
+                 "'multigrid' cannot follow a body from stage to stage yet; take \"lumped\"");
+  for (std::size_t k = 0; k < scene.probes.size(); ++k)
+    check.wrong_if(scene.probes[k].point.has_value(), fmt::format("probe[{}].point", k),
+                   "points have other numbers in other stages; take at");
+  const auto springs = [&](const SupportSpec& support) { return holds_by_springs(scene.grid, support); };
+  const auto changes = [](const StageSpec& stage) { return !stage.hold.empty() || !stage.release.empty(); };
+  check.wrong_if(
+      !scene.grid.cells.empty() && std::ranges::any_of(scene.stages, changes) &&
+          (std::ranges::any_of(scene.supports, springs) || std::ranges::any_of(scene.later_supports, springs)),
+      first,
+      "supports that hold by springs stay as they are: no stage can hold or release a support beside them "
+      "yet");
+}
+
+}  // namespace
+
+void check_other_run(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  const std::string from = "initial.from";
+  check.refuse_if(scene.initial_from.empty(), "initial", {"displacements"}, "goes with from, another run");
+  if (scene.initial_from.empty()) return;
+  std::error_code none;
+  check.wrong_if(!std::filesystem::is_regular_file(scene.initial_from, none), from, "there is no file {}",
+                 scene.initial_from.string());
+  check.wrong_if(scene.geostatic.has_value(), "initial.geostatic", "does not go with initial.from, whose stress it is");
+  const auto materials = materials_in_use(scene, check.catalogue());
+  const auto is_elastic = [&](const MaterialSpec* one) { return !check.catalogue().law(one->law)->history_dependent; };
+  check.wrong_if(scene.displacements_from_zero && scene.phase.deformation == DeformationRule::positions &&
+                     std::ranges::any_of(materials, is_elastic),
+                 "initial.displacements",
+                 "elastic points take their deformation from their displacements; take phase.deformation = "
+                 "\"accumulated\"");
+  check.refuse_if(true, "initial", {"u", "v"},
+                  "does not go with initial.from, where bodies are as another run left them");
+}
+
+void check_stages(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  check_other_run(check);
+  if (!scene.phase.at_stages) return;
+  check_company_of_stages(check);
+  Presence bodies(check, "body", scene.bodies, scene.later_bodies);
+  Presence supports(check, "support", scene.supports, scene.later_supports);
+  const std::size_t offset = scene.present_stage ? 1 : 0;
+  double before = 0;
+  const auto check_wait = [&](const StageSpec& stage, const std::string& key) {
+    check.wrong_if(stage.equilibrium && !scene.stop.wants_equilibrium(), key + ".equilibrium",
+                   "there is no test of equilibrium: give stop.residual");
+    check.wrong_if(scene.solve.is_static() && stage.ramp.is_asked(), key + ".ramp",
+                   "'{}' is a static solver, which has no time; solve.load_steps divides what a stage changes",
+                   scene.solve.method);
+  };
+  if (scene.present_stage) {
+    const StageSpec& first = *scene.present_stage;
+    check_wait(first, "stage[0]");
+    check.refuse_if(true, "stage[0]", {"add", "remove", "hold", "release", "change", "material", "ramp"},
+                    "at t = 0 there is what the scene has: leave it out, or give a later time");
+  }
+  for (std::size_t k = 0; k < scene.stages.size(); ++k) {
+    const StageSpec& stage = scene.stages[k];
+    const std::string key = fmt::format("stage[{}]", k + offset);
+    if (check.wrong_if(!(stage.at > before), key + ".at", "must be later than {}, not {}", before, stage.at)) return;
+    before = stage.at;
+    check_wait(stage, key);
+    bodies.end(key + ".remove", stage.remove);
+    bodies.begin(key + ".add", stage.add);
+    bodies.expect(key + ".change", stage.change);
+    supports.end(key + ".release", stage.release);
+    supports.begin(key + ".hold", stage.hold);
+    check_new_materials(check, stage, key);
+    const bool is_last = k + 1 == scene.stages.size();
+    const double end = is_last ? scene.stop.time : scene.stages[k + 1].at;
+    check.wrong_if(stage.ramp.is_asked() && end > 0 && stage.at + stage.ramp > end, key + ".ramp",
+                   "must be over when the {} at t = {}", is_last ? "run ends" : "next stage begins", end);
+  }
+  check.wrong_if(scene.stop.time > 0 && !(scene.stop.time > before), "stop.time",
+                 "must be later than the last stage, at t = {}", before);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,95 @@
+#include "simulation/other_run.hpp"
+
+#include <stillpoint/simulation.hpp>
+#include <stillpoint/state_archive.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "plan/catalogue.hpp"
+#include "scene/throw_scene_error.hpp"
+#include "simulation/parts.hpp"
+#include "space/phase/lagrangian_phase.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr const char* key = "initial.from";
+
+// Bodies without names are the same in their order, if there are as many. Throws SceneError for a name that is not
+// there.
+std::vector<std::size_t> numbers_of(const Problem& other, const Problem& problem) {
+  const auto has_no_name = [](const BodySpec& body) { return body.name.empty(); };
+  const bool by_order =
+      std::ranges::all_of(other.bodies, has_no_name) && std::ranges::all_of(problem.bodies, has_no_name);
+  std::vector<std::size_t> numbers;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < other.bodies.size(); ++k) {
+    names.push_back(other.bodies[k].name);
+    const auto same = by_order
+                          ? problem.bodies.begin() + static_cast<std::ptrdiff_t>(std::min(k, problem.bodies.size()))
+                          : std::ranges::find(problem.bodies, other.bodies[k].name, &BodySpec::name);
+    const bool is_taken = same != problem.bodies.end() && (by_order || !other.bodies[k].name.empty());
+    numbers.push_back(is_taken ? same->number : CarriedBody::not_taken);
+  }
+  if (by_order && other.bodies.size() != problem.bodies.size())
+    throw_scene_error(key,
+                      fmt::format("the other run has {} bodies without names, and this scene {}; expected as many, or "
+                                  "names",
+                                  other.bodies.size(), problem.bodies.size()));
+  if (std::ranges::all_of(numbers, [](std::size_t number) { return number == CarriedBody::not_taken; }))
+    throw_scene_error(
+        key, fmt::format("no body of this scene has the name of one of the other run: {}", fmt::join(names, ", ")));
+  return numbers;
+}
+
+// A law without history knows no stress but that of its own deformation.
+void refuse_other_laws(const Problem& other, const Problem& problem, const std::vector<std::size_t>& numbers) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto taken = std::ranges::find(problem.bodies, numbers[k], &BodySpec::number);
+    if (taken == problem.bodies.end()) continue;
+    const MaterialSpec &before = other.materials.at(other.bodies[k].material),
+                       &now = problem.materials.at(taken->material);
+    if (before.law == now.law || catalogue().law(now.law)->history_dependent) continue;
+    throw_scene_error(
+        fmt::format("material.{}.law", now.name),
+        fmt::format("'{}' is a law without history, whose stress follows from its own deformation alone: it "
+                    "cannot take over the stress of '{}' in {}",
+                    now.law, before.law, problem.initial_from.string()));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
+  try {
+    Simulation other(load_scene_of(problem.initial_from), {.resume = problem.initial_from, .records = false});
+    const SimulationParts parts = other.parts();
+    const Problem& scene = parts.problem;
+    if (scene.state != problem.state)
+      throw_scene_error(key, fmt::format("the other run is one of state = {}, and this scene of {}",
+                                         in_quotes(std::string(to_string(scene.state))),
+                                         in_quotes(std::string(to_string(problem.state)))));
+    if (scene.phase.quadrature == Quadrature::domains)
+      throw_scene_error(key,
+                        "the points of the other run represent domains, which cannot be carried on yet; expected "
+                        "phase.quadrature = \"points\" there");
+    const std::vector<std::size_t> numbers = numbers_of(scene, problem);
+    refuse_other_laws(scene, problem, numbers);
+    std::shared_ptr<CarriedBody> points = parts.phase.control().hand_over(other.t(), other.u(), other.v());
+    points->begin_other_run(numbers, problem.displacements_from_zero);
+    return points;
+  } catch (const StateError& error) {
+    throw_scene_error(key, error.what());
+  } catch (const PointLost& error) {
+    throw_scene_error(key, error.what());
+  }
+}
+
+}  // namespace stillpoint

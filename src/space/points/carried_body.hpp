@@ -1,0 +1,253 @@
+// What the material points of one stage hand on to the next: where they are, how they move, and what they remember.
+#pragma once
+
+#include <stillpoint/state_archive.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "space/materials/point_material.hpp"
+#include "space/points/body.hpp"
+#include "space/points/carried_points.hpp"
+#include "space/points/material_points.hpp"
+#include "space/points/point_order.hpp"
+
+namespace stillpoint {
+
+/// The stored states of the points of a material.
+template <Kinematics K>
+struct CarriedMaterial {
+  static constexpr std::size_t stresses = stress_components(K);
+
+  std::string law;
+  bool undrained = false, remembers = false;
+  double density = 0;                // [kg/m³]
+  std::size_t begin = 0, count = 0;  // its points are begin … begin + count − 1
+  std::vector<double> memory{};        // PointMaterial::memory(), (rows × count)
+  std::vector<double> stress{};        // without a pore pressure, (count × stress components) [Pa]
+  std::vector<std::string> names{};    // of the history that is shown
+  std::vector<double> shown{};         // (names × count)
+
+  /// H: the displacement gradients of all points in a phase that is not over; empty: the phase has ended.
+  static CarriedMaterial of(PointMaterial<K>& material, const MaterialSpec& spec, std::size_t begin, std::size_t count,
+                            const std::vector<TensorOf<K>>& H) {
+    CarriedMaterial carried{.law = spec.law,
+                            .undrained = spec.undrained,
+                            .remembers = material.info().history_dependent,
+                            .density = spec.parameters.at("rho"),
+                            .begin = begin,
+                            .count = count};
+    const Vec memory = material.memory();
+    carried.memory.assign(memory.begin(), memory.end());
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto sigma = material.cauchy(H.empty() ? TensorOf<K>{} : H[begin + k], begin + k);
+      carried.stress.insert(carried.stress.end(), sigma.begin(), sigma.end());
+    }
+    if (memory.empty() && !H.empty()) {  // an elastic law in its first phase
+      for (std::size_t c = 0; c < H[0].size(); ++c)
+        for (std::size_t k = 0; k < count; ++k) carried.memory.push_back(H[begin + k][c]);
+    }
+    for (const auto& [name, values] : material.shown_history()) {
+      carried.names.push_back(name);
+      carried.shown.insert(carried.shown.end(), values.begin(), values.end());
+      if (name != "pore_pressure") continue;
+      for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t a = 0; a < std::min<std::size_t>(3, stresses); ++a)
+          carried.stress[stresses * k + a] += values[k];
+      }
+    }
+    return carried;
+  }
+  std::array<double, stresses> stress_at(std::size_t k) const {
+    std::array<double, stresses> sigma;
+    std::copy_n(stress.begin() + static_cast<std::ptrdiff_t>(stresses * k), stresses, sigma.begin());
+    return sigma;
+  }
+  /// Whether points of another material of the same law remember the same.
+  bool is_like(const MaterialSpec& spec, std::size_t rows) const {
+    return law == spec.law && undrained == spec.undrained && count > 0 && memory.size() == rows * count;
+  }
+  void archive(const StateArchive& state) {
+    state("law", law, "undrained", undrained, "remembers", remembers, "density", density, "begin", begin, "count",
+          count, "memory", memory, "stress", stress, "shown", shown);
+    std::string joined;
+    for (const std::string& name : names) joined += name + '\n';
+    state("names", joined);
+    names.clear();
+    for (std::size_t from = 0, to = 0; (to = joined.find('\n', from)) != std::string::npos; from = to + 1)
+      names.push_back(joined.substr(from, to - from));
+    if (stress.size() != stresses * count || shown.size() != names.size() * count)
+      throw StateError("what points of a material remember is not that of its points");
+  }
+};
+
+template <Kinematics K>
+class CarriedBodyOf final : public CarriedBody {
+  static constexpr int dim = dimensions(K);
+
+ public:
+  CarriedBodyOf() = default;
+  /// Of bodies that have come to the end of a phase; origin: see PhaseFrame; H: see CarriedMaterial.
+  CarriedBodyOf(const Problem& problem, Body<K>& body, const std::vector<double>& origin, double grid_moved, long phase,
+                const std::vector<TensorOf<K>>& H)
+      : points_(body.points),
+        first_number_(body.first_number),
+        origin_(origin),
+        grid_moved_(grid_moved),
+        phase_(phase) {
+    for (const BodySpec& spec : problem.bodies) bodies_.push_back(spec.number);
+    for (std::size_t m = 0; m < body.materials.size(); ++m) {
+      const auto begin = static_cast<std::size_t>(points_.material_begin[m]);
+      const auto count = static_cast<std::size_t>(points_.material_begin[m + 1]) - begin;
+      materials_.push_back(
+          CarriedMaterial<K>::of(*body.materials[m], problem.materials.at(body.material_names[m]), begin, count, H));
+    }
+  }
+
+  /// The place of a body of the problem among those that are carried on; empty: it is new.
+  std::optional<std::size_t> find(const BodySpec& spec) const {
+    const auto found = std::ranges::find(bodies_, spec.number);
+    if (found == bodies_.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - bodies_.begin());
+  }
+  /// The points of body b, with their numbers in it. density: that of its material from now on [kg/m³]; source: where
+  /// each is among all that are carried on.
+  MaterialPoints<dim> points_of(std::size_t b, double density, std::vector<int>& source) const {
+    std::vector<int> from;
+    for (std::size_t p = 0; p < points_.size(); ++p)
+      if (points_.number[p] >= first_number_[b] && points_.number[p] < first_number_[b + 1])
+        from.push_back(static_cast<int>(p));
+    MaterialPoints<dim> points = points_;
+    take_points(points, from);
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      points.number[k] -= first_number_[b];
+      const double before = material_of(static_cast<std::size_t>(from[k])).density;
+      if (density != before) points.mass[k] *= density / before;
+    }
+    source.insert(source.end(), from.begin(), from.end());
+    return points;
+  }
+  std::size_t numbers_of(std::size_t b) const {
+    return static_cast<std::size_t>(first_number_[b + 1] - first_number_[b]);
+  }
+  const CarriedMaterial<K>& material_of(std::size_t p) const {
+    std::size_t m = 0;
+    while (p >= materials_[m].begin + materials_[m].count) ++m;
+    return materials_[m];
+  }
+  /// Replaces the positions at the start of the run of those points that are carried on; body: as it goes on.
+  void take_origin(const Problem& problem, const std::vector<int>& first_number, std::vector<double>& origin) const {
+    for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+      if (const auto b = find(problem.bodies[k]))
+        std::copy_n(origin_.begin() + static_cast<std::ptrdiff_t>(dim) * first_number_[*b], dim * numbers_of(*b),
+                    origin.begin() + static_cast<std::ptrdiff_t>(dim) * first_number[k]);
+    }
+  }
+  void begin_other_run(const std::vector<std::size_t>& numbers, bool forgets) override {
+    bodies_ = numbers;
+    for (auto& v : points_.v) std::ranges::fill(v, 0.0);
+    for (auto& B : points_.B_apic) std::ranges::fill(B, 0.0);
+    for (std::size_t p = 0; p < points_.size() && forgets; ++p) {
+      for (std::size_t d = 0; d < dim; ++d)
+        origin_[dim * static_cast<std::size_t>(points_.number[p]) + d] = points_.x[d][p];
+    }
+    conditions.clear();
+    grid_moved_ = 0;
+    phase_ = 0;
+  }
+  double grid_moved() const { return grid_moved_; }
+  long phase() const { return phase_; }
+
+  void archive(const StateArchive& state) override {
+    for (int d = 0; d < dim; ++d) {
+      state(fmt::format("x_{}", d), points_.x[d]);
+      state(fmt::format("v_{}", d), points_.v[d]);
+    }
+    for (std::size_t ij = 0; ij < points_.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), points_.B_apic[ij]);
+    state("volume", points_.volume, "mass", points_.mass, "number", points_.number, "bodies", bodies_, "first_number",
+          first_number_, "origin", origin_, "grid_moved", grid_moved_, "phase", phase_);
+    std::size_t count = materials_.size();
+    state("materials", count);
+    if (count > points_.size()) throw StateError("it has more materials than points");
+    materials_.resize(count);
+    for (std::size_t m = 0; m < count; ++m) materials_[m].archive(state.part(fmt::format("material_{}", m)));
+    state.part("conditions").everything(conditions);
+    if (state.restores()) check();
+  }
+
+ private:
+  // Throws StateError unless loops over the points and their numbers stay within what there is.
+  void check() const {
+    const std::size_t n = points_.size();
+    bool fits = points_.mass.size() == n && points_.number.size() == n && first_number_.size() == bodies_.size() + 1 &&
+                !first_number_.empty() && first_number_.front() == 0 && std::ranges::is_sorted(first_number_) &&
+                origin_.size() == static_cast<std::size_t>(dim) * static_cast<std::size_t>(first_number_.back());
+    for (int d = 0; d < dim; ++d)
+      fits = fits && points_.x[d].size() == n && (points_.v[d].empty() || points_.v[d].size() == n);
+    for (const auto& B : points_.B_apic) fits = fits && (B.empty() || B.size() == n);
+    for (const int number : points_.number) fits = fits && number >= 0 && number < first_number_.back();
+    std::size_t end = 0;
+    for (const CarriedMaterial<K>& material : materials_) {
+      fits = fits && material.begin == end;
+      end += material.count;
+    }
+    if (!fits || end != n) throw StateError("the points that a stage took over were altered");
+  }
+
+  MaterialPoints<dim> points_;
+  std::vector<std::size_t> bodies_;  // BodySpec::number of each
+  std::vector<int> first_number_;
+  std::vector<CarriedMaterial<K>> materials_;
+  std::vector<double> origin_;
+  double grid_moved_ = 0;
+  long phase_ = 0;
+};
+
+/// Gives the points of all materials that have a source among those that were carried on the states of these; source:
+/// of each point, −1 if it is new.
+template <Kinematics K>
+void take_states(const Problem& problem, const CarriedBodyOf<K>& carried, const std::vector<int>& source,
+                 Body<K>& body) {
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    PointMaterial<K>& material = *body.materials[m];
+    const MaterialSpec& spec = problem.materials.at(body.material_names[m]);
+    const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
+    const std::size_t count = static_cast<std::size_t>(body.points.material_begin[m + 1]) - begin;
+    const auto for_carried = [&](const auto& visit) {
+      for (std::size_t k = 0; k < count; ++k) {
+        if (source[begin + k] < 0) continue;
+        const auto p = static_cast<std::size_t>(source[begin + k]);
+        const CarriedMaterial<K>& before = carried.material_of(p);
+        visit(k, before, p - before.begin);
+      }
+    };
+    if (material.info().history_dependent) {
+      std::vector<typename PointMaterial<K>::Stresses> stress(count);
+      for_carried([&](std::size_t k, const auto& before, std::size_t j) { stress[k] = before.stress_at(j); });
+      material.set_stress(stress);
+    }
+    const Vec memory = material.memory();
+    const std::size_t rows = count > 0 ? memory.size() / count : 0;
+    const auto shown = material.shown_history();
+    for_carried([&](std::size_t k, const auto& before, std::size_t j) {
+      if (before.is_like(spec, rows)) {
+        for (std::size_t row = 0; row < rows; ++row) memory[count * row + k] = before.memory[before.count * row + j];
+        return;
+      }
+      for (std::size_t h = 0; h < before.names.size(); ++h) {
+        const auto same = std::ranges::find(shown, before.names[h], [](const auto& one) { return one.first; });
+        if (same == shown.end()) continue;
+        const auto row = static_cast<std::size_t>(same->second.data() - memory.data()) / count;
+        memory[count * row + k] = before.shown[before.count * h + j];
+      }
+    });
+  }
+}
+
+}  // namespace stillpoint

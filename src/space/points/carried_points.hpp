@@ -1,0 +1,24 @@
+// What a stage of a run hands on to the next, or a run to another, whatever the kinematics.
+#pragma once
+
+#include <stillpoint/state_archive.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace stillpoint {
+
+class CarriedBody {
+ public:
+  virtual ~CarriedBody() = default;
+  /// Saves or restores it.
+  virtual void archive(const StateArchive& state) = 0;
+  /// Makes it the beginning of another run, at rest. numbers: BodySpec::number there of each of its bodies, in their
+  /// order, or not_taken. forgets: whether displacements count from here.
+  virtual void begin_other_run(const std::vector<std::size_t>& numbers, bool forgets) = 0;
+  static constexpr std::size_t not_taken = static_cast<std::size_t>(-1);
+
+  SavedState conditions;  // what walls, loads and supports remember, by their kinds
+};
+
+}  // namespace stillpoint

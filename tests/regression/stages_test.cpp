@@ -1,0 +1,187 @@
+// Stages: bodies that are placed and dug away, supports that begin and end, materials that change.
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "scenes.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+/// How far the top of lift k of n has come down since it was placed, (n − k) k + k − ½ times ρ g h²/M.
+double settlement(int k, int n) {
+  constexpr double rho_g_over_M = 1.8e-3, H = 6;
+  const double h = H / n;
+  return -rho_g_over_M * h * h * ((n - k) * k + k - 0.5);
+}
+
+Summary built(const std::vector<std::string>& overrides) { return run(scenes::load("ladder/lifts", overrides)); }
+
+/// Rests in time, as the scene with a static solver does.
+const std::vector<std::string> in_time = {"solve.method=relaxation", "stop.residual=1e-7", "stop.time=6"};
+
+std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// Two blocks, one on the other, between smooth walls; the upper one is dug away, or a prop is released, at t = 1.
+Scene cut(const std::string& stage, const std::vector<std::string>& overrides = {}) {
+  return scenes::load(
+      "ladder/lifts",
+      with({"body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}, "
+            "{name='above', min=[0, '3*h'], max=['h', '4*h'], material='fill'}]",
+            "stage=[" + stage + "]", "probe=[{name='below', at=['h/2', '3*h'], fields=['u.y', 'stress.yy']}]"},
+           overrides));
+}
+
+}  // namespace
+
+TEST_CASE("an embankment in six lifts settles as the closed solution says, by a static solver and in time") {
+  for (const auto& way : {std::vector<std::string>{},
+                          {"solve.method=cg"},
+                          {"solve.method=lbfgs"},
+                          with(in_time, {"damping.strategy=auto"}),
+                          with(in_time, {"damping.strategy=viscous"}),
+                          with(in_time, {"damping.strategy=cundall"})}) {
+    CAPTURE(way);
+    const Summary s = built(way);
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(s.stages.size() == 5);
+    for (int k = 1; k <= 6; ++k)
+      CHECK(scenes::probe(s, fmt::format("lift {}", k), "u.y") == Approx(settlement(k, 6)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("lifts of a law that keeps its stress settle by as much, to the square of their strain") {
+  for (const std::string law :
+       {"law=drucker-prager,c=1e9", "law=mohr-coulomb,c=1e9", "law=neo-hookean", "law=hencky"}) {
+    CAPTURE(law);
+    const std::size_t comma = law.find(',');
+    std::vector<std::string> set = {"material.fill." + law.substr(0, comma)};
+    if (comma != std::string::npos) set.push_back("material.fill." + law.substr(comma + 1));
+    for (const auto& way : {std::vector<std::string>{"stop.residual=1e-7"}, in_time}) {
+      const Summary s = built(with(set, way));
+      CHECK(s.status == RunStatus::equilibrium);
+      for (int k = 1; k <= 6; ++k)
+        CHECK(scenes::probe(s, fmt::format("lift {}", k), "u.y") == Approx(settlement(k, 6)).epsilon(0.02));
+    }
+  }
+}
+
+TEST_CASE("a body that is dug away leaves what lies below as if it had never been there, if that is elastic") {
+  for (const std::string law : {"linear-elastic", "neo-hookean", "hencky"}) {
+    CAPTURE(law);
+    const std::string set = "material.fill.law=" + law;
+    const Summary never =
+        run(cut("{at=1}", {"body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}]", set}));
+    const double left = scenes::probe(never, "below", "u.y");
+    CHECK(left < 0);
+    for (const auto& way : {std::vector<std::string>{}, in_time}) {
+      const Summary dug = run(cut("{at=1, remove=['above']}", with({set}, way)));
+      CHECK(dug.status == RunStatus::equilibrium);
+      CHECK(dug.stages.at(0).status == RunStatus::equilibrium);
+      CHECK(scenes::probe(dug, "below", "u.y") == Approx(left).epsilon(2e-3));  // 1 % of strain once more and back
+    }
+  }
+}
+
+TEST_CASE("what a stage puts out of balance comes on over its ramp: a slow one never overshoots, a sudden one does") {
+  const auto lowest = [](const std::string& ramp) {
+    double least = 0;
+    SimulationOptions options;
+    std::size_t column = 0;
+    options.at_row = [&](const std::vector<std::string>& columns, const std::vector<double>& row) {
+      while (columns.at(column) != "below.u.y") ++column;
+      least = std::min(least, row[column]);
+    };
+    const Scene scene = scenes::load(
+        "ladder/lifts",
+        with(in_time,
+             {"body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}, {name='above', "
+              "min=[0, '3*h'], max=['h', '6*h'], material='fill'}]",
+              "stage=[{at=1, add=['above']" + ramp + "}]", "damping.strategy=viscous", "damping.c=10",
+              "probe=[{name='below', at=['h/2', '3*h'], fields=['u.y']}]", "output.every=0.01", "stop.time=8"}));
+    const Summary s = run(scene, options);
+    return least / scenes::probe(s, "below", "u.y");
+  };
+  CHECK(lowest(", ramp=5") < 1.01);
+  CHECK(lowest(", ramp=0") > 1.1);
+}
+
+TEST_CASE("a support that is released hands its load on, and one that begins to hold does so where the body then is") {
+  const std::string prop =
+      "support=[{face='bottom'}, {face='left', kind='roller'}, {face='right', kind='roller'}, "
+      "{name='prop', face='top', kind='roller'}]";
+  const std::vector<std::string> column = {
+      "body=[{name='below', max=['h', '6*h'], material='fill', state='plane-strain'}]", prop,
+      "probe=[{name='top', at=['h/2', '6*h'], fields=['u.y']}]"};
+  for (const auto& way : {std::vector<std::string>{}, in_time}) {
+    CAPTURE(way);
+    const Summary released =
+        run(scenes::load("ladder/lifts", with(with(column, {"stage=[{at=1, release=['prop']}]"}), way)));
+    CHECK(scenes::probe(released, "top", "u.y") == Approx(-1.8e-3 * 36 / 2).epsilon(1e-3));
+    CHECK(released.reactions.count("prop") == 0);
+    const Summary held = run(scenes::load("ladder/lifts", with(with(column, {"stage=[{at=1, hold=['prop']}]"}), way)));
+    CHECK(scenes::probe(held, "top", "u.y") == Approx(-1.8e-3 * 36 / 2).epsilon(1e-3));
+    CHECK(std::abs(held.reactions.at("prop").at(1)) < 1e-3 * 1800 * 10 * 6);  // it holds a body at rest
+  }
+}
+
+TEST_CASE("ground that was drained carries what comes later by its water, once a stage makes it undrained") {
+  const std::vector<std::string> soils = {"material.fill.law=mohr-coulomb",
+                                          "material.fill.c=1e9",
+                                          "material.wet.law=mohr-coulomb",
+                                          "material.wet.c=1e9",
+                                          "material.wet.E=M",
+                                          "material.wet.nu=0",
+                                          "material.wet.rho=1800",
+                                          "material.wet.undrained=true",
+                                          "material.wet.water_modulus=1e9",
+                                          "material.wet.porosity=1",
+                                          "stop.residual=1e-8"};
+  const Summary s = run(scenes::load(
+      "ladder/lifts",
+      with(soils,
+           {"body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}, {name='above', min=[0, "
+            "'3*h'], max=['h', '6*h'], material='fill'}]",
+            "stage=[{at=1, add=['above'], change=['below'], material=['wet']}]",
+            "probe=[{name='middle', at=['h/2', '1.5*h'], fields=['pore_pressure', 'effective_stress.yy', "
+            "'stress.yy']}]"})));
+  CHECK(s.status == RunStatus::equilibrium);
+  const double above = 3 * 18e3, own = 1.5 * 18e3;  // [Pa]
+  CHECK(scenes::probe(s, "middle", "pore_pressure") == Approx(above * 1e9 / (1e9 + 1e7)).epsilon(0.01));
+  CHECK(scenes::probe(s, "middle", "effective_stress.yy") == Approx(-own).epsilon(0.03));
+  CHECK(scenes::probe(s, "middle", "stress.yy") == Approx(-own - above).epsilon(0.01));
+}
+
+TEST_CASE("a stage that waits for equilibrium ends when it has come, and later stages begin then") {
+  const Summary s = run(cut("{at=0, equilibrium=true}, {at=0.01, remove=['above']}",
+                            with(in_time, {"damping.strategy=viscous", "stop.time=100"})));
+  CHECK(s.status == RunStatus::equilibrium);
+  REQUIRE(s.stages.size() == 1);
+  CHECK(s.stages[0].status == RunStatus::equilibrium);
+  CHECK(s.stages[0].end > 0.01);
+  CHECK(s.stages[0].residual <= 1e-7);
+  const Summary hasty = run(cut("{at=0.01, remove=['above']}", with(in_time, {"stop.time=100"})));
+  CHECK(hasty.stages.at(0).status == RunStatus::end_time);
+  CHECK(hasty.stages.at(0).end == 0.01);
+}
+
+TEST_CASE("a run of stages has the same bits for any number of threads") {
+  const auto figures = [](int threads) {
+    const Summary s =
+        run(scenes::load("ladder/lifts", with(in_time, {"material.fill.law=drucker-prager", "material.fill.c=1e5",
+                                                        "damping.strategy=cundall"})),
+            {.threads = threads});
+    std::string all = fmt::format("{} {:a}", s.steps, s.residual);
+    for (int k = 1; k <= 6; ++k) all += fmt::format(" {:a}", scenes::probe(s, fmt::format("lift {}", k), "u.y"));
+    return all;
+  };
+  CHECK(figures(1) == figures(2));
+}

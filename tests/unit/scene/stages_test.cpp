@@ -1,0 +1,91 @@
+// The keys of [[stage]], and the scenes that stages make of a scene.
+#include "scene/stages.hpp"
+
+#include <stillpoint/scene_error.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+std::string refusal(const std::string& stages, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> set = {"stage=[" + stages + "]"};
+  set.insert(set.end(), more.begin(), more.end());
+  return scenes::refusal("ladder/lifts", set);
+}
+
+std::vector<std::string> names(const std::vector<BodySpec>& bodies) {
+  std::vector<std::string> all;
+  for (const BodySpec& body : bodies) all.push_back(body.name);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a scene with stages is that of its first one, and each stage adds and takes away what it says") {
+  Scene scene = scenes::load("ladder/lifts", {"stage=[{at=1, add=['lift 4']}, {at=3, remove=['lift 1', 'lift 4']}]"});
+  CHECK(names(scene.bodies) == std::vector<std::string>{"lift 1", "lift 2", "lift 3", "lift 5", "lift 6"});
+  CHECK(scene.phase.ends());
+  CHECK(scene.location("body[3].min").line == scenes::load("ladder/lifts", {"stage=[]"}).location("body[4].min").line);
+  begin_next_stage(scene);
+  CHECK(names(scene.bodies) == std::vector<std::string>{"lift 1", "lift 2", "lift 3", "lift 5", "lift 6", "lift 4"});
+  CHECK(scene.bodies.back().number == 3);
+  CHECK(scene.location("body[5].min").line == scenes::load("ladder/lifts", {"stage=[]"}).location("body[3].min").line);
+  begin_next_stage(scene);
+  CHECK(names(scene.bodies) == std::vector<std::string>{"lift 2", "lift 3", "lift 5", "lift 6"});
+  CHECK(scene.stages.empty());
+  CHECK(scene.present_stage->at == 3);
+}
+
+TEST_CASE("a ramp is half of its stage, and an open last stage is as long as the one before") {
+  const Scene open = scenes::load("ladder/lifts", {"solve.method=relaxation", "stage=[{at=1}, {at=3}, {at=3.5}]"});
+  CHECK(open.stages[0].ramp == 1);
+  CHECK(open.stages[1].ramp == 0.25);
+  CHECK(open.stages[2].ramp == 0.25);
+  const Scene ended =
+      scenes::load("ladder/lifts", {"solve.method=relaxation", "stop.time=10", "stage=[{at=1, ramp=0}, {at=3}]"});
+  CHECK(ended.stages[0].ramp == 0);
+  CHECK(ended.stages[1].ramp == 3.5);
+}
+
+TEST_CASE("stages that cannot be are refused by name") {
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {"{add=['lift 2']}", "the key 'at' is missing"},
+      {"{at=-1}", "stage[0].at: must be at least 0, not -1"},
+      {"{at=2}, {at=2}", "stage[1].at: must be later than 2, not 2"},
+      {"{at=1, add=['lift 7']}", "there is no body 'lift 7'"},
+      {"{at=1, add=['lift 2']}, {at=2, add=['lift 2']}", "body 'lift 2' comes twice"},
+      {"{at=1, remove=['lift 2']}, {at=2, remove=['lift 2']}", "body 'lift 2' is not there then"},
+      {"{at=2, add=['lift 2']}, {at=1}", "must be later than 2, not 1"},
+      {"{at=1, remove=['lift 2']}, {at=2, change=['lift 2'], material=['fill']}", "body 'lift 2' is not there then"},
+      {"{at=1, change=['lift 2'], material=['fil']}", "there is no material 'fil'"},
+      {"{at=1, change=['lift 2']}", "must be a material for each of the 1 bodies that change, not 0"},
+      {"{at=1, change=['lift 2'], material=['fill']}", "'linear-elastic' is a law without history"},
+      {"{at=1, hold=['prop']}", "there is no support 'prop'"},
+      {"{at=1, ramp=1}", "stage[0].ramp: 'newton' is a static solver"},
+      {"{at=0, add=['lift 2']}", "stage[0].add: at t = 0 there is what the scene has"},
+      {"{at=1, equilibrium=1}", "stage[0].equilibrium: must be true or false"},
+      {"{at=1, remove=['lift 1', 'lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6']}", "in the stage at t = 1"},
+  };
+  for (const auto& [stages, message] : all) {
+    CAPTURE(stages);
+    CHECK_THAT(refusal(stages), Catch::Contains(message));
+  }
+  CHECK_THAT(refusal("{at=1}", {"stop.time=1"}), Catch::Contains("must be later than the last stage, at t = 1"));
+  CHECK_THAT(refusal("{at=1, ramp=3}, {at=2}", {"solve.method=relaxation"}),
+             Catch::Contains("stage[0].ramp: must be over when the next stage begins at t = 2"));
+  CHECK_THAT(refusal("{at=1, equilibrium=true}, {at=2}", {"stop.residual=0", "stop.time=3", "solve.method=relaxation"}),
+             Catch::Contains("there is no test of equilibrium: give stop.residual"));
+  CHECK_THAT(refusal("{at=1}", {"grid.basis=hermite"}), Catch::Contains("'hermite' has no lumped mass"));
+  CHECK_THAT(refusal("{at=1}", {"phase.max_motion=0.1", "solve.method=relaxation"}),
+             Catch::Contains("is a law of small strain"));
+  CHECK_THAT(refusal("{at=1}", {"probe=[{name='p', point=3, fields=['u.y']}]"}),
+             Catch::Contains("points have other numbers in other stages; take at"));
+}
