@@ -84,7 +84,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
                                                                     const Stress<S>& sigma, const Internal& internal,
                                                                     double /*dt*/) const {
     const double gap = internal[0], plastic_strain = internal[1];
-    const auto trial = stress_trial<S, Number>(H, dH, sigma, [G = elastic_.shear](const Number&) { return G; });
+    const auto trial = stress_trial<S, Number>(H, dH, sigma, elastic_.shear);
     const Number p = trial.mean + elastic_.bulk * (trial.volume_change + gap);
     const PrincipalOf<S, Number> axes(trial.s);
     const Principal<Number> s = axes.values(), x{p + s[0], p + s[1], p + s[2]};

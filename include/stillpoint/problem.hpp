@@ -228,6 +228,7 @@ struct Problem : BoundarySpecs {
   MassSpec mass;
   PhaseSpec phase;
   std::vector<Expression> initial_u, initial_v;  // formulas of x, y, z [m], [m/s]; empty: 0
+  std::vector<double> initial_stress;  // [initial] stress, the same everywhere, (stress components) [Pa]; empty: 0
   std::optional<GeostaticSpec> geostatic;
   ExactSpec exact;
   SolveSpec solve;

@@ -17,27 +17,6 @@
 
 namespace stillpoint {
 
-/// ln x with its derivatives.
-template <std::size_t N>
-inline Dual<N> logarithm_of(const Dual<N>& x, const Dual<N>& x_minus_1) {
-  Dual<N> result(logarithm(x.value, x_minus_1.value));
-  for (std::size_t k = 0; k < N; ++k) result.derivative[k] = x.derivative[k] / x.value;
-  return result;
-}
-inline double logarithm_of(double x, double x_minus_1) { return logarithm(x, x_minus_1); }
-
-/// The ratio of volumes det(I + H).
-template <StressState S, class Number>
-[[gnu::always_inline]] inline Number volume_ratio(const GradientOf<S, Number>& H) {
-  if constexpr (S == StressState::space) {
-    return determinant(SpaceTensorOf<Number>{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]});
-  } else if constexpr (S == StressState::axisymmetric) {
-    return ((1 + H[0]) * (1 + H[3]) - H[1] * H[2]) * (1 + H[4]);
-  } else {
-    return (1 + H[0]) * (1 + H[3]) - H[1] * H[2];
-  }
-}
-
 /// A StressHistory in which the history of the law is followed by the pore pressure [Pa].
 template <class Law>
 class Undrained {
