@@ -65,6 +65,11 @@ struct CamClayParameters {
     }
     return (below + above) / 2;
   }
+  /// p_c of such ground over its vertical stress σ_v = p + 2/3 q.
+  double pc_at_rest() const {
+    const double eta = eta_at_rest();
+    return (1 + eta * eta / (M * M)) / (1 + 2 * eta / 3);
+  }
 };
 
 /// The internal variables are p_c [Pa] and the void ratio e = v − 1, which is followed with a fixed v too.
@@ -75,6 +80,7 @@ class CamClay : public StressHistory<CamClay<S>, S, 2> {
  public:
   using typename Base::History, typename Base::Internal;
   static constexpr auto history_names = Base::names_of_history({"pc", "void_ratio"});
+  static constexpr bool needs_pressure = true;
 
   explicit CamClay(const CamClayParameters& m)
       : of_shear_(3 / (m.M * m.M)),
@@ -84,6 +90,7 @@ class CamClay : public StressHistory<CamClay<S>, S, 2> {
         e0_(m.e0),
         OCR_(m.OCR),
         pc_(m.pc),
+        pc_at_rest_(m.pc_at_rest()),
         evolving_(m.volume_evolves ? 1 : 0),
         fixed_(1 - evolving_) {}
 
@@ -157,11 +164,15 @@ class CamClay : public StressHistory<CamClay<S>, S, 2> {
         stress_of(Number(-pressure), sum(share_s, s, share_d, d)), {next_pc, v * value_of(ratio) - 1}, increment.det_g};
   }
 
-  /// p_c of a point under this stress: as given, or OCR times that of the ellipse through the stress.
-  Internal initial_internal(const Stress<S>& sigma) const {
+  /// p_c of a point: as given; or OCR times that of the ellipse through the stress. Of ground at rest, OCR times that
+  /// of normally consolidated ground under the same vertical stress, and no less than the ellipse through the stress:
+  /// σ_v OCR is the largest vertical stress that the ground has borne.
+  Internal initial_internal(const Stress<S>& sigma, const InitialPoint& point) const {
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3);
     const double through = p > 0 ? p + of_shear_ * second_invariant(deviator_of<S>(sigma, -p)) / p : 0;
-    return {std::isnan(pc_) ? OCR_ * through : pc_, e0_};
+    if (!std::isnan(pc_)) return {point.factor * pc_, e0_};
+    const double OCR = point.factor * OCR_;
+    return {point.at_rest ? std::max(OCR * pc_at_rest_ * -sigma[1], through) : OCR * through, e0_};
   }
   IsotropicModuli elasticity(const Stress<S>& sigma, const Internal& internal) const {
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3), v = 1 + evolving_ * internal[1] + fixed_ * e0_;
@@ -201,6 +212,7 @@ class CamClay : public StressHistory<CamClay<S>, S, 2> {
   double kappa_, r_;
   CamClayFlow flow_;
   double e0_, OCR_, pc_;
+  double pc_at_rest_;        // over the vertical stress
   double evolving_, fixed_;  // 1 and 0, or 0 and 1
 };
 

@@ -85,7 +85,7 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
     const Returned<Number> at = returned(trial.mean, trial.volume_change, root_J2, gap, plastic_strain, dt);
     return {stress_of(at.p, at.scale * trial.s), {at.gap, at.plastic_strain}, trial.det_g};
   }
-  Internal initial_internal(const Stress<S>&) const { return {}; }
+  Internal initial_internal(const Stress<S>&, const InitialPoint&) const { return {}; }
   IsotropicModuli elasticity(const Stress<S>&, const Internal&) const { return {K_, G_}; }
 
   /// Whether a zero increment returns the committed stress: not under softening, as a step takes the strength at its

@@ -101,7 +101,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
     next[1] = plastic_strain + larger(sheared, 0.0);
     return {stress_of(either(stays, p, mean), either_deviator(stays, trial.s, axes.with(y, mean))), next, trial.det_g};
   }
-  Internal initial_internal(const Stress<S>&) const {
+  Internal initial_internal(const Stress<S>&, const InitialPoint&) const {
     Internal first{};
     if constexpr (varies) first[2] = 1;
     return first;

@@ -31,6 +31,7 @@ class Undrained {
     return names;
   }();
   static constexpr std::size_t share_row = Law::share_row;
+  static constexpr bool needs_pressure = Law::needs_pressure;
 
   /// stiffness: K_w/n [Pa].
   Undrained(const Law& law, double stiffness) : law_(law), stiffness_(stiffness) {}
@@ -62,10 +63,14 @@ class Undrained {
     return sigma;
   }
   /// For ground under this effective stress, with no pore pressure but that of water at rest, which is not counted.
-  History initial_history(const Stress<state>& effective) const {
+  History initial_history(const Stress<state>& effective, const InitialPoint& point = {}) const {
     History first{};
-    std::ranges::copy(law_.initial_history(effective), first.begin());
+    std::ranges::copy(law_.initial_history(effective, point), first.begin());
     return first;
+  }
+  IsotropicModuli moduli_at(const History& now) const {
+    const IsotropicModuli at = law_.moduli_at(skeleton(now));
+    return {at.bulk + stiffness_, at.shear};
   }
   bool stress_stays() const { return law_.stress_stays(); }
   bool is_viscous() const { return law_.is_viscous(); }
@@ -86,8 +91,8 @@ class Undrained {
     return of_skeleton;
   }
   ElasticRate<state> elastic(const Gradient<state>& H, const History& now) const {
-    const IsotropicModuli at = law_.moduli_at(skeleton(now));
-    return {H, cauchy(now), at.bulk + stiffness_, at.shear};
+    const IsotropicModuli at = moduli_at(now);
+    return {H, cauchy(now), at.bulk, at.shear};
   }
 
   Law law_;

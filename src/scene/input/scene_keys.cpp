@@ -50,7 +50,12 @@ void add_grid(Tables& tables) {
 [[gnu::no_sanitize_address]] void add_initial(Tables& tables) {
   tables.add({"initial", "the state at t = 0"}, std::identity())
       .key("u", &Scene::initial_u, "displacement", {.unit = "m", .variables = "x", .fallback = "0"})
-      .key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"});
+      .key("v", &Scene::initial_v, "velocity", {.unit = "m/s", .variables = "x", .fallback = "0"})
+      .key("stress", &Scene::initial_stress,
+           "Cauchy's, the same everywhere, of laws that keep one; in undrained ground the effective one; components as "
+           "of "
+           "exact.stress",
+           {.unit = "Pa", .fallback = "0", .of_stress = true});
 
   tables
       .add({"initial.geostatic", "level ground: sigma_yy = -rho b_y (surface - y), sigma_xx = sigma_zz = K0 sigma_yy"},

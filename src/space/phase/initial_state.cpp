@@ -75,7 +75,47 @@ void set_geostatic_stress(const Problem& problem, Body<K>& body) {
         const double side = problem.geostatic->K0 * vertical;
         stress.push_back({side, vertical, side});
       }
-      body.materials[m]->set_stress(stress);
+      body.materials[m]->set_stress(stress, {.at_rest = true});
+    }
+  }
+}
+
+template <Kinematics K>
+void set_uniform_stress(const Problem& problem, Body<K>& body) {
+  std::array<double, stress_components(K)> sigma{};
+  std::ranges::copy(problem.initial_stress, sigma.begin());
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    const int count = body.points.material_begin[m + 1] - body.points.material_begin[m];
+    body.materials[m]->set_stress(std::vector(static_cast<std::size_t>(count), sigma), {});
+  }
+}
+
+/// A law whose stiffness follows the stress can begin neither without pressure nor outside its yield surface.
+template <Kinematics K>
+void check_initial_stress(const Problem& problem, const Body<K>& body) {
+  if constexpr (dimensions(K) > 1) {
+    constexpr double rounding = 1e-9;
+    for (std::size_t m = 0; m < body.materials.size(); ++m) {
+      const PointMaterial<K>& material = *body.materials[m];
+      if (!material.info().needs_pressure) continue;
+      const MaterialSpec& spec = problem.materials.at(body.material_names[m]);
+      for (int k = body.points.material_begin[m]; k < body.points.material_begin[m + 1]; ++k) {
+        const auto p = static_cast<std::size_t>(k);
+        const auto sigma = material.cauchy({}, p);
+        const double pressure = -(sigma[0] + sigma[1] + sigma[2]) / 3;
+        if (!(pressure > 0))
+          throw_scene_error(fmt::format("material.{}.law", spec.name),
+                            fmt::format("'{}' has no stiffness without pressure, and the mean pressure at ({:.6g}) is "
+                                        "{:.6g} Pa when the run begins; expected one above 0 everywhere",
+                                        spec.law, fmt::join(body.points.position(p), ", "), pressure));
+        const std::optional<YieldState> at = material.yield_state(p);
+        if (at && !(at->f <= rounding * pressure))
+          throw_scene_error(
+              fmt::format("material.{}.law", spec.name),
+              fmt::format("the initial stress at ({:.6g}) lies outside the yield surface of '{}': sqrt(J2) "
+                          "is {:.6g} Pa there, and {:.6g} Pa its strength; expected a larger pc or OCR >= 1",
+                          fmt::join(body.points.position(p), ", "), spec.law, at->root_J2, at->strength));
+      }
     }
   }
 }
@@ -102,6 +142,8 @@ void set_parameters_by_place(const Problem& problem, Body<K>& body) {
 template <Kinematics K>
 void set_initial_state(const Problem& problem, Body<K>& body) {
   if (problem.geostatic) set_geostatic_stress(problem, body);
+  if (!problem.initial_stress.empty()) set_uniform_stress(problem, body);
+  check_initial_stress(problem, body);
   set_parameters_by_place(problem, body);
 }
 

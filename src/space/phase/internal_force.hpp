@@ -51,7 +51,7 @@ class InternalForce {
     laws_.begin_phase();
     laws_.commit_averages(*borrow());
     take_elastic_moments();
-    if (frame_.phase == 0 && !frame_.remembers && some_law_is_finite()) undeformed_bound_ = bound_at_rest();
+    if (frame_.phase == 0 && points_stiffen()) undeformed_bound_ = bound_at_rest();
   }
 
   /// The strength of the points is another one since the last commit.
@@ -205,6 +205,11 @@ class InternalForce {
   }
   bool some_law_is_finite() const {
     return std::ranges::any_of(frame_.body.materials, [](const auto& law) { return law->info().finite_strain; });
+  }
+  bool points_stiffen() const {
+    return some_law_is_finite() &&
+           (!frame_.remembers ||
+            std::ranges::any_of(frame_.body.materials, [](const auto& law) { return law->info().needs_pressure; }));
   }
   // In bilinear or trilinear cells with R(u) = K u, the points are needed only by their moments.
   void take_elastic_moments() {

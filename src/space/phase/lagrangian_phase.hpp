@@ -39,6 +39,7 @@ struct PhaseInfo {
   bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
   bool may_touch = false;                  // whether rigid or other bodies may touch a body
   bool stiffens = false;  // whether a point can become stiffer than before, so that the critical step has to follow
+  bool points_stiffen = false;  // by the material alone
 };
 
 /// The discretisation of a phase, for `stillpoint check`.

@@ -30,7 +30,6 @@ struct PhaseAssembly {
         conditions(problem, whole, frame.grid, frame.body, frame.origin, frame.account().shortest_time()) {
     extend_into_slivers();
     if (frame.moves_on()) frame.origin = frame.account().positions();
-    set_initial_state(problem, frame.body);
     if (frame.moves_on()) set_initial_velocity(problem, frame.body);
     begin_phase(0);
   }
