@@ -72,14 +72,15 @@ struct CamClayParameters {
   }
 };
 
-/// The internal variables are p_c [Pa] and the void ratio e = v − 1, which is followed with a fixed v too.
+/// The internal variables are p_c [Pa], the void ratio e = v − 1, which is followed with a fixed v too, and the plastic
+/// strain ∫ √(2 dᵖ:dᵖ) dt, in simple shear the plastic part of γ.
 template <StressState S>
-class CamClay : public StressHistory<CamClay<S>, S, 2> {
-  using Base = StressHistory<CamClay<S>, S, 2>;
+class CamClay : public StressHistory<CamClay<S>, S, 3> {
+  using Base = StressHistory<CamClay<S>, S, 3>;
 
  public:
   using typename Base::History, typename Base::Internal;
-  static constexpr auto history_names = Base::names_of_history({"pc", "void_ratio"});
+  static constexpr auto history_names = Base::names_of_history({"pc", "void_ratio", "plastic_strain"});
   static constexpr bool needs_pressure = true;
 
   explicit CamClay(const CamClayParameters& m)
@@ -95,7 +96,7 @@ class CamClay : public StressHistory<CamClay<S>, S, 2> {
         fixed_(1 - evolving_) {}
 
   template <class Number>
-  [[gnu::always_inline]] StressAfter<S, Number, 2> advanced(const GradientOf<S, Number>& H,
+  [[gnu::always_inline]] StressAfter<S, Number, 3> advanced(const GradientOf<S, Number>& H,
                                                             const GradientOf<S, Number>& dH, const Stress<S>& sigma,
                                                             const Internal& internal, double /*dt*/) const {
     using std::sqrt;
@@ -160,8 +161,12 @@ class CamClay : public StressHistory<CamClay<S>, S, 2> {
     const Number share_s = either(yields, Number(p_flow * of_s), Number(1)),
                  share_d = either(yields, Number(p_flow * of_d), whole);
     const double next_pc = yields ? value_of(p_flow) * value_of(ellipse) : pc;
-    return {
-        stress_of(Number(-pressure), sum(share_s, s, share_d, d)), {next_pc, v * value_of(ratio) - 1}, increment.det_g};
+    // dᵖ = κ n/v of the ellipse's gradient, (1 − u²)/3 I − √6/M ξ
+    const double u2 = value_of(ellipse) - 1, gradient = (1 - u2) * (1 - u2) * (1.0 / 3) + 2 * of_shear_ * u2;
+    const double flown = kappa_ * end.flown * sqrt(2 * gradient) / value_of(mean_v);
+    return {stress_of(Number(-pressure), sum(share_s, s, share_d, d)),
+            {next_pc, v * value_of(ratio) - 1, internal[2] + (yields ? flown : 0)},
+            increment.det_g};
   }
 
   /// p_c of a point: as given; or OCR times that of the ellipse through the stress. Of ground at rest, OCR times that
@@ -170,9 +175,9 @@ class CamClay : public StressHistory<CamClay<S>, S, 2> {
   Internal initial_internal(const Stress<S>& sigma, const InitialPoint& point) const {
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3);
     const double through = p > 0 ? p + of_shear_ * second_invariant(deviator_of<S>(sigma, -p)) / p : 0;
-    if (!std::isnan(pc_)) return {point.factor * pc_, e0_};
+    if (!std::isnan(pc_)) return {point.factor * pc_, e0_, 0};
     const double OCR = point.factor * OCR_;
-    return {point.at_rest ? std::max(OCR * pc_at_rest_ * -sigma[1], through) : OCR * through, e0_};
+    return {point.at_rest ? std::max(OCR * pc_at_rest_ * -sigma[1], through) : OCR * through, e0_, 0};
   }
   IsotropicModuli elasticity(const Stress<S>& sigma, const Internal& internal) const {
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3), v = 1 + evolving_ * internal[1] + fixed_ * e0_;

@@ -32,6 +32,7 @@ template <class Number>
 struct CamClayRatio {
   Number alpha, beta;
   double fastest;  // the largest |g| on the way, by which an explicit method is stable
+  double flown;    // ∫ n
 };
 
 struct CamClayFlow {
@@ -46,28 +47,29 @@ struct CamClayFlow {
   [[gnu::always_inline]] CamClayRatio<Number> flow(const CamClayRates<Number>& rates) const {
     constexpr double h = 1.0 / steps;
     Number alpha = 1, beta = 0;
-    double fastest = 0;
-    const auto g_at = [&](const Number& al, const Number& be) __attribute__((always_inline)) {
+    double fastest = 0, flown = 0;
+    const auto g_at = [&](const Number& al, const Number& be, double weight) __attribute__((always_inline)) {
       const Number u2 = al * al * rates.xi_xi + 2 * al * be * rates.xi_a + be * be * rates.a_a;
       const Number xi_a = al * rates.xi_a + be * rates.a_a, dry = 1 - u2;
       const Number n = (rates.y * dry + 2 * xi_a) / ((1 + rho) + u2 * (2 * (C - 1) + (1 - rho) * u2));
       const Number g = rates.y + (C - dry) * n;
       const double size = value_of(g) < 0 ? -value_of(g) : value_of(g);
       fastest = size <= fastest ? fastest : size;  // NaN stays
+      flown += weight * value_of(n);
       return g;
     };
     unroll<steps>([&](auto) __attribute__((always_inline)) {
-      const Number g1 = g_at(alpha, beta), a1 = -g1 * alpha, b1 = 1 - g1 * beta;
+      const Number g1 = g_at(alpha, beta, h / 6), a1 = -g1 * alpha, b1 = 1 - g1 * beta;
       const Number alpha2 = alpha + h / 2 * a1, beta2 = beta + h / 2 * b1;
-      const Number g2 = g_at(alpha2, beta2), a2 = -g2 * alpha2, b2 = 1 - g2 * beta2;
+      const Number g2 = g_at(alpha2, beta2, h / 3), a2 = -g2 * alpha2, b2 = 1 - g2 * beta2;
       const Number alpha3 = alpha + h / 2 * a2, beta3 = beta + h / 2 * b2;
-      const Number g3 = g_at(alpha3, beta3), a3 = -g3 * alpha3, b3 = 1 - g3 * beta3;
+      const Number g3 = g_at(alpha3, beta3, h / 3), a3 = -g3 * alpha3, b3 = 1 - g3 * beta3;
       const Number alpha4 = alpha + h * a3, beta4 = beta + h * b3;
-      const Number g4 = g_at(alpha4, beta4), a4 = -g4 * alpha4, b4 = 1 - g4 * beta4;
+      const Number g4 = g_at(alpha4, beta4, h / 6), a4 = -g4 * alpha4, b4 = 1 - g4 * beta4;
       alpha = alpha + h / 6 * (a1 + 2 * (a2 + a3) + a4);
       beta = beta + h / 6 * (b1 + 2 * (b2 + b3) + b4);
     });
-    return {alpha, beta, fastest};
+    return {alpha, beta, fastest, flown};
   }
 
   /// The same for Duals: with the derivatives by the four rates, and the chain rule.
@@ -75,7 +77,7 @@ struct CamClayFlow {
   CamClayRatio<Dual<N>> flow(const CamClayRates<Dual<N>>& rates) const {
     const std::array<Dual<N>, 4> given = {rates.xi_xi, rates.xi_a, rates.a_a, rates.y};
     const auto by_rates = variables<4>({given[0].value, given[1].value, given[2].value, given[3].value});
-    const auto [alpha, beta, fastest] =
+    const auto [alpha, beta, fastest, flown] =
         flow<Dual<4>>(CamClayRates<Dual<4>>{by_rates[0], by_rates[1], by_rates[2], by_rates[3]});
     const auto chained = [&](const Dual<4>& f) {
       Dual<N> result(f.value);
@@ -84,7 +86,7 @@ struct CamClayFlow {
       }
       return result;
     };
-    return {chained(alpha), chained(beta), fastest};
+    return {chained(alpha), chained(beta), fastest, flown};
   }
 };
 

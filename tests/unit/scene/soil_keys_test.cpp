@@ -1,6 +1,7 @@
 // Keys of soils: tables of softening, water, parameters that are formulas of the position.
 #include <stillpoint/scene_error.hpp>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,6 +74,71 @@ TEST_CASE("soil that cannot be is refused by name") {
   CHECK_THAT(scenes::refusal("stable_slope", {soil + "c=1e3*(11 - y)", soil + "softening=[[0.1, 1e3, 20, 0]]"}),
              Catch::Contains("softening: does not go with a cohesion that is a formula"));
   CHECK_THAT(scenes::refusal("column", {"material.soil.undrained=true"}), Catch::Contains("unknown key 'undrained'"));
+}
+
+TEST_CASE("Cam clay says what it misses, and what of its parameters goes together") {
+  struct Bad {
+    std::vector<std::string> set;
+    const char* message;
+  };
+  const std::string clay = "material.clay.";
+  const Bad all[] = {
+      {{clay + "kappa=0.2"}, "material.clay.kappa: must be below lambda = 0.2, not 0.2"},
+      {{clay + "OCR=0.9"}, "material.clay.OCR: must be at least 1, not 0.9"},
+      {{clay + "pc=2e5"}, "material.clay.pc: give either OCR or pc, not both"},
+      {{clay + "pc=0"}, "material.clay.pc: must be greater than 0, not 0"},
+      {{clay + "volume=still"}, "unknown value 'still'"},
+      {{clay + "undrained=true"}, "material.clay.undrained: needs water_modulus"},
+      {{"initial={}"}, "material.clay.law: 'cam-clay' has no stiffness without pressure"},
+      {{"initial.stress=[1e5, 0, 0, 0]"}, "initial.stress: is a mean pressure of -33333.3 Pa"},
+      {{"initial.stress=[-1e5, -1e5, -1e5]"}, "initial.stress: expected 4 values (xx, yy, zz, xy), found 3"},
+      {{"initial.geostatic={K0=1, surface=1}", "body_force.value=[0, -9.81]"},
+       "initial.stress: does not go with initial.geostatic"},
+      {{"initial.u=[0, 0]"}, "initial.u: does not go with initial.stress"},
+      {{"material.clay={law='hencky', E=1e6, nu=0.3, rho=1800}"}, "initial.stress needs a law that keeps a stress"},
+      {{"material.clay={law='cam-clay', M=1.2, lambda=0.2, kappa=0.04, nu=0.3, e0=1, rho=1800}"},
+       "material.clay.law: 'cam-clay' needs OCR or pc"},
+  };
+  for (const auto& [set, message] : all) {
+    CAPTURE(set);
+    CHECK_THAT(scenes::refusal("ladder/triaxial_clay", set), Catch::Contains(message));
+  }
+  const std::string of_pc = "material.clay={law='cam-clay', M=1.2, lambda=0.2, kappa=0.04, nu=0.3, e0=1, rho=1800, pc=";
+  const auto refused_when_made = [](const std::vector<std::string>& set) -> std::string {
+    try {
+      make_phase(scenes::load("ladder/triaxial_clay", set));
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(refused_when_made({of_pc + "99e3}"}), Catch::Contains("lies outside the yield surface of 'cam-clay'"));
+  CHECK(refused_when_made({of_pc + "100e3}"}).empty());
+  CHECK(refused_when_made({of_pc + "'150e3 - 400e3*y'}"}).empty());
+  CHECK_THAT(refused_when_made({of_pc + "'150e3 - 2000e3*y'}"}), Catch::Contains("material.clay.pc: must be > 0"));
+  CHECK_THAT(refused_when_made({"material.clay.OCR=2 - 20*y"}), Catch::Contains("material.clay.OCR: must be >= 1"));
+  CHECK_THAT(refused_when_made({"initial={geostatic={K0=1, surface=0.1}}", "body_force.value=[0, 9.81]"}),
+             Catch::Contains("'cam-clay' has no stiffness without pressure, and the mean pressure at ("));
+}
+
+TEST_CASE("clay in level ground has the p_c of the largest vertical stress that it bore, by OCR at each place") {
+  // p_c/σ_v = 0.877787 at OCR = 1, of M = 1.2, λ = 0.2, κ = 0.04, ν = 0.3
+  const auto phase = make_phase(scenes::load(
+      "ladder/triaxial_clay", {"initial={geostatic={K0=0.866687013, surface=0.1}}", "body_force.value=[0, -10]",
+                               "material.clay.OCR=1 + 10*y", "probe=[]", "traction=[]"}));
+  const std::size_t P = phase->points();
+  std::vector<double> pc(P), e(P);
+  phase->fields().point_history("pc", pc);
+  phase->fields().point_history("void_ratio", e);
+  const std::vector<double> positions = phase->fields().point_data().positions;
+  for (std::size_t p = 0; p < P; ++p) {
+    const double y = positions[2 * p + 1], vertical = 1800 * 10 * (0.1 - y);
+    // At OCR = 1 this stress, flatter than normal consolidation makes it, lies on the yield surface
+    const double pressure = (1 + 2 * 0.866687013) / 3 * vertical, q = (1 - 0.866687013) * vertical;
+    const double through = pressure + q * q / (1.44 * pressure);
+    CHECK(pc[p] == Approx(std::max((1 + 10 * y) * 0.877786932671487 * vertical, through)).epsilon(1e-8));
+    CHECK(e[p] == 1);
+  }
 }
 
 TEST_CASE("undrained ground has a pore pressure and an effective stress among its fields") {

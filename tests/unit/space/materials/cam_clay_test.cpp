@@ -155,6 +155,8 @@ TEST_CASE("isotropic loading and unloading follow the lines of lambda and kappa 
     to(e_400);
     CHECK(path.stress()[1] == Approx(-400e3).epsilon(1e-12));
     CHECK(path.now[4] == Approx(400e3).epsilon(1e-12));
+    // Δε_vᵖ = (λ − κ)/v Δln p_c: √(2/3) of it
+    if (!evolves) CHECK(path.now[6] == Approx(std::sqrt(2.0 / 3) * 0.08 * std::log(4)).epsilon(1e-6));
     to(e_50);
     CHECK(path.stress()[1] == Approx(-50e3).epsilon(1e-12));
     CHECK(path.now[4] == Approx(400e3).epsilon(1e-12));
@@ -298,6 +300,7 @@ TEST_CASE("an elastic cycle of strain brings Cam clay back to its stress, and so
   for (std::size_t h = 0; h < first.size(); ++h)
     CHECK(path.now[h] == Approx(first[h]).epsilon(2e-6).margin(0.1));  // second order
   CHECK(path.now[4] == first[4]);
+  CHECK(path.now[6] == 0);
 }
 
 TEST_CASE("all paths of shear end in the critical state, where nothing but the shape changes") {
@@ -310,6 +313,9 @@ TEST_CASE("all paths of shear end in the critical state, where nothing but the s
     const Stress<plane_strain> s = path.stress();
     const double p = -(s[0] + s[1] + s[2]) / 3, root_J2 = std::sqrt(second_invariant(deviator_of<plane_strain>(s, -p)));
     CHECK(std::sqrt(3) * root_J2 / p == Approx(1.2).epsilon(1e-6));
+    const double before = path.now[6];  // there all strain is plastic
+    path.step({std::expm1(1.0025), 0, 0, std::expm1(-1.0025)});
+    CHECK(path.now[6] - before == Approx(2 * 0.0025).epsilon(1e-5));
     CHECK(path.now[4] / p == Approx(2).epsilon(1e-6));
     // κ ln p + (λ − κ) ln p_c does not change: p = ½ p_c = 100 (OCR/2)^((λ − κ)/λ) kPa
     CHECK(p == Approx(1e5 * std::pow(OCR / 2, 0.8)).epsilon(1e-6));
