@@ -49,7 +49,7 @@ struct LawInfo {
   bool finite_strain = true;
   bool softens_by_rows = false;  // takes MaterialSpec::softening
   bool has_strength = false;     // in the parameters c, phi, psi and tension, which a factor of safety divides
-  bool needs_pressure = false;   // stiffness grows with pressure from nothing: an initial stress has to press everywhere
+  bool needs_pressure = false;   // no stiffness without pressure: an initial stress has to press everywhere
   /// Finds a fault of a material whose parameters are each in their range; null: there can be none.
   std::optional<LawFault> (*fault)(const MaterialSpec&) = nullptr;
 };

@@ -142,7 +142,7 @@ std::vector<LawInfo> built_in() {
         positive("e0", "1", "void ratio at the start, v = 1 + e"),
         by_place(without_default({"OCR", "1", "overconsolidation ratio, in place of pc", 1, infinity, true, false, 0})),
         by_place(without_default(positive("pc", "Pa", "preconsolidation pressure at the start")))},
-       {{"volume", "the v of the stiffnesses: of now, or 1 + e0", {"evolves", "fixed"}, "evolves"}},
+       {ChoiceInfo{"volume", "the v of the stiffnesses: of now, or 1 + e0", {"evolves", "fixed"}, "evolves"}},
        /*history_dependent=*/true,
        /*finite_strain=*/true,
        /*softens_by_rows=*/false,
