@@ -191,8 +191,11 @@ class CamClay : public StressHistory<CamClay<S>, S, 3> {
     const Stress<S> sigma = Base::cauchy(now);
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3), pc = now[Base::stresses];
     const double root_J2 = std::sqrt(second_invariant(deviator_of<S>(sigma, -p)));
-    const double strength = std::sqrt(std::max(0.0, p * (pc - p)) / of_shear_);
-    return {.f = root_J2 - strength, .strength = strength, .root_J2 = root_J2};
+    const double square = p * (pc - p) / of_shear_,
+                 strength = std::sqrt(std::abs(square));  // under p > p_c there is none
+    return {.f = square < 0 ? root_J2 + strength : root_J2 - strength,
+            .strength = square < 0 ? 0 : strength,
+            .root_J2 = root_J2};
   }
 
  private:
