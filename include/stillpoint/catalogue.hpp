@@ -12,6 +12,7 @@
 namespace stillpoint {
 
 struct Problem;
+struct MaterialSpec;
 
 /// A number that a law or an exact solution takes; allowed if lower < value < upper, and at lower itself if
 /// lower_allowed.
@@ -20,7 +21,7 @@ struct ParameterInfo {
   double lower, upper;
   bool lower_allowed;
   bool required;
-  double fallback;                // value if the scene gives none and it is not required
+  double fallback;                // value if the scene gives none and it is not required; NaN: there is none
   std::string_view same_as = {};  // name of an earlier parameter whose value is the fallback; empty: none
   bool by_place = false;          // may be a formula of the material's position before the motion
 };
@@ -30,6 +31,12 @@ struct ChoiceInfo {
   std::string_view name, meaning;
   std::vector<std::string_view> values;
   std::string_view fallback;
+};
+
+/// A fault of the value of a key of [material.<name>].
+struct LawFault {
+  std::string_view key;
+  std::string message;
 };
 
 /// A material law, named by material.<name>.law.
@@ -42,6 +49,9 @@ struct LawInfo {
   bool finite_strain = true;
   bool softens_by_rows = false;  // takes MaterialSpec::softening
   bool has_strength = false;     // in the parameters c, phi, psi and tension, which a factor of safety divides
+  bool needs_pressure = false;   // no stiffness without pressure: an initial stress has to press everywhere
+  /// Finds a fault of a material whose parameters are each in their range; null: there can be none.
+  std::optional<LawFault> (*fault)(const MaterialSpec&) = nullptr;
 };
 
 /// A damping strategy, named by damping.strategy: a damping force, or a relaxation, which is an iteration to rest.

@@ -80,12 +80,12 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
                                                             const Internal& internal, double dt) const {
     using std::sqrt;
     const auto [gap, plastic_strain] = internal;
-    const auto trial = stress_trial<S, Number>(H, dH, sigma, [G = G_](const Number&) { return G; });
+    const auto trial = stress_trial<S, Number>(H, dH, sigma, G_);
     const Number root_J2 = sqrt(second_invariant(trial.s) + tiny);
     const Returned<Number> at = returned(trial.mean, trial.volume_change, root_J2, gap, plastic_strain, dt);
     return {stress_of(at.p, at.scale * trial.s), {at.gap, at.plastic_strain}, trial.det_g};
   }
-  Internal initial_internal(const Stress<S>&) const { return {}; }
+  Internal initial_internal(const Stress<S>&, const InitialPoint&) const { return {}; }
   IsotropicModuli elasticity(const Stress<S>&, const Internal&) const { return {K_, G_}; }
 
   /// Whether a zero increment returns the committed stress: not under softening, as a step takes the strength at its

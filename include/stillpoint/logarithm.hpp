@@ -2,7 +2,10 @@
 // Method and constants: fdlibm's e_log.c [Sun Microsystems 1993], error below 1 ulp.
 #pragma once
 
+#include <stillpoint/dual.hpp>
+
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -33,5 +36,14 @@ inline double logarithm(double x, double x_minus_1) {
   return x >= Limits::min() && x <= Limits::max() ? ln : Limits::quiet_NaN();
 }
 inline double logarithm(double x) { return logarithm(x, x - 1); }
+
+/// ln x with its derivatives.
+template <std::size_t N>
+inline Dual<N> logarithm_of(const Dual<N>& x, const Dual<N>& x_minus_1) {
+  Dual<N> result(logarithm(x.value, x_minus_1.value));
+  for (std::size_t k = 0; k < N; ++k) result.derivative[k] = x.derivative[k] / x.value;
+  return result;
+}
+inline double logarithm_of(double x, double x_minus_1) { return logarithm(x, x_minus_1); }
 
 }  // namespace stillpoint

@@ -75,6 +75,13 @@ struct YieldState {
   double root_J2 = 0;   // [Pa]
 };
 
+/// How a point of ground came to the stress that it begins with.
+struct InitialPoint {
+  /// Under its own weight, sides at rest, σ_yy being vertical: overconsolidation is a ratio of vertical stresses.
+  bool at_rest = false;
+  double factor = 1;  // of a parameter that is a formula of the position
+};
+
 /// A law with a history of `history` numbers a point, among them its stress. H = ∂u/∂x since the phase began (f = I +
 /// H), dH the part of it since the history was committed, dt the time since then [s], ≥ 0.
 template <class L>
@@ -95,7 +102,9 @@ concept HistoryLaw = requires(const L law, const Gradient<L::state>& H, double d
   { law.moduli(H, H, dt, next) } -> std::same_as<Moduli<L::state>>;
   { law.elastic_moduli(H, next) } -> std::same_as<Moduli<L::state>>;
   { law.elastic_rate(H, H, next) } -> std::same_as<Gradient<L::state>>;
-  { law.initial_history(law.cauchy(next)) } -> std::same_as<typename L::History>;  // for a point under this stress
+  // For a point under this stress
+  { law.initial_history(law.cauchy(next), InitialPoint{}) } -> std::same_as<typename L::History>;
+  { L::needs_pressure } -> std::convertible_to<bool>;  // the stiffness follows the stress: none without a pressure
 };
 
 template <class L>

@@ -84,7 +84,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
                                                                     const Stress<S>& sigma, const Internal& internal,
                                                                     double /*dt*/) const {
     const double gap = internal[0], plastic_strain = internal[1];
-    const auto trial = stress_trial<S, Number>(H, dH, sigma, [G = elastic_.shear](const Number&) { return G; });
+    const auto trial = stress_trial<S, Number>(H, dH, sigma, elastic_.shear);
     const Number p = trial.mean + elastic_.bulk * (trial.volume_change + gap);
     const PrincipalOf<S, Number> axes(trial.s);
     const Principal<Number> s = axes.values(), x{p + s[0], p + s[1], p + s[2]};
@@ -101,7 +101,7 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
     next[1] = plastic_strain + larger(sheared, 0.0);
     return {stress_of(either(stays, p, mean), either_deviator(stays, trial.s, axes.with(y, mean))), next, trial.det_g};
   }
-  Internal initial_internal(const Stress<S>&) const {
+  Internal initial_internal(const Stress<S>&, const InitialPoint&) const {
     Internal first{};
     if constexpr (varies) first[2] = 1;
     return first;

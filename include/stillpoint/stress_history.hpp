@@ -46,7 +46,7 @@ struct StressAfter {
 /// Base class of such a law, which has history_names, made by names_of_history(), and
 ///
 ///     StressAfter advanced(H, dH, stress, internal, dt) const, a template of the number type, double or a Dual,
-///     Internal initial_internal(stress) const,
+///     Internal initial_internal(stress, InitialPoint) const,
 ///     IsotropicModuli elasticity(stress, internal) const.
 template <class Law, StressState S, std::size_t internals>
 class StressHistory {
@@ -59,6 +59,8 @@ class StressHistory {
   static constexpr std::size_t history = stresses + internals;
   /// Where in the history a law has the factor of its strength, if that varies from place to place.
   static constexpr std::size_t share_row = no_share_row;
+  /// Whether the stiffness follows the stress, and is none without a pressure.
+  static constexpr bool needs_pressure = false;
   using History = std::array<double, history>;  // σ_xx, σ_yy, σ_zz, σ_xy, in space σ_yz, σ_zx [Pa]; internal variables
   using Internal = std::array<double, internals>;
   static constexpr std::array<std::string_view, history> names_of_history(
@@ -85,8 +87,8 @@ class StressHistory {
     unroll<stresses>([&](auto a) __attribute__((always_inline)) { sigma[a] = now[a]; });
     return sigma;
   }
-  History initial_history(const Stress<S>& sigma) const {
-    const Internal of_law = law().initial_internal(sigma);
+  History initial_history(const Stress<S>& sigma, const InitialPoint& point = {}) const {
+    const Internal of_law = law().initial_internal(sigma, point);
     History first;
     for (std::size_t a = 0; a < stresses; ++a) first[a] = sigma[a];
     for (std::size_t k = 0; k < internals; ++k) first[stresses + k] = of_law[k];

@@ -27,6 +27,7 @@ template <class Number>
 constexpr PlaneDeviator<Number> operator*(const Number& a, const PlaneDeviator<Number>& s) {
   return {a * s.half, a * s.shear, a * s.zz};
 }
+/// J₂ = s : s/2, and its bilinear form a : b/2.
 template <class Number>
 constexpr Number second_invariant(const PlaneDeviator<Number>& s) {
   return s.half * s.half + s.shear * s.shear + 0.75 * (s.zz * s.zz);
@@ -34,6 +35,14 @@ constexpr Number second_invariant(const PlaneDeviator<Number>& s) {
 template <class Number>
 constexpr Number second_invariant(const SpaceTensorOf<Number>& s) {
   return (s.xx * s.xx + s.yy * s.yy + s.zz * s.zz) / 2 + (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx);
+}
+template <class Number>
+constexpr Number second_invariant(const PlaneDeviator<Number>& a, const PlaneDeviator<Number>& b) {
+  return a.half * b.half + a.shear * b.shear + 0.75 * (a.zz * b.zz);
+}
+template <class Number>
+constexpr Number second_invariant(const SpaceTensorOf<Number>& a, const SpaceTensorOf<Number>& b) {
+  return (a.xx * b.xx + a.yy * b.yy + a.zz * b.zz) / 2 + (a.xy * b.xy + a.yz * b.yz + a.zx * b.zx);
 }
 
 template <StressState S, class Number>
@@ -59,15 +68,6 @@ constexpr std::array<Number, 6> stress_of(const Number& p, const SpaceTensorOf<N
   return {p + s.xx, p + s.yy, p + s.zz, s.xy, s.yz, s.zx};
 }
 
-/// The elastic trial of an increment. Number: double, or a Dual, which carries derivatives by H and dH.
-template <StressState S, class Number>
-struct StressTrial {
-  double mean;              // p at the start [Pa]
-  Number volume_change;     // tr d
-  DeviatorOf<S, Number> s;  // R s Rᵀ + 2 G R½ dev d R½ᵀ [Pa]
-  Number det_g;
-};
-
 /// The hoop increment d_θθ.
 template <StressState S, class Number>
 constexpr Number hoop_increment(const GradientOf<S, Number>& H, const GradientOf<S, Number>& dH) {
@@ -78,23 +78,74 @@ constexpr Number hoop_increment(const GradientOf<S, Number>& H, const GradientOf
   }
 }
 
-/// The trial from the stress sigma, with the shear modulus shear_modulus(tr d) [Pa].
-template <StressState S, class Number, class ShearModulus>
-[[gnu::always_inline]] inline StressTrial<S, Number> stress_trial(const GradientOf<S, Number>& H,
-                                                                  const GradientOf<S, Number>& dH,
-                                                                  const Stress<S>& sigma,
-                                                                  const ShearModulus& shear_modulus) {
-  using std::sqrt;
-  if constexpr (S == StressState::space) {
-    using T = SpaceTensorOf<Number>;
-    const auto [s_xx, s_yy, s_zz, s_xy, s_yz, s_zx] = sigma;
+/// The stretch d and the rotation R of an increment. Number: double, or a Dual, which carries derivatives by H and dH.
+template <StressState S, class Number>
+class PlaneIncrement {
+ public:
+  [[gnu::always_inline]] PlaneIncrement(const GradientOf<S, Number>& H, const GradientOf<S, Number>& dH) {
+    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
+    det_g = gxx * gyy - gxy * gyx;
+    const Number r = 1 / det_g;
+    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
+    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
+    dzz_ = hoop_increment<S, Number>(H, dH);
+    volume_change = lxx + lyy + dzz_;
+    difference_ = lxx - lyy;
+    shear_ = lxy + lyx;
+
+    // The rotation by θ, tan(θ/2) = q = w_yx/2; a tensor turns by 2θ in (half difference, shear), by θ under R½.
+    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
+    cos_ = (1 - q * q) * over;
+    sin_ = 2 * q * over;
+    cos2_ = 1 - 2 * sin_ * sin_;
+    sin2_ = 2 * sin_ * cos_;
+  }
+  /// R s Rᵀ, with the deviator s of a stress σ with the mean p.
+  [[gnu::always_inline]] PlaneDeviator<Number> turned_stress(const Stress<S>& sigma, double p) const {
+    const double half = (sigma[0] - sigma[1]) / 2, shear = sigma[3];
+    return {cos2_ * half - sin2_ * shear, sin2_ * half + cos2_ * shear, sigma[2] - p};
+  }
+  /// R½ 2 G dev d R½ᵀ.
+  template <class Modulus>
+  [[gnu::always_inline]] PlaneDeviator<Number> turned_stretch(const Modulus& G) const {
+    const Number half = G * difference_, shear = G * shear_;
+    return {cos_ * half - sin_ * shear, sin_ * half + cos_ * shear, 2 * G * (dzz_ - volume_change * (1.0 / 3))};
+  }
+  /// The sum of both.
+  template <class Modulus>
+  [[gnu::always_inline]] PlaneDeviator<Number> turned_sum(const Stress<S>& sigma, double p, const Modulus& G) const {
+    const PlaneDeviator<Number> s = turned_stress(sigma, p), d = turned_stretch(G);
+    return {s.half + d.half, s.shear + d.shear, s.zz + d.zz};
+  }
+
+  Number volume_change;  // tr d
+  Number det_g;
+
+ private:
+  Number difference_, shear_, dzz_;  // d_xx − d_yy, 2 d_xy, d_zz
+  Number cos_, sin_, cos2_, sin2_;
+};
+
+template <class Number>
+class SpaceIncrement {
+  using T = SpaceTensorOf<Number>;
+
+ public:
+  [[gnu::always_inline]] SpaceIncrement(const std::array<Number, 9>& H, const std::array<Number, 9>& dH) {
+    using std::sqrt;
     const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
     const T df{dH[0], dH[1], dH[2], dH[3], dH[4], dH[5], dH[6], dH[7], dH[8]};
 
     const T g = f - 0.5 * df, cof_g = cofactor(g);
-    const Number det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
+    det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
     const T l = (1 / det_g) * (df * transpose(cof_g));
-    const Number tr_d = trace(l), third = tr_d * (1.0 / 3);
+    volume_change = trace(l);
+    xx_ = l.xx;
+    yy_ = l.yy;
+    zz_ = l.zz;
+    xy_ = l.xy + l.yx;
+    yz_ = l.yz + l.zy;
+    zx_ = l.zx + l.xz;
 
     // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
     // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
@@ -103,38 +154,71 @@ template <StressState S, class Number, class ShearModulus>
     const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
     const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
     const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
-    const T R_half{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
-                   c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+    R_half_ = T{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
+                c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+  }
+  [[gnu::always_inline]] T turned_stress(const Stress<StressState::space>& sigma, double p) const {
+    return turned(R_half_, turned(R_half_, deviator(sigma, p)));
+  }
+  template <class Modulus>
+  [[gnu::always_inline]] T turned_stretch(const Modulus& G) const {
+    return turned(R_half_, stretch(G));
+  }
+  /// R½ (R½ s R½ᵀ + 2 G dev d) R½ᵀ
+  template <class Modulus>
+  [[gnu::always_inline]] T turned_sum(const Stress<StressState::space>& sigma, double p, const Modulus& G) const {
+    return turned(R_half_, turned(R_half_, deviator(sigma, p)) + stretch(G));
+  }
 
-    // s = R½ (R½ s_n R½ᵀ + 2 G dev d) R½ᵀ
-    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
-    const Number xy_n = s_xy, yz_n = s_yz, zx_n = s_zx;
-    const T s_n{s_xx - p_n, xy_n, zx_n, xy_n, s_yy - p_n, yz_n, zx_n, yz_n, s_zz - p_n};
-    const auto G = shear_modulus(tr_d);
-    const Number mean = 2 * G * third, xy_d = G * (l.xy + l.yx), yz_d = G * (l.yz + l.zy), zx_d = G * (l.zx + l.xz);
-    const T dev_d{2 * G * l.xx - mean, xy_d, zx_d, xy_d, 2 * G * l.yy - mean, yz_d, zx_d, yz_d, 2 * G * l.zz - mean};
-    return {p_n, tr_d, turned(R_half, turned(R_half, s_n) + dev_d), det_g};
+  Number volume_change;
+  Number det_g;
+
+ private:
+  [[gnu::always_inline]] static T deviator(const Stress<StressState::space>& sigma, double p) {
+    const Number xy = sigma[3], yz = sigma[4], zx = sigma[5];
+    return {sigma[0] - p, xy, zx, xy, sigma[1] - p, yz, zx, yz, sigma[2] - p};
+  }
+  template <class Modulus>
+  [[gnu::always_inline]] T stretch(const Modulus& G) const {
+    const Number mean = 2 * G * (volume_change * (1.0 / 3)), xy = G * xy_, yz = G * yz_, zx = G * zx_;
+    return {2 * G * xx_ - mean, xy, zx, xy, 2 * G * yy_ - mean, yz, zx, yz, 2 * G * zz_ - mean};
+  }
+
+  Number xx_, yy_, zz_, xy_, yz_, zx_;  // d, shears doubled
+  T R_half_;
+};
+
+template <StressState S, class Number>
+using Increment = std::conditional_t<S == StressState::space, SpaceIncrement<Number>, PlaneIncrement<S, Number>>;
+
+/// The elastic trial of an increment.
+template <StressState S, class Number>
+struct StressTrial {
+  double mean;              // p at the start [Pa]
+  Number volume_change;     // tr d
+  DeviatorOf<S, Number> s;  // R s Rᵀ + 2 G R½ dev d R½ᵀ [Pa]
+  Number det_g;
+};
+
+/// The trial from the stress sigma with the shear modulus G [Pa].
+template <StressState S, class Number>
+[[gnu::always_inline]] inline StressTrial<S, Number> stress_trial(const GradientOf<S, Number>& H,
+                                                                  const GradientOf<S, Number>& dH,
+                                                                  const Stress<S>& sigma, double G) {
+  const Increment<S, Number> increment(H, dH);
+  const double p = (sigma[0] + sigma[1] + sigma[2]) * (1.0 / 3);
+  return {p, increment.volume_change, increment.turned_sum(sigma, p, G), increment.det_g};
+}
+
+/// The ratio of volumes det(I + H).
+template <StressState S, class Number>
+[[gnu::always_inline]] inline Number volume_ratio(const GradientOf<S, Number>& H) {
+  if constexpr (S == StressState::space) {
+    return determinant(SpaceTensorOf<Number>{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]});
+  } else if constexpr (S == StressState::axisymmetric) {
+    return ((1 + H[0]) * (1 + H[3]) - H[1] * H[2]) * (1 + H[4]);
   } else {
-    const auto [s_xx, s_yy, s_zz, s_xy] = sigma;
-    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
-    const Number det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
-    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
-    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
-    const Number dzz = hoop_increment<S, Number>(H, dH), tr_d = lxx + lyy + dzz;
-
-    // The rotation by θ, tan(θ/2) = q = w_yx/2; a tensor turns by 2θ in (half difference, shear), by θ under R½.
-    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
-    const Number cos = (1 - q * q) * over, sin = 2 * q * over, cos2 = 1 - 2 * sin * sin, sin2 = 2 * sin * cos;
-    const double half_n = (s_xx - s_yy) / 2;
-    const auto G = shear_modulus(tr_d);
-    const Number half_d = G * (lxx - lyy), shear_d = G * (lxy + lyx);
-    const Number half = cos2 * half_n - sin2 * s_xy + (cos * half_d - sin * shear_d);
-    const Number shear = sin2 * half_n + cos2 * s_xy + (sin * half_d + cos * shear_d);
-
-    // s_zz = s_zz,n + 2 G dev d_zz
-    const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);
-    const Number dev_zz = s_zz - p_n + 2 * G * (dzz - tr_d * (1.0 / 3));
-    return {p_n, tr_d, {half, shear, dev_zz}, det_g};
+    return (1 + H[0]) * (1 + H[3]) - H[1] * H[2];
   }
 }
 

@@ -17,27 +17,6 @@
 
 namespace stillpoint {
 
-/// ln x with its derivatives.
-template <std::size_t N>
-inline Dual<N> logarithm_of(const Dual<N>& x, const Dual<N>& x_minus_1) {
-  Dual<N> result(logarithm(x.value, x_minus_1.value));
-  for (std::size_t k = 0; k < N; ++k) result.derivative[k] = x.derivative[k] / x.value;
-  return result;
-}
-inline double logarithm_of(double x, double x_minus_1) { return logarithm(x, x_minus_1); }
-
-/// The ratio of volumes det(I + H).
-template <StressState S, class Number>
-[[gnu::always_inline]] inline Number volume_ratio(const GradientOf<S, Number>& H) {
-  if constexpr (S == StressState::space) {
-    return determinant(SpaceTensorOf<Number>{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]});
-  } else if constexpr (S == StressState::axisymmetric) {
-    return ((1 + H[0]) * (1 + H[3]) - H[1] * H[2]) * (1 + H[4]);
-  } else {
-    return (1 + H[0]) * (1 + H[3]) - H[1] * H[2];
-  }
-}
-
 /// A StressHistory in which the history of the law is followed by the pore pressure [Pa].
 template <class Law>
 class Undrained {
@@ -52,6 +31,7 @@ class Undrained {
     return names;
   }();
   static constexpr std::size_t share_row = Law::share_row;
+  static constexpr bool needs_pressure = Law::needs_pressure;
 
   /// stiffness: K_w/n [Pa].
   Undrained(const Law& law, double stiffness) : law_(law), stiffness_(stiffness) {}
@@ -83,10 +63,14 @@ class Undrained {
     return sigma;
   }
   /// For ground under this effective stress, with no pore pressure but that of water at rest, which is not counted.
-  History initial_history(const Stress<state>& effective) const {
+  History initial_history(const Stress<state>& effective, const InitialPoint& point = {}) const {
     History first{};
-    std::ranges::copy(law_.initial_history(effective), first.begin());
+    std::ranges::copy(law_.initial_history(effective, point), first.begin());
     return first;
+  }
+  IsotropicModuli moduli_at(const History& now) const {
+    const IsotropicModuli at = law_.moduli_at(skeleton(now));
+    return {at.bulk + stiffness_, at.shear};
   }
   bool stress_stays() const { return law_.stress_stays(); }
   bool is_viscous() const { return law_.is_viscous(); }
@@ -107,8 +91,8 @@ class Undrained {
     return of_skeleton;
   }
   ElasticRate<state> elastic(const Gradient<state>& H, const History& now) const {
-    const IsotropicModuli at = law_.moduli_at(skeleton(now));
-    return {H, cauchy(now), at.bulk + stiffness_, at.shear};
+    const IsotropicModuli at = moduli_at(now);
+    return {H, cauchy(now), at.bulk, at.shear};
   }
 
   Law law_;

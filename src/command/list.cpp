@@ -1,6 +1,7 @@
 // stillpoint list: the choices that a scene offers.
 #include <stillpoint/integrator.hpp>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,7 +55,8 @@ void list_materials() {
     for (const StressState state : law.states) states.push_back(to_string(state));
     fmt::print("    for {}\n", fmt::join(states, ", "));
     for (const ParameterInfo& p : law.parameters) {
-      const std::string fallback = p.required          ? ""
+      const std::string fallback = p.required                                    ? ""
+                                   : std::isnan(p.fallback) && p.same_as.empty() ? ""
                                    : p.same_as.empty() ? fmt::format(", default {}", p.fallback)
                                                        : fmt::format(", default {}", p.same_as);
       fmt::print("    {:<18}{} [{}], {} {} {} < {}{}\n", p.name, p.meaning, p.unit, p.lower,

@@ -68,7 +68,7 @@ std::vector<std::string> probe_fields(int dim) {
   add("v", axes);
   add("stress", stresses);
   add("strain", gradient_names(dim, dim * dim));
-  fields.insert(fields.end(), {"plastic_strain", "pore_pressure"});
+  fields.insert(fields.end(), {"plastic_strain", "pore_pressure", "pc", "void_ratio"});
   add("effective_stress", stresses);
   return fields;
 }

@@ -124,6 +124,7 @@ void begin_next_stage(Scene& scene) {
   scene.stages.erase(scene.stages.begin());
   scene.present_stage = stage;
   scene.geostatic.reset();
+  scene.initial_stress.clear();
   scene.initial_from.clear();
   scene.initial_u.clear();
   scene.initial_v.clear();

@@ -8,6 +8,7 @@
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
+#include "plan/catalogue.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "study/reduced_body.hpp"
 #include "study/strength_reduction.hpp"
@@ -19,6 +20,15 @@ void check(const Scene& scene) {
   const auto reducible = [&](const BodySpec& body) {
     return has_reducible_strength(scene.materials.at(body.material));
   };
+  for (const BodySpec& body : scene.bodies) {
+    const std::string& law = scene.materials.at(body.material).law;
+    const LawInfo* const info = catalogue().law(law);
+    if (info && info->history_dependent && !info->has_strength)
+      throw_scene_error(fmt::format("material.{}.law", body.material),
+                        fmt::format("the strength of '{}' has no name that a factor could divide; expected the law "
+                                    "\"mohr-coulomb\" or \"drucker-prager\"",
+                                    law));
+  }
   if (std::ranges::none_of(scene.bodies, reducible))
     throw_scene_error("material",
                       "no material has a strength that a factor could divide; expected the law \"mohr-coulomb\" or "

@@ -104,8 +104,9 @@ bool RelaxationSystem::evaluate(double t, ConstVec u) {
     load_norm_.reset();
   }
   last_.t = t;
-  is_committed_ = false;
-  return system_.internal_force(t, u, last_.R.span(), *last_.trial);
+  const bool good = system_.internal_force(t, u, last_.R.span(), *last_.trial);
+  is_committed_ = !good;  // what cannot be evaluated is never committed
+  return good;
 }
 
 // Evaluates Q = F − R − M_fs (a_s + c_m v_s) + contact forces.

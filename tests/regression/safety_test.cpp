@@ -74,6 +74,7 @@ TEST_CASE("a body that never comes to rest, one without strength and a wrong opt
   refused(scenes::load(slope, {"grid.cells=[34, 11]"}), {.from = 1.6, .to = 2}, "does not come to an equilibrium");
   refused(scenes::load(slope, {"grid.cells=[34, 11]"}), {.from = 1.5, .to = 2}, "rests only strained by");
   refused(scenes::load("column", {}), {}, "no material has a strength");
+  refused(scenes::load("ladder/triaxial_clay", {}), {}, "the strength of 'cam-clay' has no name");
   refused(scenes::load(slope, {}), {.from = 0}, "from");
   refused(scenes::load(slope, {}), {.from = 2, .to = 2}, "to");
   refused(scenes::load(slope, {}), {.width = 0}, "width");

@@ -101,6 +101,12 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   }
 }
 
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with clay whose step follows it") {
+  check_same_bits({"ladder/triaxial_clay",
+                   {"constants.T=0.02", "phase.max_motion=0.05", "output.every=0.001", "checkpoint.every_steps=20"}},
+                  90);
+}
+
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with rigid bodies that touch it") {
   check_same_bits({"ladder/incline", {"rigid[0].friction=0.28", "stop.steps=90", "output.every=0.05"}}, 70);
   check_same_bits({"ladder/pressed_plate", {"damping.strategy=viscous", "checkpoint.every_steps=5"}}, 72);

@@ -1,6 +1,7 @@
 // Tables of which one key chooses what the others are: a material's law, the solution of [exact].
 #include <stillpoint/catalogue.hpp>
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -38,7 +39,8 @@ std::vector<Key> keys_of_choice(const Row& row) {
                                 {.range = {p.lower, p.upper, p.lower_allowed, false},
                                  .unit = p.unit,
                                  .variables = p.by_place ? "x" : "",
-                                 .fallback = p.required          ? ""
+                                 .fallback = p.required                                    ? ""
+                                             : std::isnan(p.fallback) && p.same_as.empty() ? "none"
                                              : p.same_as.empty() ? fmt::format("{}", p.fallback)
                                                                  : std::string(p.same_as),
                                  .required = p.required}));

@@ -55,7 +55,12 @@ void add_grid(Tables& tables) {
            "a checkpoint of another scene: bodies of the same names begin with its points, at rest, and with what they "
            "remember")
       .key("displacements", &Scene::displacements_from_zero, "with from: whether they count from there on",
-           {.words = {"kept", "zero"}});
+           {.words = {"kept", "zero"}})
+      .key("stress", &Scene::initial_stress,
+           "Cauchy's, the same everywhere, of laws that keep one; in undrained ground the effective one; components as "
+           "of "
+           "exact.stress",
+           {.unit = "Pa", .fallback = "0", .of_stress = true});
 
   tables
       .add({"initial.geostatic", "level ground: sigma_yy = -rho b_y (surface - y), sigma_xx = sigma_zz = K0 sigma_yy"},

@@ -119,6 +119,17 @@ void check_water(SceneCheck& check, const MaterialSpec& material) {
       psi);
 }
 
+/// What a law itself finds wrong with its parameters, if all of them could be read.
+void check_parameters(SceneCheck& check, const MaterialSpec& material) {
+  const LawInfo* const law = check.catalogue().law(material.law);
+  if (!law || !law->fault) return;
+  const bool is_read = std::ranges::all_of(
+      law->parameters, [&](const ParameterInfo& p) { return material.parameters.contains(std::string(p.name)); });
+  if (!is_read) return;
+  if (const auto fault = law->fault(material))
+    check.add(fmt::format("material.{}.{}", material.name, fault->key), fault->message);
+}
+
 void check_softening(SceneCheck& check, const MaterialSpec& material) {
   const std::vector<StrengthRow>& rows = material.softening;
   check.wrong_if(!rows.empty() && !material.by_place.empty(), fmt::format("material.{}.softening", material.name),
@@ -188,6 +199,7 @@ std::optional<NamedBox> check_bodies(SceneCheck& check, bool grid, const std::ve
     check_dilation(check, material);
     check_softening(check, material);
     check_water(check, material);
+    check_parameters(check, material);
   }
   if (grid) check_number_of_points(check, in_order);
 

@@ -125,7 +125,7 @@ void check_load_control(SceneCheck& check) {
 }
 
 /// The material of a body keeps a stress at which nothing is deformed, which a law without history cannot.
-void check_laws_keep_a_stress(SceneCheck& check) {
+void check_laws_keep_a_stress(SceneCheck& check, const char* what) {
   const Scene& scene = check.scene();
   std::vector<std::string> names;
   for (const LawInfo& law : check.catalogue().laws)
@@ -135,8 +135,7 @@ void check_laws_keep_a_stress(SceneCheck& check) {
     const LawInfo* const law =
         material == scene.materials.end() ? nullptr : check.catalogue().law(material->second.law);
     if (check.wrong_if(law && !law->history_dependent, fmt::format("material.{}.law", body.material),
-                       "initial.geostatic needs a law that keeps a stress{}; the stress of '{}' is 0 if nothing is "
-                       "deformed",
+                       "{} needs a law that keeps a stress{}; the stress of '{}' is 0 if nothing is deformed", what,
                        names.empty() ? "" : ", such as " + either(names), law ? law->name : ""))
       return;
   }
@@ -159,11 +158,50 @@ void check_geostatic(SceneCheck& check, const std::optional<NamedBox>& body) {
         "body_force.value", "must be constant and vertical, {}, if initial.geostatic is asked for",
         scene.dim == 2 ? "[0, b]" : "[0, b, 0]");
   }
-  check_laws_keep_a_stress(check);
+  check_laws_keep_a_stress(check, "initial.geostatic");
   if (body && check.sound(key + ".surface"))
     check.wrong_if(scene.geostatic->surface < body->max[1], key + ".surface",
                    "must not lie below the top of the {} at {}, not {}", body->name, body->max[1],
                    scene.geostatic->surface);
+}
+
+/// A uniform stress, in place of that of level ground.
+void check_initial_stress(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  const std::string key = "initial.stress";
+  if (scene.initial_stress.empty() || !check.sound(key)) return;
+  if (check.wrong_if(scene.geostatic.has_value(), key, "does not go with initial.geostatic, which is a stress too"))
+    return;
+  check.wrong_if(!scene.initial_u.empty(), "initial.u",
+                 "does not go with initial.stress, which is the stress of the undeformed body");
+  check_laws_keep_a_stress(check, "initial.stress");
+}
+
+/// A law whose stiffness grows with pressure from nothing has to begin under one.
+void check_pressure(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  const bool is_stage = scene.present_stage && scene.present_stage->at > 0;
+  for (const BodySpec& body : scene.bodies) {
+    const auto material = scene.materials.find(body.material);
+    const LawInfo* const law =
+        material == scene.materials.end() ? nullptr : check.catalogue().law(material->second.law);
+    if (!law || !law->needs_pressure || is_stage || !scene.initial_from.empty()) continue;
+    const std::string key = fmt::format("material.{}.law", body.material);
+    const bool is_given = scene.geostatic || !scene.initial_stress.empty();
+    const bool is_read = check.sound("initial.stress") && check.sound("initial.geostatic") && check.sound("initial");
+    if (check.wrong_if(!is_given && is_read, key,
+                       "'{}' has no stiffness without pressure; expected an initial stress that presses: [initial] "
+                       "stress, or [initial.geostatic]",
+                       law->name))
+      return;
+    if (scene.initial_stress.size() < 3) continue;
+    const double p = -(scene.initial_stress[0] + scene.initial_stress[1] + scene.initial_stress[2]) / 3;
+    if (check.wrong_if(!(p > 0), "initial.stress",
+                       "is a mean pressure of {:.6g} Pa, under which '{}' has no stiffness; expected one above 0: "
+                       "tension is positive",
+                       p, law->name))
+      return;
+  }
 }
 
 }  // namespace
@@ -176,6 +214,8 @@ void check_loads(SceneCheck& check, const std::optional<NamedBox>& body) {
   check_body_force(check);
   check_load_control(check);
   check_geostatic(check, body);
+  check_initial_stress(check);
+  check_pressure(check);
 }
 
 }  // namespace stillpoint

@@ -86,6 +86,21 @@ void check_new_materials(SceneCheck& check, const StageSpec& stage, const std::s
   }
 }
 
+/// A body is placed without stress.
+void check_new_bodies(SceneCheck& check, const StageSpec& stage, const std::string& key) {
+  const Scene& scene = check.scene();
+  for (std::size_t k = 0; k < stage.add.size(); ++k) {
+    const auto body = std::ranges::find(scene.later_bodies, stage.add[k], &BodySpec::name);
+    const auto material =
+        body == scene.later_bodies.end() ? scene.materials.end() : scene.materials.find(body->material);
+    const LawInfo* const law =
+        material == scene.materials.end() ? nullptr : check.catalogue().law(material->second.law);
+    check.wrong_if(law && law->needs_pressure, fmt::format("{}.add[{}]", key, k),
+                   "{} is placed without stress, and '{}' has no stiffness without pressure; take another law for it",
+                   in_quotes(stage.add[k]), material->second.law);
+  }
+}
+
 /// What stages cannot be had with.
 void check_company_of_stages(SceneCheck& check) {
   const Scene& scene = check.scene();
@@ -123,6 +138,7 @@ void check_other_run(SceneCheck& check) {
   std::error_code none;
   check.wrong_if(!std::filesystem::is_regular_file(scene.initial_from, none), from, "there is no file {}",
                  scene.initial_from.string());
+  check.refuse_if(true, "initial", {"stress"}, "does not go with initial.from, whose stress it is");
   check.wrong_if(scene.geostatic.has_value(), "initial.geostatic", "does not go with initial.from, whose stress it is");
   const auto materials = materials_in_use(scene, check.catalogue());
   const auto is_elastic = [&](const MaterialSpec* one) { return !check.catalogue().law(one->law)->history_dependent; };
@@ -169,6 +185,7 @@ void check_stages(SceneCheck& check) {
     supports.end(key + ".release", stage.release);
     supports.begin(key + ".hold", stage.hold);
     check_new_materials(check, stage, key);
+    check_new_bodies(check, stage, key);
     const bool is_last = k + 1 == scene.stages.size();
     const double end = is_last ? scene.stop.time : scene.stages[k + 1].at;
     check.wrong_if(stage.ramp.is_asked() && end > 0 && stage.at + stage.ramp > end, key + ".ramp",

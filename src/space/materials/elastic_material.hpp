@@ -93,7 +93,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
     begin_ = begin;
     count_ = count;
   }
-  void set_stress(const std::vector<Stresses>&) override {
+  void set_stress(const std::vector<Stresses>&, const InitialGround&) override {
     throw std::logic_error("an elastic law has no stress of its own");
   }
 

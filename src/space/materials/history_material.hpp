@@ -3,6 +3,7 @@
 
 #include <stillpoint/unroll.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,9 +28,10 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
               .finite_strain = true,
               .viscous = law.is_viscous(),
               .stress_stays = law.stress_stays(),
+              .needs_pressure = Law::needs_pressure,
               .history_size = Law::history * count,
               .wave_modulus = law.elastic_moduli({}, law.initial_history({}))[0]}) {
-    set_stress(std::vector<Stresses>(count, Stresses{}));
+    set_stress(std::vector<Stresses>(count, Stresses{}), {});
   }
 
   [[gnu::flatten]] double stress(Block& block, const double* V, double dt, double* trial) const override {
@@ -70,6 +72,18 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   Stresses cauchy(const Tensor&, std::size_t p) const override { return law_.cauchy(history(p)); }
   std::optional<YieldState> yield_state(std::size_t p) const override { return law_.yield_state(history(p)); }
 
+  double wave_modulus() const override {
+    if constexpr (Law::needs_pressure) {
+      double largest = 0;
+      for (std::size_t k = 0; k < count_; ++k) {
+        const IsotropicModuli at = law_.moduli_at(history(begin_ + k));
+        largest = std::max(largest, at.bulk + 4 * at.shear / 3);
+      }
+      return largest;
+    }
+    return Base::wave_modulus();
+  }
+
   Vec strength_shares() override {
     if constexpr (Law::share_row != no_share_row) return Vec(committed_).subspan(count_ * Law::share_row, count_);
     return {};
@@ -86,10 +100,11 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
     count_ = count;
     this->set_history_size(Law::history * count);
   }
-  void set_stress(const std::vector<Stresses>& stress) override {
+  void set_stress(const std::vector<Stresses>& stress, const InitialGround& ground) override {
     committed_.resize(Law::history * count_);
     for (std::size_t k = 0; k < count_; ++k) {
-      const History of_point = law_.initial_history(stress[k]);
+      const double factor = ground.factors.empty() ? 1 : ground.factors[k];
+      const History of_point = law_.initial_history(stress[k], {.at_rest = ground.at_rest, .factor = factor});
       for (std::size_t h = 0; h < Law::history; ++h) committed_[count_ * h + k] = of_point[h];
     }
   }

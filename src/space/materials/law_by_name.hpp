@@ -2,6 +2,7 @@
 // that they are compiled side by side.
 #pragma once
 
+#include <stillpoint/cam_clay.hpp>
 #include <stillpoint/drucker_prager.hpp>
 #include <stillpoint/hencky.hpp>
 #include <stillpoint/linear_elastic.hpp>
@@ -29,13 +30,13 @@ Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t b
                                      bool updated_lagrangian) {
   if (auto answers = own_law_answers(material.law, S, material.parameters))
     return std::make_unique<OwnMaterial<S>>(OwnLawAtPoint<S>(std::move(answers)), begin, count, updated_lagrangian);
-  const auto lame = LameParameters::from(material.parameters.at("E"), material.parameters.at("nu"));
+  const auto lame = [&] { return LameParameters::from(material.parameters.at("E"), material.parameters.at("nu")); };
   const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
     return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian);
   };
-  if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame));
-  if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame));
-  if (material.law == "hencky") return elastic(Hencky<S>(lame));
+  if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame()));
+  if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame()));
+  if (material.law == "hencky") return elastic(Hencky<S>(lame()));
   if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric || S == StressState::space) {
     const auto with_history = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
       if (material.undrained)
@@ -45,6 +46,7 @@ Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t b
     };
     if (material.law == "drucker-prager")
       return with_history(DruckerPrager<S>(DruckerPragerParameters::from(material)));
+    if (material.law == "cam-clay") return with_history(CamClay<S>(CamClayParameters::from(material)));
     if (material.law == "mohr-coulomb") {
       const auto parameters = MohrCoulombParameters::from(material);
       if (parameters.softening.empty() && material.by_place.empty()) return with_history(MohrCoulomb<S>(parameters));

@@ -3,8 +3,10 @@
 #include <stillpoint/drucker_prager_cone.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -38,6 +40,24 @@ constexpr ParameterInfo same_as(std::string_view other, ParameterInfo parameter)
 constexpr ParameterInfo by_place(ParameterInfo parameter) {
   parameter.by_place = true;
   return parameter;
+}
+
+constexpr ParameterInfo without_default(ParameterInfo parameter) {
+  parameter.required = false;
+  parameter.fallback = std::numeric_limits<double>::quiet_NaN();
+  return parameter;
+}
+
+std::optional<LawFault> fault_of_cam_clay(const MaterialSpec& material) {
+  const auto value = [&](const char* name) { return material.parameters.at(name); };
+  if (!(value("kappa") < value("lambda")))
+    return LawFault{"kappa", fmt::format("must be below lambda = {}, not {}", value("lambda"), value("kappa"))};
+  const bool by_OCR = !std::isnan(value("OCR")), by_pc = !std::isnan(value("pc"));
+  if (by_OCR && by_pc) return LawFault{"pc", "give either OCR or pc, not both"};
+  if (!by_OCR && !by_pc) return LawFault{"law", "'cam-clay' needs OCR or pc: how far it was pressed before"};
+  if (material.undrained && !material.water_modulus)
+    return LawFault{"undrained", "needs water_modulus with 'cam-clay', whose own stiffness follows the stress"};
+  return std::nullopt;
 }
 
 constexpr ParameterInfo youngs_modulus = positive("E", "Pa", "Young's modulus");
@@ -108,6 +128,27 @@ std::vector<LawInfo> built_in() {
        /*finite_strain=*/true,
        /*softens_by_rows=*/true,
        /*has_strength=*/true},
+      {"cam-clay",
+       "q^2/M^2 + p (p - pc) <= 0, associated flow, K = v p/kappa, dpc/pc = v/(lambda - kappa) of plastic volume "
+       "strain; "
+       "pressures positive; finite strain",
+       "Roscoe and Burland 1968",
+       {plane_strain, axisymmetric, space},
+       {positive("M", "1", "q/p in the critical state"),
+        positive("lambda", "1", "slope of the normal compression line, of v in ln p"),
+        positive("kappa", "1", "slope of unloading, below lambda"),
+        {"nu", "1", "Poisson's ratio", -1, 0.5, false, true, 0},
+        density,
+        positive("e0", "1", "void ratio at the start, v = 1 + e"),
+        by_place(without_default({"OCR", "1", "overconsolidation ratio, in place of pc", 1, infinity, true, false, 0})),
+        by_place(without_default(positive("pc", "Pa", "preconsolidation pressure at the start")))},
+       {ChoiceInfo{"volume", "the v of the stiffnesses: of now, or 1 + e0", {"evolves", "fixed"}, "evolves"}},
+       /*history_dependent=*/true,
+       /*finite_strain=*/true,
+       /*softens_by_rows=*/false,
+       /*has_strength=*/false,
+       /*needs_pressure=*/true,
+       &fault_of_cam_clay},
   };
 }
 

@@ -64,8 +64,15 @@ struct PointMaterialInfo {
   bool finite_strain = false;
   bool viscous = false;          // material stressed beyond its strength flows for a while, at a finite rate
   bool stress_stays = false;     // a zero increment returns the committed stress, to rounding
+  bool needs_pressure = false;   // the stiffness follows the stress: none without a pressure, and it may grow
   std::size_t history_size = 0;  // entries of the committed history, and of a trial history
-  double wave_modulus = 0;       // λ + 2μ or the corresponding modulus of the undeformed state [Pa]
+  double wave_modulus = 0;  // λ + 2μ or the corresponding modulus of the undeformed state [Pa]; unless it follows
+};
+
+/// InitialPoint of a material's points.
+struct InitialGround {
+  bool at_rest = false;
+  std::vector<double> factors{};  // (points); empty: 1
 };
 
 /// The material interface. One virtual call serves a block of points, so that the loop over them knows its law and is
@@ -99,6 +106,9 @@ class PointMaterial {
   virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
   /// The relation of the committed stress of point p to its strength; empty if the law has none.
   virtual std::optional<YieldState> yield_state(std::size_t /*p*/) const { return std::nullopt; }
+  /// λ + 2μ of the undeformed state; of a law whose stiffness follows the stress that of the committed state, the
+  /// largest of all points [Pa].
+  virtual double wave_modulus() const { return info_.wave_modulus; }
   /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite if it is not
   /// finite.
   virtual double stiffness_bound(const PointBlock<K>& block) const = 0;
@@ -114,7 +124,7 @@ class PointMaterial {
   /// Replaces the material's points: point number p is a copy of the former point number from[p].
   virtual void take(const std::vector<int>& from, std::size_t begin, std::size_t count) = 0;
   /// Sets the initial Cauchy stresses of the points, (points × stress components).
-  virtual void set_stress(const std::vector<Stresses>& stress) = 0;
+  virtual void set_stress(const std::vector<Stresses>& stress, const InitialGround& ground) = 0;
 
   /// The factor of each point's strength, if that varies from place to place; otherwise empty. set_stress() makes it 1.
   virtual Vec strength_shares() { return {}; }

@@ -14,10 +14,11 @@ namespace stillpoint {
 template <Kinematics K>
 PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
   std::set<std::string> names;
-  bool remembers = false, finite_strain = false;
+  bool remembers = false, finite_strain = false, follows_stress = false;
   for (const auto& material : body_.materials) {
     remembers = remembers || material->info().history_dependent;
     finite_strain = finite_strain || material->info().finite_strain;
+    follows_stress = follows_stress || material->info().needs_pressure;
     for (const auto& [name, values] : material->shown_history()) names.insert(name);
   }
   return {.dim = dim,
@@ -29,8 +30,10 @@ PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
           .updated_lagrangian = moves_on(),
           .remembers = remembers,
           .nonlinear = finite_strain || remembers,
-          // With history the elastic part is small, and yielding only softens; but the stiffness of springs may grow.
-          .stiffens = finite_strain && (!remembers || (moves_on() && held_by_springs))};
+          // With history the elastic part is small, and yielding only softens; but stiffness may follow the stress, and
+          // that of springs may grow.
+          .stiffens = finite_strain && (!remembers || follows_stress || (moves_on() && held_by_springs)),
+          .points_stiffen = finite_strain && (!remembers || follows_stress)};
 }
 
 template <Kinematics K>
@@ -152,7 +155,7 @@ double BodyAccount<K>::shortest_time() const {
   }
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
     const double density = problem_.materials.at(body_.material_names[m]).parameters.at("rho");
-    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->info().wave_modulus));
+    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->wave_modulus()));
   }
   return shortest;
 }

@@ -62,7 +62,9 @@ class DeformationFromPositions {
     return share;
   }
 
-  /// Prepares the first phase: an unknown that a support holds at rest now has U = 0 for as long as it is held.
+  bool has_begun() const { return !anchored_.empty(); }
+  /// Prepares the first phase of a run or a stage: an unknown that a support holds at rest now has U = 0 for as long as
+  /// it is held, but in a body that has moved before.
   void begin(Body<K>& body, const Weights& weights, const HeldUnknowns& held, std::size_t functions) {
     anchored_.assign(body.first_number.size() - 1, {});
     for (std::size_t b = 0; b < anchored_.size(); ++b) {
@@ -72,6 +74,7 @@ class DeformationFromPositions {
         for (int a = 0; a < per_cell; ++a) reached[static_cast<std::size_t>(weights.function(k, a))] = 1;
       });
       anchored_[b].assign(dim * functions, 0);
+      if (body.carried_on[b]) continue;
       for (std::size_t s = 0; s < held.prescribed().size(); ++s) {
         const auto unknown = static_cast<std::size_t>(held.prescribed()[s]);
         anchored_[b][unknown] = reached[unknown / dim] && at_rest(held, s);

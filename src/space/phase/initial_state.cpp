@@ -12,6 +12,7 @@
 #include "scene/body_depth.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "space/materials/material_laws.hpp"
 
 namespace stillpoint {
 namespace {
@@ -59,8 +60,42 @@ class MassAbove {
   bool by_depth_ = true;
 };
 
+/// The values of the parameter of material m that is a formula of the position, at its points; empty: there is none.
 template <Kinematics K>
-void set_geostatic_stress(const Problem& problem, Body<K>& body) {
+std::vector<double> values_by_place(const Problem& problem, const Body<K>& body, std::size_t m,
+                                    const std::vector<double>& origin) {
+  const MaterialSpec& material = problem.materials.at(body.material_names[m]);
+  const auto law = std::ranges::find(material_laws(), material.law, &LawInfo::name);
+  std::vector<double> values;
+  for (const auto& [name, formula] : material.by_place) {
+    const auto parameter = std::ranges::find(law->parameters, name, &ParameterInfo::name);
+    for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
+      auto x = body.points.position(static_cast<std::size_t>(p));
+      const auto number = static_cast<std::size_t>(body.points.number[static_cast<std::size_t>(p)]);
+      for (std::size_t d = 0; d < x.size() && !origin.empty(); ++d) x[d] = origin[x.size() * number + d];
+      const double value = formula(x, 0);
+      const bool is_above = parameter->lower_allowed ? value >= parameter->lower : value > parameter->lower;
+      if (!is_above || !std::isfinite(value))
+        throw_scene_error(
+            fmt::format("material.{}.{}", material.name, name),
+            fmt::format("must be {} {} everywhere, not {} at ({:.6g})", parameter->lower_allowed ? ">=" : ">",
+                        parameter->lower, value, fmt::join(x, ", ")));
+      values.push_back(value);
+    }
+  }
+  return values;
+}
+
+/// What a law takes by place and not as a strength is a factor of its initial state.
+template <Kinematics K>
+InitialGround initial_ground(const Problem& problem, const Body<K>& body, std::size_t m, bool at_rest,
+                             const std::vector<double>& origin) {
+  if (!body.materials[m]->strength_shares().empty()) return {.at_rest = at_rest};
+  return {.at_rest = at_rest, .factors = values_by_place(problem, body, m, origin)};
+}
+
+template <Kinematics K>
+void set_geostatic_stress(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
   if constexpr (dimensions(K) > 1) {
     const double b_y = problem.body_force.at(1)({}, 0);
     const MassAbove mass_above(problem);
@@ -75,31 +110,57 @@ void set_geostatic_stress(const Problem& problem, Body<K>& body) {
         const double side = problem.geostatic->K0 * vertical;
         stress.push_back({side, vertical, side});
       }
-      body.materials[m]->set_stress(stress);
+      body.materials[m]->set_stress(stress, initial_ground(problem, body, m, /*at_rest=*/true, origin));
     }
   }
 }
 
 template <Kinematics K>
-void set_parameters_by_place(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
-  const auto place_of = [&](std::size_t p) {
-    auto x = body.points.position(p);
-    const auto at = static_cast<std::size_t>(body.points.number[p]) * x.size();
-    for (std::size_t d = 0; d < x.size() && !origin.empty(); ++d) x[d] = origin[at + d];
-    return x;
-  };
+void set_uniform_stress(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
+  std::array<double, stress_components(K)> sigma{};
+  std::ranges::copy(problem.initial_stress, sigma.begin());
   for (std::size_t m = 0; m < body.materials.size(); ++m) {
-    const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
-    const Vec shares = body.materials[m]->strength_shares();
-    for (const auto& [name, formula] : problem.materials.at(body.material_names[m]).by_place) {
-      for (std::size_t k = 0; k < shares.size(); ++k) {
-        const auto x = place_of(begin + k);
-        shares[k] = formula(x, 0);
-        if (!(shares[k] >= 0) || !std::isfinite(shares[k]))
-          throw_scene_error(fmt::format("material.{}.{}", body.material_names[m], name),
-                            fmt::format("must be >= 0 everywhere, not {} at ({:.6g})", shares[k], fmt::join(x, ", ")));
+    const int count = body.points.material_begin[m + 1] - body.points.material_begin[m];
+    body.materials[m]->set_stress(std::vector(static_cast<std::size_t>(count), sigma),
+                                  initial_ground(problem, body, m, /*at_rest=*/false, origin));
+  }
+}
+
+/// A law whose stiffness follows the stress can begin neither without pressure nor outside its yield surface.
+template <Kinematics K>
+void check_initial_stress(const Problem& problem, const Body<K>& body) {
+  if constexpr (dimensions(K) > 1) {
+    constexpr double rounding = 1e-6;  // of a root of a difference, near the tip of an ellipse
+    for (std::size_t m = 0; m < body.materials.size(); ++m) {
+      const PointMaterial<K>& material = *body.materials[m];
+      if (!material.info().needs_pressure) continue;
+      const MaterialSpec& spec = problem.materials.at(body.material_names[m]);
+      for (int k = body.points.material_begin[m]; k < body.points.material_begin[m + 1]; ++k) {
+        const auto p = static_cast<std::size_t>(k);
+        const auto sigma = material.cauchy({}, p);
+        const double pressure = -(sigma[0] + sigma[1] + sigma[2]) / 3;
+        if (!(pressure > 0))
+          throw_scene_error(fmt::format("material.{}.law", spec.name),
+                            fmt::format("'{}' has no stiffness without pressure, and the mean pressure at ({:.6g}) is "
+                                        "{:.6g} Pa when the run begins; expected one above 0 everywhere",
+                                        spec.law, fmt::join(body.points.position(p), ", "), pressure));
+        const std::optional<YieldState> at = material.yield_state(p);
+        if (at && !(at->f <= rounding * pressure))
+          throw_scene_error(
+              fmt::format("material.{}.law", spec.name),
+              fmt::format("the initial stress at ({:.6g}) lies outside the yield surface of '{}': sqrt(J2) "
+                          "is {:.6g} Pa there, and {:.6g} Pa its strength; expected a larger pc or OCR >= 1",
+                          fmt::join(body.points.position(p), ", "), spec.law, at->root_J2, at->strength));
       }
     }
+  }
+}
+
+template <Kinematics K>
+void set_strength_by_place(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    const Vec shares = body.materials[m]->strength_shares();
+    if (!shares.empty()) std::ranges::copy(values_by_place(problem, body, m, origin), shares.begin());
   }
 }
 
@@ -107,8 +168,10 @@ void set_parameters_by_place(const Problem& problem, Body<K>& body, const std::v
 
 template <Kinematics K>
 void set_initial_state(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
-  if (problem.geostatic) set_geostatic_stress(problem, body);
-  set_parameters_by_place(problem, body, origin);
+  if (problem.geostatic) set_geostatic_stress(problem, body, origin);
+  if (!problem.initial_stress.empty()) set_uniform_stress(problem, body, origin);
+  check_initial_stress(problem, body);
+  set_strength_by_place(problem, body, origin);
 }
 
 template <Kinematics K>

@@ -5,6 +5,7 @@
 #include <array>
 #include <concepts>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "scene/point_sums.hpp"
@@ -51,7 +52,7 @@ class InternalForce {
     laws_.begin_phase();
     laws_.commit_averages(*borrow());
     take_elastic_moments();
-    if (frame_.phase == 0 && !frame_.remembers && some_law_is_finite()) undeformed_bound_ = bound_at_rest();
+    if (undeformed_bound_ == 0 && points_stiffen()) undeformed_bound_ = bound_at_rest();
   }
 
   /// The strength of the points is another one since the last commit.
@@ -191,7 +192,7 @@ class InternalForce {
     };
     return assemble_cells<B, K>(frame_.grid, frame_.body.points, weights, frame_.dofs(), add_point).free;
   }
-  /// The largest ratio of a point's stiffness bound at work.u to the undeformed one.
+  /// The largest stiffness bound of a point at work.u, as a frequency in its cell, over that when the run began.
   double stiffening(Work& work) const { return largest_bound(work) / undeformed_bound_; }
 
   /// The memory of elastic cells [bytes]; 0 if there are none.
@@ -205,6 +206,11 @@ class InternalForce {
   }
   bool some_law_is_finite() const {
     return std::ranges::any_of(frame_.body.materials, [](const auto& law) { return law->info().finite_strain; });
+  }
+  bool points_stiffen() const {
+    return some_law_is_finite() &&
+           (!frame_.remembers ||
+            std::ranges::any_of(frame_.body.materials, [](const auto& law) { return law->info().needs_pressure; }));
   }
   // In bilinear or trilinear cells with R(u) = K u, the points are needed only by their moments.
   void take_elastic_moments() {
@@ -234,12 +240,25 @@ class InternalForce {
            std::ranges::all_of(trial.arrays->u, [](double u) { return u == 0; });
   }
 
+  // 1/(ρ h²) with the shortest side h of the block's cells: what makes a frequency of a modulus.
+  double per_modulus(std::size_t m, const Block& block) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = block.first_cell; k < block.last_cell; ++k) {
+      const auto cell = frame_.grid.cell_at(frame_.body.points.cell[k]);
+      for (std::size_t axis = 0; axis < dim; ++axis) {
+        const auto& nodes = frame_.grid.axes[axis].nodes;
+        shortest = std::min(shortest, nodes[cell[axis] + 1] - nodes[cell[axis]]);
+      }
+    }
+    const double density = frame_.problem.materials.at(frame_.body.material_names[m]).parameters.at("rho");
+    return 1 / (density * shortest * shortest);
+  }
   double largest_bound(Work& work) const {
     double largest = 0;
     laws_.take_means(work.u.data(), work);
     points_.visit(work.u.data(), [&](std::size_t m, Block& block) {
       laws_.average(m, block, work);
-      const double bound = laws_.law(m).stiffness_bound(block);
+      const double bound = laws_.law(m).stiffness_bound(block) * per_modulus(m, block);
 #pragma omp critical(stillpoint_stiffening)
       largest = bound <= largest ? largest : bound;
     });
@@ -257,7 +276,7 @@ class InternalForce {
   bool materials_are_new_ = false;
   PointLaws<B, K> laws_{frame_, points_, committed_};
   ElasticCells<has_elastic_cells ? dim : 2> elastic_cells_;  // for a linear body in bilinear or trilinear cells
-  double undeformed_bound_ = 0;                              // stiffness bound of the points as placed
+  double undeformed_bound_ = 0;                              // largest_bound() of the points as placed [1/s²]
   WorkPool<Work> works_;
   WorkPool<TrialArrays> trials_;
 };

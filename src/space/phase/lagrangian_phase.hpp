@@ -40,6 +40,7 @@ struct PhaseInfo {
   bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
   bool may_touch = false;                  // whether rigid or other bodies may touch a body
   bool stiffens = false;  // whether a point can become stiffer than before, so that the critical step has to follow
+  bool points_stiffen = false;  // by the material alone
 };
 
 /// The discretisation of a phase, for `stillpoint check`.
@@ -216,8 +217,8 @@ class LagrangianPhase : public SemiDiscrete {
   /// The u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
   virtual std::vector<double> initial_displacement(double t) const = 0;
   virtual std::vector<double> initial_velocity(double t) = 0;
-  /// The s with K(u) ≤ s K(0), the largest ratio of a point's modulus to the undeformed one: omega_max grows by √s at
-  /// most. Infinite if u cannot be evaluated.
+  /// The growth s of the highest frequency squared that a point's modulus would give its cell, the largest now over the
+  /// largest when the run began: omega_max grows by √s. Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;
 
  protected:

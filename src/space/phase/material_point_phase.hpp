@@ -23,7 +23,6 @@ class MaterialPointPhase final : public LagrangianPhase {
   MaterialPointPhase(const Problem& problem, const PhaseBegin& begin)
       : LagrangianPhase({fields_, supports_, shape_, control_, diagnosis_}), all_(problem, begin) {
     info_ = all_.frame.account().describe(all_.conditions.hold_by_springs());
-    points_stiffen_ = info_.stiffens && !info_.remembers;
     if (all_.conditions.may_touch()) {
       info_.nonlinear = info_.may_touch = true;
       info_.stiffens = info_.stiffens || all_.frame.moves_on();
@@ -90,7 +89,7 @@ class MaterialPointPhase final : public LagrangianPhase {
   double stiffening(double t, ConstVec u) const override {
     if (!info_.stiffens) return 1;
     const double of_springs = all_.conditions.growth_of_springs();
-    if (!points_stiffen_) return of_springs;
+    if (!info_.points_stiffen) return of_springs;
     const auto work = all_.force.borrow();
     all_.frame.unknowns.spread(t, u, work->u);
     const double of_points = all_.force.stiffening(*work);
@@ -126,7 +125,6 @@ class MaterialPointPhase final : public LagrangianPhase {
   }
 
   PhaseAssembly<B, K> all_;
-  bool points_stiffen_ = false;
   PhaseTangents<B, K> tangents_{all_};
   PhaseFieldsOf<B, K> fields_{all_};
   PhaseSupportsOf<B, K> supports_{all_};

@@ -30,12 +30,7 @@ struct PhaseAssembly {
         frame(problem, static_cast<const CarriedBodyOf<K>*>(begin.carried)),
         conditions(problem, whole, frame.grid, frame.body, frame.origin, frame.account().shortest_time()) {
     extend_into_slivers();
-    if (frame.moves_on()) frame.origin = frame.account().positions();
-    if (begin.carried) {
-      static_cast<const CarriedBodyOf<K>*>(begin.carried)->take_origin(problem, frame.body.first_number, frame.origin);
-      conditions.take_over(begin.carried->conditions);
-    }
-    set_initial_state(problem, frame.body, frame.origin);
+    if (begin.carried) conditions.take_over(begin.carried->conditions);
     if (frame.moves_on()) set_initial_velocity(problem, frame.body);
     begin_phase(begin.t);
   }

@@ -16,6 +16,7 @@
 #include "space/kernels/nodal_totals.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/phase/body_account.hpp"
+#include "space/phase/initial_state.hpp"
 #include "space/phase/phase_unknowns.hpp"
 #include "space/points/make_body.hpp"
 
@@ -34,13 +35,18 @@ struct PhaseFrame {
         body(make_body<K>(of, grid, of.phase.ends(), carried)),
         remembers(std::ranges::any_of(body.materials, [](const auto& law) { return law->info().history_dependent; })),
         total_mass(account().total_mass()),
-        phase(carried ? carried->phase() : 0) {}
+        phase(carried ? carried->phase() : 0) {
+    if (moves_on()) origin = account().positions();
+    if (carried) carried->take_origin(problem, body.first_number, origin);
+    set_initial_state(problem, body, origin);
+    for (const auto& material : body.materials) wave_moduli.push_back(material->wave_modulus());
+  }
   PhaseFrame(const PhaseFrame&) = delete;
   PhaseFrame& operator=(const PhaseFrame&) = delete;
 
   /// Evaluates the weights of the points where they are now, and the sums over the points at the grid's functions.
   void make_weights() {
-    totals.begin(grid, body.points, weights, wave_moduli());
+    totals.begin(grid, body.points, weights, wave_moduli);
     number_corners();
     totals.sum(corner_sum);
   }
@@ -60,16 +66,10 @@ struct PhaseFrame {
   const PointMaterial<K>& material_of(std::size_t k) const {
     return *body.materials[static_cast<std::size_t>(body.points.material_of_cell(k))];
   }
-  /// The wave modulus λ + 2μ of each material [Pa].
-  std::vector<double> wave_moduli() const {
-    std::vector<double> moduli;
-    for (const auto& material : body.materials) moduli.push_back(material->info().wave_modulus);
-    return moduli;
-  }
   /// The stiffness bound of each function, with that of extended functions added to their sources, (functions) [N/m].
   std::vector<double> bound_of_functions() const {
     if (extension.empty()) return totals.bound();
-    return stiffness_bound<B, K>(body.points, weights, corner_sum, wave_moduli(), extension);
+    return stiffness_bound<B, K>(body.points, weights, corner_sum, wave_moduli, extension);
   }
 
   /// Calls visit(occupied cell, point, number of the point) for all points.
@@ -85,6 +85,9 @@ struct PhaseFrame {
   const FunctionsOfBasis<B, dim> functions{grid, body.fields};
   const bool remembers;     // whether some of the points have a history
   const double total_mass;  // Σ_p m_p at the start of the stage [kg]
+  /// The wave modulus of each material when the stage begins, by which masses are chosen; if the ground becomes
+  /// stiffer, the step becomes shorter [Pa].
+  std::vector<double> wave_moduli;
   // Positions at the start of the run, by the points' numbers, (P × dim); empty if points do not move on.
   std::vector<double> origin;
   long phase;  // number of the phase

@@ -58,7 +58,7 @@ class Remap {
   void take_deformation() {
     constexpr double cells_between = 0.1;
     if (!follows_positions()) return;
-    if (frame_.phase == 0)
+    if (!deformation_.has_begun())
       return deformation_.begin(frame_.body, frame_.weights, frame_.held(), frame_.functions_of_grid());
     if (motion_since_deformation_ < cells_between) return;
     motion_since_deformation_ = 0;

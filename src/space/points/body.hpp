@@ -27,6 +27,8 @@ struct Body {
   std::vector<int> first_number;    // number of the first point of each [[body]], and the number of all points: (bodies
                                     // + 1)
 
+  std::vector<char> carried_on;  // whether a stage or another run has left the points of each [[body]]
+
   /// The number of points that the body was filled with; domains that are halved have the number of their whole.
   std::size_t numbers() const { return static_cast<std::size_t>(first_number.back()); }
 };

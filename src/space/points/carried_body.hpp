@@ -29,10 +29,10 @@ struct CarriedMaterial {
   bool undrained = false, remembers = false;
   double density = 0;                // [kg/m³]
   std::size_t begin = 0, count = 0;  // its points are begin … begin + count − 1
-  std::vector<double> memory{};        // PointMaterial::memory(), (rows × count)
-  std::vector<double> stress{};        // without a pore pressure, (count × stress components) [Pa]
-  std::vector<std::string> names{};    // of the history that is shown
-  std::vector<double> shown{};         // (names × count)
+  std::vector<double> memory{};      // PointMaterial::memory(), (rows × count)
+  std::vector<double> stress{};      // without a pore pressure, (count × stress components) [Pa]
+  std::vector<std::string> names{};  // of the history that is shown
+  std::vector<double> shown{};       // (names × count)
 
   /// H: the displacement gradients of all points in a phase that is not over; empty: the phase has ended.
   static CarriedMaterial of(PointMaterial<K>& material, const MaterialSpec& spec, std::size_t begin, std::size_t count,
@@ -230,7 +230,7 @@ void take_states(const Problem& problem, const CarriedBodyOf<K>& carried, const 
     if (material.info().history_dependent) {
       std::vector<typename PointMaterial<K>::Stresses> stress(count);
       for_carried([&](std::size_t k, const auto& before, std::size_t j) { stress[k] = before.stress_at(j); });
-      material.set_stress(stress);
+      material.set_stress(stress, {});
     }
     const Vec memory = material.memory();
     const std::size_t rows = count > 0 ? memory.size() / count : 0;

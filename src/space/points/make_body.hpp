@@ -49,7 +49,9 @@ Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool 
     const double density = problem.materials.at(spec.material).parameters.at("rho");
     sources.emplace_back();
     body.first_number.push_back(number);
-    if (const auto before = carried ? carried->find(spec) : std::nullopt) {
+    const auto before = carried ? carried->find(spec) : std::nullopt;
+    body.carried_on.push_back(before.has_value());
+    if (before) {
       number += static_cast<int>(carried->numbers_of(*before));
       of_bodies.push_back(carried->points_of(*before, density, sources.back()));
       continue;

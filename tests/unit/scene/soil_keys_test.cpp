@@ -1,12 +1,15 @@
 // Keys of soils: tables of softening, water, parameters that are formulas of the position.
 #include <stillpoint/scene_error.hpp>
 
+#include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "files.hpp"
 #include "largest.hpp"
 #include "random_values.hpp"
 #include "scenes.hpp"
@@ -23,6 +26,29 @@ MaterialSpec soil_with(const std::vector<std::string>& overrides) {
   std::vector<std::string> all;
   for (const std::string& one : overrides) all.push_back(soil + one);
   return scenes::load("stable_slope", all).materials.at("soil");
+}
+
+/// ladder/triaxial_clay.toml with parts of its text replaced.
+using Changes = std::vector<std::pair<std::string, std::string>>;
+Scene scene_of_clay(const Changes& changes) {
+  std::string text = test::contents(std::string(STILLPOINT_PROBLEMS) + "/ladder/triaxial_clay.toml");
+  for (const auto& [from, to] : changes) {
+    const auto at = text.find(from);
+    if (at == std::string::npos) throw std::logic_error("the scene does not hold " + from);
+    text.replace(at, from.size(), to);
+  }
+  return load_scene("clay.toml", text, {});
+}
+const std::string without_stress = "[initial]\nstress = [-100e3, -100e3, -100e3, 0.0]\n";
+
+/// Why it is refused, when it is read or when its points are made; empty if it is not.
+std::string refusal_of_clay(const Changes& changes) {
+  try {
+    make_phase(scene_of_clay(changes));
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace
@@ -73,6 +99,65 @@ TEST_CASE("soil that cannot be is refused by name") {
   CHECK_THAT(scenes::refusal("stable_slope", {soil + "c=1e3*(11 - y)", soil + "softening=[[0.1, 1e3, 20, 0]]"}),
              Catch::Contains("softening: does not go with a cohesion that is a formula"));
   CHECK_THAT(scenes::refusal("column", {"material.soil.undrained=true"}), Catch::Contains("unknown key 'undrained'"));
+}
+
+TEST_CASE("Cam clay says what it misses, and what of its parameters goes together") {
+  struct Bad {
+    std::vector<std::string> set;
+    const char* message;
+  };
+  const std::string clay = "material.clay.";
+  const Bad all[] = {
+      {{clay + "kappa=0.2"}, "material.clay.kappa: must be below lambda = 0.2, not 0.2"},
+      {{clay + "OCR=0.9"}, "material.clay.OCR: must be at least 1, not 0.9"},
+      {{clay + "pc=2e5"}, "material.clay.pc: give either OCR or pc, not both"},
+      {{clay + "pc=0"}, "material.clay.pc: must be greater than 0, not 0"},
+      {{clay + "volume=still"}, "unknown value 'still'"},
+      {{clay + "undrained=true"}, "material.clay.undrained: needs water_modulus"},
+      {{"initial.stress=[1e5, 0, 0, 0]"}, "initial.stress: is a mean pressure of -33333.3 Pa"},
+      {{"initial.stress=[-1e5, -1e5, -1e5]"}, "initial.stress: expected 4 values (xx, yy, zz, xy), found 3"},
+      {{"initial.geostatic={K0=1, surface=1}", "body_force.value=[0, -9.81]"},
+       "initial.stress: does not go with initial.geostatic"},
+      {{"initial.u=[0, 0]"}, "initial.u: does not go with initial.stress"},
+  };
+  for (const auto& [set, message] : all) {
+    CAPTURE(set);
+    CHECK_THAT(scenes::refusal("ladder/triaxial_clay", set), Catch::Contains(message));
+  }
+  CHECK_THAT(refusal_of_clay({{"OCR = 1.0\n", ""}}), Catch::Contains("material.clay.law: 'cam-clay' needs OCR or pc"));
+  CHECK_THAT(refusal_of_clay({{without_stress, ""}}),
+             Catch::Contains("material.clay.law: 'cam-clay' has no stiffness without pressure"));
+  CHECK_THAT(refusal_of_clay({{"OCR = 1.0", "pc = 99e3"}}), Catch::Contains("outside the yield surface of 'cam-clay'"));
+  CHECK(refusal_of_clay({{"OCR = 1.0", "pc = 100e3"}}).empty());
+  CHECK(refusal_of_clay({{"OCR = 1.0", "pc = \"150e3 - 400e3*y\""}}).empty());
+  CHECK_THAT(refusal_of_clay({{"OCR = 1.0", "pc = \"150e3 - 2000e3*y\""}}),
+             Catch::Contains("material.clay.pc: must be > 0"));
+  CHECK_THAT(refusal_of_clay({{"OCR = 1.0", "OCR = \"2 - 20*y\""}}),
+             Catch::Contains("material.clay.OCR: must be >= 1"));
+  CHECK_THAT(refusal_of_clay({{without_stress,
+                               "[initial.geostatic]\nK0 = 1\nsurface = 0.1\n[body_force]\n"
+                               "value = [0, 9.81]\n"}}),
+             Catch::Contains("'cam-clay' has no stiffness without pressure, and the mean pressure at ("));
+}
+
+TEST_CASE("clay in level ground has the p_c of the largest vertical stress that it bore, by OCR at each place") {
+  // p_c/σ_v = 0.877787 at OCR = 1, of M = 1.2, λ = 0.2, κ = 0.04, ν = 0.3
+  const auto phase = make_phase(scene_of_clay(
+      {{without_stress, "[initial.geostatic]\nK0 = 0.866687013\nsurface = 0.1\n[body_force]\nvalue = [0, -10]\n"},
+       {"OCR = 1.0", "OCR = \"1 + 10*y\""}}));
+  const std::size_t P = phase->points();
+  std::vector<double> pc(P), e(P);
+  phase->fields().point_history("pc", pc);
+  phase->fields().point_history("void_ratio", e);
+  const std::vector<double> positions = phase->fields().point_data().positions;
+  for (std::size_t p = 0; p < P; ++p) {
+    const double y = positions[2 * p + 1], vertical = 1800 * 10 * (0.1 - y);
+    // At OCR = 1 this stress, flatter than normal consolidation makes it, lies on the yield surface
+    const double pressure = (1 + 2 * 0.866687013) / 3 * vertical, q = (1 - 0.866687013) * vertical;
+    const double through = pressure + q * q / (1.44 * pressure);
+    CHECK(pc[p] == Approx(std::max((1 + 10 * y) * 0.877786932671487 * vertical, through)).epsilon(1e-8));
+    CHECK(e[p] == 1);
+  }
 }
 
 TEST_CASE("undrained ground has a pore pressure and an effective stress among its fields") {
