@@ -107,6 +107,27 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
                   90);
 }
 
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one in any of its stages") {
+  for (const char* law : {"law=linear-elastic", "law=hencky", "law=drucker-prager"}) {
+    std::vector<std::string> set = {
+        std::string("material.fill.") + law,
+        "solve.method=relaxation",
+        "damping.strategy=cundall",
+        "stop.time=1.2",
+        "output.every=0.05",
+        "stage=[{at=0.2, add=['b'], hold=['prop']}, {at=0.5, add=['c'], release=['prop']}, "
+        "{at=0.8, remove=['c']}]",
+        "body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', "
+        "min=[0, '2*h'], max=['h', '3*h'], material='fill'}, {name='c', min=[0, '3*h'], "
+        "max=['h', '5*h'], material='fill'}]",
+        "support=[{face='bottom', name='floor'}, {face='left', kind='roller'}, {face='right', "
+        "kind='roller'}, {name='prop', at=[0, 'h'], component='y'}]",
+        "probe=[{name='top', at=['h/2', '5*h'], fields=['u.y']}, {name='ground', at=['h/2', "
+        "'2*h'], fields=['u.y', 'stress.yy']}]"};
+    for (const long steps : {60L, 120L, 200L, 300L}) check_same_bits({"ladder/lifts", set}, steps);
+  }
+}
+
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with rigid bodies that touch it") {
   check_same_bits({"ladder/incline", {"rigid[0].friction=0.28", "stop.steps=90", "output.every=0.05"}}, 70);
   check_same_bits({"ladder/pressed_plate", {"damping.strategy=viscous", "checkpoint.every_steps=5"}}, 72);
