@@ -111,13 +111,15 @@ class CamClay : public StressHistory<CamClay<S>, S, 3> {
     const Number ratio = 1 + growth, mean_v = evolving_ * (v * (1 + growth / 2)) + fixed_ * (1 + e0_);
     const Number y = (-1 / kappa_) * (evolving_ * (v * growth) + (fixed_ * (1 + e0_)) * logarithm_of(ratio, growth));
 
+    const double y_now = value_of(y);
+
     // The elastic end: p e^y and s + p ψ d, with d = 2 (r v/κ) dev e and ψ = (e^y − 1)/y
     const Increment<S, Number> increment(H, dH);
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3);
     const DeviatorOf<S, Number> s = increment.turned_stress(sigma, -p);
     const DeviatorOf<S, Number> d = increment.turned_stretch(Number((r_ / kappa_) * mean_v));
     const Number grown = exponential_minus_1(y);
-    const bool is_still = (value_of(y) > -small) & (value_of(y) < small);
+    const bool is_still = (y_now > -small) & (y_now < small);
     const Number divisor = either(is_still, Number(1), y);
     const Number psi = either(is_still, Number(1 + y / 2), Number(grown / divisor)), whole = p * psi;
     const Number p_trial = p + p * grown;
@@ -136,7 +138,7 @@ class CamClay : public StressHistory<CamClay<S>, S, 3> {
     const Number phi = either(outwards, Number(-C), Number(root - B)) / either(outwards, Number(root + B), A);
     const Number phi_grown = phi * grown;
     const Number series = phi * (1 + (1 - phi) * y * (0.5 + (1 - 2 * phi) * y * (1.0 / 6)));
-    const bool is_slow = (value_of(y) > -slow) & (value_of(y) < slow);
+    const bool is_slow = (y_now > -slow) & (y_now < slow);
     const Number time = either(is_slow, series, Number(logarithm_of(1 + phi_grown, phi_grown) / divisor));
     const Number left = 1 - time, p_yield = p + p * phi_grown, over_p = 1 / p_yield;
 
@@ -155,7 +157,7 @@ class CamClay : public StressHistory<CamClay<S>, S, 3> {
     const Number p_flow = p_trial * exponential((-1 / (1 + flow_.rho)) * logarithm_of(from_pc, from_pc - 1));
 
     const bool resolved = end.fastest <= CamClayFlow::most_g;
-    const bool in_reach = (value_of(y) > -most_y) & (value_of(y) < most_y) & (resolved | !yields);
+    const bool in_reach = (y_now > -most_y) & (y_now < most_y) & (resolved | !yields);
     const Number nan = std::numeric_limits<double>::quiet_NaN();
     const Number pressure = either(in_reach, either(yields, p_flow, p_trial), nan);
     const Number share_s = either(yields, Number(p_flow * of_s), Number(1)),
