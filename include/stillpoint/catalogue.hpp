@@ -11,6 +11,7 @@
 
 namespace stillpoint {
 
+struct MaterialSpec;
 struct Problem;
 
 /// A number that a law or an exact solution takes; allowed if lower < value < upper, and at lower itself if
@@ -32,6 +33,12 @@ struct ChoiceInfo {
   std::string_view fallback;
 };
 
+/// A fault of the value of a key of [material.<name>].
+struct LawFault {
+  std::string_view key;
+  std::string message;
+};
+
 /// A material law, named by material.<name>.law.
 struct LawInfo {
   std::string_view name, equation, source;
@@ -42,6 +49,10 @@ struct LawInfo {
   bool finite_strain = true;
   bool softens_by_rows = false;  // takes MaterialSpec::softening
   bool has_strength = false;     // in the parameters c, phi, psi and tension, which a factor of safety divides
+  std::vector<std::string_view> fields{};  // history variables of a law that a program has added, which probes may name
+  bool from_library = false;               // takes MaterialSpec::library, props and statev
+  /// Finds a fault of a material whose keys are each in order; null: there can be none.
+  std::optional<LawFault> (*fault)(const MaterialSpec&) = nullptr;
 };
 
 /// A damping strategy, named by damping.strategy: a damping force, or a relaxation, which is an iteration to rest.

@@ -78,13 +78,27 @@ constexpr Number hoop_increment(const GradientOf<S, Number>& H, const GradientOf
   }
 }
 
+/// The rotation R½ of an increment l = d + w in space.
+template <class Number>
+[[gnu::always_inline]] inline SpaceTensorOf<Number> half_rotation(const SpaceTensorOf<Number>& l) {
+  using std::sqrt;
+  // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
+  // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
+  const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
+  const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
+  const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
+  const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
+  const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
+  return {across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
+          c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+}
+
 /// The trial from the stress sigma, with the shear modulus shear_modulus(tr d) [Pa].
 template <StressState S, class Number, class ShearModulus>
 [[gnu::always_inline]] inline StressTrial<S, Number> stress_trial(const GradientOf<S, Number>& H,
                                                                   const GradientOf<S, Number>& dH,
                                                                   const Stress<S>& sigma,
                                                                   const ShearModulus& shear_modulus) {
-  using std::sqrt;
   if constexpr (S == StressState::space) {
     using T = SpaceTensorOf<Number>;
     const auto [s_xx, s_yy, s_zz, s_xy, s_yz, s_zx] = sigma;
@@ -96,15 +110,7 @@ template <StressState S, class Number, class ShearModulus>
     const T l = (1 / det_g) * (df * transpose(cof_g));
     const Number tr_d = trace(l), third = tr_d * (1.0 / 3);
 
-    // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
-    // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
-    const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
-    const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
-    const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
-    const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
-    const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
-    const T R_half{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
-                   c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+    const T R_half = half_rotation(l);
 
     // s = R½ (R½ s_n R½ᵀ + 2 G dev d) R½ᵀ
     const double p_n = (s_xx + s_yy + s_zz) * (1.0 / 3);

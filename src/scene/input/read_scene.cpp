@@ -77,6 +77,8 @@ void find_files(Scene& scene) {
       if (!file->empty()) *file = scene.file.parent_path() / *file;
   for (RigidSpec& rigid : scene.rigid)
     if (!rigid.stl.empty()) rigid.stl = scene.file.parent_path() / rigid.stl;
+  for (auto& [name, material] : scene.materials)
+    if (!material.library.empty()) material.library = scene.file.parent_path() / material.library;
 }
 
 /// A scene under overrides, with all that it may choose from.
