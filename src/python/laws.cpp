@@ -178,8 +178,7 @@ class PythonLaw final : public HistoryAnswers {
   }
   static void put(const TurnedIncrement<double>& by, const Stress<S>& before, std::size_t q, Array& stress,
                   Array& strain) {
-    std::ranges::copy(stress_vector<S>(turned(by.rotation, stress_in_space<S>(before))),
-                      stress.mutable_data() + stresses * q);
+    std::ranges::copy(turned_stress<S>(by.rotation, before), stress.mutable_data() + stresses * q);
     std::ranges::copy(strain_vector<S>(by.strain), strain.mutable_data() + stresses * q);
   }
   std::pair<Array, Array> ask(const Array& stress, const Array& strain, const Array& internal, double dt) const {

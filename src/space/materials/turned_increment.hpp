@@ -9,6 +9,7 @@
 
 #include <stillpoint/dual.hpp>
 #include <stillpoint/stress_increment.hpp>
+#include <stillpoint/unroll.hpp>
 
 #include <array>
 #include <cstddef>
@@ -21,18 +22,7 @@ struct TurnedIncrement {
   Number det_g;                            // as StressTrial has it: in two dimensions of the plane's part
 };
 
-/// A gradient in three dimensions; across a plane it has zz alone, which is 0 if there is no such component.
-template <StressState S, class Number>
-SpaceTensorOf<Number> gradient_in_space(const GradientOf<S, Number>& H) {
-  if constexpr (S == StressState::space) {
-    return {H[0], H[1], H[2], H[3], H[4], H[5], H[6], H[7], H[8]};
-  } else if constexpr (S == StressState::axisymmetric) {
-    return {H[0], H[1], 0, H[2], H[3], 0, 0, 0, H[4]};
-  } else {
-    return {H[0], H[1], 0, H[2], H[3], 0, 0, 0, 0};
-  }
-}
-/// A stress in three dimensions, likewise.
+/// A stress in three dimensions.
 template <StressState S>
 constexpr SpaceTensor stress_in_space(const Stress<S>& s) {
   if constexpr (S == StressState::space) {
@@ -55,22 +45,56 @@ constexpr Stress<S> strain_vector(const SpaceTensor& d) {
   for (std::size_t a = 3; a < e.size(); ++a) e[a] *= 2;
   return e;
 }
-template <StressState S>
-constexpr SpaceTensor strain_in_space(Stress<S> e) {
-  for (std::size_t a = 3; a < e.size(); ++a) e[a] /= 2;
-  return stress_in_space<S>(e);
+template <StressState S, class Number>
+[[gnu::always_inline]] inline TurnedIncrement<Number> turned_increment(const GradientOf<S, Number>& H,
+                                                                       const GradientOf<S, Number>& dH) {
+  using T = SpaceTensorOf<Number>;
+  if constexpr (S == StressState::space) {
+    const T change{dH[0], dH[1], dH[2], dH[3], dH[4], dH[5], dH[6], dH[7], dH[8]};
+    const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
+    const T g = f - 0.5 * change, cof_g = cofactor(g);
+    const Number det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
+    const T l = (1 / det_g) * (change * transpose(cof_g)), R_half = half_rotation(l);
+    const Number xy = 0.5 * (l.xy + l.yx), yz = 0.5 * (l.yz + l.zy), zx = 0.5 * (l.zx + l.xz);
+    const T d{l.xx, xy, zx, xy, l.yy, yz, zx, yz, l.zz};
+    return {turned(R_half, d), R_half * R_half, det_g};
+  } else {
+    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
+    const Number det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
+    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
+    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
+    const Number dzz = hoop_increment<S, Number>(H, dH);
+    // R turns by θ, tan(θ/2) = w_yx/2, and a tensor turns by θ under R½ in (half difference, shear).
+    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q), cos = (1 - q * q) * over, sin = 2 * q * over;
+    const Number half_d = 0.5 * (lxx - lyy), shear_d = 0.5 * (lxy + lyx), mean = 0.5 * (lxx + lyy);
+    const Number half = cos * half_d - sin * shear_d, shear = sin * half_d + cos * shear_d;
+    const Number none = 0, one = 1;
+    return {{mean + half, shear, none, shear, mean - half, none, none, none, dzz},
+            {cos, -sin, none, sin, cos, none, none, none, one},
+            det_g};
+  }
 }
 
-template <StressState S, class Number>
-TurnedIncrement<Number> turned_increment(const GradientOf<S, Number>& H, const GradientOf<S, Number>& dH) {
-  using T = SpaceTensorOf<Number>;
-  const T change = gradient_in_space<S, Number>(dH);
-  const T g = unit_plus(gradient_in_space<S, Number>(H) - 0.5 * change), cof_g = cofactor(g);
-  const Number det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
-  const T l = (1 / det_g) * (change * transpose(cof_g)), R_half = half_rotation(l);
-  const Number xy = 0.5 * (l.xy + l.yx), yz = 0.5 * (l.yz + l.zy), zx = 0.5 * (l.zx + l.xz);
-  const T d{l.xx, xy, zx, xy, l.yy, yz, zx, yz, l.zz};
-  return {turned(R_half, d), R_half * R_half, S == StressState::space ? det_g : g.xx * g.yy - g.xy * g.yx};
+/// The stress R σ Rᵀ.
+template <StressState S>
+[[gnu::always_inline]] inline Stress<S> turned_stress(const SpaceTensor& R, const Stress<S>& s) {
+  if constexpr (S == StressState::space) {
+    const SpaceTensor after = turned(R, SpaceTensor{s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]});
+    return {after.xx, after.yy, after.zz, after.xy, after.yz, after.zx};
+  } else {
+    const double half = (s[0] - s[1]) / 2, mean = (s[0] + s[1]) / 2;
+    const double cos2 = 1 - 2 * R.yx * R.yx, sin2 = 2 * R.yx * R.xx;
+    const double turned_half = cos2 * half - sin2 * s[3], turned_shear = sin2 * half + cos2 * s[3];
+    return {mean + turned_half, mean - turned_half, s[2], turned_shear};
+  }
+}
+/// A strain with engineering shears, likewise.
+template <StressState S>
+[[gnu::always_inline]] inline Stress<S> turned_strain(const SpaceTensor& R, Stress<S> e) {
+  unroll<stress_components(S) - 3>([&](auto k) __attribute__((always_inline)) { e[3 + k] *= 0.5; });
+  Stress<S> after = turned_stress<S>(R, e);
+  unroll<stress_components(S) - 3>([&](auto k) __attribute__((always_inline)) { after[3 + k] *= 2; });
+  return after;
 }
 
 /// The increment as the law is told it.

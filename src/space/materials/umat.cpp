@@ -36,13 +36,17 @@ struct ProbedAnswer {
   std::vector<double> statev;
   double pnewdt;
 
-  friend bool operator==(const ProbedAnswer& a, const ProbedAnswer& b) {
+  /// The first argument in which two answers differ; empty: they have the same bits.
+  static std::string_view difference(const ProbedAnswer& a, const ProbedAnswer& b) {
     const auto same = [](const auto& x, const auto& y) {
-      return std::ranges::equal(x, y, [](double p, double q) {  // the same bits, but for how it is no number
+      return std::ranges::equal(x, y, [](double p, double q) {  // what is no number is so in many ways
         return std::bit_cast<std::uint64_t>(p) == std::bit_cast<std::uint64_t>(q) || (std::isnan(p) && std::isnan(q));
       });
     };
-    return same(a.stress, b.stress) && same(a.ddsdde, b.ddsdde) && same(a.statev, b.statev) && a.pnewdt == b.pnewdt;
+    if (!same(a.stress, b.stress)) return "STRESS";
+    if (!same(a.statev, b.statev)) return "STATEV";
+    if (!same(a.ddsdde, b.ddsdde)) return "DDSDDE";
+    return a.pnewdt == b.pnewdt ? "" : "PNEWDT";
   }
 };
 
@@ -60,7 +64,6 @@ std::array<char, 80> padded_name(std::string_view name) {
 template <StressState S>
 class Umat final : public HistoryAnswers {
   static constexpr std::size_t components = gradient_components(S), tensor = stress_components(S), dim = dimensions(S);
-  using T = SpaceTensor;
 
  public:
   Umat(const MaterialSpec& material, std::shared_ptr<UmatLibrary> library)
@@ -74,27 +77,14 @@ class Umat final : public HistoryAnswers {
     library_->watch(watched_blocks);
   }
 
-  void first_piola(const PointsWithHistory& at) const noexcept override {
+  void first_piola(const PointsWithHistory& all) const noexcept override {
     const auto turn = library_->turn();
-    UmatArguments& call = arguments();
-    std::size_t q = 0;
-    struct Loop {
-      const Umat& law;
-      const PointsWithHistory& at;
-      UmatArguments& call;
-      std::size_t& q;
-    } loop{*this, at, call, q};
-    const bool whole = runs_without_exit(
-        [](void* data) {
-          const Loop& of = *static_cast<Loop*>(data);
-          for (; of.q < of.at.points; ++of.q) of.law.answer(of.at, of.q, of.call);
-        },
-        &loop);
-    if (!whole) {
-      has_left_ = true;
-      for (; q < at.points; ++q) {
-        for (std::size_t c = 0; c < components; ++c) at.P[at.stride * c + q] = nan;
-      }
+    for (std::size_t begin = 0; begin < all.points; begin += block) {
+      PointsWithHistory at = all;
+      at.points = std::min(block, all.points - begin);
+      for (const double** values : {&at.H, &at.dH, &at.committed}) *values += begin;
+      for (double** values : {&at.P, &at.next}) *values += begin;
+      answer_block(at);
     }
     if (library_->is_watched()) {
       library_->look_for_state();
@@ -104,21 +94,18 @@ class Umat final : public HistoryAnswers {
 
   void moduli(const double* H, const double* dH, double dt, const double* committed,
               double* A) const noexcept override {
+    Work& work = this->work();
+    if (!call_for(H, dH, dt, committed, work)) return static_cast<void>(std::fill_n(A, components * components, nan));
     const auto by = turned_increment<S, Dual<components>>(variables(gradient(H)), variables(gradient(dH)));
-    UmatArguments& call = arguments();
-    take_point(committed, 1, call);
-    take_increment(values_of(by), dt, call);
-    take_deformation(gradient(H), gradient(dH), committed, 1, call);
-    if (!call_in_turn(call)) return static_cast<void>(std::fill_n(A, components * components, nan));
-    std::ranges::copy(moduli_of_increment<S>(gradient(H), by, stress_of(call), moduli_of(call)), A);
+    std::ranges::copy(moduli_of_increment<S>(gradient(H), by, ours(work.call.stress), moduli_of(work.call)), A);
   }
 
   // With the symmetric part of DDSDDE without strain.
   void elastic_moduli(const double* H, const double* committed, double* A) const noexcept override {
-    UmatArguments& call = arguments();
-    take_point(committed, 1, call);
-    if (!call_at_rest(committed, call)) return static_cast<void>(std::fill_n(A, components * components, nan));
-    const StrainModuli<S> D = moduli_of(call);
+    Work& work = this->work();
+    if (!call_for(H, nothing_.data(), 0, committed, work))
+      return static_cast<void>(std::fill_n(A, components * components, nan));
+    const StrainModuli<S> D = moduli_of(work.call);
     StrainModuli<S> C = D;
     for (std::size_t a = 0; a < tensor; ++a) {
       for (std::size_t b = 0; b < tensor; ++b) C[a][b] = (D[a][b] + D[b][a]) / 2;
@@ -187,12 +174,6 @@ class Umat final : public HistoryAnswers {
     for (std::size_t a = 0; a < tensor; ++a) sigma[a] = of_umat[umat_row(a)];
     return sigma;
   }
-  static std::array<double, 6> of_umat(const Stress<S>& sigma) {
-    std::array<double, 6> components_of_umat{};
-    for (std::size_t a = 0; a < tensor; ++a) components_of_umat[umat_row(a)] = sigma[a];
-    return components_of_umat;
-  }
-  static Stress<S> stress_of(const UmatArguments& call) { return ours(call.stress); }
   static StrainModuli<S> moduli_of(const UmatArguments& call) {
     StrainModuli<S> C;
     for (std::size_t a = 0; a < tensor; ++a) {
@@ -200,16 +181,32 @@ class Umat final : public HistoryAnswers {
     }
     return C;
   }
-  static std::array<double, 9> by_columns(const T& A) { return {A.xx, A.yx, A.zx, A.xy, A.yy, A.zy, A.xz, A.yz, A.zz}; }
   static Gradient<S> gradient(const double* H) {
     Gradient<S> of_point;
     std::copy_n(H, components, of_point.begin());
     return of_point;
   }
 
-  // The arguments of this thread's calls, with what is the same in all of them.
-  UmatArguments& arguments() const {
-    static thread_local UmatArguments call;
+  // What the points of a block are given, before the calls: a row for each component.
+  static constexpr std::size_t block = 32;  // what they take stays in the first-level cache
+  using Row = std::array<double, block>;
+  template <std::size_t rows>
+  using Rows = std::array<Row, rows>;
+  struct Increments {
+    alignas(64) Rows<tensor> stress, stran, dstran;  // turned
+    alignas(64) Rows<components> before, after;      // F − I
+    alignas(64) Rows<9> rotation;
+    alignas(64) Row det_g;
+  };
+  struct Work {
+    UmatArguments call;
+    Increments by;
+  };
+
+  // This thread's, with the arguments that are the same in all calls.
+  Work& work() const {
+    static thread_local const auto own = std::make_unique<Work>();
+    UmatArguments& call = own->call;
     call.ndi = 3;
     call.nshr = static_cast<int>(tensor) - 3;
     call.ntens = static_cast<int>(tensor);
@@ -222,93 +219,181 @@ class Umat final : public HistoryAnswers {
     call.temp = call.dtemp = call.predef = call.dpred = 0;
     call.npt = call.layer = call.kspt = 1;
     call.kstep = {1, 0, 0, 0};
-    return call;
-  }
-
-  // The committed state of a point, whose numbers are stride entries apart, before an increment turns it.
-  void take_point(const double* now, std::size_t stride, UmatArguments& call) const {
-    for (std::size_t a = 0; a < tensor; ++a) {
-      call.stress[umat_row(a)] = now[stride * a];
-      call.stran[a] = now[stride * (row_of_strain() + a)];
-    }
-    for (std::size_t k = 0; k < states_; ++k) call.statev[k] = now[stride * (row_of_states() + k)];
     call.coords = {};
-    for (std::size_t i = 0; i < dim; ++i) call.coords[i] = now[stride * (row_of_position() + i)];
-    call.noel = static_cast<int>(now[stride * row_of_number()]) + 1;
-    call.celent = now[stride * row_of_cell()];
-    call.time.fill(now[stride * row_of_time()]);
-    call.kinc = static_cast<int>(now[stride * row_of_increments()]) + 1;
+    call.drot = call.dfgrd0 = call.dfgrd1 = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    return *own;
   }
-  void take_increment(const TurnedIncrement<double>& by, double dt, UmatArguments& call) const {
-    call.stress = of_umat(stress_vector<S>(turned(by.rotation, stress_in_space<S>(stress_of(call)))));
-    call.stran = of_umat(strain_vector<S>(turned(by.rotation, strain_in_space<S>(ours(call.stran)))));
-    call.dstran = of_umat(strain_vector<S>(by.strain));
-    call.drot = by_columns(by.rotation);
-    call.dtime = dt > 0 ? dt : no_time;
-    call.pnewdt = 1;
-    call.ddsdde = {};
-    call.ddsddt = call.drplde = {};
-    call.sse = call.spd = call.scd = call.rpl = call.drpldt = 0;
-  }
-  // DFGRD0 = F_n, and DFGRD1 = F_n + dH f_n⁻¹ F_n with f_n = I + H − dH; returns the last less I.
-  Gradient<S> take_deformation(const Gradient<S>& H, const Gradient<S>& dH, const double* now, std::size_t stride,
-                               UmatArguments& call) const {
-    Gradient<S> before;
-    for (std::size_t c = 0; c < components; ++c) before[c] = now[stride * (row_of_deformation() + c)];
-    const T change = gradient_in_space<S, double>(dH), from = gradient_in_space<S, double>(before);
-    const T f = unit_plus(gradient_in_space<S, double>(H) - change);
-    const T after = from + change * (inverse(f) * unit_plus(from));
-    call.dfgrd0 = by_columns(unit_plus(from));
-    call.dfgrd1 = by_columns(unit_plus(after));
-    if constexpr (S == StressState::space) {
-      return {after.xx, after.xy, after.xz, after.yx, after.yy, after.yz, after.zx, after.zy, after.zz};
-    } else if constexpr (S == StressState::axisymmetric) {
-      return {after.xx, after.xy, after.yx, after.yy, after.zz};
-    } else {
-      return {after.xx, after.xy, after.yx, after.yy};
+
+  // Vectorised. F_{n+1} = F_n + dH f_n⁻¹ F_n with f_n = I + H − dH.
+  [[gnu::flatten]] void prepare(const PointsWithHistory& at, Increments& by) const {
+    const std::size_t stride = at.stride, n = at.history_stride, points = at.points;
+    const double* __restrict H = at.H, * __restrict dH = at.dH, * __restrict now = at.committed;
+    const double* __restrict of_strain = now + n * row_of_strain();
+    const double* __restrict of_deformation = now + n * row_of_deformation();
+    Increments& __restrict to = by;
+#pragma GCC ivdep
+    for (std::size_t q = 0; q < points; ++q) {
+      Gradient<S> h, dh, F;
+      Stress<S> sigma, strain;
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        h[c] = H[stride * c + q];
+        dh[c] = dH[stride * c + q];
+        F[c] = of_deformation[n * c + q];
+      });
+      unroll<tensor>([&](auto a) __attribute__((always_inline)) {
+        sigma[a] = now[n * a + q];
+        strain[a] = of_strain[n * a + q];
+      });
+      const TurnedIncrement<double> increment = turned_increment<S, double>(h, dh);
+      const Stress<S> stress = turned_stress<S>(increment.rotation, sigma);
+      const Stress<S> total = turned_strain<S>(increment.rotation, strain);
+      const Stress<S> change = strain_vector<S>(increment.strain);
+      const auto change_of_f = displacement_gradient<S>(dh), from = displacement_gradient<S>(F);
+      const auto f = unit_plus(displacement_gradient<S>(h) - change_of_f);
+      const Gradient<S> after = gradient_part<S>(from + change_of_f * (inverse(f) * unit_plus(from)));
+      unroll<tensor>([&](auto a) __attribute__((always_inline)) {
+        to.stress[a][q] = stress[a];
+        to.stran[a][q] = total[a];
+        to.dstran[a][q] = change[a];
+      });
+      unroll<components>([&](auto c) __attribute__((always_inline)) {
+        to.before[c][q] = F[c];
+        to.after[c][q] = after[c];
+      });
+      const SpaceTensor& R = increment.rotation;
+      to.rotation[0][q] = R.xx, to.rotation[1][q] = R.yx, to.rotation[3][q] = R.xy, to.rotation[4][q] = R.yy;
+      if constexpr (S == StressState::space) {
+        to.rotation[2][q] = R.zx, to.rotation[5][q] = R.zy, to.rotation[6][q] = R.xz, to.rotation[7][q] = R.yz,
+        to.rotation[8][q] = R.zz;
+      }
+      to.det_g[q] = increment.det_g;
     }
   }
 
-  // P and the next history of point q.
-  void answer(const PointsWithHistory& at, std::size_t q, UmatArguments& call) const {
-    Gradient<S> H, dH;
-    for (std::size_t c = 0; c < components; ++c) {
-      H[c] = at.H[at.stride * c + q];
-      dH[c] = at.dH[at.stride * c + q];
-    }
+  // The entries of a matrix of Fortran, (3, 3), that components of a gradient take.
+  static constexpr std::array<std::size_t, components> columns_of_gradient() {
+    if constexpr (S == StressState::space) return {0, 3, 6, 1, 4, 7, 2, 5, 8};
+    if constexpr (S == StressState::axisymmetric) return {0, 3, 1, 4, 8};
+    if constexpr (S == StressState::plane_strain) return {0, 3, 1, 4};
+  }
+  // The arguments of the call for point q of a block that is prepared.
+  [[gnu::always_inline]] void fill(const PointsWithHistory& at, std::size_t q, const Increments& by,
+                                   UmatArguments& call) const {
     const std::size_t n = at.history_stride;
     const double* const now = at.committed + q;
-    double* const next = at.next + q;
-    const TurnedIncrement<double> by = turned_increment<S, double>(H, dH);
-    take_point(now, n, call);
-    take_increment(by, at.dt, call);
-    const Gradient<S> deformation = take_deformation(H, dH, now, n, call);
-    const std::array<double, 6> stran = call.stran, dstran = call.dstran;
-    library_->call(call);
-
-    Stress<S> sigma;
-    for (std::size_t a = 0; a < tensor; ++a) {
-      sigma[a] = call.stress[umat_row(a)];
-      next[n * a] = sigma[a];
-      next[n * (row_of_strain() + a)] = stran[a] + dstran[a];
-    }
-    for (std::size_t k = 0; k < states_; ++k) next[n * (row_of_states() + k)] = call.statev[k];
-    for (std::size_t c = 0; c < components; ++c) next[n * (row_of_deformation() + c)] = deformation[c];
-    for (std::size_t i = row_of_position(); i < row_of_time(); ++i) next[n * i] = now[n * i];
-    next[n * row_of_time()] = now[n * row_of_time()] + at.dt;
-    next[n * row_of_increments()] = now[n * row_of_increments()] + 1;
-    if (call.pnewdt < 1) sigma[0] = nan;
-    const auto P = nominal_stress<S, double>(H, by.det_g, sigma);
-    for (std::size_t c = 0; c < components; ++c) at.P[at.stride * c + q] = P[c];
+    unroll<tensor>([&](auto a) __attribute__((always_inline)) {
+      call.stress[umat_row(a)] = by.stress[a][q];
+      call.stran[umat_row(a)] = by.stran[a][q];
+      call.dstran[umat_row(a)] = by.dstran[a][q];
+      call.ddsddt[a] = call.drplde[a] = 0;
+    });
+    constexpr auto columns = columns_of_gradient();
+    unroll<components>([&](auto c) __attribute__((always_inline)) {
+      constexpr double diagonal = columns[c] % 4 == 0 ? 1 : 0;
+      call.dfgrd0[columns[c]] = diagonal + by.before[c][q];
+      call.dfgrd1[columns[c]] = diagonal + by.after[c][q];
+    });
+    unroll<9>([&](auto k) __attribute__((always_inline)) {
+      if (S == StressState::space || (k < 5 && k != 2)) call.drot[k] = by.rotation[k][q];
+    });
+    std::fill_n(call.ddsdde.begin(), tensor * tensor, 0.0);
+    for (std::size_t k = 0; k < states_; ++k) call.statev[k] = now[n * (row_of_states() + k)];
+    unroll<dim>([&](auto i) __attribute__((always_inline)) { call.coords[i] = now[n * (row_of_position() + i)]; });
+    call.noel = static_cast<int>(now[n * row_of_number()]) + 1;
+    call.celent = now[n * row_of_cell()];
+    call.time[0] = call.time[1] = now[n * row_of_time()];
+    call.kinc = static_cast<int>(now[n * row_of_increments()]) + 1;
+    call.dtime = at.dt > 0 ? at.dt : no_time;
+    call.pnewdt = 1;
+    call.sse = call.spd = call.scd = call.rpl = call.drpldt = 0;
   }
 
-  // False if it called XIT.
-  bool call_in_turn(UmatArguments& call) const {
+  // The calls of a block that is prepared, and what they leave; returns how many there were before one called XIT.
+  std::size_t call_for_block(const PointsWithHistory& at, Work& work) const {
+    struct Loop {
+      const Umat& law;
+      const PointsWithHistory& at;
+      Work& work;
+      std::size_t q = 0;
+    } loop{*this, at, work};
+    runs_without_exit(
+        [](void* data) {
+          Loop& of = *static_cast<Loop*>(data);
+          UmatArguments& call = of.work.call;
+          Rows<tensor>& stress = of.work.by.stress;
+          const std::size_t n = of.at.history_stride;
+          for (; of.q < of.at.points; ++of.q) {
+            of.law.fill(of.at, of.q, of.work.by, call);
+            of.law.library_->call(call);
+            for (std::size_t a = 0; a < tensor; ++a) stress[a][of.q] = call.stress[umat_row(a)];
+            double* const states = of.at.next + n * of.law.row_of_states() + of.q;
+            for (std::size_t k = 0; k < of.law.states_; ++k) states[n * k] = call.statev[k];
+            if (call.pnewdt < 1) of.work.by.det_g[of.q] = nan;
+          }
+        },
+        &loop);
+    return loop.q;
+  }
+
+  void answer_block(const PointsWithHistory& at) const {
+    Work& work = this->work();
+    Increments& by = work.by;
+    prepare(at, by);
+    const std::size_t called = call_for_block(at, work);
+    if (called < at.points) {
+      has_left_ = true;
+      std::fill(by.det_g.begin() + static_cast<std::ptrdiff_t>(called), by.det_g.end(), nan);
+    }
+    keep(at, by);
+  }
+  // P, NaN if det g is, and the next history but for the state variables.
+  [[gnu::flatten]] void keep(const PointsWithHistory& at, const Increments& by) const {
+    const std::size_t stride = at.stride, n = at.history_stride, points = at.points;
+    const double* __restrict H = at.H;
+    double* __restrict P = at.P;
+#pragma GCC ivdep
+    for (std::size_t q = 0; q < points; ++q) {
+      Gradient<S> h;
+      Stress<S> sigma;
+      unroll<components>([&](auto c) __attribute__((always_inline)) { h[c] = H[stride * c + q]; });
+      unroll<tensor>([&](auto a) __attribute__((always_inline)) { sigma[a] = by.stress[a][q]; });
+      const Gradient<S> nominal = nominal_stress<S, double>(h, by.det_g[q], sigma);
+      unroll<components>([&](auto c) __attribute__((always_inline)) { P[stride * c + q] = nominal[c]; });
+    }
+    const auto row = [&](std::size_t h) { return at.next + n * h; };
+    const auto before = [&](std::size_t h) { return at.committed + n * h; };
+    for (std::size_t a = 0; a < tensor; ++a) {
+      std::copy_n(by.stress[a].begin(), points, row(a));
+      double* const strain = row(row_of_strain() + a);
+      for (std::size_t q = 0; q < points; ++q) strain[q] = by.stran[a][q] + by.dstran[a][q];
+    }
+    for (std::size_t c = 0; c < components; ++c)
+      std::copy_n(by.after[c].begin(), points, row(row_of_deformation() + c));
+    for (std::size_t h = row_of_position(); h < row_of_time(); ++h) std::copy_n(before(h), points, row(h));
+    for (std::size_t q = 0; q < points; ++q) {
+      row(row_of_time())[q] = before(row_of_time())[q] + at.dt;
+      row(row_of_increments())[q] = before(row_of_increments())[q] + 1;
+    }
+  }
+
+  // A call for a single point; its answer is in work.call. False if it called XIT.
+  bool call_for(const double* H, const double* dH, double dt, const double* history, Work& work) const {
     const auto turn = library_->turn();
+    const PointsWithHistory at{.points = 1,
+                               .stride = 1,
+                               .H = H,
+                               .dH = dH,
+                               .P = nullptr,
+                               .dt = dt,
+                               .history_stride = 1,
+                               .committed = history,
+                               .next = nullptr};
+    prepare(at, work.by);
+    fill(at, 0, work.by, work.call);
     struct Once {
       const UmatLibrary& library;
       UmatArguments& call;
-    } once{*library_, call};
+    } once{*library_, work.call};
     const bool went_on = runs_without_exit(
         [](void* data) {
           const Once& of = *static_cast<Once*>(data);
@@ -318,16 +403,10 @@ class Umat final : public HistoryAnswers {
     if (!went_on) has_left_ = true;
     return went_on;
   }
-  // The call of an increment that is none, for a point that call holds.
-  bool call_at_rest(const double* history, UmatArguments& call) const {
-    take_increment({{}, identity<T>, 1}, 0, call);
-    take_deformation({}, {}, history, 1, call);
-    return call_in_turn(call);
-  }
 
   [[noreturn]] void refuse(const std::string& what) const { throw std::domain_error("the UMAT " + what); }
   static std::string told(const double* values, std::size_t count) {
-    return fmt::format("[{:.6g}]", fmt::join(values, values + count, ", "));
+    return fmt::format("[{:.12g}]", fmt::join(values, values + count, ", "));
   }
   std::string first_call(const double* history) const {
     Stress<S> stress;
@@ -336,9 +415,9 @@ class Umat final : public HistoryAnswers {
   }
 
   void check_answer_at_rest(const double* history) const {
-    UmatArguments& call = arguments();
-    take_point(history, 1, call);
-    if (!call_at_rest(history, call)) {
+    Work& work = this->work();
+    const UmatArguments& call = work.call;
+    if (!call_for(nothing_.data(), nothing_.data(), 0, history, work)) {
       has_left_ = false;
       refuse("calls XIT " + first_call(history));
     }
@@ -367,16 +446,11 @@ class Umat final : public HistoryAnswers {
   }
 
   ProbedAnswer probe(const double* history, std::size_t component, double strain, double dt) const {
-    UmatArguments& call = arguments();
-    take_point(history, 1, call);
-    Stress<S> e{};
-    e[component] = strain;
-    const T strained = strain_in_space<S>(e);
-    take_increment({strained, identity<T>, 1}, dt, call);
+    Work& work = this->work();
+    UmatArguments& call = work.call;
     Gradient<S> dH{};
-    dH[0] = strained.xx;  // about; what counts is that it is always the same
-    take_deformation(dH, dH, history, 1, call);
-    if (!call_in_turn(call)) {
+    dH[component] = strain;
+    if (!call_for(dH.data(), dH.data(), dt, history, work)) {
       has_left_ = false;
       call.stress.fill(nan);
     }
@@ -392,7 +466,7 @@ class Umat final : public HistoryAnswers {
     library_->look_for_state();
     std::vector<std::pair<std::size_t, double>> questions;
     for (const double strain : {1e-6, 1e-4, 1e-2}) {
-      for (std::size_t k = 0; k < tensor; ++k) {
+      for (std::size_t k = 0; k < components; ++k) {
         questions.emplace_back(k, strain);
         questions.emplace_back(k, -strain);
       }
@@ -402,13 +476,12 @@ class Umat final : public HistoryAnswers {
     library_->look_for_state();
     for (std::size_t k = questions.size(); k-- > 0;) {
       const auto& [component, strain] = questions[k];
-      const ProbedAnswer again = probe(history, component, strain, 1);
-      if (again == answers[k]) continue;
-      refuse(
-          fmt::format("answers the same call with STRESS = {} and then with {} (or with another STATEV or DDSDDE): it "
-                      "keeps a state of its own between calls; expected an answer that depends on the arguments "
-                      "alone, with the state in STATEV",
-                      told(answers[k].stress.data(), tensor), told(again.stress.data(), tensor)));
+      const std::string_view other = ProbedAnswer::difference(probe(history, component, strain, 1), answers[k]);
+      if (!other.empty())
+        refuse(
+            fmt::format("answers a call that is repeated with another {}: it keeps a state of its own between calls; "
+                        "expected an answer that depends on the arguments alone, with the state in STATEV",
+                        other));
     }
     library_->look_for_state();
     for (std::size_t k = 0; k < questions.size(); ++k) {
@@ -423,6 +496,7 @@ class Umat final : public HistoryAnswers {
     }
   }
 
+  static constexpr Gradient<S> nothing_{};
   std::shared_ptr<UmatLibrary> library_;
   std::array<char, 80> name_;
   std::string material_;
