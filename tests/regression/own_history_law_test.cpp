@@ -156,7 +156,7 @@ TEST_CASE("Newton's method finds with a UMAT what it finds with the built-in law
   const auto solved = [&](const std::string& material) {
     Simulation simulation(
         scene_of(folder, block("plane-strain", material),
-                 {"solve.method=newton", "solve.load_steps=4", "stop.residual=1e-11", "body_force.value=[1.0, -3]"}),
+                 {"solve.method=newton", "solve.load_steps=4", "stop.residual=1e-11", "body_force.value=[2, -3]"}),
         {.threads = 1});
     CHECK(simulation.run() == RunStatus::equilibrium);
     const ConstVec u = simulation.field("u");
