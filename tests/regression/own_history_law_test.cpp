@@ -228,6 +228,21 @@ TEST_CASE("what is wrong with a UMAT is told at its key, before anything moves")
   CHECK(with_names("[\"\", \"\", \"a\"]") == "accepted");
 }
 
+TEST_CASE("level ground of a UMAT that cannot do without pressure rests under its initial stress") {
+  const TemporaryFolder folder;
+  compiled_umat(folder, "faulty.c", "soil", "-DNEEDS_PRESSURE -Wl,--unresolved-symbols=ignore-all");
+  std::string text = block("plane-strain", "law = \"umat\"\nlibrary = \"soil.so\"\nrho = 1");
+  text += "[[support]]\nface = \"left\"\nkind = \"roller\"\n[[support]]\nface = \"right\"\nkind = \"roller\"\n";
+  const std::vector<std::string> level = {"solve.method=newton", "stop.residual=1e-9", "body_force.value=[0, -10]",
+                                          "grid.max=[1, 1.5]", "grid.cells=[4, 6]"};
+  CHECK(refusal(folder, text, level).find("calls XIT in its first call") != std::string::npos);
+  text += "[initial.geostatic]\nK0 = 0.5\nsurface = 1\n";
+  Simulation simulation(scene_of(folder, text, level), {.threads = 1});
+  CHECK(simulation.run() == RunStatus::equilibrium);
+  CHECK(largest_magnitude(simulation.field("u")) < 1e-12);  // rounding
+  CHECK(smallest_value(simulation.field("stress")) == Approx(-10 * (1 - 0.0625)));
+}
+
 TEST_CASE("a run tells that a UMAT keeps state, and ends where it calls XIT") {
   const TemporaryFolder folder;
   const std::string options = " -Wl,--unresolved-symbols=ignore-all";

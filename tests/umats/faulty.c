@@ -28,6 +28,9 @@ void NAME(double* STRESS, double* STATEV, double* DDSDDE, double* SSE, double* S
 #ifdef NO_NUMBER
   E = nan("");
 #endif
+#ifdef NEEDS_PRESSURE
+  if (STRESS[1] >= 0) xit_();
+#endif
 #ifdef CALLS_NOBODY
   is_nowhere_();
 #endif

@@ -22,6 +22,13 @@
 #include "space/materials/umat_library.hpp"
 #include "space/materials/umat_utilities.hpp"
 
+// A compiler cannot see that rows do not overlap.
+#if defined(__clang__)
+#define INDEPENDENT_POINTS _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define INDEPENDENT_POINTS _Pragma("GCC ivdep")
+#endif
+
 namespace stillpoint {
 namespace {
 
@@ -231,7 +238,7 @@ class Umat final : public HistoryAnswers {
     const double* __restrict of_strain = now + n * row_of_strain();
     const double* __restrict of_deformation = now + n * row_of_deformation();
     Increments& __restrict to = by;
-#pragma GCC ivdep
+    INDEPENDENT_POINTS
     for (std::size_t q = 0; q < points; ++q) {
       Gradient<S> h, dh, F;
       Stress<S> sigma, strain;
@@ -351,7 +358,7 @@ class Umat final : public HistoryAnswers {
     const std::size_t stride = at.stride, n = at.history_stride, points = at.points;
     const double* __restrict H = at.H;
     double* __restrict P = at.P;
-#pragma GCC ivdep
+    INDEPENDENT_POINTS
     for (std::size_t q = 0; q < points; ++q) {
       Gradient<S> h;
       Stress<S> sigma;
@@ -360,20 +367,22 @@ class Umat final : public HistoryAnswers {
       const Gradient<S> nominal = nominal_stress<S, double>(h, by.det_g[q], sigma);
       unroll<components>([&](auto c) __attribute__((always_inline)) { P[stride * c + q] = nominal[c]; });
     }
-    const auto row = [&](std::size_t h) { return at.next + n * h; };
+    const auto write = [&](std::size_t h, const auto& value) __attribute__((always_inline)) {
+      double* __restrict row = at.next + n * h;
+      INDEPENDENT_POINTS
+      for (std::size_t q = 0; q < points; ++q) row[q] = value(q);
+    };
     const auto before = [&](std::size_t h) { return at.committed + n * h; };
     for (std::size_t a = 0; a < tensor; ++a) {
-      std::copy_n(by.stress[a].begin(), points, row(a));
-      double* const strain = row(row_of_strain() + a);
-      for (std::size_t q = 0; q < points; ++q) strain[q] = by.stran[a][q] + by.dstran[a][q];
+      write(a, [&](std::size_t q) { return by.stress[a][q]; });
+      write(row_of_strain() + a, [&](std::size_t q) { return by.stran[a][q] + by.dstran[a][q]; });
     }
     for (std::size_t c = 0; c < components; ++c)
-      std::copy_n(by.after[c].begin(), points, row(row_of_deformation() + c));
-    for (std::size_t h = row_of_position(); h < row_of_time(); ++h) std::copy_n(before(h), points, row(h));
-    for (std::size_t q = 0; q < points; ++q) {
-      row(row_of_time())[q] = before(row_of_time())[q] + at.dt;
-      row(row_of_increments())[q] = before(row_of_increments())[q] + 1;
-    }
+      write(row_of_deformation() + c, [&](std::size_t q) { return by.after[c][q]; });
+    for (std::size_t h = row_of_position(); h < row_of_time(); ++h)
+      write(h, [now = before(h)](std::size_t q) { return now[q]; });
+    write(row_of_time(), [&, now = before(row_of_time())](std::size_t q) { return now[q] + at.dt; });
+    write(row_of_increments(), [now = before(row_of_increments())](std::size_t q) { return now[q] + 1; });
   }
 
   // A call for a single point; its answer is in work.call. False if it called XIT.
@@ -415,6 +424,7 @@ class Umat final : public HistoryAnswers {
   }
 
   void check_answer_at_rest(const double* history) const {
+    has_left_ = false;  // what it did without any stress does not count
     Work& work = this->work();
     const UmatArguments& call = work.call;
     if (!call_for(nothing_.data(), nothing_.data(), 0, history, work)) {
@@ -527,3 +537,5 @@ std::optional<LawFault> fault_of_umat(const MaterialSpec& material) {
 }
 
 }  // namespace stillpoint
+
+#undef INDEPENDENT_POINTS

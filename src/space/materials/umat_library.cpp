@@ -106,14 +106,6 @@ std::shared_ptr<UmatLibrary> UmatLibrary::open(const std::filesystem::path& file
   return library;
 }
 
-void UmatLibrary::call(UmatArguments& a) const {
-  routine_(a.stress.data(), a.statev.data(), a.ddsdde.data(), &a.sse, &a.spd, &a.scd, &a.rpl, a.ddsddt.data(),
-           a.drplde.data(), &a.drpldt, a.stran.data(), a.dstran.data(), a.time.data(), &a.dtime, &a.temp, &a.dtemp,
-           &a.predef, &a.dpred, a.cmname.data(), &a.ndi, &a.nshr, &a.ntens, &a.nstatv, a.props.data(), &a.nprops,
-           a.coords.data(), a.drot.data(), &a.pnewdt, &a.celent, a.dfgrd0.data(), a.dfgrd1.data(), &a.noel, &a.npt,
-           &a.layer, &a.kspt, a.kstep.data(), &a.kinc, a.cmname.size());
-}
-
 std::unique_lock<std::mutex> UmatLibrary::turn() const {
   return keeps_state_ || is_watched() ? std::unique_lock(one_at_a_time_) : std::unique_lock<std::mutex>();
 }

@@ -55,7 +55,13 @@ class UmatLibrary {
   /// Throws std::domain_error that says why it cannot be used, "there is no file …".
   static std::shared_ptr<UmatLibrary> open(const std::filesystem::path& file);
 
-  void call(UmatArguments& arguments) const;
+  [[gnu::always_inline]] inline void call(UmatArguments& a) const {
+    routine_(a.stress.data(), a.statev.data(), a.ddsdde.data(), &a.sse, &a.spd, &a.scd, &a.rpl, a.ddsddt.data(),
+             a.drplde.data(), &a.drpldt, a.stran.data(), a.dstran.data(), a.time.data(), &a.dtime, &a.temp, &a.dtemp,
+             &a.predef, &a.dpred, a.cmname.data(), &a.ndi, &a.nshr, &a.ntens, &a.nstatv, a.props.data(), &a.nprops,
+             a.coords.data(), a.drot.data(), &a.pnewdt, &a.celent, a.dfgrd0.data(), a.dfgrd1.data(), &a.noel, &a.npt,
+             &a.layer, &a.kspt, a.kstep.data(), &a.kinc, a.cmname.size());
+  }
 
   /// Taken around calls: it is free for all threads, unless the library keeps state or is still being watched.
   std::unique_lock<std::mutex> turn() const;
