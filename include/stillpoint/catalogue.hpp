@@ -11,8 +11,8 @@
 
 namespace stillpoint {
 
-struct Problem;
 struct MaterialSpec;
+struct Problem;
 
 /// A number that a law or an exact solution takes; allowed if lower < value < upper, and at lower itself if
 /// lower_allowed.
@@ -50,7 +50,9 @@ struct LawInfo {
   bool softens_by_rows = false;  // takes MaterialSpec::softening
   bool has_strength = false;     // in the parameters c, phi, psi and tension, which a factor of safety divides
   bool needs_pressure = false;   // no stiffness without pressure: an initial stress has to press everywhere
-  /// Finds a fault of a material whose parameters are each in their range; null: there can be none.
+  std::vector<std::string_view> fields{};  // history variables of a law that a program has added, which probes may name
+  bool from_library = false;               // takes MaterialSpec::library, props and statev
+  /// Finds a fault of a material whose keys are each in order; null: there can be none.
   std::optional<LawFault> (*fault)(const MaterialSpec&) = nullptr;
 };
 

@@ -99,6 +99,10 @@ struct MaterialSpec {  // [material.<name>]
   bool undrained = false;                 // saturated with water that cannot flow
   std::optional<double> water_modulus{};  // K_w [Pa]; empty: such that the undrained Poisson's ratio is 0.495
   double porosity = 1;                    // n, beside water_modulus
+  // For a law from a shared library:
+  std::filesystem::path library{};    // its file
+  std::vector<double> props{};        // its constants
+  std::vector<std::string> statev{};  // the names of its state variables, as many as it has; "" is not shown
 };
 
 struct ExactSpec {                             // [exact]: the exact solution, if it is known
@@ -223,7 +227,8 @@ struct ProbeSpec {  // [[probe]]
   // For a mean:
   std::vector<double> min, max;  // the box whose material points at the start are averaged over [m]
   // For all kinds but slope_angle:
-  std::vector<std::string> fields;  // names from probe_fields(dim); for a body from body_fields(dim)
+  std::vector<std::string> fields;  // names from probe_fields(dim), or of history variables of the materials' laws; for
+                                    // a body from body_fields(dim)
 };
 /// The fields that a probe of a point or of a mean may name: "u", "v", "strain", "stress" in one dimension, their
 /// components in two.

@@ -8,6 +8,7 @@
 #include <stillpoint/converge.hpp>
 #include <stillpoint/exact_solution.hpp>
 #include <stillpoint/own_damping.hpp>
+#include <stillpoint/own_history_law.hpp>
 #include <stillpoint/own_law.hpp>
 #include <stillpoint/own_load.hpp>
 #include <stillpoint/own_relaxation.hpp>

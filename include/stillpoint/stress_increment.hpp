@@ -78,6 +78,21 @@ constexpr Number hoop_increment(const GradientOf<S, Number>& H, const GradientOf
   }
 }
 
+/// The rotation R½ of an increment l = d + w in space.
+template <class Number>
+[[gnu::always_inline]] inline SpaceTensorOf<Number> half_rotation(const SpaceTensorOf<Number>& l) {
+  using std::sqrt;
+  // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
+  // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
+  const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
+  const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
+  const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
+  const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
+  const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
+  return {across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
+          c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+}
+
 /// The stretch d and the rotation R of an increment. Number: double, or a Dual, which carries derivatives by H and dH.
 template <StressState S, class Number>
 class PlaneIncrement {
@@ -132,7 +147,6 @@ class SpaceIncrement {
 
  public:
   [[gnu::always_inline]] SpaceIncrement(const std::array<Number, 9>& H, const std::array<Number, 9>& dH) {
-    using std::sqrt;
     const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
     const T df{dH[0], dH[1], dH[2], dH[3], dH[4], dH[5], dH[6], dH[7], dH[8]};
 
@@ -147,15 +161,7 @@ class SpaceIncrement {
     yz_ = l.yz + l.zy;
     zx_ = l.zx + l.xz;
 
-    // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
-    // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
-    const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
-    const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
-    const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
-    const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
-    const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
-    R_half_ = T{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
-                c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+    R_half_ = half_rotation(l);
   }
   [[gnu::always_inline]] T turned_stress(const Stress<StressState::space>& sigma, double p) const {
     return turned(R_half_, turned(R_half_, deviator(sigma, p)));

@@ -17,6 +17,28 @@
 
 namespace stillpoint {
 
+/// What an increment leaves of the water: its share of P and its pressure.
+template <StressState S, class Number>
+struct WaterAfter {
+  GradientOf<S, Number> P;  // [Pa]
+  Number pressure;          // [Pa]
+};
+
+/// From the committed pressure; stiffness: K_w/n [Pa].
+template <StressState S, class Number>
+[[gnu::always_inline]] inline WaterAfter<S, Number> water_after(const GradientOf<S, Number>& H,
+                                                                const GradientOf<S, Number>& dH, double pressure_before,
+                                                                double stiffness) {
+  GradientOf<S, Number> before = H;
+  unroll<gradient_components(S)>([&](auto c) __attribute__((always_inline)) { before[c] = H[c] - dH[c]; });
+  const Number J = volume_ratio<S>(H), J_before = volume_ratio<S>(before);
+  const Number growth = logarithm_of(J / J_before, (J - J_before) / J_before);
+  const Number pressure = pressure_before - stiffness * growth;
+  std::array<Number, stress_components(S)> of_water{};
+  unroll<3>([&](auto a) __attribute__((always_inline)) { of_water[a] = -pressure; });
+  return {nominal_stress<S, Number>(H, J_before, of_water), pressure};
+}
+
 /// A StressHistory in which the history of the law is followed by the pore pressure [Pa].
 template <class Law>
 class Undrained {
@@ -42,17 +64,10 @@ class Undrained {
                                                                History& next) const {
     typename Law::History of_skeleton = skeleton(next);
     GradientOf<state, Number> P = law_.first_piola(H, dH, dt, of_skeleton);
-    GradientOf<state, Number> before = H;
-    unroll<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { before[c] = H[c] - dH[c]; });
-    const Number J = volume_ratio<state>(H), J_before = volume_ratio<state>(before);
-    const Number growth = logarithm_of(J / J_before, (J - J_before) / J_before);
-    const Number pressure = next[Law::history] - stiffness_ * growth;
-    std::array<Number, stress_components(state)> of_water{};
-    unroll<3>([&](auto a) __attribute__((always_inline)) { of_water[a] = -pressure; });
-    const GradientOf<state, Number> P_of_water = nominal_stress<state, Number>(H, J_before, of_water);
-    unroll<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { P[c] = P[c] + P_of_water[c]; });
+    const WaterAfter<state, Number> water = water_after<state, Number>(H, dH, next[Law::history], stiffness_);
+    unroll<gradient_components(state)>([&](auto c) __attribute__((always_inline)) { P[c] = P[c] + water.P[c]; });
     unroll<Law::history>([&](auto h) __attribute__((always_inline)) { next[h] = of_skeleton[h]; });
-    next[Law::history] = value_of(pressure);
+    next[Law::history] = value_of(water.pressure);
     return P;
   }
 

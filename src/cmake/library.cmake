@@ -15,6 +15,12 @@ function(add_stillpoint_library target)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen PRIVATE stillpoint_flags ${STILLPOINT_DEPENDENCIES})
   target_compile_options(${target} PRIVATE ${ARGN})
   target_precompile_headers(${target} PRIVATE ${STILLPOINT_PRECOMPILED})
+  # What a UMAT in a library of a user's own calls, it finds in the program that links this one.
+  if(NOT BUILD_SHARED_LIBS)
+    foreach(routine rotsig_ sinv_ sprinc_ sprind_ xit_)
+      target_link_options(${target} INTERFACE "LINKER:--export-dynamic-symbol=${routine}")
+    endforeach()
+  endif()
   if(STILLPOINT_MULTIGRID_MODULE)
     add_dependencies(${target} stillpoint_multigrid)  # whoever has the library finds the module
   endif()

@@ -63,6 +63,9 @@ void list_materials() {
                  p.lower_allowed ? "<=" : "<", p.name, p.upper, fallback);
     }
     list_choices(law.choices);
+    if (law.from_library)
+      fmt::print("    {:<18}shared library with the subroutine, its constants, the names of its state variables\n",
+                 "library, props, statev");
   }
 }
 

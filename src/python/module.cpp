@@ -9,5 +9,6 @@ PYBIND11_MODULE(_core, module) {
   stillpoint::python::bind_unknowns(module);
   stillpoint::python::bind_simulation(module);
   stillpoint::python::bind_strategies(module);
+  stillpoint::python::bind_laws(module);
   stillpoint::python::bind_studies(module);
 }

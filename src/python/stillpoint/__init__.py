@@ -16,6 +16,7 @@ from . import errors
 from ._core import Motion, Points, Scene, Unknowns, __version__
 from .errors import Problem, SceneError, StateError
 from .figures import Figures
+from .laws import add_history_law
 from .progress import ProgressBar
 from .scenes import load
 from .simulations import Simulation, resume, run
@@ -35,6 +36,7 @@ __all__ = [
     "Unknowns",
     "__version__",
     "add_damping",
+    "add_history_law",
     "add_load",
     "add_relaxation",
     "compare",

@@ -1,6 +1,6 @@
 """The compiled half of the package: the library itself."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional
 
 import numpy as np
@@ -192,6 +192,17 @@ def add_relaxation(
     equation: str = ...,
     source: str = ...,
     needs_omega_1: bool = ...,
+) -> None: ...
+def add_history_law(
+    name: str,
+    answer: Callable[..., Any],
+    elastic: Callable[..., Any],
+    moduli: Callable[..., Any] | None,
+    *,
+    parameters: Mapping[str, float | None],
+    history: Sequence[str],
+    equation: str,
+    source: str,
 ) -> None: ...
 def load_file(file: str, overrides: Sequence[str]) -> Scene: ...
 def load_text(file: str, text: str, overrides: Sequence[str]) -> Scene: ...

@@ -102,6 +102,16 @@ std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
       of_law.push_back(key_of<MaterialSpec>("porosity", &MaterialSpec::porosity, "share of the water in the volume",
                                             {.range = {0, 1, false, true}, .unit = "1"}));
     }
+    if (law.from_library) {
+      of_law.push_back(key_of<MaterialSpec>("library", &MaterialSpec::library,
+                                            "shared library with the subroutine UMAT, beside the scene",
+                                            {.required = true}));
+      of_law.push_back(key_of<MaterialSpec>("props", &MaterialSpec::props, "the constants PROPS", {.list = true}));
+      of_law.push_back(key_of<MaterialSpec>("statev", &MaterialSpec::statev,
+                                            "names of the state variables STATEV, as many as there are: fields and "
+                                            "probes; one that is empty is not shown",
+                                            {.list = true, .may_be_empty = true}));
+    }
     if (law.softens_by_rows)
       of_law.push_back(
           key_of<MaterialSpec>("softening", &MaterialSpec::softening,

@@ -123,7 +123,9 @@ std::string hint(const auto* row, const char* is, const char* key) {
       .key("max", &ProbeSpec::max, "upper corner", {.unit = "m"})
       .key("fields", &ProbeSpec::fields,
            "u, v, strain, stress; with dim > 1 their components, as u.x and stress.yy, plastic_strain, and of "
-           "undrained ground pore_pressure and effective_stress, of Cam clay pc and void_ratio; of the body "
+           "undrained ground pore_pressure and effective_stress, of Cam clay pc and void_ratio; the names of statev; "
+           "of the "
+           "body "
            "volume, momentum, with dim = 2 momentum.x, momentum.y and angular_momentum about the origin, with dim = 3 "
            "momentum.x and angular_momentum.x to z",
            {.list = true});

@@ -79,6 +79,8 @@ void find_files(Scene& scene) {
   if (!scene.initial_from.empty()) scene.initial_from = scene.file.parent_path() / scene.initial_from;
   for (RigidSpec& rigid : scene.rigid)
     if (!rigid.stl.empty()) rigid.stl = scene.file.parent_path() / rigid.stl;
+  for (auto& [name, material] : scene.materials)
+    if (!material.library.empty()) material.library = scene.file.parent_path() / material.library;
 }
 
 /// Reports what is wrong with the first of the later stages in which something is.

@@ -1,5 +1,7 @@
 // Checks of the bodies: keys that go together, positions in the grid, numbers of points, and materials.
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -109,6 +111,9 @@ void check_water(SceneCheck& check, const MaterialSpec& material) {
   check.wrong_if(material.undrained && check.written(key("porosity")) && !material.water_modulus, key("porosity"),
                  "goes with water_modulus");
   if (!material.undrained) return;
+  check.wrong_if(!material.water_modulus && !(material.parameters.contains("E") && material.parameters.contains("nu")),
+                 key("undrained"),
+                 "needs a water_modulus: with a law that has no E and nu there is no undrained Poisson's ratio");
   double psi = 0;
   if (const auto found = material.parameters.find("psi"); found != material.parameters.end()) psi = found->second;
   for (const StrengthRow& row : material.softening) psi = std::max(psi, row.psi);
@@ -119,10 +124,30 @@ void check_water(SceneCheck& check, const MaterialSpec& material) {
       psi);
 }
 
-/// What a law itself finds wrong with its parameters, if all of them could be read.
-void check_parameters(SceneCheck& check, const MaterialSpec& material) {
+/// Names of state variables become fields and columns beside those that every body has.
+void check_state_variables(SceneCheck& check, const MaterialSpec& material) {
+  constexpr std::array taken = {"position",     "u", "v", "strain", "stress", "effective_stress", "volume",
+                                "pore_pressure"};
+  const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t k = 0; k < material.statev.size(); ++k) {
+    const std::string& name = material.statev[k];
+    const std::string key = fmt::format("material.{}.statev[{}]", material.name, k);
+    if (name.empty()) continue;
+    if (check.wrong_if(!std::ranges::all_of(name, fits) || std::isdigit(static_cast<unsigned char>(name[0])) != 0, key,
+                       "{} cannot be the name of a field; expected letters, digits and '_', beginning with a letter",
+                       in_quotes(name)))
+      continue;
+    check.wrong_if(std::ranges::find(taken, name) != taken.end(), key,
+                   "there is a field {} already; expected another name", in_quotes(name));
+    check.wrong_if(std::find(material.statev.begin(), material.statev.begin() + static_cast<std::ptrdiff_t>(k), name) !=
+                       material.statev.begin() + static_cast<std::ptrdiff_t>(k),
+                   key, "there are two state variables {}", in_quotes(name));
+  }
+}
+
+void check_fault_of_law(SceneCheck& check, const MaterialSpec& material) {
   const LawInfo* const law = check.catalogue().law(material.law);
-  if (!law || !law->fault) return;
+  if (!law || !law->fault || (law->from_library && material.library.empty())) return;
   const bool is_read = std::ranges::all_of(
       law->parameters, [&](const ParameterInfo& p) { return material.parameters.contains(std::string(p.name)); });
   if (!is_read) return;
@@ -199,7 +224,8 @@ std::optional<NamedBox> check_bodies(SceneCheck& check, bool grid, const std::ve
     check_dilation(check, material);
     check_softening(check, material);
     check_water(check, material);
-    check_parameters(check, material);
+    check_state_variables(check, material);
+    check_fault_of_law(check, material);
   }
   if (grid) check_number_of_points(check, in_order);
 

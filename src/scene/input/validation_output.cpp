@@ -10,9 +10,23 @@
 namespace stillpoint {
 namespace {
 
-void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
+/// The fields that a probe may name: those of every scene, and those of laws of a user's own in this one.
+std::vector<std::string> known_fields(SceneCheck& check, const ProbeSpec& probe) {
   const int dim = check.scene().dim;
-  const std::vector<std::string> known = probe.kind == ProbeKind::body ? body_fields(dim) : probe_fields(dim);
+  if (probe.kind == ProbeKind::body) return body_fields(dim);
+  std::vector<std::string> known = probe_fields(dim);
+  const auto add = [&](std::string_view name) {
+    if (!name.empty() && std::ranges::find(known, name) == known.end()) known.emplace_back(name);
+  };
+  for (const auto& [of, material] : check.scene().materials) {
+    std::ranges::for_each(material.statev, add);
+    if (const LawInfo* const law = check.catalogue().law(material.law)) std::ranges::for_each(law->fields, add);
+  }
+  return known;
+}
+
+void check_fields(SceneCheck& check, const ProbeSpec& probe, const std::string& key) {
+  const std::vector<std::string> known = known_fields(check, probe);
   if (check.wrong_if(!check.given(key + ".fields", !probe.fields.empty()), key, "the key 'fields' is missing")) return;
   check.wrong_if(probe.fields.empty() && check.sound(key + ".fields"), key + ".fields", "name at least one of {}",
                  fmt::join(known, ", "));

@@ -4,6 +4,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -84,8 +85,15 @@ std::optional<HeldByGap> held_by_gap(const Problem& problem, const std::vector<B
 
 }  // namespace
 
-std::vector<std::string> BodyNotes::at_start(const Problem& problem, const LagrangianPhase& phase) {
+std::vector<std::string> BodyNotes::of_laws(const LagrangianPhase& phase) {
   std::vector<std::string> notes;
+  for (std::string& note : phase.diagnosis().notes_of_laws())
+    if (told_.insert(note).second) notes.push_back(std::move(note));
+  return notes;
+}
+
+std::vector<std::string> BodyNotes::at_start(const Problem& problem, const LagrangianPhase& phase) {
+  std::vector<std::string> notes = of_laws(phase);
   const std::vector<BodyGap> pairs = phase.shape().body_gaps();
   if (pairs.empty()) return notes;
   const bool may_move = phase.info().updated_lagrangian || !problem.stop.wants_equilibrium();
@@ -108,7 +116,7 @@ std::vector<std::string> BodyNotes::at_start(const Problem& problem, const Lagra
 }
 
 std::vector<std::string> BodyNotes::later(const Problem& problem, const LagrangianPhase& phase) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = of_laws(phase);
   const std::size_t bodies = problem.bodies.size();
   if (known_.size() == bodies * (bodies - 1) / 2) return notes;
   for (const BodyGap& pair : phase.shape().body_gaps()) {

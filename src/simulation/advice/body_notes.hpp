@@ -1,4 +1,4 @@
-// Notes on bodies that the grid moves as one though they do not touch.
+// Notes on bodies: on those that the grid moves as one though they do not touch, and on laws as they are found.
 #pragma once
 
 #include <stillpoint/problem.hpp>
@@ -13,7 +13,7 @@
 namespace stillpoint {
 
 /// Functions of the grid that reach two bodies carry forces from one to the other before they touch. Each pair is told
-/// once: at the start, and in phases when they have come so near.
+/// once: at the start, and in phases when they have come so near. So is what a law turns out to be.
 class BodyNotes {
  public:
   /// Throws SceneError if equilibrium is asked for and nothing but such functions holds a body.
@@ -22,7 +22,10 @@ class BodyNotes {
   std::vector<std::string> later(const Problem& problem, const LagrangianPhase& phase);
 
  private:
+  std::vector<std::string> of_laws(const LagrangianPhase& phase);
+
   std::set<std::pair<std::size_t, std::size_t>> known_;
+  std::set<std::string> told_;
 };
 
 }  // namespace stillpoint

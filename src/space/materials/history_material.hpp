@@ -5,18 +5,16 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "space/materials/law_material.hpp"
+#include "space/materials/history_base.hpp"
 
 namespace stillpoint {
 
-/// A law with history. A trial does not change the committed history; committing swaps the two.
+/// A law with history whose size is known when it is compiled.
 template <HistoryLaw Law>
-class HistoryMaterial final : public LawMaterialBase<Law> {
-  using Base = LawMaterialBase<Law>;
+class HistoryMaterial final : public HistoryBase<Law> {
+  using Base = HistoryBase<Law>;
   using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
   using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
   using History = typename Law::History;
@@ -24,19 +22,17 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
  public:
   HistoryMaterial(const Law& law, std::size_t begin, std::size_t count)
       : Base(law, begin, count,
-             {.history_dependent = true,
-              .finite_strain = true,
-              .viscous = law.is_viscous(),
+             {.viscous = law.is_viscous(),
               .stress_stays = law.stress_stays(),
               .needs_pressure = Law::needs_pressure,
-              .history_size = Law::history * count,
-              .wave_modulus = law.elastic_moduli({}, law.initial_history({}))[0]}) {
-    set_stress(std::vector<Stresses>(count, Stresses{}), {});
+              .wave_modulus = law.elastic_moduli({}, law.initial_history({}))[0]},
+             Law::history) {
+    Base::set_stress(std::vector<Stresses>(count, Stresses{}), {});
   }
 
   [[gnu::flatten]] double stress(Block& block, const double* V, double dt, double* trial) const override {
-    const double* from = committed_.data() + block.first - begin_;
-    double* to = trial + block.first - begin_;
+    const double* from = Base::committed_at(block.first);
+    double* to = Base::trial_at(trial, block.first);
     const double* volume = V + block.first;
     const Law law = law_;
     const std::size_t count = block.count, n = count_;
@@ -64,7 +60,6 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
           return law.elastic_rate(block.H_at(q), block.direction_at(q), now);
         });
   }
-  void commit(std::vector<double>& trial) override { committed_.swap(trial); }
 
   ModuliMatrix moduli(Tangent kind, const Tensor& H, const Tensor& dH, double dt, std::size_t p) const override {
     return kind == Tangent::elastic ? law_.elastic_moduli(H, history(p)) : law_.moduli(H, dH, dt, history(p));
@@ -85,47 +80,20 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   }
 
   Vec strength_shares() override {
-    if constexpr (Law::share_row != no_share_row) return Vec(committed_).subspan(count_ * Law::share_row, count_);
+    if constexpr (Law::share_row != no_share_row) return Base::row(Law::share_row);
     return {};
   }
 
-  void end_phase(const Block&) override {}
-  Vec memory() override { return committed_; }
-  void reorder(const Reordering& order, std::vector<double>& work) override {
-    order.apply(committed_, work, begin_, count_);
-  }
-  void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
-    Base::take_values(committed_, from, begin, count);
-    begin_ = begin;
-    count_ = count;
-    this->set_history_size(Law::history * count);
-  }
-  void set_stress(const std::vector<Stresses>& stress, const InitialGround& ground) override {
-    committed_.resize(Law::history * count_);
-    for (std::size_t k = 0; k < count_; ++k) {
-      const double factor = ground.factors.empty() ? 1 : ground.factors[k];
-      const History of_point = law_.initial_history(stress[k], {.at_rest = ground.at_rest, .factor = factor});
-      for (std::size_t h = 0; h < Law::history; ++h) committed_[count_ * h + k] = of_point[h];
-    }
-  }
-
-  std::vector<PointArray> arrays() const override {
-    return {{"history, committed", Law::history * Base::real}, {"history, trial", Law::history * Base::real}};
-  }
-  std::vector<std::pair<std::string, ConstVec>> shown_history() const override {
-    std::vector<std::pair<std::string, ConstVec>> shown;
-    for (std::size_t h = 0; h < Law::history; ++h) {
-      if (Law::history_names[h].empty()) continue;
-      shown.emplace_back(Law::history_names[h], ConstVec(committed_).subspan(count_ * h, count_));
-    }
-    return shown;
-  }
-
  private:
+  void write_initial(const Stresses& stress, const InitialPoint& point, double* to) const override {
+    std::ranges::copy(law_.initial_history(stress, point), to);
+  }
+  std::string_view name_of(std::size_t row) const override { return Law::history_names[row]; }
+
   // Stores answer(q, committed history of point q) as the block's V P.
   template <class Answer>
   [[gnu::always_inline]] double loop(Block& block, const double* V, const Answer& answer) const {
-    const double* from = committed_.data() + block.first - begin_;
+    const double* from = Base::committed_at(block.first);
     const double* volume = V + block.first;
     const std::size_t n = count_;
     const auto point = [&](std::size_t q) __attribute__((always_inline)) {
@@ -137,11 +105,9 @@ class HistoryMaterial final : public LawMaterialBase<Law> {
   }
   History history(std::size_t p) const {
     History of_point;
-    for (std::size_t h = 0; h < Law::history; ++h) of_point[h] = committed_[count_ * h + p - begin_];
+    Base::read(p, of_point.data());
     return of_point;
   }
-
-  std::vector<double> committed_;  // (history × points)
 };
 
 }  // namespace stillpoint

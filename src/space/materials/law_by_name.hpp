@@ -12,11 +12,17 @@
 
 #include <memory>
 #include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "space/materials/elastic_material.hpp"
 #include "space/materials/history_material.hpp"
+#include "space/materials/own_history_material.hpp"
 #include "space/materials/own_material.hpp"
 #include "space/materials/point_material.hpp"
+#include "space/materials/umat.hpp"
+#include "space/materials/undrained_answers.hpp"
 
 namespace stillpoint {
 
@@ -24,12 +30,28 @@ namespace stillpoint {
 template <Kinematics K>
 using Made = std::unique_ptr<PointMaterial<K>>;
 
+/// The answers of a law whose history is known as it runs; null if the material has another law.
+template <StressState S>
+std::shared_ptr<const HistoryAnswers> history_answers(const MaterialSpec& material) {
+  auto answers = own_history_answers(material.law, S, material.parameters);
+  if constexpr (S == StressState::plane_strain || S == StressState::axisymmetric || S == StressState::space) {
+    if (material.law == "umat") answers = make_umat<S>(material);
+    if (answers && material.undrained)
+      answers = std::make_shared<UndrainedAnswers<S>>(std::move(answers), water_stiffness(material));
+  }
+  return answers;
+}
+
 /// Makes a material of this stress state; the arguments are those of make_point_material().
 template <StressState S>
 Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t begin, std::size_t count,
                                      bool updated_lagrangian) {
   if (auto answers = own_law_answers(material.law, S, material.parameters))
     return std::make_unique<OwnMaterial<S>>(OwnLawAtPoint<S>(std::move(answers)), begin, count, updated_lagrangian);
+  if (auto answers = history_answers<S>(material))
+    return std::make_unique<OwnHistoryMaterial<S>>(
+        std::move(answers), fmt::format("material.{}.{}", material.name, material.library.empty() ? "law" : "library"),
+        begin, count);
   const auto lame = [&] { return LameParameters::from(material.parameters.at("E"), material.parameters.at("nu")); };
   const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
     return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian);

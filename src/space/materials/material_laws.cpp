@@ -1,6 +1,7 @@
 #include "space/materials/material_laws.hpp"
 
 #include <stillpoint/drucker_prager_cone.hpp>
+#include <stillpoint/own_history_law.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +15,18 @@
 
 #include "base/registry.hpp"
 #include "base/text.hpp"
+#include "space/materials/umat.hpp"
 
 namespace stillpoint {
 namespace {
 
-using OfStates = std::map<StressState, MakeLaw>;
+/// What makes a law that a program has added: one of these is empty.
+struct OfStates {
+  std::map<StressState, MakeLaw> elastic{};
+  std::map<StressState, MakeHistoryLaw> with_history{};
+
+  bool is_built_in() const { return elastic.empty() && with_history.empty(); }
+};
 
 constexpr const char* fluidity = "fluidity";
 
@@ -148,7 +156,17 @@ std::vector<LawInfo> built_in() {
        /*softens_by_rows=*/false,
        /*has_strength=*/false,
        /*needs_pressure=*/true,
+       /*fields=*/{},
+       /*from_library=*/false,
        &fault_of_cam_clay},
+      {.name = "umat",
+       .equation = "an Abaqus UMAT from a shared library, finite strain",
+       .source = "the user's own",
+       .states = {plane_strain, axisymmetric, space},
+       .parameters = {density},
+       .history_dependent = true,
+       .from_library = true,
+       .fault = &fault_of_umat},
   };
 }
 
@@ -174,9 +192,13 @@ void check_parameters(const OwnLaw& about) {
   }
 }
 
-LawInfo row_of(const OwnLaw& about, const OfStates& of_states) {
+LawInfo row_of(const OwnLaw& about, const OfStates& of_states, const std::set<std::string>& fields) {
   LawInfo info{kept_for_good(about.name), kept_for_good(about.equation), kept_for_good(about.source), {}, {}};
-  for (const auto& [state, make] : of_states) info.states.push_back(state);
+  info.history_dependent = !of_states.with_history.empty();
+  for (const std::string& field : fields)
+    if (!field.empty()) info.fields.push_back(kept_for_good(field));
+  for (const auto& [state, make] : of_states.elastic) info.states.push_back(state);
+  for (const auto& [state, make] : of_states.with_history) info.states.push_back(state);
   for (const OwnParameter& p : about.parameters)
     info.parameters.push_back({kept_for_good(p.name), kept_for_good(p.unit), kept_for_good(p.meaning), p.lower, p.upper,
                                false, !p.fallback, p.fallback.value_or(0)});
@@ -184,16 +206,29 @@ LawInfo row_of(const OwnLaw& about, const OfStates& of_states) {
   return info;
 }
 
+void put(const OwnLaw& about, const OfStates& of_states, const std::set<std::string>& fields = {}) {
+  if (!is_plain_word(about.name))
+    throw std::invalid_argument(
+        fmt::format("a law cannot be called '{}'; expected {}", about.name, what_a_plain_word_is));
+  if (of_states.is_built_in()) throw std::invalid_argument(fmt::format("the law '{}' has no stress state", about.name));
+  check_parameters(about);
+  const auto& laws = registry().infos();
+  const bool is_known = std::ranges::find(laws, about.name, &LawInfo::name) != laws.end();
+  if (is_known && registry().maker(about.name).is_built_in())
+    throw std::invalid_argument(fmt::format("'{}' is a law of this library; expected another name", about.name));
+  registry().put(row_of(about, of_states, fields), of_states);
+}
+
 }  // namespace
 
 const std::vector<LawInfo>& material_laws() { return registry().infos(); }
 
-// A user-defined law may have a parameter of this name, but has no history.
+// A user-defined law may have a parameter of this name.
 bool is_viscous(const MaterialSpec& material) {
   const auto law = std::ranges::find(material_laws(), material.law, &LawInfo::name);
   const auto beta = material.parameters.find(fluidity);
   return law != material_laws().end() && law->history_dependent && beta != material.parameters.end() &&
-         beta->second > 0;
+         beta->second > 0 && registry().maker(material.law).is_built_in();
 }
 
 // K_u = 2 G (1 + ν_u)/(3 (1 − 2 ν_u)) = K + K_w/n
@@ -210,22 +245,25 @@ MaterialSpec rate_independent(MaterialSpec material) {
   return material;
 }
 
-void add_law(const OwnLaw& about, const OfStates& of_states) {
-  if (!is_plain_word(about.name))
-    throw std::invalid_argument(
-        fmt::format("a law cannot be called '{}'; expected {}", about.name, what_a_plain_word_is));
-  if (of_states.empty()) throw std::invalid_argument(fmt::format("the law '{}' has no stress state", about.name));
-  check_parameters(about);
-  const bool is_known = std::ranges::find(material_laws(), about.name, &LawInfo::name) != material_laws().end();
-  if (is_known && registry().maker(about.name).empty())
-    throw std::invalid_argument(fmt::format("'{}' is a law of this library; expected another name", about.name));
-  registry().put(row_of(about, of_states), of_states);
+void add_law(const OwnLaw& about, const std::map<StressState, MakeLaw>& of_states) {
+  put(about, {.elastic = of_states});
+}
+
+void add_history_law(const OwnLaw& about, const std::vector<std::string>& fields,
+                     const std::map<StressState, MakeHistoryLaw>& of_states) {
+  put(about, {.with_history = of_states}, {fields.begin(), fields.end()});
 }
 
 std::shared_ptr<const LawAnswers> own_law_answers(const std::string& law, StressState state,
                                                   const LawParameters& parameters) {
   const OfStates of_states = registry().maker(law);
-  return of_states.empty() ? nullptr : of_states.at(state)(parameters);
+  return of_states.elastic.empty() ? nullptr : of_states.elastic.at(state)(parameters);
+}
+
+std::shared_ptr<const HistoryAnswers> own_history_answers(const std::string& law, StressState state,
+                                                          const LawParameters& parameters) {
+  const OfStates of_states = registry().maker(law);
+  return of_states.with_history.empty() ? nullptr : of_states.with_history.at(state)(parameters);
 }
 
 }  // namespace stillpoint

@@ -12,6 +12,8 @@
 
 namespace stillpoint {
 
+class HistoryAnswers;
+
 /// K_w/n of an undrained material [Pa]: that of its water or, without one, such that the undrained Poisson's ratio is
 /// 0.495. Without one the law has to have E.
 double water_stiffness(const MaterialSpec& material);
@@ -24,8 +26,11 @@ bool is_viscous(const MaterialSpec& material);
 /// The same material without viscosity, which gives its long-term strength.
 MaterialSpec rate_independent(MaterialSpec material);
 
-/// Makes a law that the program has added; null if there is none of this name.
+/// Makes a law that the program has added; null if there is none of this name, or if it is one with a history.
 std::shared_ptr<const LawAnswers> own_law_answers(const std::string& law, StressState state,
                                                   const LawParameters& parameters);
+/// The same for a law with a history.
+std::shared_ptr<const HistoryAnswers> own_history_answers(const std::string& law, StressState state,
+                                                          const LawParameters& parameters);
 
 }  // namespace stillpoint

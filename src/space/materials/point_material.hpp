@@ -8,6 +8,7 @@
 #include <stillpoint/unroll.hpp>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,6 +58,15 @@ struct PointBlock {
     return tensor;
   }
 };
+
+/// A point of a material before the motion.
+struct PlaceOfPoint {
+  std::array<double, 3> position{};  // [m]; in the plane z = 0
+  int number = 0;                    // from 0
+  double cell = 0;                   // the mean side of the grid's cells [m]
+};
+/// The points of a material before the motion, in their order.
+using PointPlaces = std::function<PlaceOfPoint(std::size_t point)>;
 
 /// The constant properties of a material that all its points share.
 struct PointMaterialInfo {
@@ -126,6 +136,14 @@ class PointMaterial {
   /// Sets the initial Cauchy stresses of the points, (points × stress components).
   virtual void set_stress(const std::vector<Stresses>& stress, const InitialGround& ground) = 0;
 
+  /// Tells a law where its points are, once their initial stress is set. Throws SceneError if the law cannot answer
+  /// there.
+  virtual void begin(const PointPlaces&) {}
+  /// Throws what a law has met since the last call that is no matter of a smaller step.
+  virtual void throw_what_failed() const {}
+  /// What users should know of the law as it is found.
+  virtual std::vector<std::string> notes() const { return {}; }
+
   /// The factor of each point's strength, if that varies from place to place; otherwise empty. set_stress() makes it 1.
   virtual Vec strength_shares() { return {}; }
 
@@ -136,6 +154,8 @@ class PointMaterial {
 
  protected:
   void set_history_size(std::size_t size) { info_.history_size = size; }
+  void set_wave_modulus(double modulus) { info_.wave_modulus = modulus; }
+  void set_viscous(bool viscous) { info_.viscous = viscous; }
 
  private:
   PointMaterialInfo info_;

@@ -164,6 +164,28 @@ void set_strength_by_place(const Problem& problem, Body<K>& body, const std::vec
   }
 }
 
+template <Kinematics K>
+void begin_laws(const Problem& problem, Body<K>& body) {
+  double cell = 1;
+  for (std::size_t axis = 0; axis < dimensions(K); ++axis) cell *= mean_cell(problem.grid, axis);
+  cell = std::pow(cell, 1.0 / dimensions(K));
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
+    body.materials[m]->begin([&](std::size_t k) {
+      PlaceOfPoint place{.number = body.points.number[begin + k], .cell = cell};
+      std::ranges::copy(body.points.position(begin + k), place.position.begin());
+      return place;
+    });
+    // That of this library is made without its viscosity where no time passes.
+    if (problem.solve.is_static() && body.materials[m]->info().viscous)
+      throw_scene_error(
+          "solve.method",
+          fmt::format("'{}' has no time, and the law '{}' of material.{} answers to the rate of strain; "
+                      "expected solve.method = \"relaxation\"",
+                      problem.solve.method, problem.materials.at(body.material_names[m]).law, body.material_names[m]));
+  }
+}
+
 }  // namespace
 
 template <Kinematics K>
@@ -172,6 +194,7 @@ void set_initial_state(const Problem& problem, Body<K>& body, const std::vector<
   if (!problem.initial_stress.empty()) set_uniform_stress(problem, body, origin);
   check_initial_stress(problem, body);
   set_strength_by_place(problem, body, origin);
+  begin_laws(problem, body);
 }
 
 template <Kinematics K>

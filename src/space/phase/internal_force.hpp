@@ -124,6 +124,7 @@ class InternalForce {
     } else {
       good = points_.template evaluate_cells<false>(of_elastic_cells(u), dofs, R, trial.reactions, work.nodal);
     }
+    heed_laws();
     return good && laws_.add_shared_forces(u, R, trial.reactions, work);
   }
   void commit(PhaseTrial& trial) {
@@ -154,6 +155,7 @@ class InternalForce {
       return 0.0;
     };
     points_.template evaluate<true, true>(u, committed_.u.data(), std::cref(answer), dofs, dR, {}, work.nodal, du);
+    heed_laws();
     laws_.add_shared_forces(u, dR, {}, work);
   }
   /// The stiffness K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i.
@@ -199,6 +201,10 @@ class InternalForce {
   double bytes_of_elastic_cells() const { return elastic_cells_.empty() ? 0 : elastic_cells_.bytes(); }
 
  private:
+  // What a law has met is thrown here, outside the parallel loops.
+  void heed_laws() const {
+    for (const auto& law : frame_.body.materials) law->throw_what_failed();
+  }
   void size_histories(TrialArrays& arrays) const {
     arrays.history.resize(frame_.body.materials.size());
     for (std::size_t m = 0; m < arrays.history.size(); ++m)

@@ -135,10 +135,12 @@ class PhaseControl {
   virtual void archive(const StateArchive& state) = 0;
 };
 
-/// A diagnosis that also locates material points, by their numbers from 0.
+/// A diagnosis that also locates material points, by their numbers from 0, and knows their laws.
 class PhaseDiagnosis : public Diagnosis {
  public:
   virtual PlaceInBody of_point(std::size_t number) const = 0;
+  /// What users should know of the laws as they are found so far: sentences.
+  virtual std::vector<std::string> notes_of_laws() const = 0;
 };
 
 /// The fields of a phase, at its points and at positions of the body. P: the number of points.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -28,6 +29,12 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
   explicit PhaseDiagnosisOf(const PhaseAssembly<B, K>& all) : all_(all), frame_(all.frame) {}
 
   PlaceInBody of_point(std::size_t number) const override { return frame_.account().place_of(number); }
+
+  std::vector<std::string> notes_of_laws() const override {
+    std::vector<std::string> notes;
+    for (const auto& material : frame_.body.materials) std::ranges::move(material->notes(), std::back_inserter(notes));
+    return notes;
+  }
 
   // The place of an unknown, beside the point at which the function's |N| is largest.
   PlaceInBody of_unknown(std::size_t unknown) const override {

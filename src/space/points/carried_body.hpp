@@ -25,7 +25,7 @@ template <Kinematics K>
 struct CarriedMaterial {
   static constexpr std::size_t stresses = stress_components(K);
 
-  std::string law;
+  std::string law;  // with the library that it comes from
   bool undrained = false, remembers = false;
   double density = 0;                // [kg/m³]
   std::size_t begin = 0, count = 0;  // its points are begin … begin + count − 1
@@ -34,10 +34,11 @@ struct CarriedMaterial {
   std::vector<std::string> names{};  // of the history that is shown
   std::vector<double> shown{};       // (names × count)
 
+  static std::string law_of(const MaterialSpec& spec) { return spec.law + spec.library.string(); }
   /// H: the displacement gradients of all points in a phase that is not over; empty: the phase has ended.
   static CarriedMaterial of(PointMaterial<K>& material, const MaterialSpec& spec, std::size_t begin, std::size_t count,
                             const std::vector<TensorOf<K>>& H) {
-    CarriedMaterial carried{.law = spec.law,
+    CarriedMaterial carried{.law = law_of(spec),
                             .undrained = spec.undrained,
                             .remembers = material.info().history_dependent,
                             .density = spec.parameters.at("rho"),
@@ -71,7 +72,7 @@ struct CarriedMaterial {
   }
   /// Whether points of another material of the same law remember the same.
   bool is_like(const MaterialSpec& spec, std::size_t rows) const {
-    return law == spec.law && undrained == spec.undrained && count > 0 && memory.size() == rows * count;
+    return law == law_of(spec) && undrained == spec.undrained && count > 0 && memory.size() == rows * count;
   }
   void archive(const StateArchive& state) {
     state("law", law, "undrained", undrained, "remembers", remembers, "density", density, "begin", begin, "count",

@@ -1,0 +1,55 @@
+C     Hooke's law up to Mises' yield condition sqrt(J2) <= k, then perfectly plastic; the return is radial.
+C     PROPS: E, nu, k. STATEV(1): the plastic strain, conjugate to sqrt(J2).
+      SUBROUTINE UMAT(STRESS,STATEV,DDSDDE,SSE,SPD,SCD,
+     1 RPL,DDSDDT,DRPLDE,DRPLDT,
+     2 STRAN,DSTRAN,TIME,DTIME,TEMP,DTEMP,PREDEF,DPRED,CMNAME,
+     3 NDI,NSHR,NTENS,NSTATV,PROPS,NPROPS,COORDS,DROT,PNEWDT,
+     4 CELENT,DFGRD0,DFGRD1,NOEL,NPT,LAYER,KSPT,KSTEP,KINC)
+      INCLUDE 'ABA_PARAM.INC'
+      CHARACTER*80 CMNAME
+      DIMENSION STRESS(NTENS),STATEV(NSTATV),DDSDDE(NTENS,NTENS),
+     1 DDSDDT(NTENS),DRPLDE(NTENS),STRAN(NTENS),DSTRAN(NTENS),
+     2 TIME(2),PREDEF(1),DPRED(1),PROPS(NPROPS),COORDS(3),DROT(3,3),
+     3 DFGRD0(3,3),DFGRD1(3,3)
+      DIMENSION S(6)
+      E=PROPS(1)
+      ANU=PROPS(2)
+      AK=PROPS(3)
+      G=E/(2.D0*(1.D0+ANU))
+      BULK=E/(3.D0*(1.D0-2.D0*ANU))
+      TR=DSTRAN(1)+DSTRAN(2)+DSTRAN(3)
+      DO I=1,NDI
+        STRESS(I)=STRESS(I)+BULK*TR+2.D0*G*(DSTRAN(I)-TR/3.D0)
+      END DO
+      DO I=NDI+1,NTENS
+        STRESS(I)=STRESS(I)+G*DSTRAN(I)
+      END DO
+      CALL SINV(STRESS,SMEAN,SMISES,NDI,NSHR)
+      ROOTJ2=SMISES/SQRT(3.D0)
+      DO I=1,NTENS
+        S(I)=STRESS(I)
+        IF (I.LE.NDI) S(I)=S(I)-SMEAN
+      END DO
+C     s = scale s_trial, and its derivative
+      SCALE=1.D0
+      DSCALE=0.D0
+      IF (ROOTJ2.GT.AK) THEN
+        SCALE=AK/ROOTJ2
+        DSCALE=-G*AK/ROOTJ2**3
+        STATEV(1)=STATEV(1)+(ROOTJ2-AK)/G
+      END IF
+      DO I=1,NTENS
+        STRESS(I)=SCALE*S(I)
+        IF (I.LE.NDI) STRESS(I)=STRESS(I)+SMEAN
+        DO J=1,NTENS
+          DDSDDE(I,J)=DSCALE*S(I)*S(J)
+          IF (I.LE.NDI.AND.J.LE.NDI) THEN
+            DDSDDE(I,J)=DDSDDE(I,J)+BULK-2.D0*G*SCALE/3.D0
+            IF (I.EQ.J) DDSDDE(I,J)=DDSDDE(I,J)+2.D0*G*SCALE
+          ELSE IF (I.EQ.J) THEN
+            DDSDDE(I,J)=DDSDDE(I,J)+G*SCALE
+          END IF
+        END DO
+      END DO
+      RETURN
+      END

@@ -1,0 +1,287 @@
+// UMATs of ours at a point, beside the built-in laws.
+#include "space/materials/umat.hpp"
+
+#include <stillpoint/drucker_prager.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "compiled_umat.hpp"
+#include "largest.hpp"
+#include "law_checks.hpp"
+#include "space/materials/umat_utilities.hpp"
+
+using namespace stillpoint;
+using stillpoint::test::compiled_umat;
+
+namespace {
+
+constexpr double E = 1e4, nu = 0.3, strength = 20;
+
+MaterialSpec material(const std::filesystem::path& library, std::vector<double> props,
+                      std::vector<std::string> statev = {}) {
+  MaterialSpec spec;
+  spec.name = "clay";
+  spec.law = "umat";
+  spec.library = library;
+  spec.props = std::move(props);
+  spec.statev = std::move(statev);
+  return spec;
+}
+
+// A point on a path, of a law whose history is known as it runs.
+template <StressState S>
+struct AnsweredPath {
+  const HistoryAnswers& law;
+  std::vector<double> now = std::vector<double>(law.history());
+
+  explicit AnsweredPath(const HistoryAnswers& of, const Stress<S>& stress = {}) : law(of) {
+    law.initial_history(stress.data(), now.data());
+  }
+  Gradient<S> trial(const Gradient<S>& H, const Gradient<S>& dH, std::vector<double>& next) const {
+    Gradient<S> P;
+    law.first_piola({.points = 1,
+                     .stride = 1,
+                     .H = H.data(),
+                     .dH = dH.data(),
+                     .P = P.data(),
+                     .dt = 0.1,
+                     .history_stride = 1,
+                     .committed = now.data(),
+                     .next = next.data()});
+    return P;
+  }
+  Gradient<S> step(const Gradient<S>& H, const Gradient<S>& dH) {
+    std::vector<double> next(now.size());
+    const Gradient<S> P = trial(H, dH, next);
+    now.swap(next);
+    return P;
+  }
+};
+
+// Random increments that turn and strain the point by up to a third, some of them too large for the strength.
+template <StressState S>
+struct RandomWalk {
+  std::mt19937 random{7};
+  Gradient<S> H{}, dH{};
+  void go(double size) {
+    std::uniform_real_distribution<double> any(-size, size);
+    for (std::size_t c = 0; c < H.size(); ++c) {
+      dH[c] = any(random);
+      H[c] += dH[c];
+    }
+  }
+};
+
+// The largest difference of P along a walk, relative to the largest entry.
+template <StressState S>
+double distance_along_a_walk(const HistoryAnswers& umat, const DruckerPragerParameters& parameters) {
+  const DruckerPrager<S> law(parameters);
+  Stress<S> start{};
+  start[0] = -5, start[1] = -9, start[2] = -6, start[3] = 2;
+  AnsweredPath<S> path(umat, start);
+  auto now = law.initial_history(start);
+  RandomWalk<S> walk;
+  Largest apart, size;
+  for (int k = 0; k < 200; ++k) {
+    walk.go(0.02);
+    const Gradient<S> P = law.first_piola(walk.H, walk.dH, 0.1, now), Q = path.step(walk.H, walk.dH);
+    for (std::size_t c = 0; c < P.size(); ++c) {
+      apart.take_magnitude(P[c] - Q[c]);
+      size.take_magnitude(P[c]);
+    }
+  }
+  return apart.value() / size.value();
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a UMAT in Fortran or C answers as the built-in law of its formula along 200 large increments",
+                       "", ((StressState S), S), StressState::plane_strain, StressState::axisymmetric,
+                       StressState::space) {
+  const test::TemporaryFolder folder;
+  const DruckerPragerParameters elastic{.E = E, .nu = nu, .c = 1e12}, mises{.E = E, .nu = nu, .c = strength};
+  constexpr double rounding = 1e-10;  // of 200 increments
+  CHECK(distance_along_a_walk<S>(*make_umat<S>(material(compiled_umat(folder, "elastic.f", "elastic"), {E, nu})),
+                                 elastic) < rounding);
+  for (const char* source : {"von_mises.f", "von_mises.c"}) {
+    INFO(source);
+    const auto library = compiled_umat(folder, source, source);
+    CHECK(distance_along_a_walk<S>(*make_umat<S>(material(library, {E, nu, strength}, {"plastic_strain"})), mises) <
+          rounding);
+    CHECK(distance_along_a_walk<S>(*make_umat<S>(material(library, {E, nu, 2 * strength}, {""})), mises) > 1e-3);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("the moduli of a UMAT are the derivative of its answer, elastic and plastic, however it turns",
+                       "", ((StressState S), S), StressState::plane_strain, StressState::axisymmetric,
+                       StressState::space) {
+  constexpr std::size_t n = gradient_components(S);
+  const test::TemporaryFolder folder;
+  const auto library = compiled_umat(folder, "von_mises.f", "von_mises");
+  for (const double k : {strength, 1e12}) {
+    const auto law = make_umat<S>(material(library, {E, nu, k}, {"plastic_strain"}));
+    AnsweredPath<S> path(*law);
+    RandomWalk<S> walk;
+    for (int step = 0; step < 10; ++step) {
+      walk.go(0.05);
+      const auto trial = [&](const Gradient<S>& to) {
+        Gradient<S> change = walk.dH;
+        for (std::size_t a = 0; a < n; ++a) change[a] += to[a] - walk.H[a];
+        std::vector<double> next(path.now.size());
+        return path.trial(to, change, next);
+      };
+      Moduli<S> A;
+      law->moduli(walk.H.data(), walk.dH.data(), 0.1, path.now.data(), A.data());
+      CHECK(checks::relative_distance(A, checks::differences<S>(trial, walk.H)) < 1e-6);
+      path.step(walk.H, walk.dH);
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("the elastic moduli of a UMAT are those of the built-in law under the same stress", "",
+                       ((StressState S), S), StressState::plane_strain, StressState::axisymmetric, StressState::space) {
+  const test::TemporaryFolder folder;
+  const auto umat = make_umat<S>(material(compiled_umat(folder, "elastic.f", "elastic"), {E, nu}));
+  const DruckerPrager<S> law({.E = E, .nu = nu, .c = 1e12});
+  Stress<S> stress{};
+  stress[0] = -500, stress[1] = -900, stress[2] = -600, stress[3] = 200;
+  AnsweredPath<S> path(*umat, stress);
+  for (const auto& H : checks::deformations<S>()) {
+    Moduli<S> A;
+    umat->elastic_moduli(H.data(), path.now.data(), A.data());
+    CHECK(checks::relative_distance(A, law.elastic_moduli(H, law.initial_history(stress))) < 1e-12);  // rounding
+  }
+}
+
+TEST_CASE("a rigid rotation turns the stress and the strain of a UMAT, and tells it the whole rotation") {
+  constexpr StressState S = StressState::space;
+  const test::TemporaryFolder folder;
+  const auto law = make_umat<S>(material(compiled_umat(folder, "elastic.f", "elastic"), {E, nu}));
+  const Stress<S> start{1, 2, 3, 4, 5, 6};
+  AnsweredPath<S> path(*law, start);
+  // By 90 degrees about z, in ten increments: x to y, y to −x.
+  Gradient<S> H{};
+  for (int k = 1; k <= 10; ++k) {
+    const double angle = k * std::acos(-1.0) / 20, c = std::cos(angle), s = std::sin(angle);
+    const Gradient<S> to{c - 1, -s, 0, s, c - 1, 0, 0, 0, 0};
+    Gradient<S> dH;
+    for (std::size_t a = 0; a < dH.size(); ++a) dH[a] = to[a] - H[a];
+    H = to;
+    path.step(H, dH);
+  }
+  Stress<S> found;
+  law->cauchy(path.now.data(), found.data());
+  CHECK(largest_difference(found, Stress<S>{2, 1, 3, -4, 6, -5}) < 1e-12);
+}
+
+TEST_CASE("Abaqus' utility routines turn tensors, and find invariants and principal values and directions") {
+  const int stress = 1, strain = 2, normals = 3, one = 1, shears = 3;
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  const std::array<double, 9> R{c, s, 0, -s, c, 0, 0, 0, 1};  // by columns
+  const std::array<double, 6> S{3, 1, 2, 0.5, 0.2, -0.4};
+  std::array<double, 6> turned{};
+  rotsig_(S.data(), R.data(), turned.data(), &stress, &normals, &shears);
+  CHECK(turned[0] == Approx(3 * c * c + 1 * s * s - 2 * 0.5 * s * c));
+  CHECK(turned[3] == Approx((3 - 1) * s * c + 0.5 * (c * c - s * s)));
+  CHECK(turned[4] == Approx(0.2 * c + 0.4 * s));
+  CHECK(turned[5] == Approx(0.2 * s - 0.4 * c));
+  std::array<double, 4> in_plane{3, 1, 2, 0.5}, turned_strain{};
+  rotsig_(in_plane.data(), R.data(), turned_strain.data(), &strain, &normals, &one);
+  CHECK(turned_strain[3] == Approx(2 * ((3 - 1) * s * c + 0.25 * (c * c - s * s))));
+
+  double mean = 0, mises = 0;
+  sinv_(S.data(), &mean, &mises, &normals, &shears);
+  CHECK(mean == Approx(2));
+  CHECK(mises == Approx(std::sqrt(0.5 * (4 + 1 + 1) + 3 * (0.25 + 0.04 + 0.16))));
+
+  std::array<double, 3> values{};
+  std::array<double, 9> directions{};
+  sprind_(S.data(), values.data(), directions.data(), &stress, &normals, &shears);
+  const auto at = [&](int i, int j) {
+    const int shear = i + j + 2;  // 12, 13, 23 are at 3, 4, 5
+    return i == j ? S[static_cast<std::size_t>(i)] : S[static_cast<std::size_t>(shear)];
+  };
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      double product = 0;
+      for (int j = 0; j < 3; ++j) product += at(i, j) * directions[static_cast<std::size_t>(k + 3 * j)];
+      CHECK(product == Approx(values[static_cast<std::size_t>(k)] * directions[static_cast<std::size_t>(k + 3 * i)]));
+    }
+  }
+  std::array<double, 3> alone{};
+  sprinc_(S.data(), alone.data(), &stress, &normals, &shears);
+  CHECK(largest_difference(alone, values) < 1e-14);
+}
+
+TEST_CASE("a UMAT that asks for a smaller step, or that leaves, gives no number; leaving is told once") {
+  constexpr StressState S = StressState::plane_strain;
+  const test::TemporaryFolder folder;
+  const Gradient<S> small{1e-4, 0, 0, 0}, large{0.05, 0, 0, 0};
+  for (const char* fault : {"SHORTENS", "LEAVES"}) {
+    INFO(fault);
+    const auto law = make_umat<S>(material(
+        compiled_umat(folder, "faulty.c", fault, std::string("-D") + fault + " -Wl,--unresolved-symbols=ignore-all"),
+        {}));
+    AnsweredPath<S> path(*law);
+    std::vector<double> next(path.now.size());
+    CHECK(std::isfinite(path.trial(small, small, next)[0]));
+    CHECK(std::isnan(path.trial(large, large, next)[0]));
+    CHECK(std::isfinite(path.trial(small, small, next)[0]));
+    if (std::string(fault) == "LEAVES") {
+      CHECK_THROWS_AS(law->throw_what_failed(), std::runtime_error);
+    }
+    CHECK_NOTHROW(law->throw_what_failed());
+  }
+}
+
+TEST_CASE("what a UMAT keeps between calls is found: its calls take turns, or it is refused") {
+  constexpr StressState S = StressState::plane_strain;
+  const test::TemporaryFolder folder;
+  const auto fault_of = [&](const std::string& name, const std::string& options) -> std::string {
+    const auto law = make_umat<S>(
+        material(compiled_umat(folder, "faulty.c", name, options + " -Wl,--unresolved-symbols=ignore-all"), {1}));
+    try {
+      law->try_out(AnsweredPath<S>(*law).now.data());
+    } catch (const std::domain_error& fault) {
+      return fault.what();
+    }
+    std::string notes;
+    for (const std::string& note : law->notes()) notes += note;
+    return notes;
+  };
+  const auto says = [](const std::string& text, const char* what) { return text.find(what) != std::string::npos; };
+  CHECK(fault_of("faultless", "").empty());
+  CHECK(says(fault_of("counts", "-DCOUNTS"), "its calls take turns"));
+  CHECK(says(fault_of("tires", "-DTIRES"), "keeps a state of its own between calls"));
+  CHECK(says(fault_of("unstable", "-DUNSTABLE"), "DDSDDE that is not positive definite (least eigenvalue -1e+04)"));
+  CHECK(says(fault_of("no_number", "-DNO_NUMBER"), "returns STRESS = [nan"));
+  CHECK(says(fault_of("leaves", "-DLEAVES_AT_ONCE"), "calls XIT in its first call"));
+  CHECK(says(fault_of("writes", "-DWRITES_PROPS"), "writes to PROPS"));
+  CHECK(says(fault_of("viscous", "-DVISCOUS"), "answers to the rate of strain"));
+}
+
+TEST_CASE("a library without a UMAT is told apart from one that is missing, is none, or lacks something") {
+  const test::TemporaryFolder folder;
+  const auto fault_of = [&](const std::filesystem::path& library) -> std::string {
+    const auto fault = fault_of_umat(material(library, {}));
+    return fault ? std::string(fault->key) + ": " + fault->message : "";
+  };
+  const auto says = [](const std::string& text, const std::string& what) {
+    INFO(text);
+    return text.starts_with("library: ") && text.find(what) != std::string::npos;
+  };
+  CHECK(says(fault_of(folder.path() / "nothing.so"), "there is no file"));
+  CHECK(says(fault_of(folder.path()), "cannot be loaded"));
+  CHECK(says(fault_of(folder.write("text.so", "no library\n")), "cannot be loaded"));
+  CHECK(says(fault_of(compiled_umat(folder, "faulty.c", "nobody", "-DCALLS_NOBODY")), "undefined symbol: is_nowhere_"));
+  CHECK(says(fault_of(compiled_umat(folder, "faulty.c", "other", "-DNAME=umat2_")), "has no subroutine UMAT"));
+  CHECK(fault_of(compiled_umat(folder, "faulty.c", "in_c", "-DNAME=umat")).empty());
+}
