@@ -200,6 +200,12 @@ TEST_CASE("the overconsolidation ratio is one of vertical stresses at rest, and 
   const auto steep = law.initial_history({0.4 * cell, cell, 0.4 * cell, 0}, {.at_rest = true});
   CHECK(law.yield_state(steep).f == Approx(0).margin(1e-6));
   CHECK(law.initial_history({cell, cell, cell, 0}, {.at_rest = false, .factor = 3})[4] == Approx(3e5));
+  // Outside of the yield surface f is positive, at its tip too, where there is no strength
+  CamClayParameters weak = clay(1);
+  weak.pc = 0.5e5;
+  const CamClay<plane_strain> pressed(weak);
+  CHECK(pressed.yield_state(pressed.initial_history({cell, cell, cell, 0})).f > 1e4);
+  CHECK(pressed.yield_state(pressed.initial_history({cell, cell, cell, 0})).strength == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("moduli of Cam clay are the derivative of the stress, on the wet side, on the dry one, elastic",
