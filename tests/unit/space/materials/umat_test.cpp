@@ -347,3 +347,25 @@ TEMPLATE_TEST_CASE_SIG("a UMAT is given the deformation, the rotation, the strai
                                     0,
                                     7});
 }
+
+TEST_CASE("in space a UMAT is given the shears 12, 13 and 23 in this order, and its stresses are taken so") {
+  constexpr StressState S = StressState::space;
+  const test::TemporaryFolder folder;
+  const auto law =
+      make_umat<S>(material(compiled_umat(folder, "recorder.c", "recorder"), {7, 8}, std::vector<std::string>(56, "")));
+  constexpr std::array<std::size_t, 3> of_gradient{1, 2, 5}, of_stress{3, 5, 4};  // xy, xz, yz
+  for (std::size_t shear = 0; shear < 3; ++shear) {
+    CAPTURE(shear);
+    AnsweredPath<S> path(*law);
+    Gradient<S> H{};
+    H[of_gradient[shear]] = 1e-6;
+    path.step(H, H);
+    Stress<S> stress;
+    law->cauchy(path.now.data(), stress.data());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double strain = path.now[2 * stress.size() + 27 + 3 + k];
+      CHECK(strain == Approx(k == shear ? 1e-6 : 0).margin(1e-11));  // of second order
+      CHECK(stress[of_stress[k]] == Approx(k == shear ? 0.5e4 * 1e-6 : 0).margin(1e-7));
+    }
+  }
+}
