@@ -42,6 +42,7 @@ int collect(dl_phdr_info* object, std::size_t, void* data) {
     if (segment.p_type != PT_LOAD || (segment.p_flags & PF_W) == 0) continue;
     const std::uintptr_t begin = object->dlpi_addr + segment.p_vaddr, end = begin + segment.p_memsz;
     const std::uintptr_t from = std::clamp(read_only_until, begin, end);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
     if (from < end) parts.found.emplace_back(reinterpret_cast<const char*>(from), end - from);
   }
   return 1;

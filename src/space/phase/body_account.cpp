@@ -111,7 +111,8 @@ std::optional<OverStress> BodyAccount<K>::over_stress() const {
     for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t number) {
       const auto& material = *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(k))];
       if (!material.info().viscous) return;
-      if (const auto state = material.yield_state(p)) visit(*state, number);  // of a program's own law it may be unknown
+      if (const auto state = material.yield_state(p))
+        visit(*state, number);  // of a program's own law it may be unknown
     });
   };
   bool found = false;

@@ -3,6 +3,7 @@
 
 #include <stillpoint/drucker_prager.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -284,4 +285,87 @@ TEST_CASE("a library without a UMAT is told apart from one that is missing, is n
   CHECK(says(fault_of(compiled_umat(folder, "faulty.c", "nobody", "-DCALLS_NOBODY")), "undefined symbol: is_nowhere_"));
   CHECK(says(fault_of(compiled_umat(folder, "faulty.c", "other", "-DNAME=umat2_")), "has no subroutine UMAT"));
   CHECK(fault_of(compiled_umat(folder, "faulty.c", "in_c", "-DNAME=umat")).empty());
+}
+
+TEMPLATE_TEST_CASE_SIG("a UMAT is given the deformation, the rotation, the strain, the time and the place of its point",
+                       "", ((StressState S), S), StressState::plane_strain, StressState::axisymmetric,
+                       StressState::space) {
+  const test::TemporaryFolder folder;
+  const auto law =
+      make_umat<S>(material(compiled_umat(folder, "recorder.c", "recorder"), {7, 8}, std::vector<std::string>(56, "")));
+  constexpr std::size_t tensor = stress_components(S);
+  AnsweredPath<S> path(*law);
+  law->place({1.5, 2.5, S == StressState::space ? 3.5 : 0}, 41, 0.25, path.now.data());
+  // Two increments of simple shear of a point that is stretched along x as well, in a phase of their own each.
+  Gradient<S> H{}, shear{};
+  H[0] = 0.1;
+  shear[1] = 0.2;
+  path.step(H, H);
+  path.step(shear, shear);
+  const double* const states = path.now.data() + 2 * tensor;
+  // F = (I + 0.2 e_x ⊗ e_y) (I + 0.1 e_x ⊗ e_x), column by column
+  std::array<double, 9> F{1.1, 0, 0, 0.2, 1, 0, 0, 0, 1}, before{1.1, 0, 0, 0, 1, 0, 0, 0, 1}, R{}, DFGRD1{}, DFGRD0{};
+  std::copy_n(states, 9, DFGRD1.begin());
+  std::copy_n(states + 9, 9, DFGRD0.begin());
+  CHECK(largest_difference(DFGRD1, F) < 1e-15);
+  CHECK(largest_difference(DFGRD0, before) < 1e-15);
+  // l = dH (I + dH/2)⁻¹ = dH, as dH dH = 0: w_xy = 0.1, and R turns by −2 arctan(0.1/2) about z
+  const double angle = -2 * std::atan(0.05), c = std::cos(angle), s = std::sin(angle);
+  std::copy_n(states + 18, 9, R.begin());
+  CHECK(largest_difference(R, std::array<double, 9>{c, s, 0, -s, c, 0, 0, 0, 1}) < 1e-15);
+  // STRAN: 0.1/1.05 along x, turned, and the strain 0.2 of the shear, turned by half
+  const double e = 0.1 / 1.05, sin_half = std::sin(angle / 2), cos_half = std::cos(angle / 2);
+  std::array<double, 6> strain{}, expected{};
+  expected[0] = e * c * c - 0.2 * sin_half * cos_half;
+  expected[1] = e * s * s + 0.2 * sin_half * cos_half;
+  expected[3] = 2 * e * s * c + 0.2 * (cos_half * cos_half - sin_half * sin_half);
+  std::copy_n(states + 27, 6, strain.begin());
+  CHECK(largest_difference(strain, expected) < 1e-15);
+  const std::vector<double> told(states + 33, states + 56);
+  const double in_space = S == StressState::space;
+  CHECK(told == std::vector<double>{1.5,
+                                    2.5,
+                                    3.5 * in_space,
+                                    0.1,
+                                    0.1,
+                                    0.1,
+                                    2,
+                                    0.25,
+                                    42,
+                                    3,
+                                    1 + 2 * in_space,
+                                    4 + 2 * in_space,
+                                    56,
+                                    2,
+                                    'C',
+                                    ' ',
+                                    80,
+                                    1,
+                                    1,
+                                    1,
+                                    1,
+                                    0,
+                                    7});
+}
+
+TEST_CASE("in space a UMAT is given the shears 12, 13 and 23 in this order, and its stresses are taken so") {
+  constexpr StressState S = StressState::space;
+  const test::TemporaryFolder folder;
+  const auto law =
+      make_umat<S>(material(compiled_umat(folder, "recorder.c", "recorder"), {7, 8}, std::vector<std::string>(56, "")));
+  constexpr std::array<std::size_t, 3> of_gradient{1, 2, 5}, of_stress{3, 5, 4};  // xy, xz, yz
+  for (std::size_t shear = 0; shear < 3; ++shear) {
+    CAPTURE(shear);
+    AnsweredPath<S> path(*law);
+    Gradient<S> H{};
+    H[of_gradient[shear]] = 1e-6;
+    path.step(H, H);
+    Stress<S> stress;
+    law->cauchy(path.now.data(), stress.data());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double strain = path.now[2 * stress.size() + 27 + 3 + k];
+      CHECK(strain == Approx(k == shear ? 1e-6 : 0).margin(1e-11));  // of second order
+      CHECK(stress[of_stress[k]] == Approx(k == shear ? 0.5e4 * 1e-6 : 0).margin(1e-7));
+    }
+  }
 }
