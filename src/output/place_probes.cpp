@@ -70,12 +70,19 @@ class PlaceFields {
   bool has_water_;
 };
 
-/// A place that moves by x += Σ_a N_a(x) u_a when a phase ends. Once no material reaches it, it is lost: its values are
+/// A place that moves by x += Σ_a N_a(x) u_a when a phase ends; under laws of small strain it stays, and what it moved
+/// is counted. Once no material reaches it, it is lost: its values are
 /// NaN.
 class MovingPlace final : public Probe {
  public:
   MovingPlace(const LagrangianPhase& phase, const ProbeSpec& spec, bool waits)
-      : name_(spec.name), fields_(phase, spec.fields), start_(spec.at), x_(spec.at), next_(spec.at) {
+      : name_(spec.name),
+        fields_(phase, spec.fields),
+        start_(spec.at),
+        x_(spec.at),
+        next_(spec.at),
+        moved_in_place_(spec.at.size(), 0),
+        stays_(!phase.info().nonlinear) {
     if (!waits) return;
     const std::vector<double> nothing(phase.size(), 0.0);
     waits_ = !phase.fields().read_places(0, nothing, nothing)->holds(start_);
@@ -84,7 +91,7 @@ class MovingPlace final : public Probe {
     if (lost_at_ || waits_)
       return values.resize(values.size() + fields_.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<double> moved = x_;
-    for (std::size_t d = 0; d < moved.size(); ++d) moved[d] -= start_[d];
+    for (std::size_t d = 0; d < moved.size(); ++d) moved[d] += moved_in_place_[d] - start_[d];
     fields_.read(moment.places(), x_, moved, values);
   }
   std::vector<double> position() const override { return start_; }
@@ -92,7 +99,7 @@ class MovingPlace final : public Probe {
     if (lost_at_ || waits_) return;
     std::vector<double> u(x_.size());
     moment.places().displacement(x_, u);
-    for (std::size_t d = 0; d < u.size(); ++d) next_[d] = x_[d] + u[d];
+    for (std::size_t d = 0; d < u.size(); ++d) (stays_ ? moved_in_place_[d] : next_[d] = x_[d]) += u[d];
   }
   // Called only now because the place is read once more if the next phase cannot begin.
   void begin_phase(ProbedMoment& moment) override {
@@ -109,6 +116,7 @@ class MovingPlace final : public Probe {
   }
   void archive(const StateArchive& state) override {
     state("x", Vec(x_));
+    state("moved_in_place", Vec(moved_in_place_));
     state("lost_at", lost_at_, "waits", waits_);
   }
   std::optional<std::string> note() const override {
@@ -127,6 +135,8 @@ class MovingPlace final : public Probe {
   PlaceFields fields_;
   std::vector<double> start_, x_, next_;  // at the beginning of the run, of this phase and of the next [m]
   std::optional<double> lost_at_;         // time of the loss [s]
+  std::vector<double> moved_in_place_;    // in the phases before this one [m]
+  bool stays_;                            // whether the laws are those of small strain
   bool waits_ = false;                    // for a stage that brings material to the place
 };
 

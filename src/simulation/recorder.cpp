@@ -135,6 +135,7 @@ void Recorder::end_stage(const StateArchive& state) {
 
 void Recorder::go_on(const StateArchive& state, RunState& run, double work) {
   archive_files(state);
+  while (static_cast<double>(rows_) * interval_ <= run.t) ++rows_;  // a static solver goes on from one end to the next
   probes_.begin_stage(run.t, run.motion->u(), run.motion->v());
   run.motion->evaluate(run.t);
   energy_balance_.go_on(work, run.t, run.motion->system);

@@ -1,4 +1,5 @@
 // Stages: bodies that are placed and dug away, supports that begin and end, materials that change.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -20,14 +21,24 @@ double settlement(int k, int n) {
   return -rho_g_over_M * h * h * ((n - k) * k + k - 0.5);
 }
 
-Summary built(const std::vector<std::string>& overrides) { return run(scenes::load("ladder/lifts", overrides)); }
-
-/// Rests in time, as the scene with a static solver does.
-const std::vector<std::string> in_time = {"solve.method=relaxation", "stop.residual=1e-7", "stop.time=6"};
+/// Rests in time, as the scene with a static solver does: each stage waits for equilibrium.
+const std::vector<std::string> in_time = {"solve.method=relaxation", "stop.residual=1e-7"};
+std::string lifts_that_wait() {
+  std::string stages = "stage=[{at=0, equilibrium=true}";
+  for (int k = 2; k <= 6; ++k)
+    stages += fmt::format(", {{at={}, add=['lift {}'], ramp=0.2, equilibrium=true}}", k - 1, k);
+  return stages + "]";
+}
 
 std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
   all.insert(all.end(), more.begin(), more.end());
   return all;
+}
+
+Summary built(const std::vector<std::string>& overrides) {
+  std::vector<std::string> all = overrides;
+  if (std::ranges::count(all, in_time[0]) > 0) all.push_back(lifts_that_wait());
+  return run(scenes::load("ladder/lifts", all));
 }
 
 /// Two blocks, one on the other, between smooth walls; the upper one is dug away, or a prop is released, at t = 1.

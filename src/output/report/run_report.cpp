@@ -1,9 +1,11 @@
 #include "output/report/run_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <set>
 #include <string>
@@ -18,10 +20,12 @@
 namespace stillpoint {
 namespace {
 
-Json stored_picture(const GridSpec& grid, const std::filesystem::path& fields_h5) {
+// Of a run with stages the frames from when the last one began, whose points are the same.
+Json stored_picture(const GridSpec& grid, const std::filesystem::path& fields_h5, double from) {
   const Hdf5File fields(Hdf5File::Existing{fields_h5});
   std::vector<std::string> frames = fields.names_in("/");
   std::erase_if(frames, [](const std::string& name) { return !name.starts_with("frame_"); });
+  std::erase_if(frames, [&](const std::string& name) { return fields.read_attribute(name, "t") < from; });
   if (frames.empty()) return nullptr;
   const BodyMoment first = moment_of(fields, frames.front());
   const std::vector<std::size_t> drawn = drawn_moments(first, frames.size());
@@ -102,14 +106,18 @@ void RunReport::begin(const BodyMoment& moment) {
 }
 
 void RunReport::end(const BodyMoment& moment) {
+  if (!scene_.stages.empty()) return begin(moment);  // the points of the first stage are others
   draw_if_memory_is_left([&] { picture_->add(moment); });
 }
 
-Json RunReport::picture() const {
+Json RunReport::picture(const Summary& summary) const {
   if (picture_) return picture_->json();
   if (lacks_memory_) return nullptr;
   const std::filesystem::path fields_h5 = folder_ / "fields.h5";
-  return std::filesystem::exists(fields_h5) ? stored_picture(scene_.grid, fields_h5) : Json();
+  // A frame at the end of a stage is the last one with its points.
+  const double none = -std::numeric_limits<double>::infinity();
+  const double from = summary.stages.empty() ? none : std::nextafter(summary.stages.back().end, summary.t);
+  return std::filesystem::exists(fields_h5) ? stored_picture(scene_.grid, fields_h5, from) : Json();
 }
 
 std::string RunReport::page(const Summary& summary) const {
@@ -120,7 +128,7 @@ std::string RunReport::page(const Summary& summary) const {
        {"summary", Json::parse(to_json(summary))},
        {"goals", {{"residual", stop.residual}, {"distance", stop.distance.value()}, {"time", stop.time}}},
        {"history", history_excerpt(folder_ / "history.csv")},
-       {"picture", picture()},
+       {"picture", picture(summary)},
        {"lacks_memory", lacks_memory_},
        {"scene", {{"text", scene_.text}, {"set", scene_.overrides}}}});
 }

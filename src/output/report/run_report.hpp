@@ -18,7 +18,8 @@ namespace stillpoint {
 /// or smallest among its neighbours, so that oscillating columns keep their envelope.
 Json history_excerpt(const std::filesystem::path& history_csv);
 
-/// Draws the frames of fields.h5 if there are any, otherwise the first and the last state of the run.
+/// Draws the frames of fields.h5 if there are any, otherwise the first and the last state of the run. Of a run with
+/// stages the frames of the last one, or its last state.
 class RunReport {
  public:
   /// folder: the folder of the run; empty if there is no report. The scene has to outlive this object.
@@ -33,7 +34,7 @@ class RunReport {
   std::string page(const Summary& summary) const;
 
  private:
-  Json picture() const;
+  Json picture(const Summary& summary) const;
   template <class Draw>
   void draw_if_memory_is_left(const Draw& draw);
 

@@ -106,7 +106,10 @@ std::vector<std::string> BodyNotes::at_start(const Problem& problem, const Lagra
   }
   for (const BodyGap& pair : pairs) {
     known_.insert({pair.a, pair.b});
-    if (is_gap(pair))
+    // A body that is placed where another one has settled lies on that one.
+    constexpr double settled = 0.25;  // cells
+    const bool is_placed_on_it = problem.phase.at_stages && pair.cells < settled;
+    if (is_gap(pair) && !is_placed_on_it)
       notes.push_back(
           fmt::format("{} and share functions of the grid, which pull and push them across the gap; "
                       "expected smaller cells, a [[contact]] between them, or bodies that touch",

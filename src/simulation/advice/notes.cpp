@@ -132,7 +132,8 @@ std::vector<std::string> quadrature_notes(const Problem& problem, const Lagrangi
 // = 1e5.
 std::vector<std::string> phase_notes(const Problem& problem, const LagrangianPhase& phase) {
   std::vector<std::string> notes;
-  if (!phase.info().updated_lagrangian) return notes;
+  const bool ends = problem.phase.ends_by_motion() || problem.phase.max_strain;  // more often than at stages
+  if (!phase.info().updated_lagrangian || !ends) return notes;
   if (!phase.info().remembers && problem.phase.quadrature == Quadrature::points &&
       !(problem.tractions.empty() && problem.forces.empty())) {
     notes.emplace_back(

@@ -21,7 +21,7 @@ MonitorOptions monitor_options(const StopSpec& stop, const Model& model) {
           .kinetic_energy = stop.kinetic_energy,
           .dwell = model.dwell,
           .must_last = model.equilibrium_must_last,
-          .end_time = model.t > 0 ? 0 : stop.time,  // a static solver that begins there has no time
+          .end_time = model.static_method && model.t > 0 ? 0 : stop.time,  // a static solver that begins there has no time
           .steps = stop.steps,
           .begin = model.t};
 }
