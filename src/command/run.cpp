@@ -45,6 +45,13 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
   row("frequencies", fmt::format("omega_1 {}, omega_max {:.6g}",
                                  s.omega_1 ? fmt::format("{:.6g}", *s.omega_1) : "not needed", s.omega_max));
   row("reached", fmt::format("t = {:.6g} s in {} steps, {} force evaluations", s.t, s.steps, s.rhs_evaluations));
+  for (std::size_t k = 0; k < s.stages.size(); ++k) {
+    const StageFigures& stage = s.stages[k];
+    const bool is_claimed = stage.status != RunStatus::end_time;
+    row(fmt::format("stage {}", k + 1),
+        fmt::format("t = {:.6g} to {:.6g} s: {}, residual {:.3e}", stage.begin, stage.end,
+                    is_claimed ? to_string(stage.status) : "ended before an equilibrium", stage.residual));
+  }
   row("residual", fmt::format("{:.3e}   kinetic energy {:.3e} J{}", s.residual, s.kinetic_energy, distance_of(s)));
   if (s.error) {
     row("error (exact)",

@@ -37,16 +37,21 @@ class PlaceFields {
  public:
   PlaceFields(const LagrangianPhase& phase, const std::vector<std::string>& names)
       : has_water_(is_field(phase, "pore_pressure")) {
-    for (const std::string& name : names) fields_.push_back(find_point_field(phase, name));
+    for (const std::string& name : names) {
+      fields_.push_back(find_point_field(phase, name));
+      is_there_.push_back(is_field(phase, fields_.back().name));
+    }
   }
   std::size_t size() const { return fields_.size(); }
   /// Appends the value of each field at x, a position when the phase began. The displacement is the sum of that since
   /// then and moved_before, (dim).
   void read(const PlaceReader& places, const std::vector<double>& x, const std::vector<double>& moved_before,
             std::vector<double>& values) const {
-    for (const PointFieldComponent& field : fields_) {
-      std::vector<double> all(field.components);
-      if (field.name == "u") {
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      const PointFieldComponent& field = fields_[f];
+      std::vector<double> all(field.components, std::numeric_limits<double>::quiet_NaN());
+      if (!is_there_[f]) {  // in a stage whose laws have no such field
+      } else if (field.name == "u") {
         places.displacement(x, all);
         for (std::size_t d = 0; d < all.size(); ++d) all[d] += moved_before[d];
       } else if (field.name == "v") {
@@ -67,6 +72,7 @@ class PlaceFields {
 
  private:
   std::vector<PointFieldComponent> fields_;
+  std::vector<bool> is_there_;
   bool has_water_;
 };
 

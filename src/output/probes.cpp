@@ -1,6 +1,5 @@
 #include "output/probes.hpp"
 
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -64,18 +63,6 @@ class SlopeAngleInBox final : public Probe {
   const ProbeSpec& spec_;
 };
 
-/// Of fields that no law of this stage has.
-class NoValues final : public Probe {
- public:
-  explicit NoValues(const ProbeSpec& spec) : count_(spec.fields.size()) {}
-  void read(ProbedMoment&, std::vector<double>& values) override {
-    values.resize(values.size() + count_, std::numeric_limits<double>::quiet_NaN());
-  }
-
- private:
-  std::size_t count_;
-};
-
 std::unique_ptr<Probe> make_probe(const Problem& problem, const LagrangianPhase& phase, const PointData& data,
                                   const ProbeSpec& spec) {
   switch (spec.kind) {
@@ -101,18 +88,15 @@ std::vector<std::string> shear_components(const WallReaction& wall, int dim) {
   return component_names(".shear", along);
 }
 
-/// Whether some law of the materials has each field of the probe. Throws SceneError if not, unless another stage may
-/// have other laws.
-bool has_fields(const Problem& problem, const LagrangianPhase& phase, std::size_t number) {
+/// Throws SceneError if a field of the probe exists in no law of the scene's materials.
+void require_fields(const Problem& problem, const LagrangianPhase& phase, std::size_t number) {
   const ProbeSpec& probe = problem.probes[number];
   for (std::size_t f = 0; f < probe.fields.size() && probe.kind != ProbeKind::body; ++f) {
     const std::string name = find_point_field(phase, probe.fields[f]).name;
     if (is_field(phase, name)) continue;
-    if (problem.phase.at_stages) return false;
     throw_scene_error(fmt::format("probe[{}].fields[{}]", number, f),
                       fmt::format("no law of these materials remembers '{}'", name));
   }
-  return true;
 }
 
 }  // namespace
@@ -138,8 +122,8 @@ Probes::Probes(const Problem& problem, const LagrangianPhase& phase) : problem_(
   const PointData data = problem.probes.empty() ? PointData() : phase.fields().point_data();
   for (std::size_t k = 0; k < problem.probes.size(); ++k) {
     const ProbeSpec& spec = problem.probes[k];
-    probes_.push_back(has_fields(problem, phase, k) ? make_probe(problem, phase, data, spec)
-                                                    : std::make_unique<NoValues>(spec));
+    if (!problem.phase.at_stages) require_fields(problem, phase, k);  // another stage may have other laws
+    probes_.push_back(make_probe(problem, phase, data, spec));
     if (spec.kind == ProbeKind::slope_angle) columns_.push_back(spec.name + ".slope_angle");
     for (const std::string& field : spec.fields) columns_.push_back(spec.name + "." + field);
   }

@@ -1,5 +1,6 @@
 // Probes that sum over material points: the mean of fields in a part of the body, and sums over the whole body.
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "output/point_fields.hpp"
@@ -32,6 +33,10 @@ class MeanInBox final : public Probe {
   void read(ProbedMoment& moment, std::vector<double>& values) override {
     const std::vector<double>& volume = moment.field("volume");
     for (const PointFieldComponent& field : fields_) {
+      if (!is_field(moment.phase(), field.name)) {  // in a stage whose laws have none
+        values.push_back(std::numeric_limits<double>::quiet_NaN());
+        continue;
+      }
       const std::vector<double>& of_points = moment.field(field.name);
       double sum = 0, all = 0;
       for (const std::size_t p : points_) {

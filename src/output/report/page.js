@@ -138,6 +138,9 @@ function runFacts(parent, s) {
     ["Load factor", s.load && `${short(s.load.factor, 6)}, the largest ${short(s.load.largest_factor, 6)}, ` +
       `at a mean displacement of ${short(s.load.displacement)} m`],
   ];
+  s.ended_stages.forEach((stage, k) => rows.push([`Stage ${k + 1}`,
+    `t = ${short(stage.begin, 6)} to ${short(stage.end, 6)} s, ` +
+      `${stage.status === "end-time" ? "ended before an equilibrium" : stage.status}, residual ${short(stage.residual, 3)}`]));
   for (const [name, fields] of Object.entries(s.probes)) {
     const place = s.probe_places[name];
     rows.push([`Probe ${name}`, Object.entries(fields).map(([field, value]) => `${field} = ${short(value, 7)}`).join(", ") +

@@ -44,6 +44,7 @@ class Presence {
       if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
         check_.wrong_if(now_.erase(names[k]) == 0, one, "{} {} is not there then", what_, in_quotes(names[k]));
   }
+  bool none_is_left() const { return now_.empty(); }
   void expect(const std::string& key, const std::vector<std::string>& names) {
     for (std::size_t k = 0; k < names.size(); ++k)
       if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
@@ -181,6 +182,7 @@ void check_stages(SceneCheck& check) {
     check_wait(stage, key);
     bodies.end(key + ".remove", stage.remove);
     bodies.begin(key + ".add", stage.add);
+    if (check.wrong_if(bodies.none_is_left(), key + ".remove", "no body is left then")) return;
     bodies.expect(key + ".change", stage.change);
     supports.end(key + ".release", stage.release);
     supports.begin(key + ".hold", stage.hold);

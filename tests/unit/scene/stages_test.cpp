@@ -71,8 +71,8 @@ TEST_CASE("stages that cannot be are refused by name") {
       {"{at=1, hold=['prop']}", "there is no support 'prop'"},
       {"{at=1, ramp=1}", "stage[0].ramp: 'newton' is a static solver"},
       {"{at=0, add=['lift 2']}", "stage[0].add: at t = 0 there is what the scene has"},
-      {"{at=1, equilibrium=1}", "stage[0].equilibrium: must be true or false"},
-      {"{at=1, remove=['lift 1', 'lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6']}", "in the stage at t = 1"},
+      {"{at=1, equilibrium=1}", "stage[0].equilibrium: expected true or false"},
+      {"{at=1, remove=['lift 1', 'lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6']}", "no body is left then"},
   };
   for (const auto& [stages, message] : all) {
     CAPTURE(stages);
