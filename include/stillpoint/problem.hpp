@@ -250,7 +250,7 @@ struct Problem : BoundarySpecs {
   std::vector<Expression> initial_u, initial_v;  // formulas of x, y, z [m], [m/s]; empty: 0
   std::vector<double> initial_stress;  // [initial] stress, the same everywhere, (stress components) [Pa]; empty: 0
   std::optional<GeostaticSpec> geostatic;
-  std::filesystem::path initial_from;  // a checkpoint of another scene whose points the bodies take over; empty: none
+  std::filesystem::path initial_from;    // a checkpoint of another scene whose points the bodies take over; empty: none
   bool displacements_from_zero = false;  // whether their displacements count from there
   // Stages. The members above are what there is in the present one.
   std::vector<StageSpec> stages;             // those that follow, in time

@@ -12,7 +12,7 @@ struct SimulationParts {
   LagrangianPhase& phase;
   const Model& model;
   const Problem& problem;  // in its present stage
-  bool is_readable;  // false if the points are between two phases, because the second could not begin
+  bool is_readable;        // false if the points are between two phases, because the second could not begin
 };
 
 }  // namespace stillpoint
