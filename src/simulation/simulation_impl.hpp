@@ -71,6 +71,7 @@ class Simulation::Impl {
   bool checkpoint_is_due();
   void leave_checkpoint();
   void archive(const StateArchive& state);
+  void archive_end(const StateArchive& state);
   void resume(const std::filesystem::path& from);
 
   int exit_status() const;

@@ -95,6 +95,23 @@ void Simulation::Impl::archive(const StateArchive& state) {
   state("started", started_);
   for (const auto& [name, watcher] : watchers_) watcher->archive(state.part(name), *run_);
   if (recorder_) recorder_->archive(state.part("records"));
+  archive_end(state);
+}
+
+// A run that has come to an end of its own is over when it is resumed; one that was asked to end goes on.
+void Simulation::Impl::archive_end(const StateArchive& state) {
+  using enum RunStatus;
+  const auto is_over = [](RunStatus status) {
+    return status == equilibrium || status == unstable_equilibrium || status == limit_load || status == end_time ||
+           status == step_limit;
+  };
+  Verdict end = is_over(verdict_.status) ? verdict_ : Verdict{};
+  state("status", end.status, "reason", end.reason);
+  if (!state.restores() || !end.ends()) return;
+  if (!is_over(end.status)) throw StateError("'status' is none of a run that is over");
+  verdict_ = end;
+  if (recorder_) recorder_->finish(run_->t, &*run_->motion);
+  folder_lock_.reset();
 }
 
 // --- when a checkpoint is left ---

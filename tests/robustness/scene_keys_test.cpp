@@ -173,7 +173,8 @@ TEST_CASE("the schema has every key of every scene in problems/, and no other") 
     ++scenes;
     for (const auto& [key, where] : load_scene(entry.path()).where) {
       INFO(to_string(where) << ": " << key);
-      CHECK(knows(schema, key));
+      const std::string aside = "later_";  // of what stages bring
+      CHECK(knows(schema, key.starts_with(aside) ? key.substr(aside.size()) : key));
     }
   }
   CHECK(scenes >= 14);

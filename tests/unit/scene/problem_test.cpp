@@ -98,5 +98,5 @@ TEST_CASE("the fields of a point have a component each in two dimensions") {
                             "strain.xy", "strain.yx", "strain.yy", "plastic_strain", "pore_pressure",
                             "effective_stress.xx", "effective_stress.yy", "effective_stress.zz", "effective_stress.xy"})
     CHECK(std::ranges::find(fields, field) != fields.end());
-  CHECK(fields.size() == 18);
+  CHECK(fields.size() == 20);
 }
