@@ -210,6 +210,10 @@ void Simulation::Impl::end_if_asked() {
 }
 
 void Simulation::Impl::finish() {
+  // Other runs may begin with what this one leaves. A run that went wrong keeps the last state that was good, and one
+  // that was asked to end has left its own.
+  const bool is_over = is_own_end(verdict_.status);
+  if (is_readable_ && is_over && leaves_checkpoints()) leave_checkpoint();
   if (is_readable_) {
     run_->motion->stepper->finish(run_->t);
     for (const Watched& watched : watchers_) watched.watcher->end_phase(*run_, /*is_last=*/true);
@@ -221,9 +225,8 @@ void Simulation::Impl::finish() {
     if (is_limit && exit_status() != 0) watched.watcher->explain(*run_, verdict_);
     if (verdict_.status == RunStatus::equilibrium) watched.watcher->confirm(*run_, verdict_);
   }
-  // Other runs may begin with what this one leaves. A run that went wrong keeps the last state that was good.
-  const bool went_wrong = verdict_.status == RunStatus::diverged || verdict_.status == RunStatus::failed;
-  if (is_readable_ && leaves_checkpoints() && !went_wrong) leave_checkpoint();
+  const bool was_asked_to_end = verdict_.status != reached && verdict_.status == run_->end_request.status();
+  if (was_asked_to_end && !is_over && leaves_checkpoints()) leave_checkpoint();
   if (recorder_) recorder_->finish(run_->t, is_readable_ ? &*run_->motion : nullptr);
   folder_lock_.reset();
 }

@@ -87,6 +87,7 @@ void Simulation::Impl::resume(const fs::path& from) {
   });
   last_checkpoint_ = run_->steps();
   next_checkpoint_s_ = run_->wall.seconds() + run_->scene.checkpoint.every;
+  if (done()) finish();
 }
 
 void Simulation::Impl::archive(const StateArchive& state) {
@@ -100,18 +101,10 @@ void Simulation::Impl::archive(const StateArchive& state) {
 
 // A run that has come to an end of its own is over when it is resumed; one that was asked to end goes on.
 void Simulation::Impl::archive_end(const StateArchive& state) {
-  using enum RunStatus;
-  const auto is_over = [](RunStatus status) {
-    return status == equilibrium || status == unstable_equilibrium || status == limit_load || status == end_time ||
-           status == step_limit;
-  };
-  Verdict end = is_over(verdict_.status) ? verdict_ : Verdict{};
+  Verdict end = is_own_end(verdict_.status) ? verdict_ : Verdict{};
   state("status", end.status, "reason", end.reason);
-  if (!state.restores() || !end.ends()) return;
-  if (!is_over(end.status)) throw StateError("'status' is none of a run that is over");
-  verdict_ = end;
-  if (recorder_) recorder_->finish(run_->t, &*run_->motion);
-  folder_lock_.reset();
+  if (end.ends() && !is_own_end(end.status)) throw StateError("'status' is none of a run that is over");
+  if (state.restores()) verdict_ = end;
 }
 
 // --- when a checkpoint is left ---

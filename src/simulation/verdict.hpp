@@ -24,6 +24,13 @@ struct Verdict {
   bool ends() const { return status != RunStatus::running; }
 };
 
+/// Whether a run of this status is over, by a test of its scene; otherwise it went wrong, or could go on.
+inline bool is_own_end(RunStatus status) {
+  using enum RunStatus;
+  return status == equilibrium || status == unstable_equilibrium || status == limit_load || status == end_time ||
+         status == step_limit;
+}
+
 /// A request that a run ends though it could go on: by its user, or because stop.wall_time is over.
 class EndRequest {
  public:
