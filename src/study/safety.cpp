@@ -30,8 +30,9 @@ void check(const Scene& scene) {
                                     law));
   }
   if (scene.phase.at_stages)
-    throw_scene_error(scene.initial_from.empty() ? "stage" : "initial.from",
-                      "a factor of safety is that of a body in its first stage, from its own beginning; leave this out");
+    throw_scene_error(
+        scene.initial_from.empty() ? "stage" : "initial.from",
+        "a factor of safety is that of a body in its first stage, from its own beginning; leave this out");
   if (std::ranges::none_of(scene.bodies, reducible))
     throw_scene_error("material",
                       "no material has a strength that a factor could divide; expected the law \"mohr-coulomb\" or "

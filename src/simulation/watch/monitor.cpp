@@ -15,15 +15,16 @@ namespace stillpoint {
 namespace {
 
 MonitorOptions monitor_options(const StopSpec& stop, const Model& model) {
-  return {.residual = stop.residual,
-          .distance = model.distance_goal,
-          .distance_is_asked = stop.distance > 0,
-          .kinetic_energy = stop.kinetic_energy,
-          .dwell = model.dwell,
-          .must_last = model.equilibrium_must_last,
-          .end_time = model.static_method && model.t > 0 ? 0 : stop.time,  // a static solver that begins there has no time
-          .steps = stop.steps,
-          .begin = model.t};
+  return {
+      .residual = stop.residual,
+      .distance = model.distance_goal,
+      .distance_is_asked = stop.distance > 0,
+      .kinetic_energy = stop.kinetic_energy,
+      .dwell = model.dwell,
+      .must_last = model.equilibrium_must_last,
+      .end_time = model.static_method && model.t > 0 ? 0 : stop.time,  // a static solver that begins there has no time
+      .steps = stop.steps,
+      .begin = model.t};
 }
 
 // An iterate is no motion, whose residual may be small for a moment only: it is looked at as soon as it may be the
