@@ -25,16 +25,17 @@ struct Renamed {
 // Lets the locations of all keys below the entries follow; those of other entries of these tables go.
 void rename(Locations& where, const Names& tables, const std::vector<Renamed>& entries) {
   Locations renamed;
-  for (const auto& [key, location] : where) {
+  for (const auto& written : where) {
+    const std::string& key = written.first;
     const auto is_below = [&key](const std::string& entry) {
       return key.starts_with(entry) &&
              (key.size() == entry.size() || key[entry.size()] == '.' || key[entry.size()] == '[');
     };
     const auto entry = std::ranges::find_if(entries, is_below, &Renamed::from);
     if (entry != entries.end()) {
-      renamed[entry->to + key.substr(entry->from.size())] = location;
+      renamed[entry->to + key.substr(entry->from.size())] = written.second;
     } else if (std::ranges::none_of(tables, [&](const std::string& table) { return key.starts_with(table + "["); })) {
-      renamed[key] = location;
+      renamed[key] = written.second;
     }
   }
   where = std::move(renamed);

@@ -20,7 +20,7 @@
 namespace stillpoint {
 namespace {
 
-constexpr const char* key = "initial.from";
+constexpr const char* initial_from = "initial.from";
 
 // Bodies without names are the same in their order, if there are as many. Throws SceneError for a name that is not
 // there.
@@ -39,13 +39,13 @@ std::vector<std::size_t> numbers_of(const Problem& other, const Problem& problem
     numbers.push_back(is_taken ? same->number : CarriedBody::not_taken);
   }
   if (by_order && other.bodies.size() != problem.bodies.size())
-    throw_scene_error(key,
+    throw_scene_error(initial_from,
                       fmt::format("the other run has {} bodies without names, and this scene {}; expected as many, or "
                                   "names",
                                   other.bodies.size(), problem.bodies.size()));
   if (std::ranges::all_of(numbers, [](std::size_t number) { return number == CarriedBody::not_taken; }))
-    throw_scene_error(
-        key, fmt::format("no body of this scene has the name of one of the other run: {}", fmt::join(names, ", ")));
+    throw_scene_error(initial_from, fmt::format("no body of this scene has the name of one of the other run: {}",
+                                                fmt::join(names, ", ")));
   return numbers;
 }
 
@@ -73,11 +73,11 @@ std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
     const SimulationParts parts = other.parts();
     const Problem& scene = parts.problem;
     if (scene.state != problem.state)
-      throw_scene_error(key, fmt::format("the other run is one of state = {}, and this scene of {}",
-                                         in_quotes(std::string(to_string(scene.state))),
-                                         in_quotes(std::string(to_string(problem.state)))));
+      throw_scene_error(initial_from, fmt::format("the other run is one of state = {}, and this scene of {}",
+                                                  in_quotes(std::string(to_string(scene.state))),
+                                                  in_quotes(std::string(to_string(problem.state)))));
     if (scene.phase.quadrature == Quadrature::domains)
-      throw_scene_error(key,
+      throw_scene_error(initial_from,
                         "the points of the other run represent domains, which cannot be carried on yet; expected "
                         "phase.quadrature = \"points\" there");
     const std::vector<std::size_t> numbers = numbers_of(scene, problem);
@@ -86,9 +86,9 @@ std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
     points->begin_other_run(numbers, problem.displacements_from_zero);
     return points;
   } catch (const StateError& error) {
-    throw_scene_error(key, error.what());
+    throw_scene_error(initial_from, error.what());
   } catch (const PointLost& error) {
-    throw_scene_error(key, error.what());
+    throw_scene_error(initial_from, error.what());
   }
 }
 
