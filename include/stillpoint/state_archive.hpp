@@ -133,6 +133,7 @@ class StateArchive {
     std::copy(list.begin(), list.end(), values.begin());
   }
   void all(std::string_view name, std::string& text) const;
+  void all(std::string_view name, std::vector<std::string>& texts) const;
 
   SavedState* to_;
   const SavedState* from_;

@@ -78,21 +78,6 @@ constexpr Number hoop_increment(const GradientOf<S, Number>& H, const GradientOf
   }
 }
 
-/// The rotation R½ of an increment l = d + w in space.
-template <class Number>
-[[gnu::always_inline]] inline SpaceTensorOf<Number> half_rotation(const SpaceTensorOf<Number>& l) {
-  using std::sqrt;
-  // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
-  // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
-  const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
-  const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
-  const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
-  const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
-  const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
-  return {across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
-          c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
-}
-
 /// The stretch d and the rotation R of an increment. Number: double, or a Dual, which carries derivatives by H and dH.
 template <StressState S, class Number>
 class PlaneIncrement {
@@ -133,6 +118,12 @@ class PlaneIncrement {
     return {s.half + d.half, s.shear + d.shear, s.zz + d.zz};
   }
 
+  /// R, in three dimensions.
+  [[gnu::always_inline]] SpaceTensorOf<Number> rotation() const {
+    const Number none = 0, one = 1;
+    return {cos_, -sin_, none, sin_, cos_, none, none, none, one};
+  }
+
   Number volume_change;  // tr d
   Number det_g;
 
@@ -161,7 +152,16 @@ class SpaceIncrement {
     yz_ = l.yz + l.zy;
     zx_ = l.zx + l.xz;
 
-    R_half_ = half_rotation(l);
+    // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
+    // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
+    using std::sqrt;
+    const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
+    const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
+    const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
+    const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
+    const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
+    R_half_ = T{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
+                c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
   }
   [[gnu::always_inline]] T turned_stress(const Stress<StressState::space>& sigma, double p) const {
     return turned(R_half_, turned(R_half_, deviator(sigma, p)));
@@ -175,6 +175,8 @@ class SpaceIncrement {
   [[gnu::always_inline]] T turned_sum(const Stress<StressState::space>& sigma, double p, const Modulus& G) const {
     return turned(R_half_, turned(R_half_, deviator(sigma, p)) + stretch(G));
   }
+
+  [[gnu::always_inline]] T rotation() const { return R_half_ * R_half_; }
 
   Number volume_change;
   Number det_g;

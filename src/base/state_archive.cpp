@@ -35,6 +35,29 @@ void StateArchive::everything(SavedState& values) const {
     values[one->first.substr(prefix_.size())] = one->second;
 }
 
+// As one text, and the length of each.
+void StateArchive::all(std::string_view name, std::vector<std::string>& texts) const {
+  const std::string lengths_name = std::string(name) + "_lengths";
+  std::string joined;
+  std::vector<std::size_t> lengths;
+  for (const std::string& text : texts) {
+    joined += text;
+    lengths.push_back(text.size());
+  }
+  (*this)(name, joined);
+  (*this)(lengths_name, lengths);
+  if (!restores()) return;
+  texts.clear();
+  std::size_t from = 0;
+  for (const std::size_t length : lengths) {
+    if (length > joined.size() - from) break;
+    texts.push_back(joined.substr(from, length));
+    from += length;
+  }
+  if (texts.size() != lengths.size() || from != joined.size())
+    throw StateError(fmt::format("'{}' is not as long as its parts", path(name)));
+}
+
 void StateArchive::put(std::string_view name, SavedValue value) const {
   const auto [place, is_new] = to_->insert_or_assign(path(name), std::move(value));
   if (!is_new) throw std::logic_error(fmt::format("two values of a state are called '{}'", place->first));

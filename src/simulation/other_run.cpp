@@ -82,7 +82,7 @@ std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
                         "phase.quadrature = \"points\" there");
     const std::vector<std::size_t> numbers = numbers_of(scene, problem);
     refuse_other_laws(scene, problem, numbers);
-    std::shared_ptr<CarriedBody> points = parts.phase.control().hand_over(other.t(), other.u(), other.v());
+    std::shared_ptr<CarriedBody> points = parts.phase.hand_over(other.t(), other.u(), other.v());
     points->begin_other_run(numbers, problem.displacements_from_zero);
     return points;
   } catch (const StateError& error) {

@@ -52,7 +52,7 @@ void Simulation::Impl::next_stage() {
   try {
     StageBegin next{.t = std::max(run_->t, run_->scene.stages.front().at),
                     .number = run_->stage.number + 1,
-                    .carried = run_->model.phase->control().hand_over(run_->t, run_->motion->u(), run_->motion->v())};
+                    .carried = run_->model.phase->hand_over(run_->t, run_->motion->u(), run_->motion->v())};
     SavedState records;
     if (recorder_) recorder_->end_stage(StateArchive::saving(records));
     const double work = recorder_ ? recorder_->external_work() : 0;
@@ -85,46 +85,43 @@ void Simulation::Impl::begin_stage(StageBegin begins) {
 
 void Simulation::Impl::archive_stages(const StateArchive& state) {
   int ended = run_->stage.number;
-  state("stage", ended);
   std::vector<double> figures;
-  std::string reasons;
+  std::vector<std::string> reasons;
   for (const StageFigures& one : stages_) {
     figures.insert(figures.end(),
                    {one.begin, one.end, static_cast<double>(one.status), one.residual, static_cast<double>(one.steps)});
-    reasons += one.reason + '\n';
+    reasons.push_back(one.reason);
   }
-  state("stage_figures", figures, "stage_reasons", reasons);
   double begin = run_->stage.t;
-  state("stage_begin", begin);
-  int status = static_cast<int>(stage_verdict_.status);
-  state("stage_status", status, "stage_reason", stage_verdict_.reason);
+  Verdict now = stage_verdict_;
+  state("stage", ended, "stage_begin", begin, "stage_status", now.status, "stage_reason", now.reason);
+  state("stage_figures", figures, "stage_reasons", reasons);
   if (!state.restores()) {
     if (ended > 0) run_->stage.carried->archive(state.part("carried"));
     return;
   }
   constexpr std::size_t row = 5;
   if (ended < 0 || static_cast<std::size_t>(ended) > run_->scene.stages.size() ||
-      figures.size() != row * static_cast<std::size_t>(ended))
+      reasons.size() != static_cast<std::size_t>(ended) || figures.size() != row * reasons.size())
     throw StateError("it has other stages than the scene");
   stages_.clear();
-  for (std::size_t k = 0, from = 0; k < static_cast<std::size_t>(ended); ++k) {
+  for (std::size_t k = 0; k < reasons.size(); ++k) {
     const double* const of = figures.data() + row * k;
-    const std::size_t to = std::min(reasons.find('\n', from), reasons.size());
     stages_.push_back({.begin = of[0],
                        .end = of[1],
                        .status = static_cast<RunStatus>(of[2]),
-                       .reason = reasons.substr(from, to - from),
+                       .reason = reasons[k],
                        .residual = of[3],
                        .steps = static_cast<long>(of[4])});
-    from = to + 1;
   }
-  if (ended == 0) return;
-  auto carried = make_carried_body(run_->scene);
-  carried->archive(state.part("carried"));
-  // Stages before the last one only change the scene.
-  for (int k = 1; k < ended; ++k) run_->scene = scene_of_next_stage(run_->scene);
-  begin_stage({.t = begin, .number = ended, .carried = std::move(carried)});
-  stage_verdict_.status = static_cast<RunStatus>(status);
+  if (ended > 0) {
+    auto carried = make_carried_body(run_->scene);
+    carried->archive(state.part("carried"));
+    // Stages before the last one only change the scene.
+    for (int k = 1; k < ended; ++k) run_->scene = scene_of_next_stage(run_->scene);
+    begin_stage({.t = begin, .number = ended, .carried = std::move(carried)});
+  }
+  stage_verdict_ = now;
 }
 
 }  // namespace stillpoint

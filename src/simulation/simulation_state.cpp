@@ -21,13 +21,7 @@ struct Origin {
   std::vector<std::string> overrides;
 
   void archive(const StateArchive& state) {
-    state("version", version, "file", file, "scene", text);
-    std::size_t count = overrides.size();
-    state("overrides", count);
-    constexpr std::size_t largest_count = 100'000;  // more than a command line has
-    if (count > largest_count) throw StateError(fmt::format("it has {} settings: it was altered", count));
-    overrides.resize(count);
-    for (std::size_t k = 0; k < count; ++k) state(fmt::format("override_{}", k), overrides[k]);
+    state("version", version, "file", file, "scene", text, "overrides", overrides);
   }
 };
 

@@ -127,6 +127,34 @@ TEST_CASE("what a stage puts out of balance comes on over its ramp: a slow one n
   CHECK(lowest(", ramp=0") > 1.1);
 }
 
+TEST_CASE("a stage that changes nothing changes nothing, while a body moves and while it stands on a wall") {
+  for (const std::string law : {"law=hencky", "law=drucker-prager"}) {
+    CAPTURE(law);
+    const std::vector<std::string> column = {
+        "body=[{name='ground', max=['h', '5*h'], material='fill', state='plane-strain'}]",
+        "support=[{face='left', kind='roller'}, {face='right', kind='roller'}]",
+        "wall=[{name='floor', face='bottom'}]",
+        "probe=[{name='top', at=['h/2', '5*h'], fields=['u.y', 'v.y']}]",
+        "material.fill." + law,
+        "solve.method=relaxation",
+        "damping.strategy=viscous",
+        "damping.c=2",
+        "phase.max_motion=0.02",  // points take over velocities with and without the stage
+        "phase.quadrature=points",
+        "stop.residual=0",
+        "stop.time=0.5"};
+    std::vector<std::string> set = column;
+    if (law == "law=drucker-prager") set.push_back("material.fill.c=1e9");
+    const Summary without = run(scenes::load("ladder/lifts", with(set, {"stage=[]"})));
+    const Summary staged = run(scenes::load("ladder/lifts", with(set, {"stage=[{at=0.1, ramp=0.4}]"})));
+    REQUIRE(staged.stages.size() == 1);
+    // The stage ends a phase, which is one more of some twenty.
+    CHECK(scenes::probe(staged, "top", "u.y") == Approx(scenes::probe(without, "top", "u.y")).epsilon(0.02));
+    CHECK(scenes::probe(staged, "floor", "normal") == Approx(scenes::probe(without, "floor", "normal")).epsilon(0.02));
+    CHECK(scenes::probe(without, "floor", "normal") > 0);
+  }
+}
+
 TEST_CASE("a support that is released hands its load on, and one that begins to hold does so where the body then is") {
   const std::string prop =
       "support=[{face='bottom'}, {face='left', kind='roller'}, {face='right', kind='roller'}, "

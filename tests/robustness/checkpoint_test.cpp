@@ -38,6 +38,9 @@ std::string left_by(const Summary& s, const fs::path& out) {
                                  s.reason, s.steps, s.rhs_evaluations, s.phases, s.rejected_steps, s.residual,
                                  s.distance.value_or(0), s.momentum_error.value_or(0), s.plastic_overshoot.value_or(-1),
                                  s.unbalanced_plastic_work.value_or(-1), fmt::join(s.notes, "\n"));
+  for (const StageFigures& stage : s.stages)
+    left += fmt::format("{:a} to {:a}: {} {} {:a} {}\n", stage.begin, stage.end, to_string(stage.status), stage.reason,
+                        stage.residual, stage.steps);
   for (const char* name : {"history.csv", "fields.h5", "fields.xdmf"})
     if (fs::exists(out / name)) left += contents(out / name);
   return left;
@@ -129,6 +132,12 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
         "'2*h'], fields=['u.y', 'stress.yy']}]"};
     for (const long steps : {60L, 120L, 200L, 300L}) check_same_bits({"ladder/lifts", set}, steps);
   }
+  // At rest, and waiting for the time of the next stage: what told equilibrium is kept.
+  check_same_bits({"ladder/lifts",
+                   {"solve.method=relaxation", "damping.strategy=viscous", "stop.residual=1e-6", "output.every=0.1",
+                    "stage=[{at=0, equilibrium=true}, {at=3, add=['lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6'], "
+                    "ramp=0.1}]"}},
+                  700);
 }
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with rigid bodies that touch it") {

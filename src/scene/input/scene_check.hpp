@@ -35,6 +35,11 @@ class SceneCheck {
   const Scene& scene() const { return scene_; }
   const std::vector<Mistake>& problems() const { return reading_.problems; }
   const Catalogue& catalogue() const { return catalogue_; }
+  /// The law of a material by its name; null: there is no such material or law.
+  const LawInfo* law_of(const std::string& material) const {
+    const auto found = scene_.materials.find(material);
+    return found == scene_.materials.end() ? nullptr : catalogue_.law(found->second.law);
+  }
 
   /// Reports a key, or a table, as wrong.
   void add(const std::string& key, const std::string& message) { reading_.problem(scene_.location(key), key, message); }

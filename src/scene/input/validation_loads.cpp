@@ -131,9 +131,7 @@ void check_laws_keep_a_stress(SceneCheck& check, const char* what) {
   for (const LawInfo& law : check.catalogue().laws)
     if (law.history_dependent) names.emplace_back(law.name);
   for (const BodySpec& body : scene.bodies) {
-    const auto material = scene.materials.find(body.material);
-    const LawInfo* const law =
-        material == scene.materials.end() ? nullptr : check.catalogue().law(material->second.law);
+    const LawInfo* const law = check.law_of(body.material);
     if (check.wrong_if(law && !law->history_dependent, fmt::format("material.{}.law", body.material),
                        "{} needs a law that keeps a stress{}; the stress of '{}' is 0 if nothing is deformed", what,
                        names.empty() ? "" : ", such as " + either(names), law ? law->name : ""))
@@ -182,9 +180,7 @@ void check_pressure(SceneCheck& check) {
   const Scene& scene = check.scene();
   const bool is_stage = scene.present_stage && scene.present_stage->at > 0;
   for (const BodySpec& body : scene.bodies) {
-    const auto material = scene.materials.find(body.material);
-    const LawInfo* const law =
-        material == scene.materials.end() ? nullptr : check.catalogue().law(material->second.law);
+    const LawInfo* const law = check.law_of(body.material);
     if (!law || !law->needs_pressure || is_stage || !scene.initial_from.empty()) continue;
     const std::string key = fmt::format("material.{}.law", body.material);
     const bool is_given = scene.geostatic || !scene.initial_stress.empty();

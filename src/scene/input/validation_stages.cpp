@@ -34,28 +34,34 @@ class Presence {
   }
 
   void begin(const std::string& key, const std::vector<std::string>& names) {
-    for (std::size_t k = 0; k < names.size(); ++k)
-      if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
-        check_.wrong_if(!came_.insert(names[k]).second || !now_.insert(names[k]).second, one, "{} {} comes twice",
-                        what_, in_quotes(names[k]));
+    check_each(key, names, "{} {} comes twice", [&](const std::string& name) {
+      const bool is_first = came_.insert(name).second;
+      return now_.insert(name).second && is_first;
+    });
   }
   void end(const std::string& key, const std::vector<std::string>& names) {
-    for (std::size_t k = 0; k < names.size(); ++k)
-      if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
-        check_.wrong_if(now_.erase(names[k]) == 0, one, "{} {} is not there then", what_, in_quotes(names[k]));
+    check_each(key, names, not_there, [&](const std::string& name) { return now_.erase(name) > 0; });
+  }
+  void expect(const std::string& key, const std::vector<std::string>& names) {
+    check_each(key, names, not_there, [&](const std::string& name) { return now_.contains(name); });
   }
   bool none_is_left() const { return now_.empty(); }
-  void expect(const std::string& key, const std::vector<std::string>& names) {
-    for (std::size_t k = 0; k < names.size(); ++k)
-      if (const std::string one = fmt::format("{}[{}]", key, k); is_known(one, names[k]))
-        check_.wrong_if(!now_.contains(names[k]), one, "{} {} is not there then", what_, in_quotes(names[k]));
-  }
 
  private:
-  bool is_known(const std::string& key, const std::string& name) {
-    const bool known = std::ranges::find(all_, name) != all_.end();
-    if (!known) check_.add_unknown(key, what_, "[[" + what_ + "]] with a name", name, all_);
-    return known;
+  static constexpr const char* not_there = "{} {} is not there then";
+
+  /// Reports names that nothing has, and with this message those that are not in order.
+  template <class IsInOrder>
+  void check_each(const std::string& key, const std::vector<std::string>& names, const char* message,
+                  const IsInOrder& is_in_order) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const std::string one = fmt::format("{}[{}]", key, k);
+      if (std::ranges::find(all_, names[k]) == all_.end()) {
+        check_.add_unknown(one, what_, "[[" + what_ + "]] with a name", names[k], all_);
+      } else if (!is_in_order(names[k])) {
+        check_.add(one, fmt::format(fmt::runtime(message), what_, in_quotes(names[k])));
+      }
+    }
   }
 
   SceneCheck& check_;
@@ -79,7 +85,7 @@ void check_new_materials(SceneCheck& check, const StageSpec& stage, const std::s
       check.add_unknown(one, "material", "[material.<name>]", stage.material[k], names);
       continue;
     }
-    const LawInfo* const law = check.catalogue().law(material->second.law);
+    const LawInfo* const law = check.law_of(stage.material[k]);
     check.wrong_if(law && !law->history_dependent, one,
                    "'{}' is a law without history, whose stress follows from its own deformation alone: it cannot take "
                    "over the stress of another material",
@@ -92,13 +98,10 @@ void check_new_bodies(SceneCheck& check, const StageSpec& stage, const std::stri
   const Scene& scene = check.scene();
   for (std::size_t k = 0; k < stage.add.size(); ++k) {
     const auto body = std::ranges::find(scene.later_bodies, stage.add[k], &BodySpec::name);
-    const auto material =
-        body == scene.later_bodies.end() ? scene.materials.end() : scene.materials.find(body->material);
-    const LawInfo* const law =
-        material == scene.materials.end() ? nullptr : check.catalogue().law(material->second.law);
+    const LawInfo* const law = body == scene.later_bodies.end() ? nullptr : check.law_of(body->material);
     check.wrong_if(law && law->needs_pressure, fmt::format("{}.add[{}]", key, k),
                    "{} is placed without stress, and '{}' has no stiffness without pressure; take another law for it",
-                   in_quotes(stage.add[k]), material->second.law);
+                   in_quotes(stage.add[k]), law ? law->name : "");
   }
 }
 
@@ -129,8 +132,7 @@ void check_company_of_stages(SceneCheck& check) {
       "yet");
 }
 
-}  // namespace
-
+/// What a run that begins with the points of another one does not go with.
 void check_other_run(SceneCheck& check) {
   const Scene& scene = check.scene();
   const std::string from = "initial.from";
@@ -151,6 +153,8 @@ void check_other_run(SceneCheck& check) {
   check.refuse_if(true, "initial", {"u", "v"},
                   "does not go with initial.from, where bodies are as another run left them");
 }
+
+}  // namespace
 
 void check_stages(SceneCheck& check) {
   const Scene& scene = check.scene();

@@ -240,6 +240,7 @@ void WallContact::archive(const StateArchive& state) {
   const std::size_t saved = closed_.size();
   for (const std::size_t size : {sliding_.size(), gap_.size(), held_.size(), normal_force_.size(), shear_force_.size()})
     if (size != saved) throw StateError(fmt::format("of the wall '{}' the numbers of nodes differ", name_));
+  if (nodes_.empty()) return;  // of a stage whose first phase is yet to begin, with the nodes of the one before
   // The nodes are those of the restored phase or, before that begins, others.
   closed_.resize(nodes_.size(), 0);
   for (auto* const components : {&sliding_, &shear_force_}) components->resize(nodes_.size(), Along{});

@@ -48,30 +48,18 @@ constexpr Stress<S> strain_vector(const SpaceTensor& d) {
 template <StressState S, class Number>
 [[gnu::always_inline]] inline TurnedIncrement<Number> turned_increment(const GradientOf<S, Number>& H,
                                                                        const GradientOf<S, Number>& dH) {
-  using T = SpaceTensorOf<Number>;
+  const Increment<S, Number> increment(H, dH);
+  const Number third = increment.volume_change * (1.0 / 3), none = 0;
+  const DeviatorOf<S, Number> dev = increment.turned_stretch(0.5);  // 2 G = 1
   if constexpr (S == StressState::space) {
-    const T change{dH[0], dH[1], dH[2], dH[3], dH[4], dH[5], dH[6], dH[7], dH[8]};
-    const T f{1 + H[0], H[1], H[2], H[3], 1 + H[4], H[5], H[6], H[7], 1 + H[8]};
-    const T g = f - 0.5 * change, cof_g = cofactor(g);
-    const Number det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
-    const T l = (1 / det_g) * (change * transpose(cof_g)), R_half = half_rotation(l);
-    const Number xy = 0.5 * (l.xy + l.yx), yz = 0.5 * (l.yz + l.zy), zx = 0.5 * (l.zx + l.xz);
-    const T d{l.xx, xy, zx, xy, l.yy, yz, zx, yz, l.zz};
-    return {turned(R_half, d), R_half * R_half, det_g};
+    return {{third + dev.xx, dev.xy, dev.xz, dev.yx, third + dev.yy, dev.yz, dev.zx, dev.zy, third + dev.zz},
+            increment.rotation(),
+            increment.det_g};
   } else {
-    const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
-    const Number det_g = gxx * gyy - gxy * gyx, r = 1 / det_g;
-    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
-    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
-    const Number dzz = hoop_increment<S, Number>(H, dH);
-    // R turns by θ, tan(θ/2) = w_yx/2, and a tensor turns by θ under R½ in (half difference, shear).
-    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q), cos = (1 - q * q) * over, sin = 2 * q * over;
-    const Number half_d = 0.5 * (lxx - lyy), shear_d = 0.5 * (lxy + lyx), mean = 0.5 * (lxx + lyy);
-    const Number half = cos * half_d - sin * shear_d, shear = sin * half_d + cos * shear_d;
-    const Number none = 0, one = 1;
-    return {{mean + half, shear, none, shear, mean - half, none, none, none, dzz},
-            {cos, -sin, none, sin, cos, none, none, none, one},
-            det_g};
+    const Number in_plane = third - 0.5 * dev.zz;
+    return {{in_plane + dev.half, dev.shear, none, dev.shear, in_plane - dev.half, none, none, none, third + dev.zz},
+            increment.rotation(),
+            increment.det_g};
   }
 }
 

@@ -121,9 +121,6 @@ class PhaseControl {
   /// Returns v, (size()); u is 0. Throws PointLost if a point leaves the grid, and std::logic_error if the scene has a
   /// single phase, or if initial_velocity() has not begun the first one.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
-  /// Ends the phase as begin_next() does, and returns what the points hand on to another stage; nothing but their
-  /// fields may be asked of this phase from then on. Throws as begin_next().
-  virtual std::unique_ptr<CarriedBody> hand_over(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
   /// Takes the pressures of contact at (t, u) as multipliers, which changes R there: the body may go on to where
   /// nothing penetrates.
@@ -219,6 +216,9 @@ class LagrangianPhase : public SemiDiscrete {
   /// The u and v at time t that the scene's initial values project to, Σ_j M_ij u_j = Σ_p m_p N_ip u_0(x_p), (n).
   virtual std::vector<double> initial_displacement(double t) const = 0;
   virtual std::vector<double> initial_velocity(double t) = 0;
+  /// Ends the phase at (t, u, v), and returns what its points hand on to another stage, or to another run; nothing more
+  /// may be asked of this phase than its fields. Throws PointLost if a point leaves the grid.
+  virtual std::unique_ptr<CarriedBody> hand_over(double t, ConstVec u, ConstVec v) = 0;
   /// The growth s of the highest frequency squared that a point's modulus would give its cell, the largest now over the
   /// largest when the run began: omega_max grows by √s. Infinite if u cannot be evaluated.
   virtual double stiffening(double t, ConstVec u) const = 0;

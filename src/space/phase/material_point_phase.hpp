@@ -14,11 +14,14 @@
 #include "space/phase/phase_shape.hpp"
 #include "space/phase/phase_supports.hpp"
 #include "space/phase/phase_tangents.hpp"
+#include "space/phase/stage_end.hpp"
 
 namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
 class MaterialPointPhase final : public LagrangianPhase {
+  static constexpr int dim = dimensions(K);
+
  public:
   MaterialPointPhase(const Problem& problem, const PhaseBegin& begin)
       : LagrangianPhase({fields_, supports_, shape_, control_, diagnosis_}), all_(problem, begin) {
@@ -28,7 +31,8 @@ class MaterialPointPhase final : public LagrangianPhase {
       info_.stiffens = info_.stiffens || all_.frame.moves_on();
     }
     history_dependent_ = all_.frame.remembers || all_.conditions.remember();
-    if (begin.carried && problem.present_stage) balance_begin_of_stage(begin.t, problem.present_stage->ramp);
+    if (begin.carried && problem.present_stage)
+      balance_begin_of_stage(*begin.carried, begin.t, problem.present_stage->ramp);
     loads_are_constant_ = all_.conditions.loads_are_constant();
     contact_ = all_.conditions.contact();
   }
@@ -85,6 +89,30 @@ class MaterialPointPhase final : public LagrangianPhase {
     return v;
   }
 
+  // What is out of balance before the stage changes anything is no matter of the stage.
+  std::unique_ptr<CarriedBody> hand_over(double t, ConstVec u, ConstVec v) override {
+    PhaseFrame<B, K>& frame = all_.frame;
+    const StageEnd<B, K> end(frame, all_.force);
+    std::vector<TensorOf<K>> H;  // that the points have not taken into what they remember
+    if (!frame.moves_on()) {
+      H = end.leave_single_phase(t, u);
+    } else if (frame.is_of_small_strain()) {
+      end.take_strains_in_place(t, u);
+    } else {
+      all_.remap.end_phase(t, u, v, all_.limit.largest_motion(u));
+    }
+    auto carried =
+        std::make_unique<CarriedBodyOf<K>>(all_.problem, frame.body, frame.origin, frame.grid_moved, frame.phase, H);
+    all_.conditions.archive(StateArchive::saving(carried->conditions));
+    if (!frame.moves_on()) return carried;
+    all_.begin_phase(t);
+    carried->out_of_balance.assign(static_cast<std::size_t>(dim) * frame.functions_of_grid(), 0);
+    const std::vector<double> Q = out_of_balance(t);
+    for (std::size_t k = 0; k < Q.size(); ++k)
+      carried->out_of_balance[static_cast<std::size_t>(frame.dofs().free[k])] = Q[k];
+    return carried;
+  }
+
   // Springs do not soften with the material.
   double stiffening(double t, ConstVec u) const override {
     if (!info_.stiffens) return 1;
@@ -98,15 +126,25 @@ class MaterialPointPhase final : public LagrangianPhase {
   }
 
  private:
-  // Lets the forces that the stage puts out of balance come on over the ramp. A state that cannot be evaluated is
-  // refused by whoever evaluates it first.
-  void balance_begin_of_stage(double t, double ramp) {
-    if (!(ramp > 0)) return;
+  // F − R when a phase begins, (n); empty if the state cannot be evaluated, which whoever evaluates it next refuses.
+  std::vector<double> out_of_balance(double t) const {
     const std::vector<double> rest(size(), 0.0);
     std::vector<double> Q(size()), R(size());
-    if (!MaterialPointPhase::internal_force(t, rest, R, *MaterialPointPhase::make_trial())) return;
+    if (!MaterialPointPhase::internal_force(t, rest, R, *MaterialPointPhase::make_trial())) return {};
     MaterialPointPhase::external_force(t, rest, Q);
     for (std::size_t k = 0; k < Q.size(); ++k) Q[k] -= R[k];
+    return Q;
+  }
+  // Lets the forces that the stage puts out of balance come on over the ramp: those by which F − R differs from what it
+  // was before, which a support that is released had borne.
+  void balance_begin_of_stage(const CarriedBody& carried, double t, double ramp) {
+    if (!(ramp > 0)) return;
+    std::vector<double> Q = out_of_balance(t);
+    if (Q.empty()) return;
+    const std::vector<double>& before = carried.out_of_balance;
+    const bool same_functions = before.size() == static_cast<std::size_t>(dim) * all_.frame.functions_of_grid();
+    for (std::size_t k = 0; k < Q.size() && same_functions; ++k)
+      Q[k] -= before[static_cast<std::size_t>(all_.frame.dofs().free[k])];
     all_.conditions.let_fade(all_.inertia.parts(), t, t + ramp, Q);
   }
   PhaseTrial& own(TrialState& trial) const {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,21 +34,6 @@ class PhaseControlOf final : public PhaseControl {
     all_.remap.end_phase(t, u, v, all_.limit.largest_motion(u));
     all_.begin_phase(t);
     return all_.remap.begin_motion(t);
-  }
-  std::unique_ptr<CarriedBody> hand_over(double t, ConstVec u, ConstVec v) override {
-    PhaseFrame<B, K>& frame = all_.frame;
-    std::vector<TensorOf<K>> H;  // that the points have not taken into what they remember
-    if (!frame.moves_on()) {
-      H = all_.remap.leave_single_phase(t, u);
-    } else if (all_.remap.is_of_small_strain()) {
-      all_.remap.end_stage_in_place(t, u);
-    } else {
-      all_.remap.end_phase(t, u, v, all_.limit.largest_motion(u));
-    }
-    auto carried =
-        std::make_unique<CarriedBodyOf<K>>(all_.problem, frame.body, frame.origin, frame.grid_moved, frame.phase, H);
-    all_.conditions.archive(StateArchive::saving(carried->conditions));
-    return carried;
   }
   void update_multipliers(double t, ConstVec u) override {
     const auto work = all_.force.borrow();

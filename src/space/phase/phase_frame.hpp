@@ -59,6 +59,11 @@ struct PhaseFrame {
 
   std::size_t functions_of_grid() const { return static_cast<std::size_t>(functions.count()); }
   bool moves_on() const { return problem.phase.ends(); }
+  /// Whether the laws are those of small strain, whose positions stay what they are.
+  bool is_of_small_strain() const {
+    return std::ranges::none_of(
+        body.materials, [](const auto& law) { return law->info().finite_strain || law->info().history_dependent; });
+  }
   std::size_t size() const { return unknowns.size(); }
   const DegreesOfFreedom& dofs() const { return unknowns.dofs(); }
   const HeldUnknowns& held() const { return unknowns.held(); }

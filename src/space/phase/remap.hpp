@@ -45,13 +45,7 @@ class Remap {
   /// Whether the deformation of the points is taken from their positions.
   bool follows_positions() const {
     return frame_.moves_on() && frame_.problem.phase.deformation == DeformationRule::positions &&
-           !is_of_small_strain() && DeformationFromPositions<B, K>::applies(frame_.body);
-  }
-  /// Whether the laws are those of small strain, whose positions stay what they are.
-  bool is_of_small_strain() const {
-    return std::ranges::none_of(frame_.body.materials, [](const auto& material) {
-      return material->info().finite_strain || material->info().history_dependent;
-    });
+           !frame_.is_of_small_strain() && DeformationFromPositions<B, K>::applies(frame_.body);
   }
   /// Takes the deformation from the positions when a phase begins, but not after every phase if phases are short: the
   /// part of the deformation that the grid does not feel grows with the motion of the points.
@@ -104,46 +98,6 @@ class Remap {
     frame_.grid_moved = grid_moves_to;
     frame_.grid = std::move(next_grid);
     sort_points();
-  }
-
-  /// The same for laws of small strain at the end of a stage: the strain is added to that of the stages before, the
-  /// positions at the start of the run become those from which the points have moved, and the points are at rest.
-  void end_stage_in_place(double t, ConstVec u) {
-    const auto work = force_.borrow();
-    frame_.unknowns.spread(t, u, work->u);
-    force_.laws().take_means(work->u.data(), *work);
-    force_.points().visit(work->u.data(), [&](std::size_t m, Block& block) {
-      force_.laws().average(m, block, *work);
-      frame_.body.materials[m]->end_phase(block);
-    });
-    frame_.for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-      const auto moved = frame_.weights.value(work->u.data(), k, p);
-      for (int d = 0; d < dim; ++d) frame_.origin[dim * number + d] -= moved[d];
-    });
-    for (auto& v : points_.v) std::ranges::fill(v, 0.0);
-    ++frame_.phase;
-  }
-
-  /// Ends the only phase of a run for another run: the points move on, where the strains are not small. Returns their
-  /// displacement gradients.
-  std::vector<TensorOf<K>> leave_single_phase(double t, ConstVec u) {
-    const auto work = force_.borrow();
-    frame_.unknowns.spread(t, u, work->u);
-    std::vector<TensorOf<K>> H(points_.size());
-    force_.laws().take_means(work->u.data(), *work);
-    force_.points().visit(work->u.data(), [&](std::size_t m, Block& block) {
-      force_.laws().average(m, block, *work);
-      for (std::size_t q = 0; q < block.count; ++q) H[block.first + q] = block.H_at(q);
-    });
-    frame_.origin = frame_.account().positions();
-    const bool in_place = is_of_small_strain();
-    frame_.for_points([&](std::size_t k, std::size_t p, std::size_t number) {
-      const auto moved = frame_.weights.value(work->u.data(), k, p);
-      for (int d = 0; d < dim; ++d)
-        (in_place ? frame_.origin[dim * number + d] : points_.x[d][p]) += in_place ? -moved[d] : moved[d];
-      if (!in_place) points_.volume[p] *= determinant<K>(plus_identity<K>(H[p]));
-    });
-    return H;
   }
 
   const ConservationCheck<dim>& conservation() const { return transfer_.conservation(); }

@@ -76,13 +76,7 @@ struct CarriedMaterial {
   }
   void archive(const StateArchive& state) {
     state("law", law, "undrained", undrained, "remembers", remembers, "density", density, "begin", begin, "count",
-          count, "memory", memory, "stress", stress, "shown", shown);
-    std::string joined;
-    for (const std::string& name : names) joined += name + '\n';
-    state("names", joined);
-    names.clear();
-    for (std::size_t from = 0, to = 0; (to = joined.find('\n', from)) != std::string::npos; from = to + 1)
-      names.push_back(joined.substr(from, to - from));
+          count, "memory", memory, "stress", stress, "names", names, "shown", shown);
     if (stress.size() != stresses * count || shown.size() != names.size() * count)
       throw StateError("what points of a material remember is not that of its points");
   }
@@ -159,6 +153,7 @@ class CarriedBodyOf final : public CarriedBody {
         origin_[dim * static_cast<std::size_t>(points_.number[p]) + d] = points_.x[d][p];
     }
     conditions.clear();
+    out_of_balance.clear();
     grid_moved_ = 0;
     phase_ = 0;
   }
@@ -178,6 +173,7 @@ class CarriedBodyOf final : public CarriedBody {
     if (count > points_.size()) throw StateError("it has more materials than points");
     materials_.resize(count);
     for (std::size_t m = 0; m < count; ++m) materials_[m].archive(state.part(fmt::format("material_{}", m)));
+    state("out_of_balance", out_of_balance);
     state.part("conditions").everything(conditions);
     if (state.restores()) check();
   }

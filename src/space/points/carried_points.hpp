@@ -18,7 +18,8 @@ class CarriedBody {
   virtual void begin_other_run(const std::vector<std::size_t>& numbers, bool forgets) = 0;
   static constexpr std::size_t not_taken = static_cast<std::size_t>(-1);
 
-  SavedState conditions;  // what walls, loads and supports remember, by their kinds
+  SavedState conditions;               // what walls, loads and supports remember, by their kinds
+  std::vector<double> out_of_balance;  // F − R at the end, (functions × dim) [N]; empty: not known
 };
 
 }  // namespace stillpoint
