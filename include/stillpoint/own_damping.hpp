@@ -19,8 +19,8 @@ struct OwnDamping {
   double stiffness_factor = 1;
 };
 
-/// D(v, Q) [N] with alpha from the scene; v, Q, D: (n), all free degrees of freedom at once, or (1) while the critical
-/// step is computed. An exception ends the step and reaches the caller.
+/// D(v, Q) [N] with alpha from the scene, D_i of v_i and Q_i alone; v, Q, D: (n), all free degrees of freedom at once,
+/// or some oscillators by which the critical step is found. An exception ends the step and reaches the caller.
 using OwnDampingForce = std::function<void(double alpha, ConstVec v, ConstVec Q, Vec D)>;
 
 /// Registers a damping: damping.strategy = name is M a = Q + D from now on. It replaces a damping of that name added

@@ -4,8 +4,8 @@
 #include <stillpoint/damping.hpp>
 #include <stillpoint/mass.hpp>
 
-#include <array>
 #include <functional>
+#include <vector>
 
 namespace stillpoint {
 
@@ -31,8 +31,12 @@ DampedSpectrum damped_spectrum(double omega_1, double omega_max, const Damping& 
 /// stable.
 double critical_step(const AmplificationRadius& amplification, const DampedSpectrum& spectrum);
 
-/// One step h of the oscillator u' = v, v' = Q + D(v, Q), Q = −u, with a local damping D; y = [u; v], updated in place.
-using OscillatorStep = std::function<void(double h, const Damping& local, std::array<double, 2>& y)>;
+/// Oscillators u' = v, v' = Q + D(v, Q), Q = −u, with a local damping D, each by itself.
+struct Oscillators {
+  std::vector<double> u, v;  // (oscillators)
+};
+/// One step h of all oscillators, updated in place.
+using OscillatorStep = std::function<void(double h, const Damping& local, Oscillators& all)>;
 
 /// The largest h up to which no motion of that oscillator grows, wherever it begins. D switches with the signs of v and
 /// Q, from stage to stage of a step too: each piece is linear, and a step that is stable for every piece may still let

@@ -133,7 +133,7 @@ def _(_folder):
 @claim("what a damping raises within a stage of ARKODE or GSL reaches the caller")
 def _(_folder):
     def failing(v, Q, _alpha):
-        if len(v) > 1 and np.any(v):
+        if len(v) == 9 and np.any(v):  # the bar's, not the oscillators by which the critical step is found
             raise KeyError("within a stage")
         return 0 * Q
 

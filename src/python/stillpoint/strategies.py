@@ -18,9 +18,9 @@ def add_damping(
 ) -> None:
     """From now on damping.strategy = name is M a = Q + D with D = force(v, Q, alpha), alpha that of the scene.
 
-    v, Q, D: (n), all free degrees of freedom at once, or (1) where the critical step is looked for. stiffness_factor: the
-    largest |Q + D|/|Q|, at least 1: the critical step sees the stiffness grow by it. In the place of one of that name that
-    was added before. What force() raises ends the step and reaches the caller. ValueError if the name is no word of
+    v, Q, D: (n), all free degrees of freedom at once, or some oscillators by which the critical step is found; D[i] is of
+    v[i] and Q[i] alone. stiffness_factor: the largest |Q + D|/|Q|, at least 1: the critical step sees the stiffness grow
+    by it. In the place of one of that name that was added before. What force() raises ends the step and reaches the caller. ValueError if the name is no word of
     lower-case letters, digits and hyphens, or one of this library's.
     """
     _core.add_damping(name, force, stiffness_factor=stiffness_factor, equation=equation, source=source)

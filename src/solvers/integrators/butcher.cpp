@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numeric>
 
 namespace stillpoint {
@@ -73,21 +74,25 @@ AmplificationRadius amplification_of(const ButcherTable& table) {
 }
 
 OscillatorStep oscillator_step_of(const ButcherTable& table) {
-  return [table, k = std::vector<std::array<double, 2>>(table.b.size())](double h, const Damping& local,
-                                                                         std::array<double, 2>& y) mutable {
-    const auto stages = table.b.size();
-    for (std::size_t i = 0; i < stages; ++i) {
-      std::array<double, 2> Y = y;
-      for (std::size_t j = 0; j < i; ++j) {
-        for (std::size_t c = 0; c < 2; ++c) Y[c] += h * table.A[i * stages + j] * k[j][c];
-      }
-      k[i] = {Y[1], -Y[0]};
-      local.add_local({&Y[1], 1}, {&k[i][1], 1});
-    }
-    for (std::size_t i = 0; i < stages; ++i) {
-      for (std::size_t c = 0; c < 2; ++c) y[c] += h * table.b[i] * k[i][c];
-    }
-  };
+  return
+      [table, k = std::vector<Oscillators>(table.b.size())](double h, const Damping& local, Oscillators& all) mutable {
+        const auto stages = table.b.size();
+        const auto add = [](double by, const Oscillators& rates, Oscillators& to) {
+          for (std::size_t o = 0; o < to.u.size(); ++o) {
+            to.u[o] += by * rates.u[o];
+            to.v[o] += by * rates.v[o];
+          }
+        };
+        for (std::size_t i = 0; i < stages; ++i) {
+          Oscillators at = all;
+          for (std::size_t j = 0; j < i; ++j) add(h * table.A[i * stages + j], k[j], at);
+          k[i].u = at.v;
+          k[i].v.resize(at.u.size());
+          std::ranges::transform(at.u, k[i].v.begin(), std::negate());
+          local.add_local(at.v, k[i].v);
+        }
+        for (std::size_t i = 0; i < stages; ++i) add(h * table.b[i], k[i], all);
+      };
 }
 
 ButcherTable classical_rk4() {

@@ -54,34 +54,37 @@ GslStep make_stepper(const gsl_odeiv2_step_type* type, std::size_t size) {
 
 // --- properties of a stepper, found by applying it: GSL does not publish its tableaux ---
 
-/// The oscillator u'' + rate u' + omega² u = D, y = [u; v].
-struct Oscillator {
+/// Oscillators u'' + rate u' + omega² u = D, y = [u; v].
+struct OscillatorEquations {
   double omega = 1, rate = 0;
   const Damping* local = nullptr;  // null: D = 0
+  std::size_t count = 1;
   int evaluations = 0;
 
   static int right_hand_side(double /*t*/, const double y[], double ydot[], void* self) {
-    auto& oscillator = *static_cast<Oscillator*>(self);
-    ++oscillator.evaluations;
-    ydot[0] = y[1];
-    ydot[1] = -oscillator.omega * oscillator.omega * y[0] - oscillator.rate * y[1];
-    if (oscillator.local) oscillator.local->add_local({&y[1], 1}, {&ydot[1], 1});
+    auto& all = *static_cast<OscillatorEquations*>(self);
+    ++all.evaluations;
+    for (std::size_t u = 0, v = all.count; u < all.count; ++u, ++v) {
+      ydot[u] = y[v];
+      ydot[v] = -all.omega * all.omega * y[u] - all.rate * y[v];
+    }
+    if (all.local) all.local->add_local({y + all.count, all.count}, {ydot + all.count, all.count});
     return GSL_SUCCESS;
   }
 };
 
-// Takes one step of length h from y, in place, as the fixed-step integrator below takes it.
-void apply_once(const gsl_odeiv2_step_type* type, Oscillator& oscillator, double h, std::array<double, 2>& y) {
-  const GslStep stepper = make_stepper(type, 2);
-  const gsl_odeiv2_system system = {Oscillator::right_hand_side, nullptr, 2, &oscillator};
-  std::array<double, 2> error{}, ydot_in{}, ydot_out{};
-  Oscillator::right_hand_side(0, y.data(), ydot_in.data(), &oscillator);
+// Takes one step of length h from y, in place, as the fixed-step integrator below takes it. y: (2 count).
+void apply_once(const gsl_odeiv2_step_type* type, OscillatorEquations& oscillator, double h, Vec y) {
+  const GslStep stepper = make_stepper(type, y.size());
+  const gsl_odeiv2_system system = {OscillatorEquations::right_hand_side, nullptr, y.size(), &oscillator};
+  std::vector<double> error(y.size()), ydot_in(y.size()), ydot_out(y.size());
+  OscillatorEquations::right_hand_side(0, y.data(), ydot_in.data(), &oscillator);
   oscillator.evaluations = 0;  // the evaluation at the start belongs to the step before
   gsl_odeiv2_step_apply(stepper.get(), 0, h, y.data(), error.data(), ydot_in.data(), ydot_out.data(), &system);
 }
 
 int evaluations_of(const gsl_odeiv2_step_type* type) {
-  Oscillator oscillator;
+  OscillatorEquations oscillator;
   std::array<double, 2> y = {1, 0};
   apply_once(type, oscillator, 0.1, y);
   return oscillator.evaluations;
@@ -92,7 +95,7 @@ int evaluations_of(const gsl_odeiv2_step_type* type) {
 AmplificationRadius amplification_of(const gsl_odeiv2_step_type* type) {
   return [type](double h, double omega, double rate) {
     if (omega == 0) omega = 1, h = 0, rate = 0;
-    Oscillator oscillator{.omega = 1, .rate = rate / omega};
+    OscillatorEquations oscillator{.omega = 1, .rate = rate / omega};
     std::array<double, 2> p = {1, 0}, q = {0, 1};
     apply_once(type, oscillator, h * omega, p);
     apply_once(type, oscillator, h * omega, q);
@@ -226,9 +229,14 @@ std::vector<Method> gsl_methods() {
       method.order = stepper.order;
       method.evaluations_per_step = evaluations_of(stepper.type);
       method.amplification = amplification_of(stepper.type);
-      method.oscillator_step = [type = stepper.type](double h, const Damping& local, std::array<double, 2>& y) {
-        Oscillator oscillator{.local = &local};
-        apply_once(type, oscillator, h, y);
+      method.oscillator_step = [type = stepper.type](double h, const Damping& local, Oscillators& all) {
+        OscillatorEquations equations{.local = &local, .count = all.u.size()};
+        std::vector<double> y = all.u;
+        y.insert(y.end(), all.v.begin(), all.v.end());
+        apply_once(type, equations, h, y);
+        const auto v = y.begin() + static_cast<std::ptrdiff_t>(all.u.size());
+        all.u.assign(y.begin(), v);
+        all.v.assign(v, y.end());
       };
     }
     methods.push_back(std::move(method));

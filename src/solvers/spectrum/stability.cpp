@@ -122,25 +122,34 @@ namespace {
 // around half the circle. The other half is the same with all signs changed, and lengths do not matter:
 // D(v, s Q) = s D(v, Q).
 bool every_phase_decays(const OscillatorStep& step, const Damping& local, double h) {
-  constexpr int phases = 24, steps = 200;
+  constexpr std::size_t phases = 24;
+  constexpr int steps = 200;
   constexpr double rounding = 1e-9;
-  for (int k = 0; k < phases; ++k) {
-    const double phase = std::numbers::pi * (k + 0.5) / phases;
-    std::array<double, 2> y = {std::cos(phase), std::sin(phase)};
-    double log_size = 0, before = 0, after = -std::numeric_limits<double>::infinity();
-    for (int n = 0; n < steps; ++n) {
-      step(h, local, y);
-      const double length = std::hypot(y[0], y[1]);
-      if (length == 0) break;
-      if (!std::isfinite(length)) return false;
-      log_size += std::log(length);
-      double& most = n < steps / 2 ? before : after;
-      most = std::max(most, log_size);
-      for (double& value : y) value /= length;
-    }
-    if (after > before + rounding) return false;  // D has no effect on some motions
+  Oscillators all;
+  for (std::size_t k = 0; k < phases; ++k) {
+    const double phase = std::numbers::pi * (static_cast<double>(k) + 0.5) / phases;
+    all.u.push_back(std::cos(phase));
+    all.v.push_back(std::sin(phase));
   }
-  return true;
+  struct Size {
+    double log = 0, before = 0, after = -std::numeric_limits<double>::infinity();
+  };
+  std::array<Size, phases> sizes;
+  for (int n = 0; n < steps; ++n) {
+    step(h, local, all);
+    for (std::size_t k = 0; k < phases; ++k) {
+      const double length = std::hypot(all.u[k], all.v[k]);
+      if (length == 0) continue;  // it rests
+      if (!std::isfinite(length)) return false;
+      sizes[k].log += std::log(length);
+      double& most = n < steps / 2 ? sizes[k].before : sizes[k].after;
+      most = std::max(most, sizes[k].log);
+      all.u[k] /= length;
+      all.v[k] /= length;
+    }
+  }
+  // D has no effect on some motions
+  return std::ranges::none_of(sizes, [](const Size& size) { return size.after > size.before + rounding; });
 }
 
 }  // namespace
