@@ -93,6 +93,9 @@ class SemiDiscrete {
   /// t places the moving supports. trial: made by this system for this phase; its last contents do not matter.
   /// False if the trial cannot be evaluated (det f ≤ 0, a non-finite stress, a motion too far for one phase).
   virtual bool internal_force(double t, ConstVec u, Vec R, TrialState& trial) const = 0;
+  /// For static solvers, which divide a load: moves supports on a share of their way since the phase began, from then
+  /// on; all of it at first. True if some support has a way to go.
+  virtual bool move_supports_on(double /*share*/) { return false; }
   /// Accepts the state that internal_force() has put into the trial: the trial histories of the points become the
   /// committed ones. Called once an accepted step if history_dependent(); throws std::logic_error if the trial is not
   /// of this phase, or not evaluated since the last commit.

@@ -12,7 +12,8 @@
 
 namespace stillpoint {
 
-/// Q_s(u) = (1 − s) R₀ + s F(t, u) − R(t, u), s the load factor, R₀ the internal force at the start.
+/// Q_s(u) = (1 − s) R₀ + s F(t, u) − R(t, u), s the load factor, R₀ the internal force at the start. Where supports are
+/// is a matter of the caller.
 class StaticBalance {
  public:
   StaticBalance(const SemiDiscrete& system, double t, const VectorSpace& vectors)

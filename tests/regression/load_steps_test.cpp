@@ -2,7 +2,9 @@
 #include <stillpoint/compare.hpp>
 #include <stillpoint/stillpoint.hpp>
 
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -65,4 +67,27 @@ TEST_CASE("a comparison takes the shares that are asked for", "[compare]") {
   const std::vector<long> eight = steps("solve.load_steps=8"), one = steps("solve.load_steps=1");
   CHECK(eight[0] > 2 * one[0]);
   CHECK(eight[1] > 2 * one[1]);
+}
+
+TEST_CASE("a support goes its way in the same shares as the load, so that points beside it remember no jump") {
+  // The pressure in the cavity over c: of elastic clay 2 G ln(a/a_0) to the order of the strain, and a published one
+  const double pi = std::acos(-1.0), G = 1e6, c = 1e4, height = 0.05;
+  const auto pressure = [&](const std::string& method, double growth, const std::vector<std::string>& more) {
+    std::vector<std::string> set = {fmt::format("solve.method={}", method), fmt::format("constants.growth={}", growth),
+                                    "support[0].u=growth*a", "stop.time=100",
+                                    fmt::format("solve.load_steps={}", method == "newton" ? 100 : 4)};
+    set.insert(set.end(), more.begin(), more.end());
+    const Summary s = run(scenes::load("ladder/cavity", set));
+    CAPTURE(s.reason);
+    CHECK(s.status == RunStatus::equilibrium);
+    return s.reactions.at("cavity").at(0) / (2 * pi * (1 + growth) * height);
+  };
+  // The way of the cavity is a fifth or a half of the cell beside it, which would be strained by that at once
+  for (const auto& [method, cells] :
+       {std::pair("newton", 80), std::pair("newton", 160), std::pair("cg", 80), std::pair("lbfgs", 80)}) {
+    CAPTURE(method, cells);
+    CHECK(pressure(method, 0.01, {fmt::format("constants.n={}", cells), "material.clay.c=1e9"}) ==
+          Approx(0.0198018 * G).epsilon(1e-3));
+  }
+  CHECK(pressure("newton", 0.1, {"constants.n=80"}) == Approx(3.85640 * c).epsilon(0.01));
 }

@@ -50,6 +50,7 @@ void begin_at_initial_state(SetUpState& set_up) {
   Model& model = set_up.model;
   model.u = model.phase->initial_displacement(model.t);
   if (!set_up.begin.carried) check_probes(problem, *model.phase);
+  if (plan.static_method) model.phase->move_supports_on(0);  // they move in the shares of the load
   check_initial_state(*model.phase, model.t, model.u);
   const bool linear =
       !model.phase->info().nonlinear && model.phase->tangents().of_loads(model.t, model.u).nonZeros() == 0;
@@ -68,7 +69,10 @@ void begin_motion(SetUpState& set_up) {
 
 // V and its ω₁; empty if K has no lowest eigenvalue.
 std::optional<VolumeNorm> volume_norm(Problem problem, const LagrangianPhase& phase, ConstVec u) {
-  for (auto& [name, material] : problem.materials) material.parameters["rho"] = 1;
+  for (auto& [name, material] : problem.materials) {
+    material.parameters["rho"] = 1;
+    material.by_place.erase("rho");
+  }
   problem.mass.scaling = MassScaling::uniform;
   problem.mass.factor = 1;
   VolumeNorm norm{.V = make_phase(problem)->mass()};
@@ -174,6 +178,7 @@ Model make_model(const Problem& problem, Plan plan, SetUpStore* store, const Pha
           fmt::format("no memory is left in the set-up for {}; expected fewer cells or points", part.makes));
     }
   }
+  set_up.model.phase->move_supports_on(1);
   set_up.model.parts = set_up.parts.parts();
   set_up.model.spared_s = set_up.parts.spared_s();
   return std::move(set_up.model);

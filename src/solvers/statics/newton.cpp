@@ -28,6 +28,7 @@ class Newton {
         trial_(u.size()) {}
 
   StaticReport solve() {
+    system_.move_supports_on(0);
     if (!balance_.start(u_)) {
       report_.reason = "the state at the start cannot be evaluated: " + system_.diagnosis().refusal(balance_.trial());
       return finished();
@@ -63,6 +64,12 @@ class Newton {
   }
 
  private:
+  // The forces at a load factor: supports have gone that share of their way, so that points do not remember it as one
+  // strain of the cells beside them.
+  bool evaluate(double s, ConstVec u) {
+    system_.move_supports_on(s);
+    return balance_.evaluate(s, u);
+  }
   // u: the state at step.from, then the equilibrium at step.to; if there is none, report_.reason says why. A slender
   // body has a valley of bent states between walls of stretched ones: a search that asks each step for a smaller ‖Q‖
   // crawls along it, while full steps cross the walls and come down on the other side. Points that yield would remember
@@ -90,7 +97,7 @@ class Newton {
 
   bool iterate(LoadStep& step, Vec u) {
     short_steps_ = 0;
-    double residual = balance_.evaluate(step.to, u) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
+    double residual = evaluate(step.to, u) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
     step.residuals.push_back(residual);
     direction_.begin_load_step();
     for (int iteration = 0; !(residual <= options_.tolerance); ++iteration) {
@@ -104,13 +111,13 @@ class Newton {
       const double before = residual;
       const bool nearer = direction_.find(step.to, u) && descend(step.to, u, before);
       if (!nearer && before <= options_.near_enough) {
-        balance_.evaluate(step.to, u);
+        evaluate(step.to, u);
         break;
       }
       if (!nearer) {
         // Opening or just yielding points may leave K singular; K_e never is in a body that is held.
         ++report_.elastic_iterations;
-        if (!balance_.evaluate(step.to, u) || !direction_.find_elastic(u) || !descend(step.to, u, residual)) {
+        if (!evaluate(step.to, u) || !direction_.find_elastic(u) || !descend(step.to, u, residual)) {
           report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller", residual);
           return false;
         }
@@ -138,7 +145,7 @@ class Newton {
 
   // Describes the obstacle to balance at u: the place that cannot be evaluated, or the largest out-of-balance force.
   std::string worst(double s, ConstVec u) {
-    if (!balance_.evaluate(s, u)) return "where " + system_.diagnosis().refusal(balance_.trial());
+    if (!evaluate(s, u)) return "where " + system_.diagnosis().refusal(balance_.trial());
     return "largest at " + largest_at(system_, std::as_const(balance_.Q).span());
   }
 
@@ -149,7 +156,7 @@ class Newton {
     for (int halvings = 0; halvings < most_halvings; ++halvings) {
       const double lambda = std::ldexp(1, -halvings);
       for (std::size_t i = 0; i < u.size(); ++i) trial_[i] = u[i] + lambda * direction_.du()[i];
-      if (!balance_.evaluate(s, trial_)) continue;
+      if (!evaluate(s, trial_)) continue;
       if (!full_steps_ && !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
       std::ranges::copy(trial_, u.begin());
       short_steps_ = lambda < short_step ? short_steps_ + 1 : 0;
@@ -159,10 +166,11 @@ class Newton {
   }
 
   StaticReport finished() {
+    system_.move_supports_on(1);
     report_.force_evaluations = balance_.evaluations;
     report_.wall_s = watch_.seconds();
     if (!report_.converged)
-      report_.residual = balance_.evaluate(1, u_) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
+      report_.residual = evaluate(1, u_) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
     return report_;
   }
 

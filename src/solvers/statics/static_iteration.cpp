@@ -38,10 +38,11 @@ bool StaticIteration::begin(double t, const Vector& y) {
   forget();
   load_.start_over();
   steps_of_first_ = 0;
+  system().system().move_supports_on(0);
   if (!system().out_of_balance(t, u, Q_begin_.span())) return false;
   std::ranges::fill(Q_.span(), 0.0);
-  begin_increment(0, u);
-  return true;
+  is_lost_ = false;
+  return begin_increment(t, 0, u);
 }
 
 TrialStepper::Attempt StaticIteration::attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) {
@@ -49,6 +50,7 @@ TrialStepper::Attempt StaticIteration::attempt(double t, Vector& y, double h, do
   const Vec u_new = first_half(trial.span());
   std::ranges::copy(u, u_new.begin());
   std::ranges::fill(second_half(trial.span()), 0.0);
+  if (is_lost_) return {.status = StepReport::Status::failed, .h = h, .message = failure()};
   went_downhill_ = dot(Q_, z_) > 0;
   if (!went_downhill_) return {.h = h};  // in balance to the last bit
   if (makes_no_way() && begin_half(t, u_new)) return {.h = h};
@@ -71,9 +73,10 @@ void StaticIteration::archive_memory(const StateArchive& state) {
   state("steps_of_this", steps_of_this_);
   load_.archive(state);
   archive_method(state);
+  if (state.restores()) system().system().move_supports_on(load_.to());
 }
 
-// Evaluates Q_s at s = load_.to().
+// Evaluates Q_s at s = load_.to(), to which share of their way supports have gone.
 bool StaticIteration::evaluate(double t, ConstVec u, Vector& Q) {
   if (!system().out_of_balance(t, u, Q.span())) return false;
   add_to(Q, load_.to() - 1);
@@ -125,17 +128,26 @@ void StaticIteration::end_increment() {
   if (steps_of_first_ == 0) steps_of_first_ = steps_of_this_;
   const double s = load_.to();
   load_.reached(/*easily=*/steps_of_this_ <= steps_of_first_);
-  begin_increment(s, first_half(std::as_const(state()).span()));
+  is_lost_ = !begin_increment(system().last().t, s, first_half(std::as_const(state()).span()));
 }
 
-// Needs Q_ to be Q_s at u, the place of the last evaluation.
-void StaticIteration::begin_increment(double s, ConstVec u) {
+// Needs Q_ to be Q_s at u, the place of the last evaluation. False if supports go on so far, even in the smallest
+// increment, that the state cannot be evaluated.
+bool StaticIteration::begin_increment(double t, double s, ConstVec u) {
   std::ranges::copy(u, u_begin_.span().begin());
-  add_to(Q_, load_.to() - s);
+  if (!system().system().move_supports_on(load_.to())) {
+    add_to(Q_, load_.to() - s);
+  } else {
+    while (!evaluate(t, u, Q_)) {
+      if (!load_.halve()) return false;
+      system().system().move_supports_on(load_.to());
+    }
+  }
   system().mass().solve(Q_.span(), z_.span());
   unbalanced_at_begin_ = norm(Q_);
   steps_of_this_ = 0;
   load_changed();
+  return true;
 }
 
 // Whether the increment has taken many times the steps of the first one and is still out of balance.
@@ -159,8 +171,8 @@ bool StaticIteration::begin_half(double t, Vec u_new) {
   if (!system().system().history_dependent() || !load_.halve()) return false;
   forget();
   std::ranges::copy(std::as_const(u_begin_).span(), u_new.begin());
-  if (!evaluate(t, u_new, Q_)) return false;
-  begin_increment(load_.to(), u_new);
+  system().system().move_supports_on(load_.to());
+  if (!evaluate(t, u_new, Q_) || !begin_increment(t, load_.to(), u_new)) return false;
   went_downhill_ = false;
   return true;
 }

@@ -6,9 +6,11 @@
 //
 //   Q_s(u) = Q(u) − (1 − s) Q(u₀),   Q = F − R,   s from 0 at u₀, the state at the start, to 1
 //
-// and material laws see one increment, from the state last committed to the equilibrium at the next s, which is then
-// committed: the implicit increment of a static step. If the points have a history, an increment that the line search
-// cannot follow, or that makes no progress in many times the steps of the first one, is begun again at half its size.
+// Supports go the same share of their way: otherwise the cells beside them would be strained by all of it at once,
+// which points remember. Material laws see one increment, from the state last committed to the equilibrium at the next
+// s, which is then committed: the implicit increment of a static step. If the points have a history, an increment that
+// the line search cannot follow, or that makes no progress in many times the steps of the first one, is begun again at
+// half its size.
 #pragma once
 
 #include "solvers/integrators/trial_stepper.hpp"
@@ -58,7 +60,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   bool evaluate(double t, ConstVec u, Vector& Q);
   void add_to(Vector& Q, double share) const;
   bool search(double t, Vec u_new);
-  void begin_increment(double s, ConstVec u);
+  bool begin_increment(double t, double s, ConstVec u);
   void end_increment();
   bool makes_no_way() const;
   bool is_as_good_as_balanced() const;
@@ -73,6 +75,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   double alpha_ = 0;
   double unbalanced_at_begin_ = 0;               // ‖Q_s‖ at the same place [N]
   long steps_of_first_ = 0, steps_of_this_ = 0;  // steps of the first increment (0 before its end) and of this one
+  bool is_lost_ = false;                         // an increment could not be begun
   bool went_downhill_ = false;  // the last attempt: neither was it in balance to the last bit, nor did it go back
 };
 

@@ -4,6 +4,7 @@
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/state_archive.hpp>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -52,13 +53,20 @@ class HeldUnknowns {
   double start() const { return start_; }  // when the phase begins [s]
   /// Displacement of prescribed unknown s since the phase began; in the first phase, from the undeformed body.
   double displacement(std::size_t s, double t) const {
-    return motion(s).displacement(t) - (start_ > 0 ? motion(s).displacement(start_) : 0) + from_[s];
+    const double way = motion(s).displacement(t) - (start_ > 0 ? motion(s).displacement(start_) : 0);
+    return share_ * way + from_[s];
+  }
+  /// Lets all prescribed unknowns go a share of that way. True if some have one.
+  bool move_on(double share) {
+    share_ = share;
+    return std::ranges::any_of(
+        motions_, [](const PrescribedMotion* motion) { return motion->moves() || motion->displacement(0) != 0; });
   }
 
  private:
   enum By : char { nothing, support, wall };
 
-  double start_ = 0;
+  double start_ = 0, share_ = 1;
   std::vector<By> by_;  // the condition on each unknown
   std::vector<int> prescribed_;
   std::vector<const PrescribedMotion*> motions_;

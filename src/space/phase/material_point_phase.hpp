@@ -70,6 +70,10 @@ class MaterialPointPhase final : public LagrangianPhase {
     all_.conditions.add_force(t, grid_u.data(), R, trial.reactions);
     return trial.evaluated;
   }
+  bool move_supports_on(double share) override {
+    const bool starts_there = !all_.problem.initial_u.empty();
+    return !starts_there && all_.frame.unknowns.move_supports_on(share);
+  }
   void commit(TrialState& any) override {
     PhaseTrial& trial = own(any);
     if (!history_dependent_) return;

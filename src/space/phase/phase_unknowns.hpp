@@ -22,6 +22,8 @@ class PhaseUnknowns {
 
   std::size_t size() const { return dofs_->size(); }
   const HeldUnknowns& held() const { return held_; }
+  /// As HeldUnknowns::move_on().
+  bool move_supports_on(double share) { return held_.move_on(share); }
   const DegreesOfFreedom& dofs() const { return *dofs_; }
   /// Whether neither a support nor a wall holds a function in any component, (functions).
   const std::vector<char>& untouched() const { return untouched_; }
