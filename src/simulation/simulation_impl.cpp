@@ -213,7 +213,12 @@ void Simulation::Impl::finish() {
   // Other runs may begin with what this one leaves. A run that went wrong keeps the last state that was good, and one
   // that was asked to end has left its own.
   const bool is_over = is_own_end(verdict_.status);
-  if (is_readable_ && is_over && leaves_checkpoints()) leave_checkpoint();
+  if (is_readable_ && is_over && leaves_checkpoints()) {
+    leave_checkpoint();
+    // Who goes on from there evaluates the state anew, from what points have committed: so does this run, for what it
+    // says of its end to have the same bits.
+    run_->motion->norms.residual(run_->t, run_->motion->u());
+  }
   if (is_readable_) {
     run_->motion->stepper->finish(run_->t);
     for (const Watched& watched : watchers_) watched.watcher->end_phase(*run_, /*is_last=*/true);

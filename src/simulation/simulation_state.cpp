@@ -82,8 +82,8 @@ void Simulation::Impl::resume(const fs::path& from) {
   last_checkpoint_ = run_->steps();
   next_checkpoint_s_ = run_->wall.seconds() + run_->scene.checkpoint.every;
   if (!done()) return;
-  // A static solver commits its answer at the end, which was evaluated in the run that left it.
-  if (run_->model.static_method) run_->motion->norms.residual(run_->t, run_->motion->u());
+  // What a static solver commits at the end has been evaluated in the run that left it alone.
+  if (!leaves_checkpoints()) run_->motion->norms.residual(run_->t, run_->motion->u());
   finish();
 }
 
