@@ -177,9 +177,10 @@ class CamClay : public StressHistory<CamClay<S>, S, 3> {
   Internal initial_internal(const Stress<S>& sigma, const InitialPoint& point) const {
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3);
     const double through = p > 0 ? p + of_shear_ * second_invariant(deviator_of<S>(sigma, -p)) / p : 0;
-    if (!std::isnan(pc_)) return {point.factor * pc_, e0_, 0};
-    const double OCR = point.factor * OCR_;
-    return {point.at_rest ? std::max(OCR * pc_at_rest_ * -sigma[1], through) : OCR * through, e0_, 0};
+    const double e0 = point.void_ratio * e0_;
+    if (!std::isnan(pc_)) return {point.consolidation * pc_, e0, 0};
+    const double OCR = point.consolidation * OCR_;
+    return {point.at_rest ? std::max(OCR * pc_at_rest_ * -sigma[1], through) : OCR * through, e0, 0};
   }
   IsotropicModuli elasticity(const Stress<S>& sigma, const Internal& internal) const {
     const double p = (sigma[0] + sigma[1] + sigma[2]) * (-1.0 / 3), v = 1 + evolving_ * internal[1] + fixed_ * e0_;

@@ -12,7 +12,8 @@
 // cut-off is Koiter's, p = p_cut and √J₂ = ξ c − η p_cut; at the apex √J₂ = 0. The cut-off itself is never viscous.
 //
 // Softening: η and ξ c fall linearly from their peak to their residual values at γᵖ = softening_strain. The strength is
-// that of the committed γᵖ, one increment late, so that the return stays closed.
+// that of the committed γᵖ, one increment late, so that the return stays closed. By place: each point has factors of c
+// and E, which it takes along.
 #pragma once
 
 #include <stillpoint/drucker_prager_cone.hpp>
@@ -51,17 +52,20 @@ struct DruckerPragerParameters {
   }
 };
 
-/// The law of a stress state. Its internal variables are the gap and γᵖ.
-template <StressState S>
-class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
-  using Base = StressHistory<DruckerPrager<S>, S, 2>;
+/// The law of a stress state. varies: whether a parameter does, from place to place. The internal variables are the gap
+/// and γᵖ, and then the factors of c and E.
+template <StressState S, bool varies = false>
+class DruckerPrager : public StressHistory<DruckerPrager<S, varies>, S, varies ? 4 : 2> {
+  static constexpr std::size_t internals = varies ? 4 : 2;
+  using Base = StressHistory<DruckerPrager<S, varies>, S, internals>;
 
  public:
   using typename Base::History, typename Base::Internal;
   static constexpr auto history_names = Base::names_of_history({"gap", "plastic_strain"});
+  static constexpr auto place_rows = Base::template place_rows_of<varies>({{"c", 2}, {"E", 3}});
 
   explicit DruckerPrager(const DruckerPragerParameters& m)
-      : K_(m.E / (3 * (1 - 2 * m.nu))), G_(m.E / (2 * (1 + m.nu))), fluidity_(m.fluidity), tension_(m.tension) {
+      : elastic_{m.E / (3 * (1 - 2 * m.nu)), m.E / (2 * (1 + m.nu))}, fluidity_(m.fluidity), tension_(m.tension) {
     const auto peak = ConeCoefficients::from(m.cone, m.phi, m.psi);
     const double phi_residual = std::isnan(m.phi_residual) ? m.phi : m.phi_residual;
     const double c_residual = std::isnan(m.c_residual) ? m.c : m.c_residual;
@@ -75,18 +79,28 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
   }
 
   template <class Number>
-  [[gnu::always_inline]] StressAfter<S, Number, 2> advanced(const GradientOf<S, Number>& H,
-                                                            const GradientOf<S, Number>& dH, const Stress<S>& sigma,
-                                                            const Internal& internal, double dt) const {
+  [[gnu::always_inline]] StressAfter<S, Number, internals> advanced(const GradientOf<S, Number>& H,
+                                                                    const GradientOf<S, Number>& dH,
+                                                                    const Stress<S>& sigma, const Internal& internal,
+                                                                    double dt) const {
     using std::sqrt;
-    const auto [gap, plastic_strain] = internal;
-    const auto trial = stress_trial<S, Number>(H, dH, sigma, G_);
+    const auto trial = stress_trial<S, Number>(H, dH, sigma, elasticity(sigma, internal).shear);
     const Number root_J2 = sqrt(second_invariant(trial.s) + tiny);
-    const Returned<Number> at = returned(trial.mean, trial.volume_change, root_J2, gap, plastic_strain, dt);
-    return {stress_of(at.p, at.scale * trial.s), {at.gap, at.plastic_strain}, trial.det_g};
+    const Returned<Number> at = returned(trial.mean, trial.volume_change, root_J2, internal, dt);
+    Internal next = internal;
+    next[0] = at.gap;
+    next[1] = at.plastic_strain;
+    return {stress_of(at.p, at.scale * trial.s), next, trial.det_g};
   }
-  Internal initial_internal(const Stress<S>&, const InitialPoint&) const { return {}; }
-  IsotropicModuli elasticity(const Stress<S>&, const Internal&) const { return {K_, G_}; }
+  Internal initial_internal(const Stress<S>&, const InitialPoint&) const {
+    Internal first{};
+    if constexpr (varies) first[2] = first[3] = 1;
+    return first;
+  }
+  [[gnu::always_inline]] IsotropicModuli elasticity(const Stress<S>&, const Internal& internal) const {
+    if constexpr (varies) return {internal[3] * elastic_.bulk, internal[3] * elastic_.shear};
+    return elastic_;
+  }
 
   /// Whether a zero increment returns the committed stress: not under softening, as a step takes the strength at its
   /// start, and that at its end is lower.
@@ -97,7 +111,7 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
     const Stress<S> sigma = Base::cauchy(now);
     const double p = (sigma[0] + sigma[1] + sigma[2]) / 3;
     const double root_J2 = std::sqrt(second_invariant(deviator_of<S>(sigma, p)));
-    const auto [eta, k] = cone_at(now[Base::stresses + 1]);
+    const auto [eta, k] = cone_at(Base::internal(now));
     return {.f = root_J2 + eta * p - k, .strength = k - eta * p, .root_J2 = root_J2};
   }
 
@@ -106,9 +120,11 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
     double eta, k;  // [1], [Pa]
   };
   // The yield coefficients after softening to γᵖ.
-  ConeAt cone_at(double plastic_strain) const {
-    const double lost = plastic_strain * softening_rate_, share = lost < 1 ? lost : 1;
-    return {eta_ + share * eta_change_, k_ + share * k_change_};
+  [[gnu::always_inline]] ConeAt cone_at(const Internal& internal) const {
+    const double lost = internal[1] * softening_rate_, share = lost < 1 ? lost : 1;
+    double k = k_ + share * k_change_;
+    if constexpr (varies) k *= internal[2];
+    return {eta_ + share * eta_change_, k};
   }
 
   /// The result of the return mapping: σ = p I + scale s_trial, and the updated gap and γᵖ.
@@ -119,25 +135,27 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
   };
   // Returns the trial state p_n + K (tr d + gap), √J₂ to the cone or the cut-off.
   template <class Number>
-  Returned<Number> returned(double p_n, const Number& tr_d, const Number& root_J2, double gap, double plastic_strain,
+  Returned<Number> returned(double p_n, const Number& tr_d, const Number& root_J2, const Internal& internal,
                             double dt) const {
-    const Number p_trial = p_n + K_ * (tr_d + gap);
+    const double gap = internal[0], plastic_strain = internal[1];
+    const auto [K, G] = elasticity({}, internal);
+    const Number p_trial = p_n + K * (tr_d + gap);
 
-    const auto [eta, k] = cone_at(plastic_strain);
+    const auto [eta, k] = cone_at(internal);
     const double apex = k / (eta + tiny), p_cut = tension_ < apex ? tension_ : apex;
 
     // On the cone Δγ = f/(G + K η η̄ + 1/(β dt)), on its edge with the cut-off f(p_cut)/(G + 1/(β dt))
-    const double flow_resistance = fluidity_ > 0 ? G_ + 1 / (fluidity_ * dt) : G_;
-    const Number cone = positive(root_J2 + eta * p_trial - k) * (1 / (flow_resistance + K_ * eta * eta_bar_));
+    const double flow_resistance = fluidity_ > 0 ? G + 1 / (fluidity_ * dt) : G;
+    const Number cone = positive(root_J2 + eta * p_trial - k) * (1 / (flow_resistance + K * eta * eta_bar_));
     const Number edge = positive(root_J2 + eta * p_cut - k) * (1 / flow_resistance);
-    const Number p_cone = p_trial - K_ * eta_bar_ * cone;
+    const Number p_cone = p_trial - K * eta_bar_ * cone;
     const bool open = p_cone > p_cut;
     const Number dgamma = open ? edge : cone, p = open ? Number(p_cut) : p_cone;
-    const Number opened = gap + tr_d + (p_n - p_cut) * (1 / K_) - eta_bar_ * edge;
+    const Number opened = gap + tr_d + (p_n - p_cut) * (1 / K) - eta_bar_ * edge;
 
     // s = (1 − G Δγ/√J₂) s_trial
     const Number over_root_J2 = 1 / root_J2;
-    return {p, 1 - G_ * dgamma * over_root_J2, open ? value_of(opened) : 0, plastic_strain + value_of(dgamma)};
+    return {p, 1 - G * dgamma * over_root_J2, open ? value_of(opened) : 0, plastic_strain + value_of(dgamma)};
   }
 
   // Avoids 0/0 at √J₂ = 0 and at φ = 0, where the apex is infinitely far.
@@ -148,7 +166,7 @@ class DruckerPrager : public StressHistory<DruckerPrager<S>, S, 2> {
     return x > 0 ? x : Number(0);
   }
 
-  double K_, G_;                                   // [Pa]
+  IsotropicModuli elastic_;
   double eta_, k_, eta_bar_;                       // k = ξ c [Pa], at the peak
   double eta_change_, k_change_, softening_rate_;  // changes from peak to residual values, and their rate per γᵖ
   double fluidity_, tension_;

@@ -79,7 +79,8 @@ struct YieldState {
 struct InitialPoint {
   /// Under its own weight, sides at rest, σ_yy being vertical: overconsolidation is a ratio of vertical stresses.
   bool at_rest = false;
-  double factor = 1;  // of a parameter that is a formula of the position
+  double consolidation = 1, void_ratio = 1;  // what OCR or pc, and e0, are here, over the law's numbers
+  double pore_pressure = 0;                  // of water at rest [Pa]
 };
 
 /// A law with a history of `history` numbers a point, among them its stress. H = ∂u/∂x since the phase began (f = I +

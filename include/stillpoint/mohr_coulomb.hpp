@@ -8,8 +8,8 @@
 // The plastic strain γᵖ = ∫ (d₁ᵖ − d₃ᵖ) dt is, in simple shear, the plastic part of γ.
 //
 // Softening, or hardening: c cos φ, sin φ and sin ψ are linear between the rows of a table in γᵖ. The strength is that
-// of the committed γᵖ, one increment late, so that the return stays closed. By place: each point has a factor of c,
-// which it takes along.
+// of the committed γᵖ, one increment late, so that the return stays closed. By place: each point has factors of c and
+// E, which it takes along.
 #pragma once
 
 #include <stillpoint/mohr_coulomb_return.hpp>
@@ -43,18 +43,17 @@ struct MohrCoulombParameters {
   }
 };
 
-/// varies: whether the strength changes with plastic strain or from place to place. The internal variables are the gap
-/// and γᵖ, and then the factor of c.
+/// varies: whether the strength changes with plastic strain, or a parameter from place to place. The internal variables
+/// are the gap and γᵖ, and then the factors of c and E.
 template <StressState S, bool varies = false>
-class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 : 2> {
-  static constexpr std::size_t internals = varies ? 3 : 2;
+class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 4 : 2> {
+  static constexpr std::size_t internals = varies ? 4 : 2;
   using Base = StressHistory<MohrCoulomb<S, varies>, S, internals>;
 
  public:
   using typename Base::History, typename Base::Internal;
   static constexpr auto history_names = Base::names_of_history({"gap", "plastic_strain"});
-  /// That of c.
-  static constexpr std::size_t share_row = varies ? Base::stresses + 2 : no_share_row;
+  static constexpr auto place_rows = Base::template place_rows_of<varies>({{"c", 2}, {"E", 3}});
 
   explicit MohrCoulomb(const MohrCoulombParameters& m)
       : elastic_{m.E / (3 * (1 - 2 * m.nu)), m.E / (2 * (1 + m.nu))},
@@ -84,18 +83,19 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
                                                                     const Stress<S>& sigma, const Internal& internal,
                                                                     double /*dt*/) const {
     const double gap = internal[0], plastic_strain = internal[1];
-    const auto trial = stress_trial<S, Number>(H, dH, sigma, elastic_.shear);
-    const Number p = trial.mean + elastic_.bulk * (trial.volume_change + gap);
+    const IsotropicModuli elastic = elasticity(sigma, internal);
+    const auto trial = stress_trial<S, Number>(H, dH, sigma, elastic.shear);
+    const Number p = trial.mean + elastic.bulk * (trial.volume_change + gap);
     const PrincipalOf<S, Number> axes(trial.s);
     const Principal<Number> s = axes.values(), x{p + s[0], p + s[1], p + s[2]};
 
     const MohrCoulombStrength strength = strength_at(internal);
-    const Principal<Number> y = returned(x, strength, elastic_);
+    const Principal<Number> y = returned(x, strength, elastic);
     const Number mean = (y[0] + y[1] + y[2]) * (1.0 / 3);
     const bool yields = yield_function(x[0], x[2], strength) > Number(0), opens = x[0] > Number(strength.tension);
     const bool stays = !(yields | opens), is_free = !(value_of(y[2]) < strength.tension), at_vertex = is_free & !stays;
-    const double opened = (value_of(p) - strength.tension) / elastic_.bulk;
-    const double sheared = (value_of(x[0]) - value_of(x[2]) - (value_of(y[0]) - value_of(y[2]))) / (2 * elastic_.shear);
+    const double opened = (value_of(p) - strength.tension) / elastic.bulk;
+    const double sheared = (value_of(x[0]) - value_of(x[2]) - (value_of(y[0]) - value_of(y[2]))) / (2 * elastic.shear);
     Internal next = internal;
     next[0] = either(at_vertex & (opened > 0), opened, 0.0);
     next[1] = plastic_strain + larger(sheared, 0.0);
@@ -103,10 +103,13 @@ class MohrCoulomb : public StressHistory<MohrCoulomb<S, varies>, S, varies ? 3 :
   }
   Internal initial_internal(const Stress<S>&, const InitialPoint&) const {
     Internal first{};
-    if constexpr (varies) first[2] = 1;
+    if constexpr (varies) first[2] = first[3] = 1;
     return first;
   }
-  IsotropicModuli elasticity(const Stress<S>&, const Internal&) const { return elastic_; }
+  [[gnu::always_inline]] IsotropicModuli elasticity(const Stress<S>&, const Internal& internal) const {
+    if constexpr (varies) return {internal[3] * elastic_.bulk, internal[3] * elastic_.shear};
+    return elastic_;
+  }
 
   /// Whether a zero increment returns the committed stress: not under softening, as a step takes the strength at its
   /// start, and that at its end is another.

@@ -94,7 +94,8 @@ struct MaterialSpec {  // [material.<name>]
   std::map<std::string, double> parameters;    // complete: defaults filled in
   std::map<std::string, std::string> choices;  // likewise complete, for parameters that are words (cone = "mean")
   std::vector<StrengthRow> softening{};        // by plastic strain > 0; empty: the strength stays as it is
-  /// Parameters that are formulas of x, y, z; in `parameters` they are 1.
+  std::optional<double> softening_length{};    // width of a band of softened ground [m]; empty: that of a cell
+  /// Parameters that are formulas of x, y, z before the motion; in `parameters` they are 1.
   std::map<std::string, Expression> by_place{};
   bool undrained = false;                 // saturated with water that cannot flow
   std::optional<double> water_modulus{};  // K_w [Pa]; empty: such that the undrained Poisson's ratio is 0.495
@@ -197,8 +198,11 @@ struct MassSpec {  // [mass]
 };
 
 struct GeostaticSpec {  // [initial.geostatic]: initial stress below a horizontal surface
-  double K0 = 0;        // σ_yy = −ρ b_y (surface − y) with the body force b, σ_xx = σ_zz = K0 σ_yy
+  Expression K0{};      // a formula of x, y, z: σ'_xx = σ'_zz = K0 σ'_yy, and σ_yy is the weight above
   double surface = 0;   // [m]
+  /// Height of the level of the water that the pores of undrained materials are full of [m]; empty: no pore pressure.
+  std::optional<double> water_table{};
+  double water_density = 1000;  // [kg/m³]
 };
 
 struct StageSpec {  // [[stage]]: what changes at a time of the run

@@ -32,8 +32,12 @@ Moduli<Law::state> moduli_by_duals(const Law& law, const Gradient<Law::state>& H
   return A;
 }
 
-/// The share_row of a law whose strength is the same everywhere.
-inline constexpr std::size_t no_share_row = static_cast<std::size_t>(-1);
+/// A row of the history that holds what a parameter is at the point, over the number that the law was made with; it
+/// never changes.
+struct PlaceRow {
+  std::string_view parameter;
+  std::size_t row;
+};
 
 /// What an increment leaves. internal: a law's internal variables, plain values.
 template <StressState S, class Number, std::size_t internals>
@@ -57,8 +61,8 @@ class StressHistory {
   static constexpr StressState state = S;
   static constexpr std::size_t stresses = stress_components(S);
   static constexpr std::size_t history = stresses + internals;
-  /// Where in the history a law has the factor of its strength, if that varies from place to place.
-  static constexpr std::size_t share_row = no_share_row;
+  /// The parameters that vary from place to place.
+  static constexpr std::array<PlaceRow, 0> place_rows{};
   /// Whether the stiffness follows the stress, and is none without a pressure.
   static constexpr bool needs_pressure = false;
   using History = std::array<double, history>;  // σ_xx, σ_yy, σ_zz, σ_xy, in space σ_yz, σ_zx [Pa]; internal variables
@@ -68,6 +72,14 @@ class StressHistory {
     std::array<std::string_view, history> names{};
     for (std::size_t k = 0; k < internals; ++k) names[stresses + k] = internal_names[k];
     return names;
+  }
+
+  /// place_rows of a law of which internal variables hold them, by their numbers; without any unless the law varies.
+  template <bool varies, std::size_t n>
+  static constexpr std::array<PlaceRow, varies ? n : 0> place_rows_of(const PlaceRow (&of_internals)[n]) {
+    std::array<PlaceRow, varies ? n : 0> rows{};
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = {of_internals[k].parameter, stresses + of_internals[k].row};
+    return rows;
   }
 
   /// P at the end of the increment.

@@ -52,7 +52,7 @@ class Undrained {
     names.back() = "pore_pressure";
     return names;
   }();
-  static constexpr std::size_t share_row = Law::share_row;
+  static constexpr auto place_rows = Law::place_rows;
   static constexpr bool needs_pressure = Law::needs_pressure;
 
   /// stiffness: K_w/n [Pa].
@@ -77,10 +77,11 @@ class Undrained {
     unroll<3>([&](auto a) __attribute__((always_inline)) { sigma[a] -= now[Law::history]; });
     return sigma;
   }
-  /// For ground under this effective stress, with no pore pressure but that of water at rest, which is not counted.
+  /// For ground under this effective stress.
   History initial_history(const Stress<state>& effective, const InitialPoint& point = {}) const {
     History first{};
     std::ranges::copy(law_.initial_history(effective, point), first.begin());
+    first[Law::history] = point.pore_pressure;
     return first;
   }
   IsotropicModuli moduli_at(const History& now) const {

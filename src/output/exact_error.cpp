@@ -102,6 +102,8 @@ EnergyError energy_error(const Problem& problem, const LagrangianPhase& phase, d
     const LawInfo& law = *std::ranges::find(material_laws(), material.law, &LawInfo::name);
     if (law.finite_strain || law.history_dependent)
       return {{}, fmt::format("it is of linear elasticity, and {} is {}", name, material.law)};
+    if (material.by_place.contains("E"))
+      return {{}, fmt::format("it is of materials of one stiffness, and E of {} varies from place to place", name)};
     materials.push_back(&material);
   }
   double difference = 0, exact = 0;

@@ -115,6 +115,10 @@ bool mass_measures_volume(const Problem& problem, bool scaled) {
     return std::ranges::adjacent_find(problem.bodies, std::ranges::not_equal_to{}, property) == problem.bodies.end();
   };
   if (scaled) return all_share(&BodySpec::material);
+  if (std::ranges::any_of(problem.bodies, [&](const BodySpec& body) {
+        return problem.materials.at(body.material).by_place.contains("rho");
+      }))
+    return false;
   return all_share([&](const BodySpec& body) { return problem.materials.at(body.material).parameters.at("rho"); });
 }
 

@@ -154,6 +154,12 @@ double mean_cell(const GridSpec& grid, std::size_t axis) {
   return (grid.max[axis] - grid.min[axis]) / grid.cells[axis];
 }
 
+double mean_cell(const GridSpec& grid) {
+  double volume = 1;
+  for (std::size_t axis = 0; axis < grid.cells.size(); ++axis) volume *= mean_cell(grid, axis);
+  return std::pow(volume, 1 / static_cast<double>(grid.cells.size()));
+}
+
 double longest_cell(const GridSpec& grid) {
   double longest = 0;
   for (std::size_t axis = 0; axis < grid.cells.size(); ++axis) longest = std::max(longest, longest_cell(grid, axis));

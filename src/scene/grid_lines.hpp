@@ -46,6 +46,8 @@ double known_cell_length_at(const GridSpec& grid, std::size_t axis, double x);
 double smallest_cell(const GridSpec& grid, std::size_t axis);
 double longest_cell(const GridSpec& grid, std::size_t axis);
 double mean_cell(const GridSpec& grid, std::size_t axis);
+/// The side of a cube as large as the mean cell [m].
+double mean_cell(const GridSpec& grid);
 /// The longest side of any cell [m].
 double longest_cell(const GridSpec& grid);
 /// The longest side of a cell whose sides are the smallest along each axis [m].

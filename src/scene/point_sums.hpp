@@ -3,6 +3,8 @@
 
 #include <stillpoint/problem.hpp>
 
+#include <algorithm>
+
 namespace stillpoint {
 
 /// Whether points share their change of volume; on a line there is nothing to share.
@@ -15,10 +17,13 @@ inline bool means_over_splines(const Problem& problem) {
          degree_of(problem.grid.basis) > 1;
 }
 /// Whether the moments of the points in each cell stand in for the points (ElasticCells): in bilinear or trilinear
-/// cells with R(u) = K u. nonlinear: whether some law is not linear.
+/// cells with R(u) = K u, whose points have the same stiffness. nonlinear: whether some law is not linear.
 inline bool moments_stand_in_for_points(const Problem& problem, bool nonlinear) {
   return problem.dim > 1 && problem.state != StressState::axisymmetric && problem.grid.basis == BasisKind::linear &&
-         problem.phase.quadrature == Quadrature::points && !nonlinear && !problem.phase.ends() && !problem.geostatic;
+         problem.phase.quadrature == Quadrature::points && !nonlinear && !problem.phase.ends() && !problem.geostatic &&
+         std::ranges::none_of(problem.bodies, [&](const BodySpec& body) {
+           return problem.materials.at(body.material).by_place.contains("E");
+         });
 }
 
 }  // namespace stillpoint

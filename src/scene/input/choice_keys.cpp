@@ -1,9 +1,11 @@
 // Tables of which one key chooses what the others are: a material's law, the solution of [exact].
 #include <stillpoint/catalogue.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -27,6 +29,11 @@ void read_by_place(MaterialSpec& material, const std::string& name, const Value&
     }
   }
   if (const auto number = read_number(value, info.range)) material.parameters[name] = *number;
+}
+
+bool softens(const LawInfo& law) {
+  return law.softens_by_rows || std::ranges::find(law.parameters, std::string_view("softening_strain"),
+                                                  &ParameterInfo::name) != law.parameters.end();
 }
 
 /// The keys of a row of the catalogue, into parts that have its parameters and choices.
@@ -118,6 +125,12 @@ std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
                                "the strength by plastic strain, from c, phi and psi at 0 and straight "
                                "from row to row; after the last it stays",
                                {.list = true, .row = "[plastic strain, c, phi, psi]", .row_lengths = {4, 4}}));
+    if (softens(law))
+      of_law.push_back(key_of<MaterialSpec>("softening_length", &MaterialSpec::softening_length,
+                                            "width of the bands to which plastic strains of softening belong; on a "
+                                            "grid they are as wide as a cell h, and "
+                                            "these strains count softening_length/h times",
+                                            {.range = kPositive, .unit = "m", .fallback = "h"}));
     tables.push_back({.path = "material.<name>",
                       .help = law.equation,
                       .repeat = Repeat::named,

@@ -63,10 +63,15 @@ void add_grid(Tables& tables) {
            {.unit = "Pa", .fallback = "0", .of_stress = true});
 
   tables
-      .add({"initial.geostatic", "level ground: sigma_yy = -rho b_y (surface - y), sigma_xx = sigma_zz = K0 sigma_yy"},
+      .add({"initial.geostatic",
+            "level ground: sigma_yy is the weight above, sigma_xx = sigma_zz = K0 sigma_yy of the effective stress"},
            &Scene::geostatic)
-      .key("K0", &GeostaticSpec::K0, "coefficient of earth pressure at rest", {.range = kPositive, .required = true})
-      .key("surface", &GeostaticSpec::surface, "height of the surface", {.unit = "m", .required = true});
+      .key("K0", &GeostaticSpec::K0, "coefficient of earth pressure at rest, above 0",
+           {.variables = "x", .required = true})
+      .key("surface", &GeostaticSpec::surface, "height of the surface", {.unit = "m", .required = true})
+      .key("water_table", &GeostaticSpec::water_table,
+           "height of the water that stands in the pores of undrained materials", {.unit = "m", .fallback = "none"})
+      .key("water_density", &GeostaticSpec::water_density, "of that water", {.range = kPositive, .unit = "kg/m3"});
 }
 
 }  // namespace

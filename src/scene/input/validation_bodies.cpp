@@ -111,6 +111,8 @@ void check_water(SceneCheck& check, const MaterialSpec& material) {
   check.wrong_if(material.undrained && check.written(key("porosity")) && !material.water_modulus, key("porosity"),
                  "goes with water_modulus");
   if (!material.undrained) return;
+  check.wrong_if(!material.water_modulus && material.by_place.contains("E"), key("undrained"),
+                 "needs a water_modulus beside an E that is a formula of the position");
   check.wrong_if(!material.water_modulus && !(material.parameters.contains("E") && material.parameters.contains("nu")),
                  key("undrained"),
                  "needs a water_modulus: with a law that has no E and nu there is no undrained Poisson's ratio");
@@ -157,8 +159,18 @@ void check_fault_of_law(SceneCheck& check, const MaterialSpec& material) {
 
 void check_softening(SceneCheck& check, const MaterialSpec& material) {
   const std::vector<StrengthRow>& rows = material.softening;
-  check.wrong_if(!rows.empty() && !material.by_place.empty(), fmt::format("material.{}.softening", material.name),
-                 "does not go with a cohesion that is a formula of the position");
+  const auto key = [&](const char* name) { return fmt::format("material.{}.{}", material.name, name); };
+  const bool varies = material.by_place.contains("c");
+  constexpr const char* why = "does not go with a cohesion that is a formula of the position";
+  check.wrong_if(!rows.empty() && varies, key("softening"), why);
+  check.wrong_if(varies && check.written(key("c_residual")), key("c_residual"), why);
+  const auto strain = material.parameters.find("softening_strain");
+  const bool softens = !rows.empty() || (strain != material.parameters.end() && strain->second > 0);
+  check.wrong_if(material.softening_length && !softens, key("softening_length"),
+                 "goes with softening, or softening_strain > 0");
+  const auto volume = material.choices.find("volume");
+  check.wrong_if(material.by_place.contains("e0") && volume != material.choices.end() && volume->second == "fixed",
+                 key("e0"), "is a formula of the position, which goes with volume = \"evolves\"");
   check.wrong_if(rows.size() > most_strength_rows, fmt::format("material.{}.softening", material.name),
                  "has {} rows; expected at most {}", rows.size(), most_strength_rows);
   for (std::size_t k = 1; k < rows.size(); ++k)

@@ -26,6 +26,10 @@ bool check_material(SceneCheck& check, const SolutionInfo& solution) {
   const auto material = names.empty() ? scene.materials.end() : scene.materials.find(*names.begin());
   if (material == scene.materials.end()) return false;  // as has been reported
   const auto& parameters = material->second.parameters;
+  for (const auto& [name, formula] : material->second.by_place)
+    if (check.wrong_if(true, key, "'{}' is of one material, and material.{}.{} varies from place to place",
+                       solution.name, material->first, name))
+      return false;
   const LawInfo* const law = check.catalogue().law(material->second.law);
   if (!law || !has_all(parameters, law->parameters)) return false;
   for (const char* const modulus : {"E", "nu"})

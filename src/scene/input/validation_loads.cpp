@@ -139,6 +139,26 @@ void check_laws_keep_a_stress(SceneCheck& check, const char* what) {
   }
 }
 
+/// Water at rest bears on no ground but that in which it is a part of the stress.
+void check_water_table(SceneCheck& check) {
+  const Scene& scene = check.scene();
+  const std::string key = "initial.geostatic.water_table";
+  check.refuse_if(!scene.geostatic->water_table, "initial.geostatic", {"water_density"}, "goes with water_table");
+  if (!scene.geostatic->water_table) return;
+  const double level = *scene.geostatic->water_table;
+  check.wrong_if(level > scene.geostatic->surface, key, "must not lie above the surface of the ground at {}, not {}",
+                 scene.geostatic->surface, level);
+  for (const BodySpec& body : scene.bodies) {
+    const auto material = scene.materials.find(body.material);
+    if (material == scene.materials.end() || body.min.size() < 2 || !(body.min[1] < level)) continue;
+    check.wrong_if(!material->second.undrained, key,
+                   "lies above the bottom of {}, and '{}' is drained: there the stress is the effective one and the "
+                   "weight that of ground under water; expected undrained = true, or rho less that of water below "
+                   "the water table and no water_table",
+                   body.name.empty() ? "the body" : in_quotes(body.name), body.material);
+  }
+}
+
 void check_geostatic(SceneCheck& check, const std::optional<NamedBox>& body) {
   const Scene& scene = check.scene();
   const std::string key = "initial.geostatic";
@@ -157,10 +177,14 @@ void check_geostatic(SceneCheck& check, const std::optional<NamedBox>& body) {
         scene.dim == 2 ? "[0, b]" : "[0, b, 0]");
   }
   check_laws_keep_a_stress(check, "initial.geostatic");
+  const Expression& K0 = scene.geostatic->K0;
+  if (check.sound(key + ".K0") && K0.constant())
+    check.wrong_if(!(K0({}, 0) > 0), key + ".K0", "must be greater than 0, not {}", K0({}, 0));
   if (body && check.sound(key + ".surface"))
     check.wrong_if(scene.geostatic->surface < body->max[1], key + ".surface",
                    "must not lie below the top of the {} at {}, not {}", body->name, body->max[1],
                    scene.geostatic->surface);
+  check_water_table(check);
 }
 
 /// A uniform stress, in place of that of level ground.

@@ -225,11 +225,38 @@ std::optional<std::string> hourglass_note(const Problem& problem) {
          "answer is the one in which these have no part, and it bends too easily; expected points_per_cell = 8";
 }
 
+// Where strength falls, flow gathers in bands as wide as a cell, in which it falls after the less displacement the
+// narrower they are.
+std::vector<std::string> softening_notes(const Problem& problem) {
+  std::vector<std::string> notes;
+  for (const auto& [name, material] : problem.materials) {
+    const auto value = [&](const char* key) {
+      const auto found = material.parameters.find(key);
+      return found == material.parameters.end() ? 0 : found->second;
+    };
+    bool falls =
+        value("softening_strain") > 0 && (value("c_residual") < value("c") || value("phi_residual") < value("phi"));
+    StrengthRow before{.plastic_strain = 0, .c = value("c"), .phi = value("phi"), .psi = value("psi")};
+    for (const StrengthRow& row : material.softening) {
+      falls = falls || row.c < before.c || row.phi < before.phi;
+      before = row;
+    }
+    const bool is_used = std::ranges::find(problem.bodies, name, &BodySpec::material) != problem.bodies.end();
+    if (falls && is_used && !material.softening_length)
+      notes.push_back(fmt::format(
+          "{} softens, and flow gathers in bands as wide as a cell: what comes out depends on the grid; expected "
+          "material.{}.softening_length, the width of the bands to which its plastic strains belong",
+          name, name));
+  }
+  return notes;
+}
+
 std::vector<std::string> accuracy_notes(const Problem& problem, const LagrangianPhase& phase, MassScaling scaling) {
   std::vector<std::string> notes = quadrature_notes(problem, phase, scaling);
   std::ranges::move(support_notes(problem), std::back_inserter(notes));
   std::ranges::move(phase_notes(problem, phase), std::back_inserter(notes));
   std::ranges::move(damping_notes(problem, phase), std::back_inserter(notes));
+  std::ranges::move(softening_notes(problem), std::back_inserter(notes));
   if (std::optional<std::string> note = locking_note(problem)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = slender_cells_note(problem)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = hourglass_note(problem)) notes.push_back(std::move(*note));

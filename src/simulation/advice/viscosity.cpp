@@ -47,7 +47,7 @@ std::vector<std::string> viscosity_notes(const Problem& problem, double step) {
           fluidity_of(name)));
       continue;
     }
-    if (!problem.stop.wants_equilibrium() || !(step > 0)) continue;
+    if (!problem.stop.wants_equilibrium() || !(step > 0) || problem.materials.at(name).by_place.contains("E")) continue;
     const double constant = longest_time_constant(problem.materials.at(name));
     const double time = -std::log(largest_over_stress) * constant;
     std::string limit;

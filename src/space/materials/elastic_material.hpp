@@ -4,8 +4,10 @@
 #include <stillpoint/unroll.hpp>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,7 +18,8 @@ namespace stillpoint {
 /// A law without history. In a body that moves on it stores the deformation F_0 = I + H_0 with which the phase began:
 ///   F = f F_0,   P = P_0(F) F_0ᵀ/det F_0   per volume when the phase began,
 /// in the form of H_0, and H = f F_0 − I = H + H_0 + H H_0, so that small strains lose no digits beside 1. For a law of
-/// small strain H_0 is added to H, and P is the stress as it is.
+/// small strain H_0 is added to H, and P is the stress as it is. Where Young's modulus varies from place to place, the
+/// stress is a factor times that of the law, which is proportional to it.
 template <ElasticLaw Law>
 class ElasticMaterial : public LawMaterialBase<Law> {
   using Base = LawMaterialBase<Law>;
@@ -26,10 +29,14 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
 
  public:
-  ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool updated_lagrangian)
+  ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool updated_lagrangian,
+                  bool E_by_place = false)
       : Base(law, begin, count,
-             {.finite_strain = Law::finite_strain, .stress_stays = true, .wave_modulus = law.moduli({})[0]}) {
-    if (updated_lagrangian) H0_.assign(components * count, 0.0);
+             {.finite_strain = Law::finite_strain, .stress_stays = true, .wave_modulus = law.moduli({})[0]}),
+        moved_(updated_lagrangian),
+        E_by_place_(E_by_place) {
+    memory_.assign((moved_ ? components : 0) * count, 0.0);
+    if (E_by_place_) memory_.insert(memory_.end(), count, 1.0);
   }
 
   [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
@@ -39,7 +46,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
           block, V,
           [ law, &block ](std::size_t q) __attribute__((always_inline)) { return law.first_piola(block.H_at(q)); });
     }
-    const double* of_block = H0_.data() + block.first - begin_;
+    const double* of_block = memory_.data() + block.first - begin_;
     const std::size_t n = count_;
     return loop(
         block, V, [ law, &block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
@@ -61,35 +68,37 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   void commit(std::vector<double>&) override {}
 
   ModuliMatrix moduli(Tangent, const Tensor& H, const Tensor& /*dH*/, double /*dt*/, std::size_t p) const override {
-    if (!moved() || !Law::finite_strain) return law_.moduli(H);
-    // Column b is the response to a unit dH_b, dF = dH F_0
-    const Tensor F_0 = plus_identity<K>(H0(p));
-    const ModuliMatrix A = law_.moduli(total(H0(p), H));
-    ModuliMatrix pushed{};
-    for (int b = 0; b < components; ++b) {
-      Tensor dH{};
-      dH[b] = 1;
-      const Tensor dP = push(F_0, Base::contract(A, product<K>(dH, F_0)));
-      for (int a = 0; a < components; ++a) pushed[components * a + b] = dP[a];
-    }
-    return pushed;
+    ModuliMatrix A = moduli_of_law(H, p);
+    for (double& entry : A) entry *= E_over_law(p);
+    return A;
   }
-  Stresses cauchy(const Tensor& H, std::size_t p) const override { return law_.cauchy(moved() ? total(H0(p), H) : H); }
+  Stresses cauchy(const Tensor& H, std::size_t p) const override {
+    Stresses sigma = law_.cauchy(moved() ? total(H0(p), H) : H);
+    for (double& component : sigma) component *= E_over_law(p);
+    return sigma;
+  }
+  double wave_modulus() const override {
+    const double of_law = Base::wave_modulus();
+    return E_by_place_ && count_ > 0 ? of_law * std::ranges::max(E_row()) : of_law;
+  }
 
   void end_phase(const Block& block) override {
     for (std::size_t q = 0; q < block.count; ++q) {
       const std::size_t p = block.first + q;
       const Tensor H = total(H0(p), block.H_at(q));
-      for (std::size_t c = 0; c < components; ++c) H0_[count_ * c + p - begin_] = H[c];
+      for (std::size_t c = 0; c < components; ++c) memory_[count_ * c + p - begin_] = H[c];
     }
   }
-  Vec memory() override { return H0_; }
+  Vec memory() override { return memory_; }
+  Vec by_place(std::string_view parameter) override {
+    return E_by_place_ && parameter == "E" ? Vec(memory_).last(count_) : Vec();
+  }
   void reorder(const Reordering& order, std::vector<double>&) override {
     std::vector<double> work;
-    order.apply(H0_, work, begin_, count_);
+    order.apply(memory_, work, begin_, count_);
   }
   void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
-    Base::take_values(H0_, from, begin, count);
+    Base::take_values(memory_, from, begin, count);
     begin_ = begin;
     count_ = count;
   }
@@ -98,16 +107,18 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   }
 
   std::vector<PointArray> arrays() const override {
-    if (!moved()) return {};
-    return {{"deformation gradient", components * Base::real}};
+    std::vector<PointArray> all;
+    if (moved()) all.push_back({"deformation gradient", components * Base::real});
+    if (E_by_place_) all.push_back({"Young's modulus", Base::real});
+    return all;
   }
   std::vector<std::pair<std::string, ConstVec>> shown_history() const override { return {}; }
 
  protected:
-  bool moved() const { return !H0_.empty(); }
+  bool moved() const { return moved_; }
   Tensor H0(std::size_t p) const {
     Tensor H;
-    for (std::size_t c = 0; c < components; ++c) H[c] = H0_[count_ * c + p - begin_];
+    for (std::size_t c = 0; c < components; ++c) H[c] = memory_[count_ * c + p - begin_];
     return H;
   }
   // The composition (I + H)(I + H_0) − I.
@@ -125,18 +136,44 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   }
 
  private:
-  // Stores answer(q) as the block's V P.
+  ModuliMatrix moduli_of_law(const Tensor& H, std::size_t p) const {
+    if (!moved() || !Law::finite_strain) return law_.moduli(H);
+    // Column b is the response to a unit dH_b, dF = dH F_0
+    const Tensor F_0 = plus_identity<K>(H0(p));
+    const ModuliMatrix A = law_.moduli(total(H0(p), H));
+    ModuliMatrix pushed{};
+    for (int b = 0; b < components; ++b) {
+      Tensor dH{};
+      dH[b] = 1;
+      const Tensor dP = push(F_0, Base::contract(A, product<K>(dH, F_0)));
+      for (int a = 0; a < components; ++a) pushed[components * a + b] = dP[a];
+    }
+    return pushed;
+  }
+
+  ConstVec E_row() const { return ConstVec(memory_).last(count_); }
+  double E_over_law(std::size_t p) const { return E_by_place_ ? E_row()[p - begin_] : 1; }
+
+  // Stores answer(q), times E over that of the law, as the block's V P.
   template <class Answer>
   double loop(Block& block, const double* V, const Answer& answer) const {
-    const double* volume = V + block.first;
     const std::size_t count = block.count;
+    const double* volume = V + block.first;
+    std::array<double, Block::size> times_E;
+    if (E_by_place_) {
+      const double* E = E_row().data() + block.first - begin_;
+      for (std::size_t q = 0; q < count; ++q) times_E[q] = volume[q] * E[q];
+      volume = times_E.data();
+    }
     const auto point = [&](std::size_t q) __attribute__((always_inline)) {
       return block.store_stress(q, volume[q], answer(q));
     };
     return Base::sum_in_groups(count, point);
   }
 
-  std::vector<double> H0_;  // (components × points); empty in a body of a single phase
+  bool moved_, E_by_place_;
+  // H_0, unless in a body of a single phase, and E over that of the law if it varies, (components + 1 × points).
+  std::vector<double> memory_;
 };
 
 }  // namespace stillpoint

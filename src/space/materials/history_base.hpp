@@ -38,8 +38,7 @@ class HistoryBase : public LawMaterialBase<Law> {
   void set_stress(const std::vector<Stresses>& stress, const InitialGround& ground) override {
     std::vector<double> of_point(rows_);
     for (std::size_t k = 0; k < count_; ++k) {
-      const double factor = ground.factors.empty() ? 1 : ground.factors[k];
-      write_initial(stress[k], {.at_rest = ground.at_rest, .factor = factor}, of_point.data());
+      write_initial(stress[k], ground.at(k), of_point.data());
       for (std::size_t h = 0; h < rows_; ++h) committed_[count_ * h + k] = of_point[h];
     }
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "space/materials/history_base.hpp"
@@ -68,7 +69,7 @@ class HistoryMaterial final : public HistoryBase<Law> {
   std::optional<YieldState> yield_state(std::size_t p) const override { return law_.yield_state(history(p)); }
 
   double wave_modulus() const override {
-    if constexpr (Law::needs_pressure) {
+    if constexpr (Law::needs_pressure || !Law::place_rows.empty()) {
       double largest = 0;
       for (std::size_t k = 0; k < count_; ++k) {
         const IsotropicModuli at = law_.moduli_at(history(begin_ + k));
@@ -79,8 +80,9 @@ class HistoryMaterial final : public HistoryBase<Law> {
     return Base::wave_modulus();
   }
 
-  Vec strength_shares() override {
-    if constexpr (Law::share_row != no_share_row) return Base::row(Law::share_row);
+  Vec by_place(std::string_view parameter) override {
+    for (const PlaceRow& place : Law::place_rows)
+      if (place.parameter == parameter) return Base::row(place.row);
     return {};
   }
 

@@ -54,7 +54,8 @@ Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t b
         begin, count);
   const auto lame = [&] { return LameParameters::from(material.parameters.at("E"), material.parameters.at("nu")); };
   const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
-    return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian);
+    return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian,
+                                                  material.by_place.contains("E"));
   };
   if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame()));
   if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame()));
@@ -66,8 +67,11 @@ Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t b
                                                                  count);
       return std::make_unique<HistoryMaterial<Law>>(law, begin, count);
     };
-    if (material.law == "drucker-prager")
-      return with_history(DruckerPrager<S>(DruckerPragerParameters::from(material)));
+    if (material.law == "drucker-prager") {
+      const auto parameters = DruckerPragerParameters::from(material);
+      if (material.by_place.empty()) return with_history(DruckerPrager<S>(parameters));
+      return with_history(DruckerPrager<S, true>(parameters));
+    }
     if (material.law == "cam-clay") return with_history(CamClay<S>(CamClayParameters::from(material)));
     if (material.law == "mohr-coulomb") {
       const auto parameters = MohrCoulombParameters::from(material);

@@ -68,11 +68,11 @@ std::optional<LawFault> fault_of_cam_clay(const MaterialSpec& material) {
   return std::nullopt;
 }
 
-constexpr ParameterInfo youngs_modulus = positive("E", "Pa", "Young's modulus");
+constexpr ParameterInfo youngs_modulus = by_place(positive("E", "Pa", "Young's modulus"));
 constexpr ParameterInfo poissons_ratio{"nu", "1", "Poisson's ratio", -1, 0.5, false, false, 0};
 // A strongly auxetic neo-Hookean section has no unique lateral stretch in compression.
 constexpr ParameterInfo neo_hookean_poissons_ratio{"nu", "1", "Poisson's ratio", -0.2, 0.5, false, false, 0};
-constexpr ParameterInfo density = positive("rho", "kg/m3", "density");
+constexpr ParameterInfo density = by_place(positive("rho", "kg/m3", "density"));
 
 std::vector<std::string_view> cone_names() {
   std::vector<std::string_view> names;
@@ -111,7 +111,7 @@ std::vector<LawInfo> built_in() {
        "de Souza Neto, Peric and Owen 2008, section 8.3",
        {plane_strain, axisymmetric, space},
        {youngs_modulus, poissons_ratio, density, optional("phi", "degrees", "angle of internal friction", 90, 0),
-        optional("psi", "degrees", "angle of dilatancy", 90, 0), optional("c", "Pa", "cohesion", infinity, 0),
+        optional("psi", "degrees", "angle of dilatancy", 90, 0), by_place(optional("c", "Pa", "cohesion", infinity, 0)),
         optional(fluidity, "1/(Pa s)", "Perzyna's beta; 0: rate-independent", infinity, 0),
         optional("tension", "Pa", "largest mean stress; never above the apex", infinity, infinity),
         same_as("phi", optional("phi_residual", "degrees", "phi after softening", 90, 0)),
@@ -147,7 +147,7 @@ std::vector<LawInfo> built_in() {
         positive("kappa", "1", "slope of unloading, below lambda"),
         {"nu", "1", "Poisson's ratio", -1, 0.5, false, true, 0},
         density,
-        positive("e0", "1", "void ratio at the start, v = 1 + e"),
+        by_place(positive("e0", "1", "void ratio at the start, v = 1 + e")),
         by_place(without_default({"OCR", "1", "overconsolidation ratio, in place of pc", 1, infinity, true, false, 0})),
         by_place(without_default(positive("pc", "Pa", "preconsolidation pressure at the start")))},
        {ChoiceInfo{"volume", "the v of the stiffnesses: of now, or 1 + e0", {"evolves", "fixed"}, "evolves"}},
@@ -242,6 +242,16 @@ double water_stiffness(const MaterialSpec& material) {
 
 MaterialSpec rate_independent(MaterialSpec material) {
   if (is_viscous(material)) material.parameters[fluidity] = 0;
+  return material;
+}
+
+// The displacement across a band, γ l = γ_h h, is what softens it.
+MaterialSpec with_bands_of(MaterialSpec material, double cell) {
+  if (!material.softening_length) return material;
+  const double wider = *material.softening_length / cell;
+  for (StrengthRow& row : material.softening) row.plastic_strain *= wider;
+  if (const auto strain = material.parameters.find("softening_strain"); strain != material.parameters.end())
+    strain->second *= wider;
   return material;
 }
 

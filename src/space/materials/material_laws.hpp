@@ -25,6 +25,8 @@ const std::vector<LawInfo>& material_laws();
 bool is_viscous(const MaterialSpec& material);
 /// The same material without viscosity, which gives its long-term strength.
 MaterialSpec rate_independent(MaterialSpec material);
+/// The material with softening by the plastic strain of bands that are as wide as a cell of this side [m].
+MaterialSpec with_bands_of(MaterialSpec material, double cell);
 
 /// Makes a law that the program has added; null if there is none of this name, or if it is one with a history.
 std::shared_ptr<const LawAnswers> own_law_answers(const std::string& law, StressState state,

@@ -124,8 +124,10 @@ class OwnHistoryMaterial final : public HistoryBase<OwnHistoryLaw<S>> {
   std::unique_lock<std::mutex> take_turn() const {
     return law().traits().one_at_a_time ? std::unique_lock(one_at_a_time_) : std::unique_lock<std::mutex>();
   }
-  void write_initial(const Stresses& stress, const InitialPoint&, double* history) const override {
+  void write_initial(const Stresses& stress, const InitialPoint& point, double* history) const override {
     law().initial_history(stress.data(), history);
+    if (Base::rows() > 0 && name_of(Base::rows() - 1) == "pore_pressure")
+      history[Base::rows() - 1] = point.pore_pressure;
   }
   std::string_view name_of(std::size_t row) const override { return law().traits().names[row]; }
   // ∂P_xx/∂H_xx under the committed stress, without its own part −σ_xx.

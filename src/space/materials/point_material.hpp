@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -79,10 +80,18 @@ struct PointMaterialInfo {
   double wave_modulus = 0;  // λ + 2μ or the corresponding modulus of the undeformed state [Pa]; unless it follows
 };
 
-/// InitialPoint of a material's points.
+/// InitialPoint of a material's points, (points) each; empty: what InitialPoint has.
 struct InitialGround {
   bool at_rest = false;
-  std::vector<double> factors{};  // (points); empty: 1
+  std::vector<double> consolidation{}, void_ratio{}, pore_pressure{};
+
+  InitialPoint at(std::size_t point) const {
+    InitialPoint here{.at_rest = at_rest};
+    if (!consolidation.empty()) here.consolidation = consolidation[point];
+    if (!void_ratio.empty()) here.void_ratio = void_ratio[point];
+    if (!pore_pressure.empty()) here.pore_pressure = pore_pressure[point];
+    return here;
+  }
 };
 
 /// The material interface. One virtual call serves a block of points, so that the loop over them knows its law and is
@@ -116,8 +125,8 @@ class PointMaterial {
   virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
   /// The relation of the committed stress of point p to its strength; empty if the law has none.
   virtual std::optional<YieldState> yield_state(std::size_t /*p*/) const { return std::nullopt; }
-  /// λ + 2μ of the undeformed state; of a law whose stiffness follows the stress that of the committed state, the
-  /// largest of all points [Pa].
+  /// λ + 2μ of the undeformed state, the largest of all points; of a law whose stiffness follows the stress that of the
+  /// committed state [Pa].
   virtual double wave_modulus() const { return info_.wave_modulus; }
   /// The largest absolute row sum of the elastic ∂P/∂H in the block, a bound of its stiffness; infinite if it is not
   /// finite.
@@ -144,8 +153,9 @@ class PointMaterial {
   /// What users should know of the law as it is found.
   virtual std::vector<std::string> notes() const { return {}; }
 
-  /// The factor of each point's strength, if that varies from place to place; otherwise empty. set_stress() makes it 1.
-  virtual Vec strength_shares() { return {}; }
+  /// What a parameter is at each point, over the number that the law was made with, if it varies from place to place;
+  /// otherwise empty. set_stress() makes it 1.
+  virtual Vec by_place(std::string_view /*parameter*/) { return {}; }
 
   /// The arrays that are stored for each point.
   virtual std::vector<PointArray> arrays() const = 0;

@@ -156,8 +156,8 @@ double BodyAccount<K>::shortest_time() const {
     for (int c = 0; c < axis.cells(); ++c) h = std::min(h, axis.nodes[c + 1] - axis.nodes[c]);
   }
   for (std::size_t m = 0; m < body_.materials.size(); ++m) {
-    const double density = problem_.materials.at(body_.material_names[m]).parameters.at("rho");
-    shortest = std::min(shortest, h / 2 * std::sqrt(density / body_.materials[m]->wave_modulus()));
+    const double largest = body_.materials[m]->wave_modulus();
+    shortest = std::min(shortest, h / 2 * std::sqrt(body_.smallest_density[m] / largest));
   }
   return shortest;
 }

@@ -4,46 +4,59 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/gauss_rule.hpp"
 #include "scene/body_depth.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/materials/material_laws.hpp"
+#include "space/points/value_by_place.hpp"
 
 namespace stillpoint {
 namespace {
 
-/// The mass above a position, per area.
-class MassAbove {
+/// The vertical stress by the weight above a position.
+class WeightAbove {
  public:
-  explicit MassAbove(const Problem& problem) : problem_(problem), step_(touching * smallest_cell(problem.grid, 1)) {
+  /// b_y: the body force [m/s²].
+  WeightAbove(const Problem& problem, double b_y)
+      : problem_(problem),
+        b_y_(b_y),
+        step_(touching * smallest_cell(problem.grid, 1)),
+        lines_(grid_lines(problem.grid, 1)) {
     for (const BodySpec& body : problem.bodies) {
       depths_.emplace_back(body);
-      densities_.push_back(problem.materials.at(body.material).parameters.at("rho"));
+      materials_.push_back(&problem.materials.at(body.material));
     }
-    by_depth_ = std::ranges::adjacent_find(densities_, std::ranges::not_equal_to()) == densities_.end() ||
+    const double first = materials_.front()->parameters.at("rho");
+    by_depth_ = std::ranges::all_of(materials_,
+                                    [&](const MaterialSpec* one) {
+                                      return !one->by_place.contains("rho") && one->parameters.at("rho") == first;
+                                    }) ||
                 std::ranges::any_of(depths_, [](const BodyDepth& depth) { return !depth.is_known(); });
   }
 
-  /// Whether the depth of a point and its own density are all that counts: the ground has one density, or the surface
-  /// of a body is not known.
-  bool by_depth() const { return by_depth_; }
-  /// of: the density of the point itself [kg/m³].
-  double operator()(std::vector<double> X, double of) const {
+  /// of: the material of the point itself, which is all that counts above it where the ground has one density, or the
+  /// surface of a body is not known [Pa].
+  double operator()(std::vector<double> X, const MaterialSpec& of) const {
     const double surface = problem_.geostatic->surface;
-    double mass = 0;
-    for (std::optional<std::size_t> k = body_at(X); k && X[1] < surface; k = body_at(X)) {
+    const MaterialSpec* last = &of;
+    double weight = 0, from = X[1];
+    for (std::optional<std::size_t> k = by_depth_ ? std::nullopt : body_at(X); k && X[1] < surface; k = body_at(X)) {
       const double rest = surface - X[1],
                    up = std::clamp(depths_[*k].along(X, 1, true, rest).value_or(rest), 0.0, rest);
-      of = densities_[*k];
-      mass += of * (up + step_);
-      X[1] += up + step_;
+      const double to = X[1] + up;
+      last = materials_[*k];
+      weight += column(*last, X, from, to);
+      from = to;
+      X[1] = to + step_;
     }
-    return mass + of * (surface - X[1]);
+    return weight + column(*last, X, from, surface);
   }
 
  private:
@@ -52,77 +65,99 @@ class MassAbove {
       if (depths_[k].contains(X)) return k;
     return std::nullopt;
   }
+  // ∫ ρ b_y dy of a material along the vertical through X. A formula is integrated from one line of the grid to the
+  // next, where layers end, by a rule that is exact for polynomials up to the fifth degree.
+  double column(const MaterialSpec& material, std::vector<double> X, double from, double top) const {
+    if (!material.by_place.contains("rho")) return material.parameters.at("rho") * b_y_ * std::max(0.0, top - from);
+    double weight = 0;
+    while (from < top) {
+      const auto next = std::ranges::upper_bound(lines_, from);
+      const double to = next == lines_.end() ? top : std::min(*next, top);
+      const GaussRule rule(from, to, 3);
+      for (std::size_t i = 0; i < rule.at.size(); ++i) {
+        X[1] = rule.at[i];
+        weight += rule.weight[i] * b_y_ * value_by_place(material, "rho", X);
+      }
+      from = to;
+    }
+    return weight;
+  }
 
   const Problem& problem_;
+  double b_y_;
   double step_;  // over the border of a body [m]
+  std::vector<double> lines_;
   std::vector<BodyDepth> depths_;
-  std::vector<double> densities_;
+  std::vector<const MaterialSpec*> materials_;  // of the bodies
   bool by_depth_ = true;
 };
 
-/// The values of the parameter of material m that is a formula of the position, at its points; empty: there is none.
+/// The positions of the points of material m before the motion, in their order.
 template <Kinematics K>
-std::vector<double> values_by_place(const Problem& problem, const Body<K>& body, std::size_t m,
-                                    const std::vector<double>& origin) {
-  const MaterialSpec& material = problem.materials.at(body.material_names[m]);
-  const auto law = std::ranges::find(material_laws(), material.law, &LawInfo::name);
-  std::vector<double> values;
-  for (const auto& [name, formula] : material.by_place) {
-    const auto parameter = std::ranges::find(law->parameters, name, &ParameterInfo::name);
-    for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
-      auto x = body.points.position(static_cast<std::size_t>(p));
-      const auto number = static_cast<std::size_t>(body.points.number[static_cast<std::size_t>(p)]);
-      for (std::size_t d = 0; d < x.size() && !origin.empty(); ++d) x[d] = origin[x.size() * number + d];
-      const double value = formula(x, 0);
-      const bool is_above = parameter->lower_allowed ? value >= parameter->lower : value > parameter->lower;
-      if (!is_above || !std::isfinite(value))
-        throw_scene_error(
-            fmt::format("material.{}.{}", material.name, name),
-            fmt::format("must be {} {} everywhere, not {} at ({:.6g})", parameter->lower_allowed ? ">=" : ">",
-                        parameter->lower, value, fmt::join(x, ", ")));
-      values.push_back(value);
-    }
+std::vector<std::vector<double>> places(const Body<K>& body, std::size_t m, const std::vector<double>& origin) {
+  std::vector<std::vector<double>> all;
+  for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
+    auto x = body.points.position(static_cast<std::size_t>(p));
+    const auto number = static_cast<std::size_t>(body.points.number[static_cast<std::size_t>(p)]);
+    for (std::size_t d = 0; d < x.size() && !origin.empty(); ++d) x[d] = origin[x.size() * number + d];
+    all.emplace_back(x.begin(), x.end());
   }
+  return all;
+}
+
+/// The values of a parameter at positions.
+std::vector<double> values_at(const std::vector<std::vector<double>>& places, const MaterialSpec& material,
+                              const std::string& name) {
+  std::vector<double> values;
+  for (const auto& x : places) values.push_back(value_by_place(material, name, x));
   return values;
 }
 
-/// What a law takes by place and not as a strength is a factor of its initial state.
-template <Kinematics K>
-InitialGround initial_ground(const Problem& problem, const Body<K>& body, std::size_t m, bool at_rest,
-                             const std::vector<double>& origin) {
-  if (!body.materials[m]->strength_shares().empty()) return {.at_rest = at_rest};
-  return {.at_rest = at_rest, .factors = values_by_place(problem, body, m, origin)};
+/// What a law takes by place for its initial state alone.
+InitialGround initial_ground(const MaterialSpec& material, const std::vector<std::vector<double>>& places) {
+  InitialGround ground;
+  for (const auto& [name, formula] : material.by_place) {
+    if (name == "OCR" || name == "pc") ground.consolidation = values_at(places, material, name);
+    if (name == "e0") ground.void_ratio = values_at(places, material, name);
+  }
+  return ground;
 }
 
 template <Kinematics K>
-void set_geostatic_stress(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
+void set_geostatic_stress(const Problem& problem, Body<K>& body) {
   if constexpr (dimensions(K) > 1) {
+    const GeostaticSpec& level = *problem.geostatic;
     const double b_y = problem.body_force.at(1)({}, 0);
-    const MassAbove mass_above(problem);
+    const WeightAbove weight_above(problem, b_y);
     for (std::size_t m = 0; m < body.materials.size(); ++m) {
-      const double rho = problem.materials.at(body.material_names[m]).parameters.at("rho");
-      std::vector<std::array<double, stress_components(K)>> stress;
-      for (int p = body.points.material_begin[m]; p < body.points.material_begin[m + 1]; ++p) {
-        const auto x = body.points.position(static_cast<std::size_t>(p));
-        const double depth = problem.geostatic->surface - x[1];
-        const double vertical =
-            mass_above.by_depth() ? rho * b_y * std::max(0.0, depth) : b_y * mass_above({x.begin(), x.end()}, rho);
-        const double side = problem.geostatic->K0 * vertical;
-        stress.push_back({side, vertical, side});
+      const MaterialSpec& material = problem.materials.at(body.material_names[m]);
+      const std::vector<std::vector<double>> at = places(body, m, {});
+      InitialGround ground = initial_ground(material, at);
+      ground.at_rest = true;
+      std::vector<std::array<double, stress_components(K)>> stress;  // the effective one
+      for (const std::vector<double>& x : at) {
+        const double below = level.water_table.value_or(x[1]) - x[1];
+        const double water = material.undrained ? level.water_density * -b_y * std::max(0.0, below) : 0;
+        const double vertical = weight_above(x, material) + water, K0 = level.K0(x, 0);
+        if (!(K0 > 0) || !std::isfinite(K0))
+          throw_scene_error("initial.geostatic.K0",
+                            fmt::format("must be > 0 everywhere, not {} at ({:.6g})", K0, fmt::join(x, ", ")));
+        stress.push_back({K0 * vertical, vertical, K0 * vertical});
+        ground.pore_pressure.push_back(water);
       }
-      body.materials[m]->set_stress(stress, initial_ground(problem, body, m, /*at_rest=*/true, origin));
+      body.materials[m]->set_stress(stress, ground);
     }
   }
 }
 
 template <Kinematics K>
-void set_uniform_stress(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
+void set_uniform_stress(const Problem& problem, Body<K>& body) {
   std::array<double, stress_components(K)> sigma{};
   std::ranges::copy(problem.initial_stress, sigma.begin());
   for (std::size_t m = 0; m < body.materials.size(); ++m) {
-    const int count = body.points.material_begin[m + 1] - body.points.material_begin[m];
-    body.materials[m]->set_stress(std::vector(static_cast<std::size_t>(count), sigma),
-                                  initial_ground(problem, body, m, /*at_rest=*/false, origin));
+    const std::vector<std::vector<double>> at = places(body, m, {});
+    body.materials[m]->set_stress(std::vector(at.size(), sigma),
+                                  initial_ground(problem.materials.at(body.material_names[m]), at));
   }
 }
 
@@ -156,19 +191,31 @@ void check_initial_stress(const Problem& problem, const Body<K>& body) {
   }
 }
 
+/// What laws take by place and go on with.
 template <Kinematics K>
-void set_strength_by_place(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
+void set_parameters_by_place(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
   for (std::size_t m = 0; m < body.materials.size(); ++m) {
-    const Vec shares = body.materials[m]->strength_shares();
-    if (!shares.empty()) std::ranges::copy(values_by_place(problem, body, m, origin), shares.begin());
+    const MaterialSpec& material = problem.materials.at(body.material_names[m]);
+    for (const auto& [name, formula] : material.by_place) {
+      const Vec row = body.materials[m]->by_place(name);
+      if (!row.empty()) std::ranges::copy(values_at(places(body, m, origin), material, name), row.begin());
+    }
+  }
+}
+
+template <Kinematics K>
+void find_smallest_densities(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    const MaterialSpec& material = problem.materials.at(body.material_names[m]);
+    const std::vector<double> values =
+        material.by_place.contains("rho") ? values_at(places(body, m, origin), material, "rho") : std::vector<double>();
+    body.smallest_density.push_back(values.empty() ? material.parameters.at("rho") : std::ranges::min(values));
   }
 }
 
 template <Kinematics K>
 void begin_laws(const Problem& problem, Body<K>& body) {
-  double cell = 1;
-  for (std::size_t axis = 0; axis < dimensions(K); ++axis) cell *= mean_cell(problem.grid, axis);
-  cell = std::pow(cell, 1.0 / dimensions(K));
+  const double cell = mean_cell(problem.grid);
   for (std::size_t m = 0; m < body.materials.size(); ++m) {
     const auto begin = static_cast<std::size_t>(body.points.material_begin[m]);
     body.materials[m]->begin([&](std::size_t k) {
@@ -190,10 +237,11 @@ void begin_laws(const Problem& problem, Body<K>& body) {
 
 template <Kinematics K>
 void set_initial_state(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
-  if (problem.geostatic) set_geostatic_stress(problem, body, origin);
-  if (!problem.initial_stress.empty()) set_uniform_stress(problem, body, origin);
+  if (problem.geostatic) set_geostatic_stress(problem, body);
+  if (!problem.initial_stress.empty()) set_uniform_stress(problem, body);
+  set_parameters_by_place(problem, body, origin);
   check_initial_stress(problem, body);
-  set_strength_by_place(problem, body, origin);
+  find_smallest_densities(problem, body, origin);
   begin_laws(problem, body);
 }
 

@@ -256,8 +256,7 @@ class InternalForce {
         shortest = std::min(shortest, nodes[cell[axis] + 1] - nodes[cell[axis]]);
       }
     }
-    const double density = frame_.problem.materials.at(frame_.body.material_names[m]).parameters.at("rho");
-    return 1 / (density * shortest * shortest);
+    return 1 / (frame_.body.smallest_density[m] * shortest * shortest);
   }
   double largest_bound(Work& work) const {
     double largest = 0;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/grid_lines.hpp"
 #include "space/materials/material_laws.hpp"
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
@@ -22,6 +23,7 @@ struct Body {
   QuadratureReport quadrature;
   std::vector<std::unique_ptr<PointMaterial<K>>> materials;  // in order of points.material_begin
   std::vector<std::string> material_names;                   // likewise; one in two fields is there twice
+  std::vector<double> smallest_density;                      // of each material, before the motion [kg/m³]
   int fields = 1;                                            // see motion_fields.hpp
   std::vector<CellShares> covered;  // cells covered by each [[body]]; empty if that of one is not known
   std::vector<int> first_number;    // number of the first point of each [[body]], and the number of all points: (bodies
@@ -39,7 +41,8 @@ namespace detail {
 template <Kinematics K>
 std::unique_ptr<PointMaterial<K>> make_material(const MaterialSpec& material, const Problem& problem, std::size_t begin,
                                                 std::size_t count, bool updated_lagrangian) {
-  return make_point_material<K>(problem.solve.is_static() ? rate_independent(material) : material, problem.state, begin,
+  const MaterialSpec of_grid = with_bands_of(material, mean_cell(problem.grid));
+  return make_point_material<K>(problem.solve.is_static() ? rate_independent(of_grid) : of_grid, problem.state, begin,
                                 count, updated_lagrangian);
 }
 

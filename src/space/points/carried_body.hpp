@@ -50,9 +50,11 @@ struct CarriedMaterial {
       const auto sigma = material.cauchy(H.empty() ? TensorOf<K>{} : H[begin + k], begin + k);
       carried.stress.insert(carried.stress.end(), sigma.begin(), sigma.end());
     }
-    if (memory.empty() && !H.empty()) {  // an elastic law in its first phase
+    if (!carried.remembers && !H.empty()) {  // an elastic law in its only phase, which has not kept the deformation
+      std::vector<double> rows;
       for (std::size_t c = 0; c < H[0].size(); ++c)
-        for (std::size_t k = 0; k < count; ++k) carried.memory.push_back(H[begin + k][c]);
+        for (std::size_t k = 0; k < count; ++k) rows.push_back(H[begin + k][c]);
+      carried.memory.insert(carried.memory.begin(), rows.begin(), rows.end());
     }
     for (const auto& [name, values] : material.shown_history()) {
       carried.names.push_back(name);

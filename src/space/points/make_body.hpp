@@ -12,6 +12,7 @@
 #include "space/points/carried_body.hpp"
 #include "space/points/motion_fields.hpp"
 #include "space/points/point_order.hpp"
+#include "space/points/value_by_place.hpp"
 
 namespace stillpoint {
 namespace detail {
@@ -64,6 +65,10 @@ Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool 
     std::iota(placed.points.number.begin(), placed.points.number.end(), 0);
     if (carried) sources.back().assign(placed.points.size(), -1);
     number += static_cast<int>(placed.points.size());
+    if (const MaterialSpec& material = problem.materials.at(spec.material); material.by_place.contains("rho")) {
+      for (std::size_t p = 0; p < placed.points.size(); ++p)
+        placed.points.mass[p] = placed.points.volume[p] * value_by_place(material, "rho", placed.points.position(p));
+    }
     of_bodies.push_back(std::move(placed.points));
   }
   body.first_number.push_back(number);

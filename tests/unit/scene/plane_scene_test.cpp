@@ -157,7 +157,7 @@ TEST_CASE("a plane scene loads with every key that it says") {
   CHECK(scene.body_force.at(1)({}, 0) == -9.81);
   CHECK(scene.initial_v.at(1)(std::array{2.0, 5.0}, 0) == -2);
   REQUIRE(scene.geostatic);
-  CHECK(scene.geostatic->K0 == 0.43);
+  CHECK(scene.geostatic->K0({}, 0) == 0.43);
   CHECK(scene.geostatic->surface == 3);
 
   CHECK(scene.output.every == 0.5);
@@ -226,7 +226,7 @@ TEST_CASE("an override reaches every key of a plane scene") {
   CHECK(load_slope({"grid.cells=[24, 16]"}).grid.cells == std::vector{24, 16});
   CHECK(load_slope({"grid.basis=quadratic"}).grid.basis == BasisKind::quadratic);
   CHECK(load_slope({"output.stages=[3]"}).output.snapshots == std::vector{3.0});
-  CHECK(load_slope({"initial.geostatic.K0=0.5"}).geostatic->K0 == 0.5);
+  CHECK(load_slope({"initial.geostatic.K0=0.5"}).geostatic->K0({}, 0) == 0.5);
   CHECK(load_slope({"support[1].kind=fixed"}).supports.at(1).holds_one_component() == false);
 }
 

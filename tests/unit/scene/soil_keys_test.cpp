@@ -12,6 +12,7 @@
 #include "files.hpp"
 #include "largest.hpp"
 #include "random_values.hpp"
+#include "scene/grid_lines.hpp"
 #include "scenes.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "statics.hpp"
@@ -183,4 +184,24 @@ TEST_CASE("points have the cohesion of their places: the forces are those of two
   CHECK(two == by_place);
   const auto other = forces_of({bodies("soil"), soil + "c=3e3"});
   CHECK(largest_difference(two, other) > 1e-3 * largest_magnitude(two));
+}
+
+TEST_CASE("softening over bands of a length counts its plastic strains by the cells to which they gather") {
+  const double h = mean_cell(scenes::load("stable_slope", {}).grid);
+  const auto forces_with = [](const std::string& softening, const std::string& length) {
+    std::vector<std::string> set = {"material.soil={law='mohr-coulomb', E=1e8, nu=0.3, rho=2000, phi=20, c=1e3, " +
+                                    softening + length + "}"};
+    const auto phase = make_phase(scenes::load("stable_slope", set));
+    std::vector<double> u = test::random_values(phase->size(), 1e-2, 1);
+    statics::commit(*phase, u);
+    for (double& value : u) value *= 2;
+    return statics::internal_force(*phase, u, 0);
+  };
+  const std::string at_1 = "softening=[[0.01, 1e2, 10, 0]]", at_2 = "softening=[[0.02, 1e2, 10, 0]]";
+  const auto wide = forces_with(at_1, ", softening_length=" + std::to_string(2 * h));
+  const auto of_cells = forces_with(at_2, "");
+  CHECK(largest_difference(wide, of_cells) < 1e-6 * largest_magnitude(of_cells));  // the digits of the length
+  CHECK(largest_difference(of_cells, forces_with(at_1, "")) > 1e-4 * largest_magnitude(of_cells));
+  CHECK_THAT(scenes::refusal("stable_slope", {soil + "softening_length=0.1"}),
+             Catch::Contains("material.soil.softening_length: goes with softening"));
 }

@@ -199,7 +199,7 @@ TEST_CASE("the overconsolidation ratio is one of vertical stresses at rest, and 
   const CamClay<plane_strain> law(clay(1));
   const auto steep = law.initial_history({0.4 * cell, cell, 0.4 * cell, 0}, {.at_rest = true});
   CHECK(law.yield_state(steep).f == Approx(0).margin(1e-6));
-  CHECK(law.initial_history({cell, cell, cell, 0}, {.at_rest = false, .factor = 3})[4] == Approx(3e5));
+  CHECK(law.initial_history({cell, cell, cell, 0}, {.at_rest = false, .consolidation = 3})[4] == Approx(3e5));
   // Outside of the yield surface f is positive, at its tip too, where there is no strength
   CamClayParameters weak = clay(1);
   weak.pc = 0.5e5;
