@@ -230,9 +230,9 @@ std::optional<std::string> hourglass_note(const Problem& problem) {
 std::vector<std::string> softening_notes(const Problem& problem) {
   std::vector<std::string> notes;
   for (const auto& [name, material] : problem.materials) {
-    const auto value = [&](const char* key) {
-      const auto found = material.parameters.find(key);
-      return found == material.parameters.end() ? 0 : found->second;
+    const auto value = [&parameters = material.parameters](const char* key) {
+      const auto found = parameters.find(key);
+      return found == parameters.end() ? 0 : found->second;
     };
     bool falls =
         value("softening_strain") > 0 && (value("c_residual") < value("c") || value("phi_residual") < value("phi"));
