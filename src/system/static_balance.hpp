@@ -4,6 +4,7 @@
 #include <stillpoint/semi_discrete.hpp>
 #include <stillpoint/vector.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "base/parallel_loop.hpp"
@@ -11,6 +12,11 @@
 #include "system/force_scale.hpp"
 
 namespace stillpoint {
+
+/// Whether supports have yet to go their way, which static solvers divide: the body is where the phase began.
+inline bool is_undisplaced(ConstVec u) {
+  return std::ranges::all_of(u, [](double u_k) { return u_k == 0; });
+}
 
 /// Q_s(u) = (1 − s) R₀ + s F(t, u) − R(t, u), s the load factor, R₀ the internal force at the start. Where supports are
 /// is a matter of the caller.

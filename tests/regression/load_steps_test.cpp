@@ -1,5 +1,6 @@
 // Static solvers take the load in as many shares as a scene asks for.
 #include <stillpoint/compare.hpp>
+#include <stillpoint/static_solution.hpp>
 #include <stillpoint/stillpoint.hpp>
 
 #include <cmath>
@@ -12,6 +13,7 @@
 
 #include "largest.hpp"
 #include "scenes.hpp"
+#include "space/phase/lagrangian_phase.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
@@ -90,4 +92,18 @@ TEST_CASE("a support goes its way in the same shares as the load, so that points
           Approx(0.0198018 * G).epsilon(1e-3));
   }
   CHECK(pressure("newton", 0.1, {"constants.n=80"}) == Approx(3.85640 * c).epsilon(0.01));
+}
+
+TEST_CASE("a solver that goes on from its answer leaves supports where they are") {
+  const auto phase = make_phase(scenes::load("ladder/cavity", {"constants.n=80"}));
+  std::vector<double> u(phase->size(), 0.0), strain(phase->points()), strain_again(phase->points());
+  const NewtonOptions in_shares{.tolerance = 1e-8, .load_steps = 100, .max_load_step = 0.01};
+  REQUIRE(newton(*phase, 1, u, in_shares).converged);
+  phase->fields().point_history("plastic_strain", strain);
+  const std::vector<double> first = u;
+  REQUIRE(newton(*phase, 1, u, in_shares).converged);
+  phase->fields().point_history("plastic_strain", strain_again);
+  CHECK(largest_magnitude(strain) > 0.1);
+  CHECK(largest_difference(u, first) < 1e-6 * largest_magnitude(first));
+  CHECK(largest_difference(strain_again, strain) < 1e-6 * largest_magnitude(strain));
 }

@@ -23,12 +23,13 @@ class Newton {
       : system_(system),
         u_(u),
         options_(options),
+        supports_set_out_(is_undisplaced(u)),
         balance_(system, t, VectorSpace()),
         direction_(system, t, options, balance_, report_),
         trial_(u.size()) {}
 
   StaticReport solve() {
-    system_.move_supports_on(0);
+    system_.move_supports_on(supports_set_out_ ? 0 : 1);
     if (!balance_.start(u_)) {
       report_.reason = "the state at the start cannot be evaluated: " + system_.diagnosis().refusal(balance_.trial());
       return finished();
@@ -65,9 +66,9 @@ class Newton {
 
  private:
   // The forces at a load factor: supports have gone that share of their way, so that points do not remember it as one
-  // strain of the cells beside them.
+  // strain of the cells beside them. They stay where they are if the body is displaced, as by an earlier solution.
   bool evaluate(double s, ConstVec u) {
-    system_.move_supports_on(s);
+    system_.move_supports_on(supports_set_out_ ? s : 1);
     return balance_.evaluate(s, u);
   }
   // u: the state at step.from, then the equilibrium at step.to; if there is none, report_.reason says why. A slender
@@ -145,7 +146,7 @@ class Newton {
 
   // Describes the obstacle to balance at u: the place that cannot be evaluated, or the largest out-of-balance force.
   std::string worst(double s, ConstVec u) {
-    if (!evaluate(s, u)) return "where " + system_.diagnosis().refusal(balance_.trial());
+    if (!evaluate(s, u)) return "where the state cannot be evaluated: " + system_.diagnosis().refusal(balance_.trial());
     return "largest at " + largest_at(system_, std::as_const(balance_.Q).span());
   }
 
@@ -178,6 +179,7 @@ class Newton {
   SemiDiscrete& system_;
   Vec u_;
   const NewtonOptions& options_;
+  const bool supports_set_out_;
   StaticBalance balance_;
   StaticReport report_;
   NewtonDirection direction_;

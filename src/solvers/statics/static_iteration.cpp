@@ -8,6 +8,7 @@
 #include "base/parallel_loop.hpp"
 #include "system/force_scale.hpp"
 #include "system/largest_at.hpp"
+#include "system/static_balance.hpp"
 
 namespace stillpoint {
 namespace {
@@ -38,7 +39,8 @@ bool StaticIteration::begin(double t, const Vector& y) {
   forget();
   load_.start_over();
   steps_of_first_ = 0;
-  system().system().move_supports_on(0);
+  supports_set_out_ = is_undisplaced(u);
+  move_supports_on(0);
   if (!system().out_of_balance(t, u, Q_begin_.span())) return false;
   std::ranges::fill(Q_.span(), 0.0);
   is_lost_ = false;
@@ -72,8 +74,14 @@ void StaticIteration::archive_memory(const StateArchive& state) {
   state("steps_of_first", steps_of_first_);
   state("steps_of_this", steps_of_this_);
   load_.archive(state);
+  state("supports_set_out", supports_set_out_);
   archive_method(state);
-  if (state.restores()) system().system().move_supports_on(load_.to());
+  if (state.restores()) move_supports_on(load_.to());
+}
+
+// True if that changes the forces. Supports stay where they are if the iteration began with a displaced body.
+bool StaticIteration::move_supports_on(double share) {
+  return supports_set_out_ && system().system().move_supports_on(share);
 }
 
 // Evaluates Q_s at s = load_.to(), to which share of their way supports have gone.
@@ -135,12 +143,12 @@ void StaticIteration::end_increment() {
 // increment, that the state cannot be evaluated.
 bool StaticIteration::begin_increment(double t, double s, ConstVec u) {
   std::ranges::copy(u, u_begin_.span().begin());
-  if (!system().system().move_supports_on(load_.to())) {
+  if (!move_supports_on(load_.to())) {
     add_to(Q_, load_.to() - s);
   } else {
     while (!evaluate(t, u, Q_)) {
       if (!load_.halve()) return false;
-      system().system().move_supports_on(load_.to());
+      move_supports_on(load_.to());
     }
   }
   system().mass().solve(Q_.span(), z_.span());
@@ -171,7 +179,7 @@ bool StaticIteration::begin_half(double t, Vec u_new) {
   if (!system().system().history_dependent() || !load_.halve()) return false;
   forget();
   std::ranges::copy(std::as_const(u_begin_).span(), u_new.begin());
-  system().system().move_supports_on(load_.to());
+  move_supports_on(load_.to());
   if (!evaluate(t, u_new, Q_) || !begin_increment(t, load_.to(), u_new)) return false;
   went_downhill_ = false;
   return true;

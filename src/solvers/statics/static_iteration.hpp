@@ -57,6 +57,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   void accepted() final;
   void archive_memory(const StateArchive& state) final;
 
+  bool move_supports_on(double share);
   bool evaluate(double t, ConstVec u, Vector& Q);
   void add_to(Vector& Q, double share) const;
   bool search(double t, Vec u_new);
@@ -75,6 +76,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   double alpha_ = 0;
   double unbalanced_at_begin_ = 0;               // ‖Q_s‖ at the same place [N]
   long steps_of_first_ = 0, steps_of_this_ = 0;  // steps of the first increment (0 before its end) and of this one
+  bool supports_set_out_ = false;                // they had gone none of their way when it began
   bool is_lost_ = false;                         // an increment could not be begun
   bool went_downhill_ = false;  // the last attempt: neither was it in balance to the last bit, nor did it go back
 };
