@@ -38,6 +38,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& A) : impl_(std::make_unique<I
     impl_->positive_definite = true;
     return;
   }
+  if (A.nonZeros() == 0) return;  // as of ground that has no strength yet; the libraries take no empty matrix
   if (A.isCompressed()) {
     impl_->positive_definite = factorise(impl_->factor, A);
   } else {

@@ -90,6 +90,9 @@ TEST_CASE(
     coupled.coeffRef(m, 0) = coupled.coeffRef(0, m) = nan;
     CHECK_FALSE(SparseCholesky(coupled).positive_definite());
   }
+  const SparseCholesky empty(SparseMatrix(2, 2));
+  CHECK_FALSE(empty.positive_definite());
+  CHECK_THROWS_AS(empty.pivot_ratio(), std::logic_error);
 }
 
 TEST_CASE("a matrix that is not compressed is factorised all the same") {
