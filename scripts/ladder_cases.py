@@ -8,12 +8,13 @@ A [[case]] has
   set        ["key=value", …] for --set
   vary       as in the stability map: rows for each combination of values, named by them
   refine     what `stillpoint converge` makes finer, with levels and ratio (4 and 2 if not given); or
-  halve      [["key=value", …], …]: runs with a size of 1, 1/2, 1/4, … of which orders are found here
+  halve      [["key=value", …], …]: runs with a size of 1, 1/2, 1/4, … of which orders are found here; or
+  safety     [from, to, width] of `stillpoint safety`
   quick      false: not in the quick form
   seconds    of processor time that a run may take, 60 if not given
 and [[case.quantity]] tables:
   name       of the row
-  read       "error.u_rel_l2", "load.factor", "contacts.RIGID.force_y" and the like of summary.json, "PROBE.FIELD";
+  read       "safety.factor", in the middle of the bracket; "error.u_rel_l2", "load.factor", "contacts.RIGID.force_y" and the like of summary.json, "PROBE.FIELD";
              "reactions.SUPPORT.y";
              "history.COLUMN", the mean of its last values,
              from the time `from` on; "fields.u", "fields.u.y", "fields.stress.yy", …: all points beside an answer of
@@ -38,7 +39,7 @@ from pathlib import Path
 from case_table import BadTable, combinations, read_table
 
 OF_CASE = {
-    "name", "about", "source", "scene", "set", "vary", "refine", "levels", "ratio", "halve", "quick", "seconds",
+    "name", "about", "source", "scene", "set", "vary", "refine", "levels", "ratio", "halve", "safety", "quick", "seconds",
     "quantity",
 }  # fmt: skip
 OF_QUANTITY = {"name", "read", "exact", "target", "from", "theory", "where", "order_remark", "known_miss"}
@@ -72,6 +73,7 @@ class Case:
     levels: int = 4
     ratio: float = 2.0
     halve: list[list[str]] = field(default_factory=list)
+    safety: list[float] = field(default_factory=list)
     quick: bool = True
     seconds: float = 60.0
 
@@ -96,12 +98,12 @@ def cases_of(table, folder):
     for key in ("name", "about", "source", "scene", "quantity"):
         if key not in table:
             raise BadTable(f"{name}: {key} is missing")
-    if "refine" in table and "halve" in table:
-        raise BadTable(f"{name}: refine and halve exclude each other")
+    if len({"refine", "halve", "safety"} & table.keys()) > 1:
+        raise BadTable(f"{name}: refine, halve and safety exclude each other")
     scene = (folder / table["scene"]).resolve()
     if not scene.exists():
         raise BadTable(f"{name}: there is no {scene}")
-    taken = {key: table[key] for key in ("refine", "levels", "ratio", "halve", "quick", "seconds") if key in table}
+    taken = {key: table[key] for key in ("refine", "levels", "ratio", "halve", "safety", "quick", "seconds") if key in table}
     for variant, settings in combinations(table.get("vary", {})):
         there = [one for one in table["quantity"] if fnmatchcase(variant, one.get("where", "*"))]
         whole = f"{name} [{variant}]" if variant else name
@@ -127,4 +129,6 @@ def read_cases(file):
                 raise BadTable(f"{case.name}: {quantity.name}: an order needs refine or halve")
             if case.refine and not quantity.of_order:
                 raise BadTable(f"{case.name}: {quantity.name}: of a study there are orders alone")
+            if bool(case.safety) != (quantity.read == "safety.factor"):
+                raise BadTable(f"{case.name}: {quantity.name}: safety.factor is read where safety is asked for, alone")
     return cases

@@ -71,18 +71,27 @@ class Outcome:
     evaluations: int | None = None
 
 
+def set_options(settings):
+    return [word for one in settings for word in ("--set", one)]
+
+
 def commands_of(program, case):
     """[(command, settings)] of a case."""
     if case.refine:
         command = [str(program), "converge", str(case.scene), "--refine", case.refine, "--levels", str(case.levels)]
         command += ["--ratio", f"{case.ratio:g}", "--no-sources"]
-        return [(command + sum((["--set", one] for one in case.settings), []), case.settings)]
+        return [(command + set_options(case.settings), case.settings)]
+    if case.safety:
+        command = [str(program), "safety", str(case.scene)]
+        for option, value in zip(("--from", "--to", "--width"), case.safety):
+            command += [option, f"{value:g}"]
+        return [(command + set_options(case.settings), case.settings)]
     found = []
     for level in case.halve or [[]]:
         settings = case.settings + level
         if any(quantity.read.removeprefix("order.").startswith(("fields.", "heap.")) for quantity in case.quantities):
             settings = settings + [LAST]
-        command = [str(program), "run", str(case.scene)] + sum((["--set", one] for one in settings), [])
+        command = [str(program), "run", str(case.scene)] + set_options(settings)
         found.append((command, settings))
     return found
 
@@ -90,21 +99,23 @@ def commands_of(program, case):
 # --- running -----------------------------------------------------------------------------------------
 
 
-def study_of(command, folder, seconds):
+def study_of(command, folder, seconds, file, runs):
+    """A study that leaves a JSON file with a list of its runs."""
     ended = limited(command, folder, seconds)
     if ended is None:
         return Outcome([], {}, f"no end within {seconds:g} s")
-    file = Path(folder) / "converge.json"
+    file = Path(folder) / file
     study = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
-    levels = study.get("levels", [])
     failure = "" if ended.returncode == 0 and study else f"exit status {ended.returncode}: {ended.stderr.strip()}"
-    return Outcome([], study, failure, sum(level.get("evaluations") or 0 for level in levels))
+    return Outcome([], study, failure, sum(run.get("evaluations") or 0 for run in study.get(runs, [])))
 
 
 def outcome_of(program, case, folder):
     commands = commands_of(program, case)
     if case.refine:
-        return study_of(commands[0][0], folder, case.seconds)
+        return study_of(commands[0][0], folder, case.seconds, "converge.json", "levels")
+    if case.safety:
+        return study_of(commands[0][0], folder, case.seconds, "safety.json", "verdicts")
     outcome = Outcome([], {}, evaluations=0)
     for number, (command, settings) in enumerate(commands):
         own = folder / str(number) if len(commands) > 1 else folder
@@ -228,8 +239,17 @@ def judge_order(row, case, quantity, outcome):
             row.reason = f"the interval {row.low:.2f} to {row.high:.2f} leaves out {row.exact:g}, and no remark says why"
 
 
+def factor_and_exact(case, quantity, study):
+    names = names_of(constants_of(case.scene, case.settings))
+    exact = None if quantity.exact is None else value_of(quantity.exact, names)
+    return 0.5 * (study["factor_low"] + study["factor_high"]), exact
+
+
 def judge_value(row, case, quantity, outcome):
-    row.computed, row.exact = value_and_exact(case, quantity, quantity.read, outcome)
+    if case.safety:
+        row.computed, row.exact = factor_and_exact(case, quantity, outcome.study)
+    else:
+        row.computed, row.exact = value_and_exact(case, quantity, quantity.read, outcome)
     if not math.isfinite(row.computed):
         raise Missing(f"{quantity.read} is {row.computed}")
     if row.exact is not None:

@@ -21,7 +21,7 @@ study() {
   printf '{"levels": [{"evaluations": 3}], "orders": {"u_l2": '
   printf '{"order": %s, "low": %s, "high": %s, "theory": %s}}}' "$@"
 }
-run=$2/summary.json converge=$2/converge.json
+run=$2/summary.json converge=$2/converge.json safety=$2/safety.json
 sed -n 's/^#! //p' "$scene" >"$2/words"
 source "$2/words"
 """
@@ -175,6 +175,20 @@ def _(folder):
     is_miss(folder, "below", RIGHT, quantity, halve)
 
 
+@claim("a factor of safety is the middle of its bracket, and one that is not found a MISS")
+def _(folder):
+    factor = 'name = "F"\nread = "safety.factor"\nexact = 1.5\ntarget = 0.01\n'
+    asked = "safety = [1, 2, 0.02]\n"
+    found = '#! echo \'{"factor_low": 1.49, "factor_high": %s, "verdicts": [{"evaluations": 7}]}\' >"$safety"%s\n'
+    row = passes(folder, found % (1.51, ""), factor, asked)
+    assert float(row["computed"]) == 1.5 and row["evaluations"] == "7", row
+    is_miss(folder, "above 0.01", found % (1.55, ""), factor, asked)
+    is_miss(folder, "TypeError", found % ("null", ""), factor, asked)
+    is_miss(folder, "exit status 3", found % (1.51, "; exit 3"), factor, asked)
+    result = the_ladder(folder, found % (1.55, ""), factor, asked)
+    assert f"safety {folder / 'scene.toml'} --from 1 --to 2 --width 0.02" in result.stdout, result
+
+
 @claim("a ladder with bad input is refused with status 2 and one line")
 def _(folder):
     def is_refused(words, *arguments, **keywords):
@@ -187,6 +201,9 @@ def _(folder):
     is_refused("exact is missing", RIGHT, VALUE.replace("exact = 1.0\n", ""))
     is_refused("an order needs", RIGHT, ORDER)
     is_refused("orders alone", RIGHT, keys='refine = "h"\n')
+    is_refused("safety.factor is read", RIGHT, keys="safety = [1, 2, 0.1]\n")
+    is_refused("safety.factor is read", RIGHT, VALUE.replace("end.u", "safety.factor"))
+    is_refused("exclude each other", RIGHT, keys='safety = [1, 2, 0.1]\nrefine = "h"\n')
     other = '[[case]]\nname = "b"\nabout = "B."\nsource = "none"\nscene = "none.toml"\n[[case.quantity]]\n'
     is_refused("there is no", RIGHT, VALUE + other + VALUE)
     is_refused("is there twice", RIGHT, VALUE + "[[case.quantity]]\n" + VALUE)
