@@ -80,9 +80,9 @@ void set_later_parts_aside(Problem& problem, Locations& where) {
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) problem.bodies[k].number = k;
   for (std::size_t k = 0; k < problem.supports.size(); ++k) problem.supports[k].number = k;
   problem.phase.at_stages = !problem.stages.empty() || !problem.initial_from.empty();
-  if (problem.stages.empty()) return;
   for (const SupportSpec& one : problem.supports)
-    if (!one.name.empty()) problem.named_supports.push_back(one.name);
+    if (problem.phase.at_stages && !one.name.empty()) problem.named_supports.push_back(one.name);
+  if (problem.stages.empty()) return;
   Names added, held;
   for (const StageSpec& stage : problem.stages) {
     std::ranges::copy(stage.add, std::back_inserter(added));

@@ -85,8 +85,6 @@ void check_new_materials(SceneCheck& check, const StageSpec& stage, const std::s
       check.add_unknown(one, "material", "[material.<name>]", stage.material[k], names);
       continue;
     }
-    check.wrong_if(material->second.by_place.contains("rho"), one,
-                   "has a density that is a formula of the position, which a body cannot change to yet");
     const LawInfo* const law = check.law_of(stage.material[k]);
     check.wrong_if(law && !law->history_dependent, one,
                    "'{}' is a law without history, whose stress follows from its own deformation alone: it cannot take "

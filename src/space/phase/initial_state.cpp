@@ -105,24 +105,6 @@ std::vector<std::vector<double>> places(const Body<K>& body, std::size_t m, cons
   return all;
 }
 
-/// The values of a parameter at positions.
-std::vector<double> values_at(const std::vector<std::vector<double>>& places, const MaterialSpec& material,
-                              const std::string& name) {
-  std::vector<double> values;
-  for (const auto& x : places) values.push_back(value_by_place(material, name, x));
-  return values;
-}
-
-/// What a law takes by place for its initial state alone.
-InitialGround initial_ground(const MaterialSpec& material, const std::vector<std::vector<double>>& places) {
-  InitialGround ground;
-  for (const auto& [name, formula] : material.by_place) {
-    if (name == "OCR" || name == "pc") ground.consolidation = values_at(places, material, name);
-    if (name == "e0") ground.void_ratio = values_at(places, material, name);
-  }
-  return ground;
-}
-
 template <Kinematics K>
 void set_geostatic_stress(const Problem& problem, Body<K>& body) {
   if constexpr (dimensions(K) > 1) {
@@ -198,7 +180,7 @@ void set_parameters_by_place(const Problem& problem, Body<K>& body, const std::v
     const MaterialSpec& material = problem.materials.at(body.material_names[m]);
     for (const auto& [name, formula] : material.by_place) {
       const Vec row = body.materials[m]->by_place(name);
-      if (!row.empty()) std::ranges::copy(values_at(places(body, m, origin), material, name), row.begin());
+      if (!row.empty()) std::ranges::copy(values_by_place(material, name, places(body, m, origin)), row.begin());
     }
   }
 }
@@ -207,8 +189,9 @@ template <Kinematics K>
 void find_smallest_densities(const Problem& problem, Body<K>& body, const std::vector<double>& origin) {
   for (std::size_t m = 0; m < body.materials.size(); ++m) {
     const MaterialSpec& material = problem.materials.at(body.material_names[m]);
-    const std::vector<double> values =
-        material.by_place.contains("rho") ? values_at(places(body, m, origin), material, "rho") : std::vector<double>();
+    const std::vector<double> values = material.by_place.contains("rho")
+                                           ? values_by_place(material, "rho", places(body, m, origin))
+                                           : std::vector<double>();
     body.smallest_density.push_back(values.empty() ? material.parameters.at("rho") : std::ranges::min(values));
   }
 }

@@ -28,7 +28,7 @@ struct PhaseAssembly {
   PhaseAssembly(const Problem& whole, const PhaseBegin& begin)
       : problem(without_reference_loads(whole)),
         frame(problem, static_cast<const CarriedBodyOf<K>*>(begin.carried)),
-        conditions(problem, whole, frame.grid, frame.body, frame.origin, frame.account().shortest_time()) {
+        conditions(problem, whole, frame.grid, frame.body, frame.within_shapes(), frame.account().shortest_time()) {
     extend_into_slivers();
     if (begin.carried) conditions.take_over(begin.carried->conditions);
     if (frame.moves_on()) set_initial_velocity(problem, frame.body);

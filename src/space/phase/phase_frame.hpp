@@ -38,6 +38,7 @@ struct PhaseFrame {
         phase(carried ? carried->phase() : 0) {
     if (moves_on()) origin = account().positions();
     if (carried) carried->take_origin(problem, body.first_number, origin);
+    if (carried && carried->phase() == 0 && !problem.initial_from.empty()) where_placed_ = account().positions();
     set_initial_state(problem, body, origin);
     for (const auto& material : body.materials) wave_moduli.push_back(material->wave_modulus());
   }
@@ -56,6 +57,10 @@ struct PhaseFrame {
     for (std::size_t f = 0; f < reached.size(); ++f) reached[f] = static_cast<char>(totals.reaches(f));
     return reached;
   }
+
+  /// The positions of the points to which the shapes of the scene's bodies belong, as `origin` has them: bodies of
+  /// another run are where they are, however they have come there.
+  const std::vector<double>& within_shapes() const { return where_placed_.empty() ? origin : where_placed_; }
 
   std::size_t functions_of_grid() const { return static_cast<std::size_t>(functions.count()); }
   bool moves_on() const { return problem.phase.ends(); }
@@ -121,6 +126,7 @@ struct PhaseFrame {
     if (!as_before) corner_sum.rebuild(function_of_corner_, count);
   }
 
+  std::vector<double> where_placed_;     // of bodies of another run: within_shapes(); else empty
   std::vector<int> function_of_corner_;  // (cells × per_cell)
 };
 

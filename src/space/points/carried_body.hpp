@@ -17,8 +17,26 @@
 #include "space/points/carried_points.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_order.hpp"
+#include "space/points/value_by_place.hpp"
 
 namespace stillpoint {
+
+/// The rows of PointMaterial::memory() that are of the points themselves: not what parameters are by place, which is a
+/// matter of the material that they have.
+template <Kinematics K>
+std::vector<std::size_t> remembered_rows(PointMaterial<K>& material, const MaterialSpec& spec, std::size_t count) {
+  if (count == 0) return {};
+  const Vec memory = material.memory();
+  std::vector<char> is_by_place(memory.size() / count);
+  for (const auto& [parameter, value] : spec.parameters) {
+    const Vec row = material.by_place(parameter);
+    if (!row.empty()) is_by_place[static_cast<std::size_t>(row.data() - memory.data()) / count] = 1;
+  }
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < is_by_place.size(); ++row)
+    if (!is_by_place[row]) rows.push_back(row);
+  return rows;
+}
 
 /// The stored states of the points of a material.
 template <Kinematics K>
@@ -27,9 +45,8 @@ struct CarriedMaterial {
 
   std::string law;  // with the library that it comes from
   bool undrained = false, remembers = false;
-  double density = 0;                // [kg/m³]
   std::size_t begin = 0, count = 0;  // its points are begin … begin + count − 1
-  std::vector<double> memory{};      // PointMaterial::memory(), (rows × count)
+  std::vector<double> memory{};      // remembered_rows() of PointMaterial::memory(), (rows × count)
   std::vector<double> stress{};      // without a pore pressure, (count × stress components) [Pa]
   std::vector<std::string> names{};  // of the history that is shown
   std::vector<double> shown{};       // (names × count)
@@ -41,11 +58,13 @@ struct CarriedMaterial {
     CarriedMaterial carried{.law = law_of(spec),
                             .undrained = spec.undrained,
                             .remembers = material.info().history_dependent,
-                            .density = spec.parameters.at("rho"),
                             .begin = begin,
                             .count = count};
     const Vec memory = material.memory();
-    carried.memory.assign(memory.begin(), memory.end());
+    for (const std::size_t row : remembered_rows(material, spec, count)) {
+      const ConstVec values = ConstVec(memory).subspan(count * row, count);
+      carried.memory.insert(carried.memory.end(), values.begin(), values.end());
+    }
     for (std::size_t k = 0; k < count; ++k) {
       const auto sigma = material.cauchy(H.empty() ? TensorOf<K>{} : H[begin + k], begin + k);
       carried.stress.insert(carried.stress.end(), sigma.begin(), sigma.end());
@@ -72,13 +91,13 @@ struct CarriedMaterial {
     std::copy_n(stress.begin() + static_cast<std::ptrdiff_t>(stresses * k), stresses, sigma.begin());
     return sigma;
   }
-  /// Whether points of another material of the same law remember the same.
+  /// Whether points of another material of the same law remember the same, in so many rows.
   bool is_like(const MaterialSpec& spec, std::size_t rows) const {
     return law == law_of(spec) && undrained == spec.undrained && count > 0 && memory.size() == rows * count;
   }
   void archive(const StateArchive& state) {
-    state("law", law, "undrained", undrained, "remembers", remembers, "density", density, "begin", begin, "count",
-          count, "memory", memory, "stress", stress, "names", names, "shown", shown);
+    state("law", law, "undrained", undrained, "remembers", remembers, "begin", begin, "count", count, "memory", memory,
+          "stress", stress, "names", names, "shown", shown);
     if (stress.size() != stresses * count || shown.size() != names.size() * count)
       throw StateError("what points of a material remember is not that of its points");
   }
@@ -100,10 +119,12 @@ class CarriedBodyOf final : public CarriedBody {
         phase_(phase) {
     for (const BodySpec& spec : problem.bodies) bodies_.push_back(spec.number);
     for (std::size_t m = 0; m < body.materials.size(); ++m) {
+      const MaterialSpec& spec = problem.materials.at(body.material_names[m]);
       const auto begin = static_cast<std::size_t>(points_.material_begin[m]);
       const auto count = static_cast<std::size_t>(points_.material_begin[m + 1]) - begin;
-      materials_.push_back(
-          CarriedMaterial<K>::of(*body.materials[m], problem.materials.at(body.material_names[m]), begin, count, H));
+      materials_.push_back(CarriedMaterial<K>::of(*body.materials[m], spec, begin, count, H));
+      for (std::size_t p = begin; p < begin + count; ++p)
+        density_.push_back(value_by_place(spec, "rho", initial_position(p)));
     }
   }
 
@@ -113,9 +134,9 @@ class CarriedBodyOf final : public CarriedBody {
     if (found == bodies_.end()) return std::nullopt;
     return static_cast<std::size_t>(found - bodies_.begin());
   }
-  /// The points of body b, with their numbers in it. density: that of its material from now on [kg/m³]; source: where
-  /// each is among all that are carried on.
-  MaterialPoints<dim> points_of(std::size_t b, double density, std::vector<int>& source) const {
+  /// The points of body b, with their numbers in it. material: theirs from now on; source: where each is among all that
+  /// are carried on.
+  MaterialPoints<dim> points_of(std::size_t b, const MaterialSpec& material, std::vector<int>& source) const {
     std::vector<int> from;
     for (std::size_t p = 0; p < points_.size(); ++p)
       if (points_.number[p] >= first_number_[b] && points_.number[p] < first_number_[b + 1])
@@ -124,14 +145,20 @@ class CarriedBodyOf final : public CarriedBody {
     take_points(points, from);
     for (std::size_t k = 0; k < from.size(); ++k) {
       points.number[k] -= first_number_[b];
-      const double before = material_of(static_cast<std::size_t>(from[k])).density;
-      if (density != before) points.mass[k] *= density / before;
+      const auto p = static_cast<std::size_t>(from[k]);
+      const double density = value_by_place(material, "rho", initial_position(p));
+      if (density != density_[p]) points.mass[k] *= density / density_[p];
     }
     source.insert(source.end(), from.begin(), from.end());
     return points;
   }
   std::size_t numbers_of(std::size_t b) const {
     return static_cast<std::size_t>(first_number_[b + 1] - first_number_[b]);
+  }
+  /// The position of point p when the run began, by which parameters are evaluated.
+  std::vector<double> initial_position(std::size_t p) const {
+    const auto first = origin_.begin() + static_cast<std::ptrdiff_t>(dim) * points_.number[p];
+    return {first, first + dim};
   }
   const CarriedMaterial<K>& material_of(std::size_t p) const {
     std::size_t m = 0;
@@ -168,8 +195,8 @@ class CarriedBodyOf final : public CarriedBody {
       state(fmt::format("v_{}", d), points_.v[d]);
     }
     for (std::size_t ij = 0; ij < points_.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), points_.B_apic[ij]);
-    state("volume", points_.volume, "mass", points_.mass, "number", points_.number, "bodies", bodies_, "first_number",
-          first_number_, "origin", origin_, "grid_moved", grid_moved_, "phase", phase_);
+    state("volume", points_.volume, "mass", points_.mass, "density", density_, "number", points_.number, "bodies",
+          bodies_, "first_number", first_number_, "origin", origin_, "grid_moved", grid_moved_, "phase", phase_);
     std::size_t count = materials_.size();
     state("materials", count);
     if (count > points_.size()) throw StateError("it has more materials than points");
@@ -184,8 +211,9 @@ class CarriedBodyOf final : public CarriedBody {
   // Throws StateError unless loops over the points and their numbers stay within what there is.
   void check() const {
     const std::size_t n = points_.size();
-    bool fits = points_.mass.size() == n && points_.number.size() == n && first_number_.size() == bodies_.size() + 1 &&
-                !first_number_.empty() && first_number_.front() == 0 && std::ranges::is_sorted(first_number_) &&
+    bool fits = points_.mass.size() == n && density_.size() == n && points_.number.size() == n &&
+                first_number_.size() == bodies_.size() + 1 && !first_number_.empty() && first_number_.front() == 0 &&
+                std::ranges::is_sorted(first_number_) &&
                 origin_.size() == static_cast<std::size_t>(dim) * static_cast<std::size_t>(first_number_.back());
     for (int d = 0; d < dim; ++d)
       fits = fits && points_.x[d].size() == n && (points_.v[d].empty() || points_.v[d].size() == n);
@@ -204,6 +232,7 @@ class CarriedBodyOf final : public CarriedBody {
   std::vector<int> first_number_;
   std::vector<CarriedMaterial<K>> materials_;
   std::vector<double> origin_;
+  std::vector<double> density_;  // of each point [kg/m³]
   double grid_moved_ = 0;
   long phase_ = 0;
 };
@@ -229,14 +258,21 @@ void take_states(const Problem& problem, const CarriedBodyOf<K>& carried, const 
     if (material.info().history_dependent) {
       std::vector<typename PointMaterial<K>::Stresses> stress(count);
       for_carried([&](std::size_t k, const auto& before, std::size_t j) { stress[k] = before.stress_at(j); });
-      material.set_stress(stress, {});
+      std::vector<std::vector<double>> places;
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto x = body.points.position(begin + k);
+        places.emplace_back(x.begin(), x.end());
+        if (const int from = source[begin + k]; from >= 0)
+          places.back() = carried.initial_position(static_cast<std::size_t>(from));
+      }
+      material.set_stress(stress, initial_ground(spec, places));
     }
     const Vec memory = material.memory();
-    const std::size_t rows = count > 0 ? memory.size() / count : 0;
+    const std::vector<std::size_t> rows = remembered_rows(material, spec, count);
     const auto shown = material.shown_history();
     for_carried([&](std::size_t k, const auto& before, std::size_t j) {
-      if (before.is_like(spec, rows)) {
-        for (std::size_t row = 0; row < rows; ++row) memory[count * row + k] = before.memory[before.count * row + j];
+      if (before.is_like(spec, rows.size())) {
+        for (std::size_t r = 0; r < rows.size(); ++r) memory[count * rows[r] + k] = before.memory[before.count * r + j];
         return;
       }
       for (std::size_t h = 0; h < before.names.size(); ++h) {

@@ -47,25 +47,25 @@ Body<K> make_body(const Problem& problem, const Grid<dimensions(K)>& grid, bool 
   std::vector<std::vector<int>> sources;  // of the points of each body among those that are carried on
   int number = 0;
   for (const BodySpec& spec : problem.bodies) {
-    const double density = problem.materials.at(spec.material).parameters.at("rho");
+    const MaterialSpec& material = problem.materials.at(spec.material);
     sources.emplace_back();
     body.first_number.push_back(number);
     const auto before = carried ? carried->find(spec) : std::nullopt;
     body.carried_on.push_back(before.has_value());
     if (before) {
       number += static_cast<int>(carried->numbers_of(*before));
-      of_bodies.push_back(carried->points_of(*before, density, sources.back()));
+      of_bodies.push_back(carried->points_of(*before, material, sources.back()));
       continue;
     }
-    PlacedBody<dim> placed =
-        place_body<dim>(spec, grid, density, problem.state, problem.phase.quadrature == Quadrature::domains);
+    PlacedBody<dim> placed = place_body<dim>(spec, grid, material.parameters.at("rho"), problem.state,
+                                             problem.phase.quadrature == Quadrature::domains);
     body.quadrature.add(placed.quadrature);
     if (!placed.covered.empty()) body.covered.push_back(std::move(placed.covered));
     placed.points.number.resize(placed.points.size());
     std::iota(placed.points.number.begin(), placed.points.number.end(), 0);
     if (carried) sources.back().assign(placed.points.size(), -1);
     number += static_cast<int>(placed.points.size());
-    if (const MaterialSpec& material = problem.materials.at(spec.material); material.by_place.contains("rho")) {
+    if (material.by_place.contains("rho")) {
       for (std::size_t p = 0; p < placed.points.size(); ++p)
         placed.points.mass[p] = placed.points.volume[p] * value_by_place(material, "rho", placed.points.position(p));
     }

@@ -25,4 +25,20 @@ double value_by_place(const MaterialSpec& material, const std::string& name, std
   return value;
 }
 
+std::vector<double> values_by_place(const MaterialSpec& material, const std::string& name,
+                                    const std::vector<std::vector<double>>& positions) {
+  std::vector<double> values;
+  for (const auto& x : positions) values.push_back(value_by_place(material, name, x));
+  return values;
+}
+
+InitialGround initial_ground(const MaterialSpec& material, const std::vector<std::vector<double>>& positions) {
+  InitialGround ground;
+  for (const auto& [name, formula] : material.by_place) {
+    if (name == "OCR" || name == "pc") ground.consolidation = values_by_place(material, name, positions);
+    if (name == "e0") ground.void_ratio = values_by_place(material, name, positions);
+  }
+  return ground;
+}
+
 }  // namespace stillpoint
