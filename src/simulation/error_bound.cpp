@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/SparseCore>
@@ -25,10 +26,23 @@ std::optional<double> ErrorBound::distance(StateNorms& norms, const Vector& u, C
   const double error = energy_error_ / omega_V;
   size_ = by_strain_ ? strain_norm(norms.system().last(), u) : norms.mass_norm(V, u);
   largest_ = std::max(largest_, std::min(size_, most_));
-  const auto beside = [&](double length) { return error == 0 ? 0 : error / length; };
+  const bool rests = std::max({error, size_, largest_}) <= (by_strain_ ? 0 : rounding_norm(norms, V, u.size()));
+  const auto beside = [&](double length) { return error == 0 || rests ? 0 : error / length; };
   constexpr double negligible = 0.01;  // share of the largest ‖u‖_V so far
   beside_largest_ = beside(size_ > negligible * largest_ ? size_ : largest_);
   return beside(size_);
+}
+
+// ‖δ‖_V of a motion by the rounding of positions: ground that is at rest from the beginning has no u to be small
+// beside.
+double ErrorBound::rounding_norm(StateNorms& norms, const Mass& V, std::size_t unknowns) {
+  if (rounding_norm_) return *rounding_norm_;
+  double furthest = 0;
+  for (const double x : phase_.fields().positions()) furthest = std::max(furthest, std::abs(x));
+  Vector delta = norms.system().vectors().make(unknowns);
+  std::ranges::fill(delta.span(), std::numeric_limits<double>::epsilon() * furthest);
+  rounding_norm_ = norms.mass_norm(V, delta);
+  return *rounding_norm_;
 }
 
 double ErrorBound::omega_V() const { return by_strain_ ? 1 : volume_ ? volume_->omega_1 : *omega_1_; }

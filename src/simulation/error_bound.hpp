@@ -46,10 +46,12 @@ class ErrorBound {
  private:
   double omega_V() const;
   double strain_norm(const Evaluation& last, const Vector& u) const;
+  double rounding_norm(StateNorms& norms, const Mass& V, std::size_t unknowns);
 
   const LagrangianPhase& phase_;
   std::optional<double> omega_1_, beside_largest_;
   std::optional<VolumeNorm> volume_;
+  std::optional<double> rounding_norm_;
   bool by_strain_ = false;                                 // whether V = K
   double energy_error_ = 0, size_ = 0;                     // ‖u − u*‖_K at most, and ‖u‖_V, of the last u
   double largest_ = 0;                                     // ‖u‖_V so far

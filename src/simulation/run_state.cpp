@@ -83,8 +83,10 @@ void RunState::begin_next_phase(ConstVec v0) {
 
 bool RunState::loads_settled() const {
   const Contact* const contact = model.phase->contact();
+  // A static solver finds the equilibrium of a stage under the loads of the time at which the next one begins.
+  const bool loads_stay = schedule.settled(t) || (model.static_method && !scene.stages.empty());
   const double ramp = scene.present_stage && stage.carried ? scene.present_stage->ramp.value() : 0;
-  return schedule.settled(t) && t >= stage.t + ramp && (!contact || contact->is_settled()) && contact_settled;
+  return loads_stay && t >= stage.t + ramp && (!contact || contact->is_settled()) && contact_settled;
 }
 
 Verdict RunState::failed(const std::string& what) const {

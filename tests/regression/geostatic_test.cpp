@@ -63,3 +63,17 @@ TEST_CASE("level ground stands through its phases: in a whole run nothing moves 
   CHECK(std::abs(scenes::probe(s, "surface", "u.y")) < 1e-12 * H);
   CHECK(std::abs(scenes::probe(s, "surface", "stress.yy")) < 1e-9 * weight * H);  // at the surface there is none
 }
+
+TEST_CASE("ground that is at rest from the beginning is found there by every static solver") {
+  for (const char* method : {"newton", "newton-cg", "cg", "lbfgs"}) {
+    for (const char* law : {"drucker-prager", "mohr-coulomb"}) {
+      CAPTURE(method, law);
+      const Summary s = run(ground({std::string("solve.method=") + method, std::string("material.sand.law=") + law,
+                                    "material.sand.c=1e4", "stop.residual=1e-6", "wall=[]",
+                                    "support=[{face='bottom'}, {face='left', kind='roller'}, {face='right', "
+                                    "kind='roller'}]"}));
+      CAPTURE(s.reason);
+      CHECK(s.status == RunStatus::equilibrium);
+    }
+  }
+}

@@ -26,7 +26,7 @@ class NewtonStep final : public WithoutTime<Stepper> {
     steps_ += report.iterations;
     system().count_evaluations(report.force_evaluations + report.tangent_products);
     std::ranges::fill(second_half(state().span()), 0.0);
-    constexpr double smaller = 1e-2, rounding = 1e-17;
+    constexpr double smaller = 1e-2, rounding = 1e-14;
     options_.tolerance = std::clamp(smaller * report.residual, rounding, options_.tolerance);
     const bool moved = report.iterations > 0 || steps_ == 0;
     if (report.converged && moved) return {.t = t_, .message = report.reason};
