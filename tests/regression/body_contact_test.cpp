@@ -75,4 +75,32 @@ TEST_CASE("a dragged block bears the same from cell to cell, however it is dampe
   }
 }
 
+TEST_CASE("a frictionless block that overhangs the edge of another one feels no force along it, in either order") {
+  for (const char* order : {"['b', 'a']", "['a', 'b']"}) {
+    for (const double way : {0.05, 0.2}) {
+      CAPTURE(order, way);
+      const test::TemporaryFolder folder;
+      const Summary s =
+          run(load_scene(folder.write(
+                  "scene.toml",
+                  fmt::format(
+                      "dim = 2\n[grid]\nmin = [-1, 0]\nmax = [3, 3]\ncells = [16, 12]\n"
+                      "[[body]]\nname = 'a'\nmaterial = 'r'\nplacement = 'gauss'\nmax = [1.5, 1.0]\n"
+                      "[[body]]\nname = 'b'\nmaterial = 'r'\nplacement = 'gauss'\nmin = [0.9, 1.0]\nmax = [1.9, 1.5]\n"
+                      "[material.r]\nlaw = 'hencky'\nE = 1000.0\nnu = 0.3\nrho = 1.0\n"
+                      "[[contact]]\nbodies = {}\nfriction = 0\n[[support]]\nface = 'bottom'\n"
+                      "[[rigid]]\nname = 'plate'\nhalf_plane = [[0, 1.5], [0, -1]]\n"
+                      "motion = ['-{}*min(t/5,1)', '-0.02*min(t/5,1)']\nbodies = ['b']\nfriction = 'rough'\n"
+                      "[phase]\nmax_motion = 0.1\n[damping]\nstrategy = 'cundall'\n[stop]\nresidual = 1e-6\n",
+                      order, way))),
+              {.threads = 1});
+      CAPTURE(s.reason);
+      const std::string pair = s.contacts.contains("b+a.force_x") ? "b+a" : "a+b";
+      const double along = s.contacts.at(pair + ".force_x"), across = s.contacts.at(pair + ".force_y");
+      REQUIRE(std::abs(across) > 5);
+      CHECK(std::abs(along) < 0.03 * std::abs(across));  // the surfaces tilt under the edge
+    }
+  }
+}
+
 }  // namespace stillpoint::test

@@ -213,4 +213,57 @@ TEST_CASE("a rigid body that overlaps a body by more than half a cell when the r
                     Catch::Contains("pressed_plate.toml:45:1: 'plate' overlaps body[0] by 0.562 cells"));
 }
 
+namespace {
+
+/// A block, 1 by 1.1, E = 100, ν = 0, under a plate that presses it by 1 % and drags it by 0.004 in proportion: N = 1.
+Summary pressed_and_dragged(double friction, int shares, const std::string& plate, const std::string& floor) {
+  const test::TemporaryFolder folder;
+  return run(load_scene(folder.write(
+                 "scene.toml",
+                 fmt::format("dim = 2\n[grid]\nmin = [0, 0]\nmax = [1, 1.5]\ncells = [4, 6]\n"
+                             "[[body]]\nmax = [1, 1.1]\nmaterial = 'r'\nplacement = 'gauss'\n"
+                             "[material.r]\nlaw = 'linear-elastic'\nE = 100.0\nnu = 0.0\nrho = 1.0\n"
+                             "[[support]]\nface = 'bottom'\ncomponent = 'x'\n{}\n[[support]]\nface = 'bottom'\n"
+                             "component = 'y'\n"
+                             "[[rigid]]\nname = 'plate'\nhalf_plane = [[0, 1.1], [0, -1]]\nmotion = {}\nfriction = {}\n"
+                             "[solve]\nmethod = 'newton'\nload_steps = {}\n[stop]\nresidual = 1e-9\ntime = 1\n",
+                             floor, plate, friction, shares))),
+             {.threads = 1});
+}
+
+}  // namespace
+
+TEST_CASE("a static solver takes rigid bodies along in the shares of the load, and friction remembers that way alone") {
+  const std::string pressing = "['0', '-0.011*t']", both = "['0.004*t', '-0.011*t']";
+  for (const double friction : {0.2, 0.05}) {  // the block sticks all the way, or slides all the way
+    for (const int shares : {1, 10, 40}) {
+      CAPTURE(friction, shares);
+      // The floor that goes back drags as the plate that goes on does.
+      const Summary plate = pressed_and_dragged(friction, shares, both, ""),
+                    floor = pressed_and_dragged(friction, shares, pressing, "u = '-0.004*t'");
+      REQUIRE(plate.status == RunStatus::equilibrium);
+      REQUIRE(floor.status == RunStatus::equilibrium);
+      CHECK(std::abs(plate.contacts.at("plate.force_x")) ==
+            Approx(std::abs(floor.contacts.at("plate.force_x"))).epsilon(0.01));
+      if (friction == 0.05)
+        CHECK(std::abs(plate.contacts.at("plate.force_x") / plate.contacts.at("plate.force_y")) ==
+              Approx(0.05).epsilon(0.03));
+    }
+  }
+}
+
+TEST_CASE("a rigid body in the middle of a body, which bears on no border, is refused") {
+  CHECK_THROWS_WITH(run_ladder("pressed_plate", {"rigid=[{name='disc', disc=[0.27, 0.5], radius=0.12}]"}),
+                    Catch::Contains("'disc' is inside body[0]") && Catch::Contains("expected at most half a cell"));
+}
+
+TEST_CASE("a rigid body whose motion has no value any more ends the run, which says so") {
+  const Summary s = run_ladder(
+      "pressed_plate", {"rigid=[{name='plate', half_plane=[[0, 'top'], [0, -1]], motion=['0', '-0.02*sqrt(1 - t)']}]",
+                        "constants.top=1.0", "stop.time=0", "stop.residual=1e-9"});
+  CAPTURE(s.reason);
+  CHECK(s.exit_status != 0);
+  CHECK_THAT(s.reason, Catch::Contains("rigid[0].motion") && Catch::Contains("is not a number"));
+}
+
 }  // namespace stillpoint::test

@@ -50,6 +50,19 @@ class Multipliers : public Watcher {
     if (state.change < nearer * least_change_) least_change_ = state.change, nearest_ = updates_;
   }
 
+  // Takes an equilibrium back whose contact penetrates, as its multipliers come to no end.
+  void confirm(RunState& run, Verdict& verdict) override {
+    constexpr double much = 5 * largest_misfit;
+    if (!touches_ || updates_ < most) return;
+    const ContactState state = run.model.phase->supports().contact_state(run.t, run.motion->u());
+    if (state.misfit <= much) return;
+    verdict = {RunStatus::step_limit,
+               fmt::format("no equilibrium: after {} updates of its multipliers contact still gives way by {:.2g} "
+                           "cells on average where most, and its pressures go to and fro by {:.2g} % from patch to "
+                           "patch; expected smaller cells; it ended with {}",
+                           updates_, state.misfit, 100 * state.change, verdict.reason)};
+  }
+
   void fill_state(Summary& summary, RunState& run) override {
     constexpr double negligible = 1e-2;  // of the pressures
     if (!touches_) return;

@@ -19,7 +19,7 @@ Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Gr
       axis_(problem, grid, body, time_scale),
       weak_supports_(problem, grid, time_scale),
       load_control_(whole, grid, time_scale),
-      rigid_contact_(std::make_unique<RigidContact<K>>(problem, grid, time_scale)),
+      rigid_contact_(std::make_unique<RigidContact<K>>(problem, grid, body.first_number, time_scale)),
       body_contact_(std::make_unique<BodyContact<K>>(problem, grid)) {
   for (const auto& condition : all_) {
     Contact* found = condition->contact();
@@ -55,6 +55,11 @@ void Conditions<K>::begin_phase(const Parts& phase, double t, const StiffnessBou
 template <Kinematics K>
 void Conditions<K>::begin_motion(const Parts& phase, double t, Vec v) {
   for (const auto& condition : all_) condition->begin_motion(phase, t, v);
+}
+
+template <Kinematics K>
+bool Conditions<K>::move_rigid_bodies_on(double share) {
+  return rigid_contact_->move_on(share);
 }
 
 template <Kinematics K>

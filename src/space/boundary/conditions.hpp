@@ -80,6 +80,8 @@ class Conditions {
   std::vector<char> are_sprung(std::size_t unknowns) const;
 
   // --- during a phase, and at its end ---------------------------------------------------------------
+  /// As RigidContact::move_on().
+  bool move_rigid_bodies_on(double share);
   Contact* contact() const { return contact_; }
   void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;

@@ -95,7 +95,8 @@ auto FacetSearch<K>::opposite(const Point<dim>& x, const Point<dim>& normal) con
   if (sorted_.empty()) return std::nullopt;
   const std::size_t q = nearest(x);
   const Point<dim> n = surface_.normal(q), offset = difference(x, surface_.start(q));
-  if (!(dot(n, normal) < 0)) return std::nullopt;
+  constexpr double against = -0.5;  // the cosine between normals: the side of a body does not bear what lies on its top
+  if (!(dot(n, normal) < against)) return std::nullopt;
   const double gap = dot(offset, n);
   Point<dim> aside;
   for (std::size_t d = 0; d < dim; ++d) aside[d] = offset[d] - gap * n[d];

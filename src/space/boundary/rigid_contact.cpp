@@ -1,6 +1,7 @@
 #include "space/boundary/rigid_contact.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,8 +24,9 @@ std::vector<char> bodies_touched(const Problem& problem) {
 }  // namespace
 
 template <Kinematics K>
-RigidContact<K>::RigidContact(const Problem& problem, const Grid<dim>& grid, double time_scale)
-    : surface_(problem, bodies_touched(problem), grid) {
+RigidContact<K>::RigidContact(const Problem& problem, const Grid<dim>& grid, const std::vector<int>& first_number,
+                              double time_scale)
+    : first_number_(first_number), surface_(problem, bodies_touched(problem), grid) {
   for (const RigidSpec& spec : problem.rigid)
     bodies_.emplace_back(surface_, TouchFinder<K>(problem, spec, surface_, time_scale), spec.friction);
 }
@@ -38,6 +40,7 @@ void RigidContact<K>::begin_phase(const Parts& phase, double t, const StiffnessB
   for (RigidBody& rigid : bodies_) rigid.finder().begin_phase();
   if (std::exchange(has_begun_, true)) return;
   refuse_overlaps(t);
+  refuse_points_inside(phase, t);
   for (RigidBody& rigid : bodies_) rigid.anchor_at_start(t, {});
 }
 
@@ -50,7 +53,7 @@ void RigidContact<K>::refuse_overlaps(double t) const {
     for (const auto& patch : surface_.patches()) {
       if (!finder.touches(patch.body)) continue;
       for (std::size_t s = patch.begin; s < patch.end; ++s) {
-        const double cells = -finder.distance_at_start(s, placement) / patch.cell;
+        const double cells = -finder.distance(surface_.start(s), placement) / patch.cell;
         if (!(cells > most)) continue;
         throw_scene_error(
             fmt::format("rigid[{}]", r),
@@ -60,6 +63,43 @@ void RigidContact<K>::refuse_overlaps(double t) const {
       }
     }
   }
+}
+
+// Contact is felt by the border of a body alone: what is in its middle would bear nothing.
+template <Kinematics K>
+void RigidContact<K>::refuse_points_inside(const Parts& phase, double t) const {
+  constexpr double most = 0.5;  // [cells]
+  for (std::size_t r = 0; r < bodies_.size(); ++r) {
+    const TouchFinder<K>& finder = bodies_[r].finder();
+    const RigidPlacement<N> placement = finder.placement(t);
+    for (std::size_t k = 0; k < phase.points.cells(); ++k) {
+      const auto cell = phase.weights.cell_at(k);
+      double side = std::numeric_limits<double>::infinity();
+      for (int axis = 0; axis < dim; ++axis) {
+        const std::vector<double>& nodes = phase.grid.axes[static_cast<std::size_t>(axis)].nodes;
+        const auto i = static_cast<std::size_t>(cell[static_cast<std::size_t>(axis)]);
+        side = std::min(side, nodes[i + 1] - nodes[i]);
+      }
+      for (std::size_t p = phase.points.begin(k); p < phase.points.end(k); ++p) {
+        const double cells = -finder.distance(phase.points.position(p), placement) / side;
+        if (!(cells > most)) continue;
+        const auto body = std::ranges::upper_bound(first_number_, phase.points.number[p]) - first_number_.begin() - 1;
+        if (!finder.touches(static_cast<std::size_t>(body))) continue;
+        throw_scene_error(
+            fmt::format("rigid[{}]", r),
+            fmt::format("{} is inside body[{}]: a material point at ({:.6g}) is {:.3g} cells inside it when the run "
+                        "begins; expected at most half a cell, or a hole in the body",
+                        in_quotes(finder.spec().name), body, fmt::join(phase.points.position(p), ", "), cells));
+      }
+    }
+  }
+}
+
+template <Kinematics K>
+bool RigidContact<K>::move_on(double share) {
+  bool moves = false;
+  for (RigidBody& rigid : bodies_) moves = rigid.finder().move_on(start_, share) || moves;
+  return moves;
 }
 
 template <Kinematics K>
@@ -88,8 +128,12 @@ void RigidContact<K>::archive(const StateArchive& state) {
 template <Kinematics K>
 void RigidContact<K>::add_force(double t, const double* u, Vec R, Vec at_supports, Vec forces) const {
   std::ranges::fill(forces, 0.0);
-  for (std::size_t r = 0; r < bodies_.size(); ++r)
+  for (std::size_t r = 0; r < bodies_.size(); ++r) {
+    const RigidPlacement<N> placement = bodies_[r].finder().placement(t);
+    if (!placement.u.allFinite() || !placement.Q.allFinite())  // which would touch nothing
+      std::ranges::fill(R, std::numeric_limits<double>::quiet_NaN());
     bodies_[r].add_force(t, u, R, at_supports, forces.subspan(r * of_each(), of_each()));
+  }
 }
 
 template <Kinematics K>

@@ -15,16 +15,19 @@ class RigidContact {
  public:
   using Parts = PhaseParts<dim>;
 
-  /// The problem must outlive this object; grid: that of the first phase; time_scale: see PrescribedMotion.
-  RigidContact(const Problem& problem, const Grid<dim>& grid, double time_scale);
+  /// The problem and first_number, of the points of each body, must outlive this object; grid: that of the first phase;
+  /// time_scale: see PrescribedMotion.
+  RigidContact(const Problem& problem, const Grid<dim>& grid, const std::vector<int>& first_number, double time_scale);
   RigidContact(const RigidContact&) = delete;  // its parts know where the surface is
   RigidContact& operator=(const RigidContact&) = delete;
 
   bool empty() const { return bodies_.empty(); }
 
-  /// Throws SceneError if a rigid body overlaps a body when the run begins.
+  /// Throws SceneError if a rigid body overlaps a body, or is inside it, when the run begins.
   void begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound);
   void end_phase(double t, const double* u);
+  /// Lets the rigid bodies go a share of their way since the phase began, from then on. True if some have one.
+  bool move_on(double share);
   void archive(const StateArchive& state);
 
   /// The number of forces that add_force() writes: those of each rigid body on each patch, component by component.
@@ -52,7 +55,9 @@ class RigidContact {
 
   std::size_t of_each() const { return dim * surface_.patches().size(); }
   void refuse_overlaps(double t) const;
+  void refuse_points_inside(const Parts& phase, double t) const;
 
+  const std::vector<int>& first_number_;
   ContactSurface<K> surface_;
   std::vector<RigidBody> bodies_;
   bool has_begun_ = false;

@@ -38,11 +38,18 @@ bool RigidMotion<N>::moves() const {
 }
 
 template <int N>
+double RigidMotion<N>::displacement(const PrescribedMotion& of, double t) const {
+  if (share_ == 1) return of.displacement(t);
+  const double before = of.displacement(start_);
+  return before + share_ * (of.displacement(t) - before);
+}
+
+template <int N>
 RigidPlacement<N> RigidMotion<N>::placement(double t) const {
   RigidPlacement<N> placement{.a = about_};
   Turning<N> theta = Turning<N>::Zero();
-  for (Eigen::Index i = 0; const PrescribedMotion& u : translation_) placement.u[i++] = u.displacement(t);
-  for (Eigen::Index i = 0; const PrescribedMotion& angle : rotation_) theta[i++] = angle.displacement(t);
+  for (Eigen::Index i = 0; const PrescribedMotion& u : translation_) placement.u[i++] = displacement(u, t);
+  for (Eigen::Index i = 0; const PrescribedMotion& angle : rotation_) theta[i++] = displacement(angle, t);
   placement.Q = stillpoint::rotation<N>(theta);
   return placement;
 }
@@ -53,7 +60,7 @@ RigidPlacement<N> RigidMotion<N>::at(double t) const {
   Turning<N> theta = Turning<N>::Zero(), dtheta_dt = Turning<N>::Zero();
   for (Eigen::Index i = 0; const PrescribedMotion& u : translation_) placement.du_dt[i++] = u.velocity(t);
   for (Eigen::Index i = 0; const PrescribedMotion& angle : rotation_) {
-    theta[i] = angle.displacement(t);
+    theta[i] = displacement(angle, t);
     dtheta_dt[i++] = angle.velocity(t);
   }
   placement.Omega = spin<N>(theta, dtheta_dt);

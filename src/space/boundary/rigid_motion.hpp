@@ -21,12 +21,20 @@ class RigidMotion {
               const Eigen::Vector<double, N>& about, double time_scale);
 
   bool moves() const;
+  /// Lets the body go a share of its way since `start`, from then on; all of it at first.
+  void move_on(double start, double share) {
+    start_ = start;
+    share_ = share;
+  }
   /// Where the body is at t, without velocities.
   RigidPlacement<N> placement(double t) const;
   /// The same with the velocities of PrescribedMotion.
   RigidPlacement<N> at(double t) const;
 
  private:
+  double displacement(const PrescribedMotion& of, double t) const;
+
+  double start_ = 0, share_ = 1;
   std::vector<PrescribedMotion> translation_, rotation_;
   Eigen::Vector<double, N> about_;
 };

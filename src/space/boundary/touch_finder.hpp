@@ -40,6 +40,11 @@ class TouchFinder {
   Position load(double t) const;
   bool touches(std::size_t body) const { return touches_[body] != 0; }
   RigidPlacement<N> placement(double t) const { return motion_.placement(t); }
+  /// As RigidMotion::move_on(). True if there is a way to go.
+  bool move_on(double start, double share) {
+    motion_.move_on(start, share);
+    return motion_.moves();
+  }
   void begin_phase() { ++phase_; }
 
   /// Calls visit(near) for each piece s at u, over the grid's functions, with φ ≤ reach(its patch); placement: of now.
@@ -71,9 +76,9 @@ class TouchFinder {
     constexpr std::size_t few = 16;
     if (missed > few + found) looks->phase = -1;  // what was found is of too long ago
   }
-  /// φ at a piece when the phase began, under a placement [m].
-  double distance_at_start(std::size_t piece, const RigidPlacement<N>& placement) const {
-    return shape_->nearest(placement.to_body(position_of(surface_.start(piece)))).distance;
+  /// φ at a position, under a placement [m].
+  double distance(const Point<dim>& x, const RigidPlacement<N>& placement) const {
+    return shape_->nearest(placement.to_body(position_of(x))).distance;
   }
 
   static Position position_of(const Point<dim>& x) {

@@ -70,9 +70,12 @@ class MaterialPointPhase final : public LagrangianPhase {
     all_.conditions.add_force(t, grid_u.data(), R, trial.reactions);
     return trial.evaluated;
   }
+  // Rigid bodies go their way as supports do.
   bool move_supports_on(double share) override {
     const bool starts_there = !all_.problem.initial_u.empty();
-    return !starts_there && all_.frame.unknowns.move_supports_on(share);
+    if (starts_there) return false;
+    const bool supports = all_.frame.unknowns.move_supports_on(share);
+    return all_.conditions.move_rigid_bodies_on(share) || supports;
   }
   void commit(TrialState& any) override {
     PhaseTrial& trial = own(any);
