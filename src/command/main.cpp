@@ -24,6 +24,13 @@ constexpr int bad_input = 2, failed = 4;
 
 using namespace stillpoint::command;
 
+// What CLI11 says of numbers that are not positive has 309 digits.
+std::string positive(const std::string& text) {
+  double value = 0;
+  if (CLI::detail::lexical_cast(text, value) && value > 0) return {};
+  return "expected a number above 0, found " + text;
+}
+
 CLI::Option& add_scene(CLI::App& app, SceneArguments& arguments) {
   CLI::Option& scene = *app.add_option("SCENE", arguments.file, "scene file (TOML)")->required();
   app.add_option("--set", arguments.overrides,
@@ -37,7 +44,6 @@ CLI::Option& add_scene(CLI::App& app, SceneArguments& arguments) {
 CLI::App& add_compare(CLI::App& app, CompareArguments& arguments) {
   CLI::App& compare = *app.add_subcommand("compare", "integrators x damping strategies: speed against error");
   stillpoint::CompareOptions& options = arguments.options;
-  const CLI::Validator positive = CLI::PositiveNumber;
   add_scene(compare, arguments.scene);
   compare.add_option("--out", arguments.out, "folder to write into (default: out/<scene>-compare)")->type_name("DIR");
   compare
@@ -105,7 +111,6 @@ CLI::App& add_converge(CLI::App& app, ConvergeArguments& arguments) {
 CLI::App& add_safety(CLI::App& app, SafetyArguments& arguments) {
   CLI::App& safety = *app.add_subcommand("safety", "factor of safety by strength reduction, as a bracket");
   stillpoint::SafetyOptions& options = arguments.options;
-  const CLI::Validator positive = CLI::PositiveNumber;
   add_scene(safety, arguments.scene);
   safety.add_option("--out", arguments.out, "folder to write into (default: out/<scene>-safety)")->type_name("DIR");
   safety.add_option("--from", options.from, "first factor, with which the body rests (default: 1)")->check(positive);

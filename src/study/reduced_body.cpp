@@ -19,9 +19,11 @@
 namespace stillpoint {
 namespace {
 
-// A phase that has strained its points by more bears what the ground does not; slopes near their factor are strained by
-// 0.05 at rest.
+// A phase that has strained its points by more bears what the ground does not.
 constexpr double too_much_strain = 0.3;
+// What less strength may add to that: a body that is pressed out of the way, until it is wide enough for what it bears,
+// has fallen. Slopes near their factor are strained by 0.05 at rest.
+constexpr double too_much_more = 0.1;
 
 constexpr int newton_iterations = 12;  // in a load step: where they are not enough, a motion finds more at less cost
 
@@ -80,10 +82,11 @@ void ReducedBody::require_rest(const Summary& summary) {
   if (!simulation_.loads_settled())
     throw_scene_error("",
                       "loads still change when the body has come to rest; expected loads that have come to their end");
-  if (const double strain = largest_strain(phase(), t(), u_).strain; strain > too_much_strain)
+  strain_ = largest_strain(phase(), t(), u_).strain;
+  if (strain_ > too_much_strain)
     throw_scene_error("", fmt::format("{}rests only strained by {:.0f} % in a single phase, whose grid then bears what "
                                       "the ground does not; expected a smaller factor",
-                                      with, 100 * strain));
+                                      with, 100 * strain_));
 }
 
 SafetyTrial ReducedBody::try_factor(double factor) {
@@ -141,7 +144,7 @@ ReducedBody::Tried ReducedBody::by_motion(double factor) {
 Mechanism ReducedBody::mechanism(double factor) {
   return {.dim = scene_.dim,
           .factor = factor,
-          .grid = scene_.grid,
+          .grid = problem().grid,
           .positions = current_positions(phase(), t(), u_),
           .displacement = last_displacement_,
           .plastic_strain = difference(field("plastic_strain", last_u_), plastic_strain_),
@@ -150,14 +153,13 @@ Mechanism ReducedBody::mechanism(double factor) {
 
 void ReducedBody::begin(double factor) {
   phase().control().archive(StateArchive::restoring(at_rest_));
-  const Problem& problem = scene_;
-  phase().control().change_materials(with_strength_over(problem, factor / options_.from).materials);
+  phase().control().change_materials(with_strength_over(problem(), factor / options_.from).materials);
 }
 
 void ReducedBody::doubt_if_squeezed(Tried& tried) {
   if (tried.verdict != SafetyVerdict::rests) return;
   const double strain = largest_strain(phase(), t(), tried.u).strain;
-  if (!(strain > too_much_strain)) return;
+  if (!(strain > strain_ + too_much_more)) return;
   tried.verdict = SafetyVerdict::undecided;
   tried.reason = fmt::format(
       "at rest only strained by {:.0f} % in a single phase, whose grid then bears what the ground does not; {}",
@@ -165,6 +167,7 @@ void ReducedBody::doubt_if_squeezed(Tried& tried) {
 }
 
 LagrangianPhase& ReducedBody::phase() { return simulation_.parts().phase; }
+const Problem& ReducedBody::problem() { return simulation_.parts().problem; }
 
 double ReducedBody::residual() const {
   constexpr double otherwise = 1e-6;

@@ -15,8 +15,8 @@ namespace stillpoint {
 
 class ReducedBody {
  public:
-  /// Takes the body to its equilibrium with its strength over options.from, in its scene's own way. Throws SceneError
-  /// if it does not come to one. scene, options: must outlive this object.
+  /// Takes the body to its equilibrium with its strength over options.from, in its scene's own way and through all of
+  /// its stages. Throws SceneError if it does not come to one. scene, options: must outlive this object.
   ReducedBody(const Scene& scene, const SafetyOptions& options);
 
   /// The equilibrium, or that it was interrupted.
@@ -42,6 +42,7 @@ class ReducedBody {
   void doubt_if_squeezed(Tried& tried);
 
   LagrangianPhase& phase();
+  const Problem& problem();  // in its last stage
   double t() const { return simulation_.t(); }
   double residual() const;
   int threads();
@@ -54,6 +55,7 @@ class ReducedBody {
   Simulation simulation_;
   SafetyTrial first_;
   SavedState at_rest_;
+  double strain_ = 0;                                      // the largest, at rest
   std::vector<double> u_, displacement_, plastic_strain_;  // at rest
   std::vector<double> last_u_, last_displacement_;
 };

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
 #include "plan/catalogue.hpp"
+#include "scene/stages.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "study/reduced_body.hpp"
 #include "study/strength_reduction.hpp"
@@ -16,11 +18,18 @@
 namespace stillpoint {
 namespace {
 
+/// The bodies of the last stage, which is the one whose equilibrium counts.
+std::vector<BodySpec> last_bodies(Scene scene) {
+  while (!scene.stages.empty()) begin_next_stage(scene);
+  return scene.bodies;
+}
+
 void check(const Scene& scene) {
+  const std::vector<BodySpec> bodies = last_bodies(scene);
   const auto reducible = [&](const BodySpec& body) {
     return has_reducible_strength(scene.materials.at(body.material));
   };
-  for (const BodySpec& body : scene.bodies) {
+  for (const BodySpec& body : bodies) {
     const std::string& law = scene.materials.at(body.material).law;
     const LawInfo* const info = catalogue().law(law);
     if (info && info->history_dependent && !info->has_strength)
@@ -29,11 +38,7 @@ void check(const Scene& scene) {
                                     "\"mohr-coulomb\" or \"drucker-prager\"",
                                     law));
   }
-  if (scene.phase.at_stages)
-    throw_scene_error(
-        scene.initial_from.empty() ? "stage" : "initial.from",
-        "a factor of safety is that of a body in its first stage, from its own beginning; leave this out");
-  if (std::ranges::none_of(scene.bodies, reducible))
+  if (std::ranges::none_of(bodies, reducible))
     throw_scene_error("material",
                       "no material has a strength that a factor could divide; expected the law \"mohr-coulomb\" or "
                       "\"drucker-prager\"");
