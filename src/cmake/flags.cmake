@@ -8,8 +8,8 @@ target_compile_options(stillpoint_flags INTERFACE
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${STILLPOINT_NATIVE}>:-march=native>
   $<$<CONFIG:Release>:-O3>
-  # What gcc 12 guesses from the code that -O3 has inlined is wrong, inside its own <string> and AVX-512 headers. The
-  # asan build, at -O1, keeps those that it does not check as it runs.
+  # What gcc 12 guesses from the code that -O3 has inlined is wrong, inside its own <string> and AVX-512 headers. So
+  # is what it guesses of an std::optional in the asan build.
   "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"
   "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:\
 -Wno-uninitialized;-Wno-maybe-uninitialized;-Wno-restrict>"
