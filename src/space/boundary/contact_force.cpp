@@ -32,14 +32,12 @@ auto ContactForce<K, Finder>::slips(double t, const double* u) const -> std::vec
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::archive(const StateArchive& state) {
   lambda_.resize(surface_.patches().size());
-  change_.resize(lambda_.size());
   if (remembers()) {
     lambda_t_.resize(lambda_.size());
     anchor_.resize(surface_.size());
     closed_.resize(anchor_.size());
   }
   state("lambda", Vec(lambda_));
-  state("change", Vec(change_));
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
   if (!remembers()) return;
   state.each(
@@ -184,13 +182,8 @@ void ContactForce<K, Finder>::update_multipliers(double t, const double* u) {
     sum.shear += touch.area * (placement.Q.transpose() * touch.tau);
     touches.push_back(touch);
   });
-  // A patch that one update closes and the next one opens would go to and fro between two states for ever.
-  constexpr double back = -0.5;  // share of the last change that is taken back
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    const double full = (sums[k].area > 0 ? sums[k].force / sums[k].area : 0) - lambda_[k];
-    const bool goes_back = change_[k] != 0 && full / change_[k] < back;
-    change_[k] = goes_back ? full / 2 : full;
-    lambda_[k] += change_[k];
+    lambda_[k] = sums[k].area > 0 ? sums[k].force / sums[k].area : 0;
     if (remembers()) lambda_t_[k] = sums[k].area > 0 ? Position(sums[k].shear / sums[k].area) : Position::Zero();
   }
   if (!remembers()) return;
@@ -250,7 +243,6 @@ void ContactForce<K, Finder>::follow(const std::vector<PieceOrigin>& origins, st
   const auto patches = surface_.patches();
   const auto size = [this](std::size_t s) { return surface_.piece(s).size(); };
   lambda_ = of_patches_cut_anew(lambda_, origins, patches, size, 0.0);
-  change_.assign(lambda_.size(), 0.0);
   if (!remembers()) return;
   const Position none = Position::Zero();
   const std::vector<Position> lambda_t = of_patches_cut_anew(lambda_t_, origins, patches, size, none);

@@ -74,7 +74,6 @@ class ContactForce {
         finder_(std::move(finder)),
         friction_(friction),
         lambda_(surface.patches().size(), 0.0),
-        change_(lambda_),
         lambda_t_(friction > 0 ? surface.patches().size() : 0, Position::Zero()),
         anchor_(friction > 0 ? surface.size() : 0, Position::Zero()),
         closed_(anchor_.size(), 0) {}
@@ -149,7 +148,6 @@ class ContactForce {
   Position settled_ = Position::Zero();  // d of the last commit, from where the next is looked for [m]
   // Of the patches:
   std::vector<double> lambda_;      // λ [Pa]
-  std::vector<double> change_;      // of λ in the last update [Pa]
   std::vector<Position> lambda_t_;  // λ_t, in the axes of T⁻¹ x [Pa]
   // Of the pieces, with friction:
   std::vector<Position> anchor_;  // a, in the same axes [m]
