@@ -38,8 +38,8 @@ bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") 
 
 }  // namespace
 
-std::vector<Comparison> comparisons_in(std::string_view formula) {
-  std::vector<Comparison> found;
+std::vector<FormulaComparison> comparisons_in(std::string_view formula) {
+  std::vector<FormulaComparison> found;
   for (std::size_t k = 0; k < formula.size(); ++k) {
     const bool with_equals = k + 1 < formula.size() && formula[k + 1] == '=';
     const bool is_one =

@@ -18,12 +18,12 @@ const std::vector<std::string>& expression_constants();
 std::vector<std::string> names_in(std::string_view formula);
 
 /// "a < b" within a formula.
-struct Comparison {
+struct FormulaComparison {
   std::size_t begin, end;  // the characters of its text, the end not included
   std::string difference;  // "(a)-(b)", which has another sign where the comparison has another value
 };
 /// All comparisons in a formula, also those inside the operands of others.
-std::vector<Comparison> comparisons_in(std::string_view formula);
+std::vector<FormulaComparison> comparisons_in(std::string_view formula);
 
 /// The argument in each pair of parentheses; if there are several arguments, also the differences of neighbours. A
 /// function that bends or jumps does so at a zero of one of these: |x| at a zero of x, max(a, b) at a zero of a − b.

@@ -129,7 +129,7 @@ bool strains_nothing(const LagrangianPhase& phase, double t, ConstVec x, const P
 
 }  // namespace
 
-std::optional<Mechanism> find_mechanism(const LagrangianPhase& phase, double t, ConstVec u) {
+std::optional<FoundMechanism> find_mechanism(const LagrangianPhase& phase, double t, ConstVec u) {
   if (phase.size() == 0 || phase.info().updated_lagrangian || phase.contact() || phase.info().may_touch)
     return std::nullopt;
   if (phase.tangents().of_loads(t, u).nonZeros() > 0) return std::nullopt;
@@ -143,11 +143,11 @@ std::optional<Mechanism> find_mechanism(const LagrangianPhase& phase, double t, 
   if (phase.info().nonlinear && !strains_nothing(phase, t, mode.x, motion)) return std::nullopt;
   const std::string rigid = motion.largest > 0 ? rigid_motion(motion) : "";
   const std::string furthest = furthest_point(phase, motion);
-  if (!rigid.empty()) return Mechanism{true, fmt::format("the body {}: {}", rigid, furthest)};
-  return Mechanism{false, "no material point is strained: " + furthest};
+  if (!rigid.empty()) return FoundMechanism{true, fmt::format("the body {}: {}", rigid, furthest)};
+  return FoundMechanism{false, "no material point is strained: " + furthest};
 }
 
-std::string to_string(const Mechanism& mechanism) {
+std::string to_string(const FoundMechanism& mechanism) {
   return fmt::format(
       "the body is not held: nothing resists a motion in which {}; its loads drive that motion, and it is never at "
       "rest; expected {}, loads that do not drive it",

@@ -11,7 +11,7 @@
 
 namespace stillpoint {
 
-struct Mechanism {
+struct FoundMechanism {
   bool is_rigid = false;    // true if the body moves as a whole, so that a support is missing
   std::string description;  // the motion, in words
 };
@@ -19,10 +19,10 @@ struct Mechanism {
 /// The mechanism that the loads at (t, u) drive. Empty: every motion that they drive is resisted, or this cannot be
 /// said: in many phases a motion that strains nothing now does so later, a body that turns by a finite angle may come
 /// to rest hanging, and what touches it may hold it. Factorises a matrix of the size of K.
-std::optional<Mechanism> find_mechanism(const LagrangianPhase& phase, double t, ConstVec u);
+std::optional<FoundMechanism> find_mechanism(const LagrangianPhase& phase, double t, ConstVec u);
 
 /// "the body is not held: nothing resists a motion in which …; its loads drive it …; expected …"
-std::string to_string(const Mechanism& mechanism);
+std::string to_string(const FoundMechanism& mechanism);
 
 /// Throws SceneError if the scene asks for equilibrium and there is a mechanism under its last loads. u: at the start.
 void refuse_mechanism(const Problem& problem, const LagrangianPhase& phase, ConstVec u);

@@ -29,7 +29,7 @@ std::vector<Expression> switching_parts(const Expression& formula) {
     if (parts.size() >= largest_count) return;
     if (auto part = part_of(formula, text)) parts.push_back(std::move(*part));
   };
-  for (const Comparison& comparison : comparisons_in(formula.text())) add(comparison.difference);
+  for (const FormulaComparison& comparison : comparisons_in(formula.text())) add(comparison.difference);
   for (const std::string& argument : arguments_in(formula.text())) add(argument);
   return parts;
 }
@@ -178,7 +178,7 @@ std::optional<double> open_end(const Expression& formula, ConstVec x) {
 
 double unresolved_until(const Expression& formula, ConstVec x, ConstVec times, double same) {
   double until = 0;
-  for (const Comparison& comparison : comparisons_in(formula.text())) {
+  for (const FormulaComparison& comparison : comparisons_in(formula.text())) {
     const std::optional<Expression> difference = part_of(formula, comparison.difference);
     if (!difference || !is_unresolved(*difference, x, times)) continue;
     const auto with = [&](const char* value) {

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<std::string> differences(const std::string& formula) {
   std::vector<std::string> found;
-  for (const Comparison& comparison : comparisons_in(formula)) found.push_back(comparison.difference);
+  for (const FormulaComparison& comparison : comparisons_in(formula)) found.push_back(comparison.difference);
   return found;
 }
 
@@ -32,7 +32,7 @@ TEST_CASE("the two sides of a comparison end at what binds less than it does") {
 
 TEST_CASE("a comparison's text is found where it stands") {
   const std::string formula = "1e3*(t>2)";
-  const std::vector<Comparison> found = comparisons_in(formula);
+  const std::vector<FormulaComparison> found = comparisons_in(formula);
   REQUIRE(found.size() == 1);
   CHECK(formula.substr(found[0].begin, found[0].end - found[0].begin) == "t>2");
 }
