@@ -48,7 +48,10 @@ void ContactForce<K, Finder>::archive(const StateArchive& state) {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::add_force(double t, const double* u, Vec R, Vec at_supports, Vec of_patches) const {
-  for_closed(placement(t, u), u, [&](const Touch& touch) {
+  const RigidPlacement<N> placement = this->placement(t, u);
+  if (!placement.u.allFinite() || !placement.Q.allFinite())  // which would touch nothing
+    std::ranges::fill(R, std::numeric_limits<double>::quiet_NaN());
+  for_closed(placement, u, [&](const Touch& touch) {
     Point<dim> f{};
     for (std::size_t i = 0; i < dim; ++i) {
       const auto along = static_cast<Eigen::Index>(i);

@@ -128,12 +128,8 @@ void RigidContact<K>::archive(const StateArchive& state) {
 template <Kinematics K>
 void RigidContact<K>::add_force(double t, const double* u, Vec R, Vec at_supports, Vec forces) const {
   std::ranges::fill(forces, 0.0);
-  for (std::size_t r = 0; r < bodies_.size(); ++r) {
-    const RigidPlacement<N> placement = bodies_[r].finder().placement(t);
-    if (!placement.u.allFinite() || !placement.Q.allFinite())  // which would touch nothing
-      std::ranges::fill(R, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t r = 0; r < bodies_.size(); ++r)
     bodies_[r].add_force(t, u, R, at_supports, forces.subspan(r * of_each(), of_each()));
-  }
 }
 
 template <Kinematics K>
