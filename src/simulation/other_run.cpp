@@ -65,6 +65,18 @@ void refuse_other_laws(const Problem& other, const Problem& problem, const std::
   }
 }
 
+// The points' volumes and masses are those of the other run.
+void refuse_other_thickness(const Problem& other, const Problem& problem, const std::vector<std::size_t>& numbers) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto taken = std::ranges::find(problem.bodies, numbers[k], &BodySpec::number);
+    if (taken == problem.bodies.end() || taken->area == other.bodies[k].area) continue;
+    throw_scene_error(
+        fmt::format("body[{}].{}", taken - problem.bodies.begin(), problem.dim == 1 ? "area" : "thickness"),
+        fmt::format("must be that of the other run, {}, whose points the body takes over, not {}", other.bodies[k].area,
+                    taken->area));
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
@@ -82,6 +94,7 @@ std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
                         "phase.quadrature = \"points\" there");
     const std::vector<std::size_t> numbers = numbers_of(scene, problem);
     refuse_other_laws(scene, problem, numbers);
+    refuse_other_thickness(scene, problem, numbers);
     std::shared_ptr<CarriedBody> points = parts.phase.hand_over(other.t(), other.u(), other.v());
     points->begin_other_run(numbers, problem.displacements_from_zero);
     return points;

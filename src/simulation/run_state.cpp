@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/stop_request.hpp"
+#include "simulation/later_ground.hpp"
 #include "simulation/other_run.hpp"
 #include "simulation/setup/model.hpp"
 
@@ -63,6 +64,7 @@ Model RunState::set_up() {
   const StopScope scope(asks_to_end());
   try {
     heed_stop_request();
+    if (stage.number == 0 && !scene.stages.empty()) check_ground_of_later_stages(scene);
     if (!scene.initial_from.empty() && !stage.carried) stage.carried = points_of_other_run(scene);
     return make_model(scene, require_memory(make_plan(scene)), stage.carried ? nullptr : options.store,
                       {.carried = stage.carried.get(), .t = stage.t});

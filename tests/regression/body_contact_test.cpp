@@ -103,4 +103,27 @@ TEST_CASE("a frictionless block that overhangs the edge of another one feels no 
   }
 }
 
+TEST_CASE("bodies that turn to each other within a single phase, and end in one place, are at no equilibrium") {
+  const test::TemporaryFolder folder;
+  const auto moved_by = [&](double way) {
+    return run(
+        load_scene(folder.write("scene.toml",
+                                fmt::format("dim = 2\n[grid]\nmin = [0, 0]\nmax = [4, 3]\ncells = [16, 12]\n"
+                                            "[[body]]\nname = 'arm'\nmaterial = 'r'\nmin = [0, 1.25]\nmax = [1, 1.75]\n"
+                                            "[[body]]\nname = 'base'\nmaterial = 'r'\nmin = [1.5, 0]\nmax = [3, 1]\n"
+                                            "[material.r]\nlaw = 'hencky'\nE = 1000.0\nnu = 0.3\nrho = 1.0\n"
+                                            "[[contact]]\nbodies = ['arm', 'base']\n[[support]]\nface = 'bottom'\n"
+                                            "[[support]]\nface = 'left'\ncomponent = 'x'\nu = '{0}*min(t/5,1)'\n"
+                                            "[[support]]\nface = 'left'\ncomponent = 'y'\nu = '-{0}/2*min(t/5,1)'\n"
+                                            "[phase]\nmax_motion = 'none'\n[damping]\nstrategy = 'cundall'\n"
+                                            "[stop]\nresidual = 1e-6\n",
+                                            way))),
+        {.threads = 1});
+  };
+  CHECK(moved_by(0.3).status == RunStatus::equilibrium);
+  const Summary through = moved_by(1.6);
+  CHECK(through.status == RunStatus::step_limit);
+  CHECK_THAT(through.reason, Catch::Contains("'arm' and 'base' have gone through each other"));
+}
+
 }  // namespace stillpoint::test

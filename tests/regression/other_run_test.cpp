@@ -90,6 +90,10 @@ TEST_CASE("a checkpoint that is none, or of other bodies, is refused where the s
   CHECK_THROWS_WITH(
       run(scenes::load("ladder/lifts", with(set, {"initial.from=" + left.string(), "body[0].state=axisymmetric"}))),
       Catch::Contains("is one of state = 'plane-strain', and this scene of 'axisymmetric'"));
+  CHECK_THROWS_WITH(
+      run(scenes::load("ladder/lifts", with(set, {"initial.from=" + left.string(), "body[0].thickness=2"}))),
+      Catch::Contains(
+          "body[0].thickness=2: must be that of the other run, 1, whose points the body takes over, not 2"));
   CHECK_THAT(scenes::refusal("ladder/lifts", with(set, {"initial.displacements=zero"})),
              Catch::Contains("goes with from, another run"));
 }

@@ -237,3 +237,10 @@ TEST_CASE("a static solver finds each stage in equilibrium under the loads of it
   REQUIRE(s.status == RunStatus::equilibrium);
   CHECK(scenes::probe(s, "deep", "stress.yy") == Approx(-2e3).epsilon(1e-4));  // small strains
 }
+
+TEST_CASE("a strength by place that a later stage's body cannot have is refused before the first stage") {
+  for (const std::string wrong : {"material.fill.rho='1000*(2.5*h - y)'", "material.fill.E='1e6*(4.5*h - y)'"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_WITH(Simulation(scenes::load("ladder/lifts", {wrong})), Catch::Contains("must be > 0 everywhere"));
+  }
+}

@@ -93,6 +93,14 @@ void check_new_materials(SceneCheck& check, const StageSpec& stage, const std::s
   }
 }
 
+void check_changed_once(SceneCheck& check, const StageSpec& stage, const std::string& key) {
+  for (std::size_t k = 0; k < stage.change.size(); ++k) {
+    const auto here = stage.change.begin() + static_cast<std::ptrdiff_t>(k);
+    check.wrong_if(std::find(stage.change.begin(), here, *here) != here, fmt::format("{}.change[{}]", key, k),
+                   "body {} changes twice at the same time", in_quotes(*here));
+  }
+}
+
 /// A body is placed without stress.
 void check_new_bodies(SceneCheck& check, const StageSpec& stage, const std::string& key) {
   const Scene& scene = check.scene();
@@ -188,6 +196,7 @@ void check_stages(SceneCheck& check) {
     bodies.begin(key + ".add", stage.add);
     if (check.wrong_if(bodies.none_is_left(), key + ".remove", "no body is left then")) return;
     bodies.expect(key + ".change", stage.change);
+    check_changed_once(check, stage, key);
     supports.end(key + ".release", stage.release);
     supports.begin(key + ".hold", stage.hold);
     check_new_materials(check, stage, key);

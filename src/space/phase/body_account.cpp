@@ -77,10 +77,14 @@ double BodyAccount<K>::total_mass() const {
 template <Kinematics K>
 PointData BodyAccount<K>::point_data(const std::vector<double>& origin) const {
   const std::vector<double> of_point(body_.numbers()), positions = this->positions();
-  PointData data{positions, origin.empty() ? positions : origin, of_point, of_point, std::vector<int>(body_.numbers())};
+  PointData data{positions, origin.empty() ? positions : origin, of_point,
+                 of_point,  std::vector<int>(body_.numbers()),   std::vector<int>(body_.numbers())};
   std::vector<int> material{0};  // a material in two fields is one
   for (std::size_t m = 1; m < body_.material_names.size(); ++m)
     material.push_back(material.back() + (body_.material_names[m] == body_.material_names[m - 1] ? 0 : 1));
+  for (std::size_t b = 0; b + 1 < body_.first_number.size(); ++b)
+    std::fill(data.bodies.begin() + body_.first_number[b], data.bodies.begin() + body_.first_number[b + 1],
+              static_cast<int>(b));
   for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t number) {
     data.volumes[number] += body_.points.volume[p];
     data.masses[number] += body_.points.mass[p];

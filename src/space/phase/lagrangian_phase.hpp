@@ -66,6 +66,7 @@ struct PointData {
   std::vector<double> volumes;            // V_p when the phase began, (P) [m³]
   std::vector<double> masses;             // m_p, (P) [kg]
   std::vector<int> materials;             // index of each point's material, in the order of the names, (P)
+  std::vector<int> bodies;                // index of each point's [[body]], (P)
 };
 
 /// Quantities at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain

@@ -68,6 +68,7 @@ TEST_CASE("stages that cannot be are refused by name") {
       {"{at=1, change=['lift 2'], material=['fil']}", "there is no material 'fil'"},
       {"{at=1, change=['lift 2']}", "must be a material for each of the 1 bodies that change, not 0"},
       {"{at=1, change=['lift 2'], material=['fill']}", "'linear-elastic' is a law without history"},
+      {"{at=1, change=['lift 2', 'lift 2'], material=['fill', 'fill']}", "body 'lift 2' changes twice at the same time"},
       {"{at=1, hold=['prop']}", "there is no support 'prop'"},
       {"{at=1, ramp=1}", "stage[0].ramp: 'newton' is a static solver"},
       {"{at=0, add=['lift 2']}", "stage[0].add: at t = 0 there is what the scene has"},
