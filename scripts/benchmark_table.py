@@ -37,17 +37,31 @@ def of_summary(summary):
     }
 
 
+def of_yardsticks(document, figures):
+    """Adds what stillpoint_yardsticks has printed to the figures."""
+    figures.processor, figures.vector_bits = str(document["processor"]), int(document["vector_bits"])
+    for name, found in document["yardsticks"].items():
+        value = float(found["ns_per_point_step"])
+        if not (math.isfinite(value) and value > 0):
+            raise BadFigures(f"the yardstick {name}: {value}")
+        figures.yardsticks[name] = min(value, figures.yardsticks.get(name, math.inf))
+
+
 class Figures:
-    """The least of each figure, for each of the programs."""
+    """The least of each figure, for each of the programs, and of each yardstick."""
 
     def __init__(self, programs):
         self.programs = programs
         self.rows = {}  # (what, threads): unit, {program: values}
+        self.measured_by = {}  # (what, threads): names of the yardstick and of the one of the memory, or None
+        self.yardsticks = {}  # name: ns a point and step
+        self.processor, self.vector_bits = None, None
 
-    def add(self, what, threads, unit, program, value):
+    def add(self, what, threads, unit, program, value, measured_by=(None, None)):
         if not math.isfinite(value):
             raise BadFigures(f"{what}: {value}")
         self.rows.setdefault((what, threads), (unit, {}))[1].setdefault(program, []).append(value)
+        self.measured_by[what, threads] = measured_by
 
     def least(self, row, program):
         values = self.rows[row][1].get(program)
@@ -62,10 +76,20 @@ class Figures:
         old, new = (self.least(row, program) for program in self.programs)
         return None if not old or new is None else new / old
 
+    def by_yardsticks(self, row):
+        """How many times as long as the yardstick's, and as the memory's, the figure of the last program is; or None."""
+        value = self.least(row, self.programs[-1])
+        yardsticks = [self.yardsticks.get(name) for name in self.measured_by[row]]
+        return [None if value is None or by is None else value / by for by in yardsticks]
+
+    def yardsticks_in_words(self):
+        figures = ", ".join(f"{name.replace('_', ' ')} {ns:.1f}" for name, ns in sorted(self.yardsticks.items()))
+        return f"Yardsticks, ns a point and step on one thread: {figures}."
+
 
 def headings(figures):
     ratio = ["new/old"] if len(figures.programs) > 1 else []
-    return ["what", "threads", *figures.programs, *ratio, "most over least"]
+    return ["what", "threads", *figures.programs, *ratio, "by the yardstick", "by the memory", "most over least"]
 
 
 def texts(figures, row):
@@ -75,9 +99,13 @@ def texts(figures, row):
     for program in figures.programs:
         value = figures.least(row, program)
         columns.append("-" if value is None else FORMS[unit].format(value))
+
+    def times(ratio, form):
+        return "-" if ratio is None else form.format(ratio)
+
     if len(figures.programs) > 1:
-        ratio = figures.ratio(row)
-        columns.append("-" if ratio is None else f"{ratio:.2f}")
+        columns.append(times(figures.ratio(row), "{:.2f}"))
+    columns += [times(ratio, "{:.1f}") for ratio in figures.by_yardsticks(row)]
     return [*columns, f"+{100 * figures.spread(row):.0f} %"]
 
 
