@@ -13,7 +13,8 @@
 //
 // Softening: η and ξ c fall linearly from their peak to their residual values at γᵖ = softening_strain. The strength is
 // that of the committed γᵖ, one increment late, so that the return stays closed. By place: each point has factors of c
-// and E, which it takes along.
+// and E, which it takes along. A law whose parameters are the same everywhere and always is another type, in which
+// what follows from them alone is computed once.
 #pragma once
 
 #include <stillpoint/drucker_prager_cone.hpp>
@@ -22,6 +23,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace stillpoint {
 
@@ -52,8 +54,8 @@ struct DruckerPragerParameters {
   }
 };
 
-/// The law of a stress state. varies: whether a parameter does, from place to place. The internal variables are the gap
-/// and γᵖ, and then the factors of c and E.
+/// The law of a stress state. varies: whether a parameter does, from place to place or by softening. The internal
+/// variables are the gap and γᵖ, and then the factors of c and E.
 template <StressState S, bool varies = false>
 class DruckerPrager : public StressHistory<DruckerPrager<S, varies>, S, varies ? 4 : 2> {
   static constexpr std::size_t internals = varies ? 4 : 2;
@@ -64,6 +66,7 @@ class DruckerPrager : public StressHistory<DruckerPrager<S, varies>, S, varies ?
   static constexpr auto history_names = Base::names_of_history({"gap", "plastic_strain"});
   static constexpr auto place_rows = Base::template place_rows_of<varies>({{"c", 2}, {"E", 3}});
 
+  /// Throws std::invalid_argument for parameters that soften, if none varies.
   explicit DruckerPrager(const DruckerPragerParameters& m)
       : elastic_{m.E / (3 * (1 - 2 * m.nu)), m.E / (2 * (1 + m.nu))}, fluidity_(m.fluidity), tension_(m.tension) {
     const auto peak = ConeCoefficients::from(m.cone, m.phi, m.psi);
@@ -76,6 +79,8 @@ class DruckerPrager : public StressHistory<DruckerPrager<S, varies>, S, varies ?
     k_change_ = residual.xi * c_residual - k_;
     eta_bar_ = peak.eta_bar;
     softening_rate_ = m.softening_strain > 0 ? 1 / m.softening_strain : 0;
+    if (!varies && softening_rate_ > 0)
+      throw std::invalid_argument("a DruckerPrager law whose parameters do not vary cannot soften");
   }
 
   template <class Number>
@@ -121,10 +126,9 @@ class DruckerPrager : public StressHistory<DruckerPrager<S, varies>, S, varies ?
   };
   // The yield coefficients after softening to γᵖ.
   [[gnu::always_inline]] ConeAt cone_at(const Internal& internal) const {
+    if constexpr (!varies) return {eta_, k_};
     const double lost = internal[1] * softening_rate_, share = lost < 1 ? lost : 1;
-    double k = k_ + share * k_change_;
-    if constexpr (varies) k *= internal[2];
-    return {eta_ + share * eta_change_, k};
+    return {eta_ + share * eta_change_, (k_ + share * k_change_) * internal[2]};
   }
 
   /// The result of the return mapping: σ = p I + scale s_trial, and the updated gap and γᵖ.

@@ -85,18 +85,19 @@ class PlaneIncrement {
   [[gnu::always_inline]] PlaneIncrement(const GradientOf<S, Number>& H, const GradientOf<S, Number>& dH) {
     const Number gxx = 1 + H[0] - dH[0] / 2, gxy = H[1] - dH[1] / 2, gyx = H[2] - dH[2] / 2, gyy = 1 + H[3] - dH[3] / 2;
     det_g = gxx * gyy - gxy * gyx;
-    const Number r = 1 / det_g;
-    const Number lxx = r * (dH[0] * gyy - dH[1] * gyx), lxy = r * (dH[1] * gxx - dH[0] * gxy);
-    const Number lyx = r * (dH[2] * gyy - dH[3] * gyx), lyy = r * (dH[3] * gxx - dH[2] * gxy);
-    dzz_ = hoop_increment<S, Number>(H, dH);
-    volume_change = lxx + lyy + dzz_;
-    difference_ = lxx - lyy;
-    shear_ = lxy + lyx;
+    const Number Lxx = dH[0] * gyy - dH[1] * gyx, Lxy = dH[1] * gxx - dH[0] * gxy;  // det g l
+    const Number Lyx = dH[2] * gyy - dH[3] * gyx, Lyy = dH[3] * gxx - dH[2] * gxy;
 
-    // The rotation by θ, tan(θ/2) = q = w_yx/2; a tensor turns by 2θ in (half difference, shear), by θ under R½.
-    const Number q = (lyx - lxy) / 4, over = 1 / (1 + q * q);
-    cos_ = (1 - q * q) * over;
-    sin_ = 2 * q * over;
+    // The rotation by θ, tan(θ/2) = w_yx/2 = q/det g; a tensor turns by 2θ in (half difference, shear), by θ under R½.
+    // A single division serves 1/det g and 1/(det²g + q²).
+    const Number q = 0.25 * (Lyx - Lxy), det2 = det_g * det_g, q2 = q * q, sum = det2 + q2;
+    const Number once = 1 / (det_g * sum), by_det = once * sum, by_sum = once * det_g;
+    dzz_ = hoop_increment<S, Number>(H, dH);
+    volume_change = by_det * (Lxx + Lyy) + dzz_;
+    difference_ = by_det * (Lxx - Lyy);
+    shear_ = by_det * (Lxy + Lyx);
+    cos_ = (det2 - q2) * by_sum;
+    sin_ = 2 * q * (det_g * by_sum);
     cos2_ = 1 - 2 * sin_ * sin_;
     sin2_ = 2 * sin_ * cos_;
   }
@@ -143,37 +144,40 @@ class SpaceIncrement {
 
     const T g = f - 0.5 * df, cof_g = cofactor(g);
     det_g = g.xx * cof_g.xx + g.xy * cof_g.xy + g.xz * cof_g.xz;
-    const T l = (1 / det_g) * (df * transpose(cof_g));
-    volume_change = trace(l);
-    xx_ = l.xx;
-    yy_ = l.yy;
-    zz_ = l.zz;
-    xy_ = l.xy + l.yx;
-    yz_ = l.yz + l.zy;
-    zx_ = l.zx + l.xz;
+    const T L = df * transpose(cof_g);  // det g l
 
-    // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and R½ is that
-    // of b = a/(1 + √(1 + a²)), which keeps b and turns what is across it: R½ = (1 − c b²) I + c (B + b bᵀ).
+    // With a the axial vector of w/2 and A x = a × x: R = I + 2/(1 + a²) (A + A²) turns by 2 arctan |a|, and
+    //   R½ = (I + A + a aᵀ/(1 + s))/s,   s = √(1 + a²),
+    // by arctan |a|. With S = s det g and det g a a single division serves 1/det g, 1/S and 1/(S (det g + S)).
     using std::sqrt;
-    const Number ax = (l.zy - l.yz) / 4, ay = (l.xz - l.zx) / 4, az = (l.yx - l.xy) / 4;
-    const Number a2 = ax * ax + ay * ay + az * az, by_half = 1 / (1 + sqrt(1 + a2));
-    const Number bx = by_half * ax, by = by_half * ay, bz = by_half * az, b2 = by_half * by_half * a2;
-    const Number c = 2 / (1 + b2), across = 1 - c * b2, cx = c * bx, cy = c * by, cz = c * bz;
-    const Number c_xy = cx * by, c_yz = cy * bz, c_zx = cz * bx;
-    R_half_ = T{across + cx * bx, c_xy - cz, c_zx + cy, c_xy + cz,       across + cy * by,
-                c_yz - cx,        c_zx - cy, c_yz + cx, across + cz * bz};
+    const Number ax = 0.25 * (L.zy - L.yz), ay = 0.25 * (L.xz - L.zx), az = 0.25 * (L.yx - L.xy);
+    const Number S = sqrt(det_g * det_g + (ax * ax + ay * ay + az * az)), sum = det_g + S, product = S * sum;
+    const Number once = 1 / (det_g * product), by_product = once * det_g, by_S = by_product * sum;
+    by_det_ = once * product;
+    const Number x = by_S * ax, y = by_S * ay, z = by_S * az, one = by_S * det_g;
+    const Number cx = by_product * ax, cy = by_product * ay, cz = by_product * az;
+    R_half_ = T{one + cx * ax, cx * ay - z, cz * ax + y, cx * ay + z,  one + cy * ay,
+                cy * az - x,   cz * ax - y, cy * az + x, one + cz * az};
+
+    xx_ = L.xx;
+    yy_ = L.yy;
+    zz_ = L.zz;
+    xy_ = L.xy + L.yx;
+    yz_ = L.yz + L.zy;
+    zx_ = L.zx + L.xz;
+    volume_change = by_det_ * (xx_ + yy_ + zz_);
   }
   [[gnu::always_inline]] T turned_stress(const Stress<StressState::space>& sigma, double p) const {
-    return turned(R_half_, turned(R_half_, deviator(sigma, p)));
+    return turned_deviator(R_half_, turned_deviator(R_half_, deviator(sigma, p)));
   }
   template <class Modulus>
   [[gnu::always_inline]] T turned_stretch(const Modulus& G) const {
-    return turned(R_half_, stretch(G));
+    return turned_deviator(R_half_, stretch(G));
   }
   /// R½ (R½ s R½ᵀ + 2 G dev d) R½ᵀ
   template <class Modulus>
   [[gnu::always_inline]] T turned_sum(const Stress<StressState::space>& sigma, double p, const Modulus& G) const {
-    return turned(R_half_, turned(R_half_, deviator(sigma, p)) + stretch(G));
+    return turned_deviator(R_half_, turned_deviator(R_half_, deviator(sigma, p)) + stretch(G));
   }
 
   [[gnu::always_inline]] T rotation() const { return R_half_ * R_half_; }
@@ -188,11 +192,13 @@ class SpaceIncrement {
   }
   template <class Modulus>
   [[gnu::always_inline]] T stretch(const Modulus& G) const {
-    const Number mean = 2 * G * (volume_change * (1.0 / 3)), xy = G * xy_, yz = G * yz_, zx = G * zx_;
-    return {2 * G * xx_ - mean, xy, zx, xy, 2 * G * yy_ - mean, yz, zx, yz, 2 * G * zz_ - mean};
+    const Number shear = G * by_det_, twice = 2 * shear, mean = (2.0 / 3) * (G * volume_change);
+    const Number xy = shear * xy_, yz = shear * yz_, zx = shear * zx_;
+    return {twice * xx_ - mean, xy, zx, xy, twice * yy_ - mean, yz, zx, yz, twice * zz_ - mean};
   }
 
-  Number xx_, yy_, zz_, xy_, yz_, zx_;  // d, shears doubled
+  Number xx_, yy_, zz_, xy_, yz_, zx_;  // det g d, shears doubled
+  Number by_det_;                       // 1/det g
   T R_half_;
 };
 

@@ -69,7 +69,8 @@ Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t b
     };
     if (material.law == "drucker-prager") {
       const auto parameters = DruckerPragerParameters::from(material);
-      if (material.by_place.empty()) return with_history(DruckerPrager<S>(parameters));
+      if (parameters.softening_strain == 0 && material.by_place.empty())
+        return with_history(DruckerPrager<S>(parameters));
       return with_history(DruckerPrager<S, true>(parameters));
     }
     if (material.law == "cam-clay") return with_history(CamClay<S>(CamClayParameters::from(material)));

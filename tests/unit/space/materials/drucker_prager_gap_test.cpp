@@ -76,7 +76,7 @@ TEST_CASE("no volume is invented: what is not elastic is gap or dilatancy, on an
                                        .c_residual = 0,
                                        .softening_strain = 0.2};
     const double eta_bar = ConeCoefficients::from(m.cone, m.phi, m.psi).eta_bar;
-    Path<axisymmetric> path(m);
+    Path<axisymmetric, true> path(m);
     double volume = 0;  // Σ tr d, on a path without shear
     int open = 0;
     for (int k = 0; k < 1000; ++k) {

@@ -15,20 +15,21 @@ using enum StressState;
 constexpr double degree = std::numbers::pi / 180;
 constexpr double E = 1e7, nu = 0.2, G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu));
 
-template <StressState S>
-using Path = HistoryPath<DruckerPrager<S>, DruckerPragerParameters>;
+/// varies: of a soil that softens.
+template <StressState S, bool varies = false>
+using Path = HistoryPath<DruckerPrager<S, varies>, DruckerPragerParameters>;
 
 inline double pressure(const Stress<plane_strain>& s) { return (s[0] + s[1] + s[2]) / 3; }  // p, tension positive
 inline double root_J2(const Stress<plane_strain>& s) {
   const double p = pressure(s), x = s[0] - p, y = s[1] - p, z = s[2] - p;
   return std::sqrt((x * x + y * y + z * z) / 2 + s[3] * s[3]);
 }
-template <StressState S>
-double p_of(const Path<S>& path) {
+template <StressState S, bool varies>
+double p_of(const Path<S, varies>& path) {
   return pressure(path.law.cauchy(path.now));
 }
-template <StressState S>
-double root_J2_of(const Path<S>& path) {
+template <StressState S, bool varies>
+double root_J2_of(const Path<S, varies>& path) {
   return root_J2(path.law.cauchy(path.now));
 }
 

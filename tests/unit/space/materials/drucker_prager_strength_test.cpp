@@ -169,7 +169,7 @@ TEST_CASE("strength falls linearly with the plastic strain to its residual value
                                      .softening_strain = softening_strain};
   const auto strength = [&](double phi, double c) { return c * std::cos(phi * degree) - p * std::sin(phi * degree); };
   const double peak = strength(35, 500), residual = strength(25, 100);
-  Path<plane_strain> path(m, {p, p, p, 0});
+  Path<plane_strain, true> path(m, {p, p, p, 0});
   for (int k = 1; k <= 1000; ++k) {
     const double before = path.plastic_strain();
     path.step({0, 2e-5 * k, 0, 0});
@@ -183,7 +183,7 @@ TEST_CASE("strength falls linearly with the plastic strain to its residual value
 
 TEST_CASE("a residual that is not given is that of the peak") {
   const DruckerPragerParameters m = {.E = E, .nu = nu, .phi = 35, .c = 500, .softening_strain = 1e-3};
-  Path<plane_strain> path(m, {-1e3, -1e3, -1e3, 0});
+  Path<plane_strain, true> path(m, {-1e3, -1e3, -1e3, 0});
   path.go({0, 0.01, 0, 0}, 100);
   CHECK(root_J2_of(path) == Approx(500 * std::cos(35 * degree) + 1e3 * std::sin(35 * degree)).epsilon(1e-12));
 }
