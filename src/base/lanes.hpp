@@ -25,12 +25,14 @@ template <>
 struct LaneRegister<4> {
   typedef double Type __attribute__((vector_size(32)));        // NOLINT(modernize-use-using)
   typedef std::int64_t Mask __attribute__((vector_size(32)));  // NOLINT(modernize-use-using)
+  static constexpr Mask number{0, 1, 2, 3};
 };
 
 template <>
 struct LaneRegister<8> {
   typedef double Type __attribute__((vector_size(64)));        // NOLINT(modernize-use-using)
   typedef std::int64_t Mask __attribute__((vector_size(64)));  // NOLINT(modernize-use-using)
+  static constexpr Mask number{0, 1, 2, 3, 4, 5, 6, 7};
 };
 
 template <int N>
@@ -74,10 +76,8 @@ struct Lanes {
   }
   /// The first `count` lanes, and zeros in the others whatever those hold.
   [[gnu::always_inline]] Lanes first(std::size_t count) const {
-    static_assert(N == 4);
-    constexpr typename LaneRegister<N>::Mask number{0, 1, 2, 3};
     const typename LaneRegister<N>::Type zero{};
-    return {number < static_cast<std::int64_t>(count) ? lanes : zero};
+    return {LaneRegister<N>::number < static_cast<std::int64_t>(count) ? lanes : zero};
   }
   [[gnu::always_inline]] double operator[](int k) const { return lanes[k]; }
 };
@@ -132,6 +132,11 @@ template <int N>
   const auto cd =
       __builtin_shufflevector(c.lanes, d.lanes, 0, 4, 2, 6) + __builtin_shufflevector(c.lanes, d.lanes, 1, 5, 3, 7);
   return {__builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7)};
+}
+
+/// The sums over the lanes of a, of b and of c, and 0.
+[[gnu::always_inline]] inline Lanes<4> sums(const Lanes<8>& a, const Lanes<8>& b, const Lanes<8>& c) {
+  return sums(halves_added(a), halves_added(b), halves_added(c), Lanes<4>{});
 }
 
 }  // namespace stillpoint

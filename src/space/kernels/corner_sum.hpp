@@ -33,21 +33,26 @@ class CornerSum {
     for (int c = begin_[function]; c < begin_[function + 1]; ++c) visit(corner_[static_cast<std::size_t>(c)]);
   }
 
-  /// The sum of values, (corners × Components), over the corners of a function; [i] is component i.
+  /// Numbers after the last that sum() may read.
+  static constexpr std::size_t slack = 1;
+
+  /// The sum of values, (corners × Components + slack), over the corners of a function; [i] is component i.
   template <int Components>
   auto sum(std::size_t function, const double* values) const {
     const auto values_of = [&](int c) {
       return values + Components * static_cast<std::ptrdiff_t>(corner_[static_cast<std::size_t>(c)]);
     };
-    if constexpr (!std::has_single_bit(static_cast<unsigned>(Components))) {
+    constexpr bool is_register = std::has_single_bit(static_cast<unsigned>(Components));
+    if constexpr (!is_register && Components != 3) {
       std::array<double, Components> total{};
       for (int c = begin_[function]; c < begin_[function + 1]; ++c) {
         for (int i = 0; i < Components; ++i) total[i] += values_of(c)[i];
       }
       return total;
     } else {
-      Lanes<Components> total{};
-      for (int c = begin_[function]; c < begin_[function + 1]; ++c) total.add(1, Lanes<Components>::load(values_of(c)));
+      using Sum = Lanes<is_register ? Components : 4>;  // a fourth number is summed for nobody
+      Sum total{};
+      for (int c = begin_[function]; c < begin_[function + 1]; ++c) total = total.plus(Sum::load(values_of(c)));
       return total;
     }
   }

@@ -1,12 +1,19 @@
-// Gather and scatter in trilinear cells, without weights. With the position (ξ, η, ζ) of a point in its cell a
-// displacement is
+// Gather and scatter in trilinear cells, without weights. With the position (x, y, z) of a point from the corner of its
+// cell a displacement is
 //
-//   u = c + c_x ξ + c_y η + c_z ζ + c_xy ξη + c_yz ηζ + c_zx ζξ + c_xyz ξηζ,
-//   ∂u/∂x = (c_x + c_xy η + c_zx ζ + c_xyz ηζ)/h_x,   …
+//   u = c + c_x x + c_y y + c_z z + c_xy xy + c_yz yz + c_zx zx + c_xyz xyz,   ∂u/∂x = c_x + c_xy y + c_zx z + c_xyz
+//   yz, …
 //
 // so that the combinations of the corners are computed once a cell, and points are taken eight at a time. The scatter
-// takes eight corners at a time: a point adds Σ_j V P_ij ∂N/∂x_j to all of them, from its factors ξ or 1 − ξ and so on.
+// is the transpose: the forces conjugate to these coefficients,
+//
+//   f_x = Σ_p V P_x,   f_xy = Σ_p (V P_x y + V P_y x),   f_xyz = Σ_p (V P_x yz + V P_y zx + V P_z xy),   …
+//
+// are summed over eight points at a time, and then go to the corners as the coefficients came from them. A coefficient
+// has a number m, whose bits are the axes that it has.
 #pragma once
+
+#include <type_traits>
 
 #include "space/kernels/gather_scatter.hpp"
 
@@ -21,83 +28,142 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
   static constexpr int lanes = 8;  // points at a time: the last of them may lie past the cell's end
   static_assert(Block::slack >= lanes - 1 && Weights::slack >= lanes - 1);
   using Eight = Lanes<8>;
+  using Four = Lanes<4>;
 
   template <bool Increments>
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,
                      const double* u_before, std::size_t first, Rows& H, Rows& dH) {
-    gather_one(
-        weights, k, begin, end, first, H, [&](std::ptrdiff_t at) __attribute__((always_inline)) {
-          return Lanes<4>{{u[at], u[at + 1], u[at + 2], 0}};
-        });
-    if constexpr (Increments) {
-      gather_one(
-          weights, k, begin, end, first, dH, [&](std::ptrdiff_t at) __attribute__((always_inline)) {
-            return Lanes<4>{{u[at] - u_before[at], u[at + 1] - u_before[at + 1], u[at + 2] - u_before[at + 2], 0}};
-          });
-    }
+    // The displacement of a corner, followed by its increment.
+    using Corner = std::conditional_t<Increments, Eight, Four>;
+    const auto corner = [&](auto a) __attribute__((always_inline)) {
+      const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
+      const Four now = components<a == corners - 1>(u + at);
+      if constexpr (Increments) {
+        return joined(now, now.minus(components<a == corners - 1>(u_before + at)));
+      } else {
+        return now;
+      }
+    };
+    std::array<Corner, corners> c;  // [m]: the coefficient of ξ, η, ζ to the powers of the bits of m
+    unroll<corners>([&](auto a) __attribute__((always_inline)) { c[a] = corner(a); });
+    unroll<dim>([&](auto d) __attribute__((always_inline)) {
+      unroll<corners>([&](auto m) __attribute__((always_inline)) {
+        if constexpr ((m >> d & 1) != 0) c[m] = c[m].minus(c[m ^ (1 << d)]);
+      });
+    });
+    const auto per_sides = inverse_products(weights, k);
+    Coefficients<Increments> in_memory;
+    unroll<corners - 1>([&](auto m) __attribute__((always_inline)) {
+      c[m + 1].times(per_sides[m + 1]).store(in_memory[m + 1].data());
+    });
+    for (std::size_t p = begin; p < end; p += lanes)
+      gather_eight<Increments>(in_memory, Positions(weights, k, p), p - first, H, dH);
   }
 
   static void scatter(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const Block& block,
                       double* corner) {
-    // Corner a has along axis d the factor near + towards · position, with the slope towards/h.
-    constexpr Eight::Register near_x{1, 0, 1, 0, 1, 0, 1, 0}, near_y{1, 1, 0, 0, 1, 1, 0, 0},
-        near_z{1, 1, 1, 1, 0, 0, 0, 0};
-    const Eight::Register to_x = 1 - 2 * near_x, to_y = 1 - 2 * near_y, to_z = 1 - 2 * near_z;
-    const auto [per_x, per_y, per_z] = weights.cell(k).inverse_side;
-    const Eight::Register slope_x = to_x * per_x, slope_y = to_y * per_y, slope_z = to_z * per_z;
-    std::array<Eight::Register, dim> force{};
-    for (std::size_t p = begin; p < end; ++p) {
-      const std::size_t q = p - block.first;
-      const Eight::Register X = near_x + to_x * weights.position_in_cell(0, k, p),
-                            Y = near_y + to_y * weights.position_in_cell(1, k, p),
-                            Z = near_z + to_z * weights.position_in_cell(2, k, p);
-      const Eight::Register dN_x = slope_x * Y * Z, XZ = X * Z, dN_y = slope_y * XZ, dN_z = slope_z * X * Y;
-      unroll<dim>([&](auto i) __attribute__((always_inline)) {
-        force[i] += block.VP[dim * i][q] * dN_x + block.VP[dim * i + 1][q] * dN_y + block.VP[dim * i + 2][q] * dN_z;
+    Conjugates f = conjugates(weights, k, begin, end, block);
+    for (std::size_t p = begin + lanes; p < end; p += lanes) {
+      const Conjugates more = conjugates(weights, k, p, end, block);
+      unroll<corners - 1>([&](auto m) __attribute__((always_inline)) {
+        unroll<dim>([&](auto i) __attribute__((always_inline)) { f[m + 1][i] = f[m + 1][i].plus(more[m + 1][i]); });
       });
     }
-    unroll<corners>([&](auto a) __attribute__((always_inline)) {
-      unroll<dim>([&](auto i) __attribute__((always_inline)) { corner[dim * a + i] = Eight{force[i]}[a]; });
+    const auto per_sides = inverse_products(weights, k);
+    std::array<Four, corners> of_corner{};  // the three components, and any number
+    unroll<corners - 1>([&](auto m) __attribute__((always_inline)) {
+      of_corner[m + 1] = sums(f[m + 1][0], f[m + 1][1], f[m + 1][2]).times(per_sides[m + 1]);
     });
+    unroll<dim>([&](auto d) __attribute__((always_inline)) {
+      unroll<corners>([&](auto m) __attribute__((always_inline)) {
+        if constexpr ((m >> d & 1) == 0) of_corner[m] = of_corner[m].minus(of_corner[m | 1 << d]);
+      });
+    });
+    // A store of four numbers is followed by one that begins with the fourth, but the last: what follows is not ours.
+    unroll<corners - 1>([&](auto a) __attribute__((always_inline)) { of_corner[a].store(corner + dim * a); });
+    unroll<dim>([&](auto i)
+                    __attribute__((always_inline)) { corner[dim * (corners - 1) + i] = of_corner[corners - 1][i]; });
   }
 
  private:
-  // displacement(at): that of a corner whose first component is at `at` of the grid's displacements.
-  template <class Displacement>
-  [[gnu::always_inline]] static void gather_one(const Weights& weights, std::size_t k, std::size_t begin,
-                                                std::size_t end, std::size_t first, Rows& H,
-                                                const Displacement& displacement) {
-    const auto corner = [&](int a) __attribute__((always_inline)) {
-      return displacement(dim * static_cast<std::ptrdiff_t>(weights.function(k, a)));
-    };
-    const auto u_000 = corner(0), u_100 = corner(1), u_010 = corner(2), u_110 = corner(3);
-    const auto u_001 = corner(4), u_101 = corner(5), u_011 = corner(6), u_111 = corner(7);
-    const auto c_x = u_100.minus(u_000), c_y = u_010.minus(u_000), c_z = u_001.minus(u_000);
-    const auto c_xy = u_110.minus(u_010).minus(c_x), c_yz = u_011.minus(u_001).minus(c_y);
-    const auto c_zx = u_101.minus(u_001).minus(c_x);
-    const auto c_xyz = u_111.minus(u_011).minus(u_101.minus(u_001)).minus(c_xy);
-    const auto [per_x, per_y, per_z] = weights.cell(k).inverse_side;
-    using Coefficients = std::array<Lanes<4>, 4>;  // of 1, of the positions along the other two axes, and of their
-                                                   // product
-    const Coefficients of_x{c_x.times(per_x), c_xy.times(per_x), c_zx.times(per_x), c_xyz.times(per_x)};
-    const Coefficients of_y{c_y.times(per_y), c_xy.times(per_y), c_yz.times(per_y), c_xyz.times(per_y)};
-    const Coefficients of_z{c_z.times(per_z), c_zx.times(per_z), c_yz.times(per_z), c_xyz.times(per_z)};
-    // Entries past the end belong to the next cell, which overwrites them, or are unused.
-    for (std::size_t p = begin; p < end; p += lanes) {
-      const std::size_t q = p - first;
-      const auto xi = weights.eight_in_cell(0, k, p), eta = weights.eight_in_cell(1, k, p),
-                 zeta = weights.eight_in_cell(2, k, p);
-      const auto along = [&](const Coefficients& of, int i, const Eight& s, const Eight& t, const Eight& st)
-          __attribute__((always_inline)) {
-        return Eight{of[0][i] + of[1][i] * s.lanes + of[2][i] * t.lanes + of[3][i] * st.lanes};
-      };
-      const Eight xi_eta = xi.times(eta), eta_zeta = eta.times(zeta), zeta_xi = zeta.times(xi);
-      unroll<dim>([&](auto i) __attribute__((always_inline)) {
-        along(of_x, i, eta, zeta, eta_zeta).store(&H[dim * i][q]);
-        along(of_y, i, xi, zeta, zeta_xi).store(&H[dim * i + 1][q]);
-        along(of_z, i, xi, eta, xi_eta).store(&H[dim * i + 2][q]);
+  /// x, y and z of eight points from the corner of their cell, and for each axis the product of the two others.
+  struct Positions {
+    std::array<Eight, dim> along, product;
+
+    [[gnu::always_inline]] Positions(const Weights& weights, std::size_t k, std::size_t p) {
+      unroll<dim>([&](auto d) __attribute__((always_inline)) { along[d] = weights.eight_from_corner(d, k, p); });
+      unroll<dim>([&](auto d) __attribute__((always_inline)) {
+        product[d] = along[(d + 1) % dim].times(along[(d + 2) % dim]);
       });
     }
+  };
+
+  // [m][i]: the force conjugate to coefficient m of component i, of a point in each lane; none for m = 0.
+  using Conjugates = std::array<std::array<Eight, dim>, corners>;
+
+  // Of eight points from p on.
+  [[gnu::always_inline]] static Conjugates conjugates(const Weights& weights, std::size_t k, std::size_t p,
+                                                      std::size_t end, const Block& block) {
+    const Positions at(weights, k, p);
+    const auto& [X, Y, Z] = at.along;
+    const auto& [YZ, ZX, XY] = at.product;
+    Conjugates f;
+    unroll<dim>([&](auto i) __attribute__((always_inline)) {
+      const auto force = [&](int j) __attribute__((always_inline)) {
+        return Eight::load(&block.VP[static_cast<std::size_t>(dim * i + j)][p - block.first]).first(end - p);
+      };
+      const Eight x = force(0), y = force(1), z = force(2);
+      f[1][i] = x;
+      f[2][i] = y;
+      f[3][i] = x.times(Y).plus_product(y, X);
+      f[4][i] = z;
+      f[5][i] = z.times(X).plus_product(x, Z);
+      f[6][i] = y.times(Z).plus_product(z, Y);
+      f[7][i] = x.times(YZ).plus_product(y, ZX).plus_product(z, XY);
+    });
+    return f;
+  }
+
+  // [m]: the coefficients that a coordinate has, for each component of a displacement, and from the fourth entry on of
+  // its increment; none for m = 0.
+  template <bool Increments>
+  struct alignas(64) Coefficients : std::array<std::array<double, Increments ? 8 : 4>, corners> {};
+
+  // Entries past the end of the cell belong to the next one, which overwrites them, or are unused. Inlined, the
+  // coefficients would be moved into registers, more than there are; an instruction takes one from memory for all
+  // points.
+  template <bool Increments>
+  [[gnu::noinline]] static void gather_eight(const Coefficients<Increments>& c, const Positions& at, std::size_t q,
+                                             Rows& H, Rows& dH) {
+    const auto derivatives = [&](int component, Rows& rows, int i) __attribute__((always_inline)) {
+      std::array<double, corners> of;  // copied first: as far as the compiler knows, rows and coefficients may overlap
+      unroll<corners - 1>([&](auto m) __attribute__((always_inline)) { of[m + 1] = c[m + 1][component]; });
+      unroll<dim>([&](auto d) __attribute__((always_inline)) {
+        constexpr int e = (d + 1) % dim, f = (d + 2) % dim;
+        Eight{of[1 << d] + of[1 << d | 1 << e] * at.along[e].lanes + of[1 << d | 1 << f] * at.along[f].lanes +
+              of[corners - 1] * at.product[d].lanes}
+            .store(&rows[dim * i + d][q]);
+      });
+    };
+    unroll<dim>([&](auto i) __attribute__((always_inline)) {
+      derivatives(i, H, i);
+      if constexpr (Increments) derivatives(4 + i, dH, i);
+    });
+  }
+
+  // [m]: the product of 1/h_x, 1/h_y and 1/h_z to the powers of the bits of m.
+  [[gnu::always_inline]] static std::array<double, corners> inverse_products(const Weights& weights, std::size_t k) {
+    const auto [x, y, z] = weights.cell(k).inverse_side;
+    return {1, x, y, x * y, z, x * z, y * z, x * y * z};
+  }
+
+  // The three components of a function, and any number. The array may end with the last corner, whose components are
+  // taken with the number before them.
+  template <bool is_last>
+  [[gnu::always_inline]] static Four components(const double* of_function) {
+    if constexpr (!is_last) return Four::load(of_function);
+    const Four from = Four::load(of_function - 1);
+    return {__builtin_shufflevector(from.lanes, from.lanes, 1, 2, 3, 3)};
   }
 };
 

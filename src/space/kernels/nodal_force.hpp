@@ -36,7 +36,7 @@ class NodalForce {
  public:
   /// The arrays that an evaluation writes to, those of a call at a time.
   struct Work {
-    std::vector<double> corner;       // (cells × per_cell × dim) [N]
+    std::vector<double> corner;       // (cells × per_cell × dim), and slack [N]
     std::vector<double> at_extended;  // forces at the extended unknowns [N]
   };
 
@@ -124,7 +124,7 @@ class NodalForce {
 
  private:
   void prepare(const DegreesOfFreedom& dofs, Work& work) const {
-    work.corner.resize(dim * per_cell * points_->cells());
+    work.corner.resize(dim * per_cell * points_->cells() + CornerSum::slack);
     work.at_extended.assign(dofs.extended.size(), 0.0);
   }
   // Sums the corners' forces into R and reactions, by all threads of the calling team.

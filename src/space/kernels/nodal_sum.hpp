@@ -21,7 +21,7 @@ template <int Components, AxisBasis B, Kinematics K, class AddCell>
 std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>&,
                               const CornerSum& corner_sum, const AddCell& add_cell) {
   constexpr int per_cell = PointWeights<B, K>::per_cell;
-  std::vector<double> of_corners(Components * per_cell * points.cells());
+  std::vector<double> of_corners(Components * per_cell * points.cells() + CornerSum::slack);
   for_each_block(points.cells(), [&](std::size_t k) {
     Corners<Components, per_cell> corners{};
     add_cell(k, corners);

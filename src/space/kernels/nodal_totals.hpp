@@ -35,7 +35,7 @@ class NodalTotals {
  public:
   /// Makes the weights, and the sums of each cell's points at its corners. wave_modulus: λ + 2μ of each material [Pa].
   void begin(const Grid<dim>& grid, const Points& points, Weights& weights, const std::vector<double>& wave_modulus) {
-    of_corners_.resize(terms * per_cell * points.cells());
+    of_corners_.resize(terms * per_cell * points.cells() + CornerSum::slack);
     moves_ = !points.v[0].empty();
     weights.rebuild(grid, points, [&](std::size_t k) {
       const double A = wave_modulus[static_cast<std::size_t>(points.material_of_cell(k))];

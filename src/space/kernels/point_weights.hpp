@@ -145,10 +145,11 @@ class PointWeights final : public PointFunctions<dimensions(K)> {
     if constexpr (keeps_positions) return position_[axis][p];
     return (points_->x[axis][p] - cell_[k].left[axis]) * cell_[k].inverse_side[axis];
   }
-  /// The positions in the cell of eight points from p on; the values of points past the end of the cell are arbitrary.
-  [[gnu::always_inline]] Lanes<8> eight_in_cell(std::size_t axis, std::size_t k, std::size_t p) const {
+  /// The distances from the cell's corner of eight points from p on [m]; the values of points past the end of the cell
+  /// are arbitrary.
+  [[gnu::always_inline]] Lanes<8> eight_from_corner(std::size_t axis, std::size_t k, std::size_t p) const {
     const auto x = Lanes<8>::load_first(points_->x[axis].data() + p, points_->size() - p);
-    return x.plus(-cell_[k].left[axis]).times(cell_[k].inverse_side[axis]);
+    return x.plus(-cell_[k].left[axis]);
   }
   /// The positions in their cells of all points, (P + slack); only if keeps_positions.
   const double* position_in_cell(int axis) const { return position_[static_cast<std::size_t>(axis)].data(); }
