@@ -50,7 +50,36 @@ struct Dual {
   }
 };
 
+/// A number with its derivative along one direction. As it is two numbers and no array, and all of it is inlined, a
+/// loop over points is vectorised with it.
+struct Directional {
+  double value = 0, rate = 0;
+
+  constexpr Directional() = default;
+  constexpr Directional(double constant) : value(constant) {}  // NOLINT(google-explicit-constructor): as above
+  constexpr Directional(double v, double dv) : value(v), rate(dv) {}
+
+  [[gnu::always_inline]] friend constexpr Directional operator+(const Directional& a, const Directional& b) {
+    return {a.value + b.value, a.rate + b.rate};
+  }
+  [[gnu::always_inline]] friend constexpr Directional operator-(const Directional& a, const Directional& b) {
+    return {a.value - b.value, a.rate - b.rate};
+  }
+  [[gnu::always_inline]] friend constexpr Directional operator*(const Directional& a, const Directional& b) {
+    return {a.value * b.value, a.rate * b.value + a.value * b.rate};
+  }
+  [[gnu::always_inline]] friend constexpr Directional operator/(const Directional& a, const Directional& b) {
+    const double inverse = 1 / b.value, quotient = a.value * inverse;
+    return {quotient, (a.rate - quotient * b.rate) * inverse};
+  }
+  [[gnu::always_inline]] friend Directional sqrt(const Directional& a) {
+    const double root = std::sqrt(a.value);
+    return {root, 0.5 * a.rate / root};
+  }
+};
+
 constexpr double value_of(double x) { return x; }
+constexpr double value_of(const Directional& x) { return x.value; }
 template <std::size_t N>
 constexpr double value_of(const Dual<N>& x) {
   return x.value;

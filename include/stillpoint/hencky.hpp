@@ -56,7 +56,21 @@ class Hencky {
       const LogStrain ln = log_strain(H);
       // δτ = 2 μ δe + λ tr(δe) I
       const auto rate = ln.rate();
-      return moduli_of_rate<S>(F, kirchhoff(ln), [&](const Tensor& l) { return stress(rate(l), trace(l)); });
+      return moduli_of_rate<S>(F, stress(ln.strain_of_one(), ln.J),
+                               [&](const Tensor& l) { return stress(rate(l), trace(l)); });
+    }
+  }
+
+  /// δP under δH, of many points together faster than by their moduli.
+  [[gnu::always_inline]] Gradient<S> rate(const Gradient<S>& H, const Gradient<S>& dH) const {
+    if constexpr (dimensions(S) == 1) {
+      return {moduli(H)[0] * dH[0]};
+    } else {
+      const Tensor F_inverse = inverse(deformation_gradient<S>(H)), l = displacement_gradient<S>(dH) * F_inverse;
+      const LogStrain ln = log_strain(H);
+      const auto e = ln.strain_and_rate(l);
+      return gradient_part<S>((stress(e.rate, trace(l)) - stress(e.strain, ln.J) * transpose(l)) *
+                              transpose(F_inverse));
     }
   }
 

@@ -13,6 +13,12 @@
 
 namespace stillpoint {
 
+/// A strain e and its rate δe.
+template <class Tensor>
+struct StrainAndRate {
+  Tensor strain, rate;
+};
+
 // The strain in the plane, with the mean m = tr₂ b/2 of the eigenvalues b₁, b₂ = m ± r of b, r = ‖dev₂ b‖/√2 and x =
 // r/m,
 //   ln b = ½ ln(b₁ b₂) I + a/m dev₂ b,   a = artanh(x)/x = 1 + x²/3 + x⁴/5 + …,
@@ -43,7 +49,9 @@ struct PlaneLogStrain {
     slope = close ? series_slope(y) : exact_slope;
   }
 
+  PlaneTensor strain_of_one() const { return strain(); }
   PlaneTensor strain() const { return PlaneTensor{plane / 2, 0, 0, plane / 2, zz} + a / (2 * m) * dev; }
+  StrainAndRate<PlaneTensor> strain_and_rate(const PlaneTensor& l) const { return {strain(), rate(l)}; }
 
   auto rate() const {
     return [this](const PlaneTensor& l) { return rate(l); };
@@ -87,7 +95,7 @@ struct PlaneLogStrain {
 template <class Number>
 [[gnu::always_inline]] inline SpaceTensorOf<Number> root_of_unit_plus(const SpaceTensorOf<Number>& B) {
   using std::sqrt;
-  const SpaceTensorOf<Number> unit{1, 0, 0, 0, 1, 0, 0, 0, 1}, C = unit + B, C2 = C * C;
+  const SpaceTensorOf<Number> C = unit_plus(B), C2 = C * C;
   const Number I1 = trace(C), I2 = (I1 * I1 - trace(C2)) / 2, i3 = sqrt(determinant(C));
   const auto substituted = [&](const Number& i1) { return sqrt(I1 + 2 * sqrt(I2 + 2 * i3 * i1)); };
   const auto newton = [&](const Number& i1) {
@@ -96,31 +104,43 @@ template <class Number>
   };
   const Number upper = sqrt(3 * I1);
   const Number i1 = newton(newton(newton(substituted(substituted(upper))))), i2 = (i1 * i1 - I1) / 2;
-  const SpaceTensorOf<Number> Y = (1 / (i1 * i2 - i3)) * ((i1 * i3) * unit + (i1 * i1 - i2) * C - C2);
-  return B * inverse(unit + Y);
+  const SpaceTensorOf<Number> Y = (1 / (i1 * i2 - i3)) * sphere_plus(i1 * i3, (i1 * i1 - i2) * C - C2);
+  return B * inverse(unit_plus(Y));
 }
 
-/// The series I/(2n + 1) + Z²/(2n + 3) + …, up to the power 16 of Z if n = 0.
+/// The product with Z of the series I/(2n + 1) + Z²/(2n + 3) + …, up to the power 16 of Z if n = 0.
 template <int n, class Tensor>
-[[gnu::always_inline]] inline Tensor artanh_series(const Tensor& unit, const Tensor& Z2) {
+[[gnu::always_inline]] inline Tensor times_artanh_series(const Tensor& Z, const Tensor& Z2) {
   if constexpr (n == 8) {
-    return (1.0 / (2 * n + 1)) * unit;
+    return (1.0 / (2 * n + 1)) * Z;
   } else {
-    return (1.0 / (2 * n + 1)) * unit + artanh_series<n + 1>(unit, Z2) * Z2;
+    return (1.0 / (2 * n + 1)) * Z + times_artanh_series<n + 1>(Z, Z2) * Z2;
   }
 }
 
-/// The logarithm ln(I + B), with B as above. Four square roots bring stretches between 0.1 and 10 to within a seventh
-/// of 1, where the logarithm's series is short:
+/// The logarithm of I + X for an X below a seventh, where the series is short:
 ///
-///   ln(I + B) = 2⁴ · 2 artanh Z,   Z = X (2 I + X)⁻¹,   X = (I + B)^(1/16) − I,   artanh Z = Z + Z³/3 + Z⁵/5 + …
+///   ln(I + X) = 2 artanh Z,   Z = X (2 I + X)⁻¹,   artanh Z = Z + Z³/3 + Z⁵/5 + …
+template <class Number>
+[[gnu::always_inline]] inline SpaceTensorOf<Number> log_near_unit(const SpaceTensorOf<Number>& X) {
+  const SpaceTensorOf<Number> Z = X * inverse(sphere_plus(2.0, X));
+  return 2.0 * times_artanh_series<0>(Z, Z * Z);
+}
+
+/// The logarithm ln(I + B), with B as above. Four square roots bring stretches between 0.1 and 10 to within a seventh
+/// of 1: ln(I + B) = 2⁴ ln (I + B)^(1/16).
 template <class Number>
 [[gnu::always_inline]] inline SpaceTensorOf<Number> log_of_unit_plus(const SpaceTensorOf<Number>& B) {
-  const SpaceTensorOf<Number> unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const SpaceTensorOf<Number> X = root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(B))));
-  const SpaceTensorOf<Number> Z = X * inverse(unit + unit + X);
-  constexpr double scale = 2 * 16;
-  return scale * (artanh_series<0>(unit, Z * Z) * Z);
+  return 16.0 * log_near_unit(root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(root_of_unit_plus(B)))));
+}
+
+/// The same to rounding; where B is small, without a root. It branches, and is for one point at a time.
+template <class Number>
+SpaceTensorOf<Number> log_of_one(const SpaceTensorOf<Number>& B) {
+  constexpr double small = 0.1;  // of the Frobenius norm
+  const auto square = [](const Number& x) { return value_of(x) * value_of(x); };
+  const double norm2 = square(B.xx) + square(B.yy) + square(B.zz) + 2 * (square(B.xy) + square(B.yz) + square(B.zx));
+  return norm2 < small * small ? log_near_unit(B) : log_of_unit_plus(B);
 }
 
 struct SpaceLogStrain {
@@ -131,6 +151,20 @@ struct SpaceLogStrain {
       : B(left_strain(H)), J(logarithm(determinant(unit_plus(H)), change_of_volume(H, cofactor(H)))) {}
 
   SpaceTensor strain() const { return 0.5 * log_of_unit_plus(B); }
+  /// The strain of one point at a time.
+  SpaceTensor strain_of_one() const { return 0.5 * log_of_one(B); }
+
+  /// The strain, and its rate for δb = l b + b lᵀ.
+  [[gnu::always_inline]] StrainAndRate<SpaceTensor> strain_and_rate(const SpaceTensor& l) const {
+    const SpaceTensor half = l + l * B, db = half + transpose(half);
+    const Directional xx(B.xx, db.xx), yy(B.yy, db.yy), zz(B.zz, db.zz), xy(B.xy, db.xy), yz(B.yz, db.yz),
+        zx(B.zx, db.zx);
+    const auto ln = log_of_unit_plus(SpaceTensorOf<Directional>{xx, xy, zx, xy, yy, yz, zx, yz, zz});
+    return {0.5 * SpaceTensor{ln.xx.value, ln.xy.value, ln.xz.value, ln.yx.value, ln.yy.value, ln.yz.value, ln.zx.value,
+                              ln.zy.value, ln.zz.value},
+            0.5 * SpaceTensor{ln.xx.rate, ln.xy.rate, ln.xz.rate, ln.yx.rate, ln.yy.rate, ln.yz.rate, ln.zx.rate,
+                              ln.zy.rate, ln.zz.rate}};
+  }
 
   /// The strain rates δe for δb = l b + b lᵀ, for any number of l: Σ_k ∂e/∂b_k δb_k, b_k = b_xx, b_yy, b_zz, b_xy,
   /// b_yz, b_zx, where one evaluation with Duals gives all ∂e/∂b_k.
@@ -145,7 +179,7 @@ struct SpaceLogStrain {
       };
       const Six xx = variable(B.xx, 0), yy = variable(B.yy, 1), zz = variable(B.zz, 2), xy = variable(B.xy, 3),
                 yz = variable(B.yz, 4), zx = variable(B.zx, 5);
-      const SpaceTensorOf<Six> ln = log_of_unit_plus(SpaceTensorOf<Six>{xx, xy, zx, xy, yy, yz, zx, yz, zz});
+      const SpaceTensorOf<Six> ln = log_of_one(SpaceTensorOf<Six>{xx, xy, zx, xy, yy, yz, zx, yz, zz});
       for (std::size_t k = 0; k < 6; ++k) {
         const auto half = [k](const Six& x) { return x.derivative[k] / 2; };
         slopes_[k] = {half(ln.xx), half(ln.xy), half(ln.xz), half(ln.yx), half(ln.yy),

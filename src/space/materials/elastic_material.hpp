@@ -55,14 +55,34 @@ class ElasticMaterial : public LawMaterialBase<Law> {
           return push(plus_identity<K>(H_0), law.first_piola(total(H_0, block.H_at(q))));
         });
   }
-  // For a law with P linear in H, δP = P(δH).
+  // For a law with P linear in H, δP = P(δH). A law with a rate is quicker by that than by its moduli.
   [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
-    if constexpr (Law::finite_strain) return Base::tangent(kind, block, V, dt);
     const Law law = law_;
-    loop(
-        block, V, [ law, &block ](std::size_t q) __attribute__((always_inline)) {
-          return law.first_piola(block.direction_at(q));
-        });
+    if constexpr (!Law::finite_strain) {
+      loop(
+          block, V, [ law, &block ](std::size_t q) __attribute__((always_inline)) {
+            return law.first_piola(block.direction_at(q));
+          });
+    } else if constexpr (requires(Tensor H) { law.rate(H, H); }) {
+      if (!moved()) {
+        loop(
+            block, V, [ law, &block ](std::size_t q) __attribute__((always_inline)) {
+              return law.rate(block.H_at(q), block.direction_at(q));
+            });
+        return;
+      }
+      const double* of_block = memory_.data() + block.first - begin_;
+      const std::size_t n = count_;
+      loop(
+          block, V, [ law, &block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
+            Tensor H_0;
+            unroll<components>([&](auto c) __attribute__((always_inline)) { H_0[c] = of_block[n * c + q]; });
+            const Tensor F_0 = plus_identity<K>(H_0);
+            return push(F_0, law.rate(total(H_0, block.H_at(q)), product<K>(block.direction_at(q), F_0)));
+          });
+    } else {
+      Base::tangent(kind, block, V, dt);
+    }
   }
   double committed_stress(Block& block, const double* V) const override { return stress(block, V, 0, nullptr); }
   void commit(std::vector<double>&) override {}

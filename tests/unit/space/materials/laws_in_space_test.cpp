@@ -128,6 +128,7 @@ TEST_CASE("the logarithm of a tensor is that of its eigenvalues, from 1e-2 to 1e
     // Invariants of the tensor, rounded beside its largest eigenvalue, lose the square of their ratio.
     const double ratio = values.maxCoeff() / values.minCoeff();
     CHECK((found - exact).norm() <= 1e-14 + 1e-17 * ratio * ratio + 1e-13 * exact.norm());
+    CHECK((matrix_of(log_of_one(tensor_of(B))) - exact).norm() <= 1e-14 + 1e-17 * ratio * ratio + 1e-13 * exact.norm());
   }
 }
 
@@ -135,6 +136,40 @@ TEST_CASE("the logarithm of a small strain keeps its digits") {
   const SpaceTensor B{1e-9, 2e-10, -3e-10, 2e-10, -4e-9, 1e-9, -3e-10, 1e-9, 2e-9};
   const Eigen::Matrix3d b = matrix_of(B), exact = b - b * b / 2 + b * b * b / 3;
   CHECK((matrix_of(log_of_unit_plus(B)) - exact).norm() <= 1e-15 * exact.norm());
+  CHECK((matrix_of(log_of_one(B)) - exact).norm() <= 1e-15 * exact.norm());
+}
+
+TEST_CASE("the logarithm of one point is the same on both sides of the strain from which it takes roots") {
+  const SpaceTensor direction{0.5, 0.2, -0.3, 0.2, -0.4, 0.1, -0.3, 0.1, 0.6};
+  const double norm = matrix_of(direction).norm();
+  for (const double size : {0.0999, 0.1001}) {
+    const SpaceTensor B = size / norm * direction;
+    const Eigen::Matrix3d by_roots = matrix_of(log_of_unit_plus(B));
+    CHECK((matrix_of(log_of_one(B)) - by_roots).norm() <= 1e-14 * by_roots.norm());  // four roots round
+  }
+}
+
+TEMPLATE_TEST_CASE("the rate of an elastic law is that of its moduli, at small and large strains", "", Hencky<space>,
+                   NeoHookean<space>, Hencky<plane_strain>, NeoHookean<plane_strain>, Hencky<axisymmetric>,
+                   NeoHookean<axisymmetric>, Hencky<StressState::plane_stress>, NeoHookean<StressState::plane_stress>) {
+  constexpr StressState S = TestType::state;
+  constexpr int n = gradient_components(S);
+  const TestType law({.lambda = 1.5, .mu = 1});
+  Gradient<S> dH;
+  for (int a = 0; a < n; ++a) dH[a] = 0.3 - 0.11 * a;
+  for (const double size : {0.0, 1e-9, 1e-3, 1.0}) {
+    for (Gradient<S> H : checks::deformations<S>()) {
+      CAPTURE(size);
+      for (double& h : H) h *= size;
+      const auto A = law.moduli(H);
+      const Gradient<S> rate = law.rate(H, dH);
+      for (int a = 0; a < n; ++a) {
+        double expected = 0, scale = 0;
+        for (int b = 0; b < n; ++b) expected += A[n * a + b] * dH[b], scale += std::abs(A[n * a + b] * dH[b]);
+        CHECK(std::abs(rate[a] - expected) <= 1e-12 * scale);  // roots, and products in another order
+      }
+    }
+  }
 }
 
 TEMPLATE_TEST_CASE("a law without history in space is not a number where the body is turned inside out", "",
