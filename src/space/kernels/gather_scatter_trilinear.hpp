@@ -1,31 +1,26 @@
-// Gather and scatter in trilinear cells, without weights. With the position (x, y, z) of a point from the corner of its
-// cell a displacement is
+// Gather and scatter in trilinear cells, without weights. With the coefficients of a displacement
 //
-//   u = c + c_x x + c_y y + c_z z + c_xy xy + c_yz yz + c_zx zx + c_xyz xyz,   ∂u/∂x = c_x + c_xy y + c_zx z + c_xyz
-//   yz, …
+//   ∂u/∂x = c_x + c_xy y + c_zx z + c_xyz yz,   …
 //
 // so that the combinations of the corners are computed once a cell, and points are taken eight at a time. The scatter
 // is the transpose: the forces conjugate to these coefficients,
 //
 //   f_x = Σ_p V P_x,   f_xy = Σ_p (V P_x y + V P_y x),   f_xyz = Σ_p (V P_x yz + V P_y zx + V P_z xy),   …
 //
-// are summed over eight points at a time, and then go to the corners as the coefficients came from them. A coefficient
-// has a number m, whose bits are the axes that it has.
+// are summed over eight points at a time, and then go to the corners as the coefficients came from them.
 #pragma once
 
 #include <type_traits>
 
 #include "space/kernels/gather_scatter.hpp"
+#include "space/kernels/trilinear.hpp"
 
 namespace stillpoint {
 
 template <>
-struct GatherScatter<BSpline<1>, Kinematics::space> {
-  using Weights = PointWeights<BSpline<1>, Kinematics::space>;
+struct GatherScatter<BSpline<1>, Kinematics::space> : Trilinear {
   using Block = PointBlock<Kinematics::space>;
   using Rows = Block::Rows;
-  static constexpr int dim = 3, corners = 8;
-  static constexpr int lanes = 8;  // points at a time: the last of them may lie past the cell's end
   static_assert(Block::slack >= lanes - 1 && Weights::slack >= lanes - 1);
   using Eight = Lanes<8>;
   using Four = Lanes<4>;
@@ -35,24 +30,18 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
                      const double* u_before, std::size_t first, Rows& H, Rows& dH) {
     // The displacement of a corner, followed by its increment.
     using Corner = std::conditional_t<Increments, Eight, Four>;
-    const auto corner = [&](auto a) __attribute__((always_inline)) {
-      const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
-      const Four now = components<a == corners - 1>(u + at);
+    std::array<Corner, corners> c;
+    unroll<corners>([&](auto a) __attribute__((always_inline)) {
+      const Four now = at_corner(weights, k, a, u);
       if constexpr (Increments) {
-        return joined(now, now.minus(components<a == corners - 1>(u_before + at)));
+        c[a] = joined(now, now.minus(at_corner(weights, k, a, u_before)));
       } else {
-        return now;
+        c[a] = now;
       }
-    };
-    std::array<Corner, corners> c;  // [m]: the coefficient of ξ, η, ζ to the powers of the bits of m
-    unroll<corners>([&](auto a) __attribute__((always_inline)) { c[a] = corner(a); });
-    unroll<dim>([&](auto d) __attribute__((always_inline)) {
-      unroll<corners>([&](auto m) __attribute__((always_inline)) {
-        if constexpr ((m >> d & 1) != 0) c[m] = c[m].minus(c[m ^ (1 << d)]);
-      });
     });
+    to_coefficients(c);
     const auto per_sides = inverse_products(weights, k);
-    Coefficients<Increments> in_memory;
+    Coefficients<Increments ? 8 : 4> in_memory;
     unroll<corners - 1>([&](auto m) __attribute__((always_inline)) {
       c[m + 1].times(per_sides[m + 1]).store(in_memory[m + 1].data());
     });
@@ -74,11 +63,7 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
     unroll<corners - 1>([&](auto m) __attribute__((always_inline)) {
       of_corner[m + 1] = sums(f[m + 1][0], f[m + 1][1], f[m + 1][2]).times(per_sides[m + 1]);
     });
-    unroll<dim>([&](auto d) __attribute__((always_inline)) {
-      unroll<corners>([&](auto m) __attribute__((always_inline)) {
-        if constexpr ((m >> d & 1) == 0) of_corner[m] = of_corner[m].minus(of_corner[m | 1 << d]);
-      });
-    });
+    to_corners(of_corner);
     // A store of four numbers is followed by one that begins with the fourth, but the last: what follows is not ours.
     unroll<corners - 1>([&](auto a) __attribute__((always_inline)) { of_corner[a].store(corner + dim * a); });
     unroll<dim>([&](auto i)
@@ -86,18 +71,6 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
   }
 
  private:
-  /// x, y and z of eight points from the corner of their cell, and for each axis the product of the two others.
-  struct Positions {
-    std::array<Eight, dim> along, product;
-
-    [[gnu::always_inline]] Positions(const Weights& weights, std::size_t k, std::size_t p) {
-      unroll<dim>([&](auto d) __attribute__((always_inline)) { along[d] = weights.eight_from_corner(d, k, p); });
-      unroll<dim>([&](auto d) __attribute__((always_inline)) {
-        product[d] = along[(d + 1) % dim].times(along[(d + 2) % dim]);
-      });
-    }
-  };
-
   // [m][i]: the force conjugate to coefficient m of component i, of a point in each lane; none for m = 0.
   using Conjugates = std::array<std::array<Eight, dim>, corners>;
 
@@ -124,17 +97,11 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
     return f;
   }
 
-  // [m]: the coefficients that a coordinate has, for each component of a displacement, and from the fourth entry on of
-  // its increment; none for m = 0.
+  // Entries past the end of the cell belong to the next one, which overwrites them, or are unused. Inlined, it would
+  // have all coefficients in registers.
   template <bool Increments>
-  struct alignas(64) Coefficients : std::array<std::array<double, Increments ? 8 : 4>, corners> {};
-
-  // Entries past the end of the cell belong to the next one, which overwrites them, or are unused. Inlined, the
-  // coefficients would be moved into registers, more than there are; an instruction takes one from memory for all
-  // points.
-  template <bool Increments>
-  [[gnu::noinline]] static void gather_eight(const Coefficients<Increments>& c, const Positions& at, std::size_t q,
-                                             Rows& H, Rows& dH) {
+  [[gnu::noinline]] static void gather_eight(const Coefficients<Increments ? 8 : 4>& c, const Positions& at,
+                                             std::size_t q, Rows& H, Rows& dH) {
     const auto derivatives = [&](int component, Rows& rows, int i) __attribute__((always_inline)) {
       std::array<double, corners> of;  // copied first: as far as the compiler knows, rows and coefficients may overlap
       unroll<corners - 1>([&](auto m) __attribute__((always_inline)) { of[m + 1] = c[m + 1][component]; });
@@ -149,21 +116,6 @@ struct GatherScatter<BSpline<1>, Kinematics::space> {
       derivatives(i, H, i);
       if constexpr (Increments) derivatives(4 + i, dH, i);
     });
-  }
-
-  // [m]: the product of 1/h_x, 1/h_y and 1/h_z to the powers of the bits of m.
-  [[gnu::always_inline]] static std::array<double, corners> inverse_products(const Weights& weights, std::size_t k) {
-    const auto [x, y, z] = weights.cell(k).inverse_side;
-    return {1, x, y, x * y, z, x * z, y * z, x * y * z};
-  }
-
-  // The three components of a function, and any number. The array may end with the last corner, whose components are
-  // taken with the number before them.
-  template <bool is_last>
-  [[gnu::always_inline]] static Four components(const double* of_function) {
-    if constexpr (!is_last) return Four::load(of_function);
-    const Four from = Four::load(of_function - 1);
-    return {__builtin_shufflevector(from.lanes, from.lanes, 1, 2, 3, 3)};
   }
 };
 

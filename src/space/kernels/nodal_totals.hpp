@@ -20,6 +20,7 @@
 #include "base/lanes.hpp"
 #include "base/parallel_loop.hpp"
 #include "space/kernels/nodal_sum.hpp"
+#include "space/kernels/trilinear.hpp"
 
 namespace stillpoint {
 
@@ -30,6 +31,7 @@ class NodalTotals {
   static constexpr int per_cell = Weights::per_cell;
   static constexpr int rows = Weights::rows;
   static constexpr int terms = 2 + dim;  // m, G and m v
+  static constexpr bool is_trilinear = Weights::from_positions && dim == 3;
   using Points = MaterialPoints<dim>;
 
  public:
@@ -109,8 +111,71 @@ class NodalTotals {
     return Some::load_first(of_functions + lanes * Chunk, Chunk + 1 < chunks ? lanes : in_last);
   }
 
+  // The sums of a trilinear cell, eight points at a time, each a product of positive factors: a function that its
+  // points hardly reach has a small mass with all its digits.
+  void add_points_of_trilinear_cell(const Points& points, const Weights& weights, std::size_t k, double A,
+                                    double* corners) const requires(is_trilinear) {
+    using Eight = Lanes<8>;
+    const auto& cell = weights.cell(k);
+    std::array<Some, per_cell> inertia{};    // m and m v at each corner
+    std::array<Some, per_cell / 4> bound{};  // G at four corners each
+    const std::size_t end = points.end(k);
+    for (std::size_t p = points.begin(k); p < end; p += Trilinear::lanes) {
+      const std::size_t count = end - p;
+      const auto row = [&](const std::vector<double>& values) __attribute__((always_inline)) {
+        return Eight::load_first(values.data() + p, count);
+      };
+      const Eight m = row(points.mass);
+      std::array<Eight, dim> momentum{};
+      if (moves_) unroll<dim>([&](auto i) __attribute__((always_inline)) { momentum[i] = m.times(row(points.v[i])); });
+      // [d][upper]: the factor 1 − ξ_d or ξ_d, and its square
+      std::array<std::array<Eight, 2>, dim> factor, square;
+      unroll<dim>([&](auto d) __attribute__((always_inline)) {
+        factor[d][1] = weights.eight_from_corner(d, k, p).times(cell.inverse_side[d]);
+        factor[d][0] = factor[d][1].times(-1).plus(1);
+        unroll<2>([&](auto upper)
+                      __attribute__((always_inline)) { square[d][upper] = factor[d][upper].times(factor[d][upper]); });
+      });
+      std::array<Eight, per_cell> length;  // |∇N_a|
+      Eight together{};
+      unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+        constexpr int i = a & 1, j = a >> 1 & 1, l = a >> 2;
+        const auto along = [&](int d, const Eight& e, const Eight& f) __attribute__((always_inline)) {
+          const double per_side = cell.inverse_side[static_cast<std::size_t>(d)];
+          return e.times(f).times(per_side * per_side);
+        };
+        length[a] = along(0, square[1][j], square[2][l])
+                        .plus(along(1, square[0][i], square[2][l]))
+                        .plus(along(2, square[0][i], square[1][j]))
+                        .root();
+        together = together.plus(length[a]);
+        const Eight N = factor[0][i].times(factor[1][j]).times(factor[2][l]);
+        const auto sum = [&](const Eight& of_points) __attribute__((always_inline)) {
+          return halves_added(N.times(of_points));
+        };
+        inertia[a] = inertia[a].plus(sums(sum(m), sum(momentum[0]), sum(momentum[1]), sum(momentum[2])));
+      });
+      const Eight G = row(points.volume).times(A).times(together);
+      unroll<per_cell / 4>([&](auto four) __attribute__((always_inline)) {
+        const auto sum = [&](int a) __attribute__((always_inline)) {
+          return halves_added(G.times(length[4 * four + a]));
+        };
+        bound[four] = bound[four].plus(sums(sum(0), sum(1), sum(2), sum(3)));
+      });
+    }
+    for (int a = 0; a < per_cell; ++a) {
+      corners[terms * a] = inertia[a][0];
+      corners[terms * a + 1] = bound[a / 4][a % 4];
+      for (int i = 0; i < dim; ++i) corners[terms * a + 2 + i] = inertia[a][1 + i];
+    }
+  }
+
   // Sums over the cell's points at its corners, (per_cell × terms).
   void add_points(const Points& points, const Weights& weights, std::size_t k, double A, double* corners) const {
+    if constexpr (is_trilinear) {
+      add_points_of_trilinear_cell(points, weights, k, A, corners);
+      return;
+    }
     std::array<OfFunctions, terms> sum{};
     [[maybe_unused]] double cell_mass = 0;
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) {

@@ -14,6 +14,7 @@
 #include "base/lanes.hpp"
 #include "base/parallel_loop.hpp"
 #include "space/kernels/point_weights.hpp"
+#include "space/kernels/trilinear.hpp"
 
 namespace stillpoint {
 
@@ -23,6 +24,7 @@ class PointMotion {
   static constexpr int dim = Weights::dim;
   static constexpr int per_cell = Weights::per_cell;
   static constexpr int lanes = dim == 3 ? 4 : dim, width = 2 * lanes;  // width: u, followed by w
+  static constexpr bool is_trilinear = Weights::from_positions && dim == 3;
   using Points = MaterialPoints<dim>;
   using Corners = std::array<Lanes<width>, per_cell>;
 
@@ -37,6 +39,11 @@ class PointMotion {
       v[d].resize(points.size());
     }
     for_each_block(points.cells(), [&](std::size_t k) {
+      if constexpr (is_trilinear) {
+        find_in_trilinear_cell(points, weights, k, u, w, s);
+        after(k);
+        return;
+      }
       Corners corners;
       unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
         const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
@@ -74,6 +81,41 @@ class PointMotion {
       };
     }
   }
+  // Eight points at a time; what lies past the cell's end belongs to others.
+  void find_in_trilinear_cell(const Points& points, const Weights& weights, std::size_t k, const double* u,
+                              const double* w, double s) requires(is_trilinear) {
+    Corners c;
+    unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+      c[a] = joined(Trilinear::at_corner(weights, k, a, u), Trilinear::at_corner(weights, k, a, w));
+    });
+    Trilinear::to_coefficients(c);
+    const auto per_sides = Trilinear::inverse_products(weights, k);
+    Trilinear::Coefficients<width> in_memory;
+    unroll<per_cell>([&](auto m)
+                         __attribute__((always_inline)) { c[m].times(per_sides[m]).store(in_memory[m].data()); });
+    const std::size_t end = points.end(k);
+    for (std::size_t p = points.begin(k); p < end; p += Trilinear::lanes)
+      find_eight(points, in_memory, Trilinear::Positions(weights, k, p), p, end - p, s);
+  }
+  [[gnu::noinline]] void find_eight(const Points& points, const Trilinear::Coefficients<width>& c,
+                                    const Trilinear::Positions& at, std::size_t p, std::size_t count, double s) {
+    using Eight = Lanes<8>;
+    const auto& [X, Y, Z] = at.along;
+    const auto& [YZ, ZX, XY] = at.product;
+    const Eight XYZ = X.times(YZ);
+    const auto interpolated = [&](int of) __attribute__((always_inline)) {
+      return Eight{c[0][of] + c[1][of] * X.lanes + c[2][of] * Y.lanes + c[3][of] * XY.lanes + c[4][of] * Z.lanes +
+                   c[5][of] * ZX.lanes + c[6][of] * YZ.lanes + c[7][of] * XYZ.lanes};
+    };
+    unroll<dim>([&](auto d) __attribute__((always_inline)) {
+      const Eight before = Eight::load_first(points.x[d].data() + p, count),
+                  v_before = Eight::load_first(points.v[d].data() + p, count);
+      const Eight way = interpolated(d), change = interpolated(lanes + d);
+      before.plus(way).store_first(x[d].data() + p, count);
+      change.plus(v_before.times(s)).store_first(v[d].data() + p, count);
+    });
+  }
+
   template <class Field>
   [[gnu::always_inline]] void find_in_cell(const Points& points, std::size_t begin, std::size_t end, const Field& field,
                                            double s) {
