@@ -154,8 +154,9 @@ int dispatch(int argc, char** argv) {
   scene.required(false)->excludes(&resume);
   resume.excludes(&out)->excludes(run_app.get_option("--set"));
   run_app
-      .add_option("--threads", run_arguments.threads,
-                  "threads to use; auto, the default: all or one, whichever the run finds quicker")
+      .add_option(
+          "--threads", run_arguments.threads,
+          "at most so many threads, and one where that is quicker; auto, the default: all that there are, or one")
       ->transform(CLI::Validator(number_or_auto, ""))
       ->type_name("N|auto");
   run_app.add_flag("--quiet", run_arguments.quiet, "print nothing but errors");

@@ -17,16 +17,13 @@ namespace stillpoint {
 namespace {
 
 // Newton's method does not do the same in one step as in the next, so that their times cannot be compared.
-int threads_asked_for(const RunState& run, int all) {
-  const bool is_newton = run.model.static_method && run.model.static_method->is_newton;
-  return is_newton && run.options.threads == 0 ? all : run.options.threads;
-}
+bool steps_are_alike(const RunState& run) { return !(run.model.static_method && run.model.static_method->is_newton); }
 
 }  // namespace
 
 Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
     : run_(std::make_unique<RunState>(std::move(scene), std::move(options))),
-      thread_choice_(threads_asked_for(*run_, threads), threads),
+      thread_choice_(run_->options.threads, threads, steps_are_alike(*run_)),
       watchers_(make_watchers(*run_)) {
   const SimulationOptions& asked = run_->options;
   const bool resumes = !asked.resume.empty();

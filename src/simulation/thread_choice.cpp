@@ -12,8 +12,6 @@
 namespace stillpoint {
 namespace {
 
-constexpr int turns = 4;
-
 // The time of a loop over a vector that stays in the cache. It is repeated for longer than a program is let run at
 // once.
 double seconds_of_loops(std::vector<double>& x, int threads, double at_least) {
@@ -68,7 +66,8 @@ void ThreadChoice::observe(double seconds) {
 void ThreadChoice::end_trial() {
   trial_ = turns;
   of_one_ = timings_[0].mean();
-  const int before = std::exchange(best_, timings_[1].mean() < least_gain * of_one_ ? all_ : 1);
+  const double largest_share = is_asked_ ? 1 : least_gain;
+  const int before = std::exchange(best_, timings_[1].mean() < largest_share * of_one_ ? all_ : 1);
   interval_ = best_ == before ? std::min(2 * interval_, longest_s) : shortest_s;
   until_trial_ = interval_;
   since_ = {};
@@ -76,8 +75,7 @@ void ThreadChoice::end_trial() {
 
 int threads_to_begin_with(int asked, double points) {
   constexpr double large_body = 5000;  // whose set-up takes longer than this trial
-  const int all = omp_get_max_threads();
-  if (asked > 0) return asked;
+  const int all = asked > 0 ? asked : omp_get_max_threads();
   if (all == 1 || points < large_body) return all;
   constexpr double at_least = 0.006;  // [s]
   std::vector<double> x(1 << 16);

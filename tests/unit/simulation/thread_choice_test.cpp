@@ -52,17 +52,33 @@ TEST_CASE("a program that comes and goes is noticed: never much slower than one 
   CHECK(speed(choice, 60, step) > 0.85 * (40 * alone + 20) / 60);
 }
 
-TEST_CASE("where more threads are no gain there is one, and what the user asks for is not tried again") {
+TEST_CASE("where more threads are no gain there is one") {
   ThreadChoice choice(0, 2);
   speed(choice, 10, [](int, double) { return 1e-5; });
   CHECK(choice.threads() == 1);
   CHECK(choice.usual() == 1);
-  for (const int asked : {1, 3}) {
-    ThreadChoice fixed(asked, 2);
-    speed(fixed, 1, [](int threads, double) { return threads == 1 ? 1e-3 : 1e-2; });
-    CHECK(fixed.threads() == asked);
-    CHECK(fixed.usual() == asked);
-  }
   ThreadChoice only(0, 1);
   CHECK(only.threads() == 1);
+}
+
+TEST_CASE("a number of threads that was asked for is taken from the first step on, and while it is quicker than one") {
+  ThreadChoice choice(3, 2);
+  CHECK(choice.usual() == 3);
+  for (int step = 0; step < 50; ++step) {
+    CHECK(choice.threads() == 3);
+    choice.observe(1e-3);
+  }
+  CHECK(speed(choice, 60, [](int threads, double) { return threads == 1 ? 1e-3 : 0.98e-3; }) > 1);
+  CHECK(choice.usual() == 3);
+  ThreadChoice one(1, 2);
+  CHECK(speed(one, 1, [](int threads, double) { return threads == 1 ? 1e-3 : 1e-4; }) == Approx(1));
+  CHECK(one.usual() == 1);
+}
+
+TEST_CASE("threads that were asked for and hurt are left after a tenth of a second, until they do not") {
+  ThreadChoice choice(2, 2);
+  const auto step = [](int threads, double now) { return threads == 1 ? 1e-3 : (now < 10 ? 8e-3 : 0.55e-3); };
+  CHECK(speed(choice, 10, step) > 0.96);
+  CHECK(choice.usual() == 1);
+  CHECK(speed(choice, 60, [&](int threads, double) { return step(threads, 20); }) > 0.8 / 0.55);
 }
