@@ -82,6 +82,14 @@ struct Lanes {
   [[gnu::always_inline]] double operator[](int k) const { return lanes[k]; }
 };
 
+/// Three numbers, and any other. The array may end with them if is_last, so that the number before them is read.
+template <bool is_last>
+[[gnu::always_inline]] inline Lanes<4> three_components(const double* from) {
+  if constexpr (!is_last) return Lanes<4>::load(from);
+  const auto shifted = Lanes<4>::load(from - 1);
+  return {__builtin_shufflevector(shifted.lanes, shifted.lanes, 1, 2, 3, 3)};
+}
+
 /// The lanes of a, then those of b.
 template <int N>
 [[gnu::always_inline]] inline Lanes<2 * N> joined(const Lanes<N>& a, const Lanes<N>& b) {

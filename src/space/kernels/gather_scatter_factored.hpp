@@ -25,25 +25,21 @@ struct GatherScatter<B, Kinematics::space> {
   template <bool Increments>
   static void gather(const Weights& weights, std::size_t k, std::size_t begin, std::size_t end, const double* u,
                      const double* u_before, std::size_t first, Rows& H, Rows& dH) {
-    Corners corners;
-    const auto for_corners = [&](const auto& visit)
-        __attribute__((always_inline)) {  // calls visit(index of a component, its entry)
-      for (int a = 0; a < per_cell; ++a) {
-        const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
-        for (int i = 0; i < dim; ++i) visit(at + i, corners[i][a]);
-      }
-    };
-    for_corners([&](std::ptrdiff_t at, double& corner) __attribute__((always_inline)) { corner = u[at]; });
-    gather_one(weights, begin, end, first, corners, H);
-    if constexpr (Increments) {
-      for_corners([&](std::ptrdiff_t at, double& corner) __attribute__((always_inline)) { corner -= u_before[at]; });
-      gather_one(weights, begin, end, first, corners, dH);
-    }
+    Corners now, change;
+    unroll<per_cell>([&](auto a) __attribute__((always_inline)) {
+      constexpr bool is_last = a == per_cell - 1;
+      const auto at = dim * static_cast<std::ptrdiff_t>(weights.function(k, a));
+      const auto of_function = three_components<is_last>(u + at);
+      of_function.store(now[a].data());
+      if constexpr (Increments) of_function.minus(three_components<is_last>(u_before + at)).store(change[a].data());
+    });
+    gather_one(weights, begin, end, first, now, H);
+    if constexpr (Increments) gather_one(weights, begin, end, first, change, dH);
   }
 
   static void scatter(const Weights& weights, std::size_t, std::size_t begin, std::size_t end, const Block& block,
                       double* corner) {
-    std::array<std::array<Eight, per_cell>, dim> force{};
+    std::array<std::array<Lanes<4>, per_cell>, dim> force{};  // each the sum of its lanes
     for (std::size_t p = begin; p < end; p += lanes) {
       const Factors at(weights, p);
       const auto stress = [&](int ij) __attribute__((always_inline)) {
@@ -57,8 +53,9 @@ struct GatherScatter<B, Kinematics::space> {
             const Eight with_slope = x_z.times(at.N[1][b]);
             const Eight with_value = y_z.times(at.slope[1][b]).plus_product(z_z, at.N[1][b]);
             unroll<along_axis>([&](auto a) __attribute__((always_inline)) {
-              Eight& sum = force[i][a + along_axis * (b + along_axis * c)];
-              sum = sum.plus_product(with_slope, at.slope[0][a]).plus_product(with_value, at.N[0][a]);
+              Lanes<4>& sum = force[i][a + along_axis * (b + along_axis * c)];
+              const Eight of_points = with_slope.times(at.slope[0][a]).plus_product(with_value, at.N[0][a]);
+              sum = sum.plus(halves_added(of_points));
             });
           });
         });
@@ -66,15 +63,16 @@ struct GatherScatter<B, Kinematics::space> {
     }
     for (int i = 0; i < dim; ++i) {
       for (int a = 0; a < per_cell; a += 4) {
-        const auto lane_sums = [&](int of) { return halves_added(force[i][std::min(of, per_cell - 1)]); };
-        const auto four = sums(lane_sums(a), lane_sums(a + 1), lane_sums(a + 2), lane_sums(a + 3));
+        const auto lanes_of = [&](int of) { return force[i][std::min(of, per_cell - 1)]; };
+        const auto four = sums(lanes_of(a), lanes_of(a + 1), lanes_of(a + 2), lanes_of(a + 3));
         for (int s = 0; s < std::min(4, per_cell - a); ++s) corner[dim * (a + s) + i] = four[s];
       }
     }
   }
 
  private:
-  using Corners = std::array<std::array<double, per_cell>, dim>;
+  // The components of a displacement at each function, and any number.
+  struct alignas(32) Corners : std::array<std::array<double, 4>, per_cell> {};
 
   // The factors of eight points from p on.
   struct Factors {
@@ -103,7 +101,7 @@ struct GatherScatter<B, Kinematics::space> {
           unroll<along_axis>([&](auto b) __attribute__((always_inline)) {
             Eight value{}, slope{};
             unroll<along_axis>([&](auto a) __attribute__((always_inline)) {
-              const double u = corners[i][a + along_axis * (b + along_axis * c)];
+              const double u = corners[a + along_axis * (b + along_axis * c)][i];
               value.add(u, at.N[0][a]);
               slope.add(u, at.slope[0][a]);
             });

@@ -35,18 +35,10 @@ struct Trilinear {
     }
   };
 
-  /// The three components of a function, and any number. The array may end with the last corner of a cell, whose
-  /// components are taken with the number before them.
-  template <bool is_last_corner>
-  [[gnu::always_inline]] static Lanes<4> components(const double* of_function) {
-    if constexpr (!is_last_corner) return Lanes<4>::load(of_function);
-    const auto from = Lanes<4>::load(of_function - 1);
-    return {__builtin_shufflevector(from.lanes, from.lanes, 1, 2, 3, 3)};
-  }
-  /// The components at corner a of cell k; u: over the grid's functions.
+  /// The components at corner a of cell k, and any number; u: over the grid's functions.
   template <class Corner>
   [[gnu::always_inline]] static Lanes<4> at_corner(const Weights& weights, std::size_t k, Corner a, const double* u) {
-    return components<a == corners - 1>(u + dim * static_cast<std::ptrdiff_t>(weights.function(k, a)));
+    return three_components<a == corners - 1>(u + dim * static_cast<std::ptrdiff_t>(weights.function(k, a)));
   }
 
   /// From the corners' values to the coefficients, in a cell of unit sides; and of the forces conjugate to the
