@@ -18,7 +18,7 @@
 namespace stillpoint {
 namespace {
 
-constexpr int block = 2;  // [cells] along each axis
+constexpr int cells_of_block = 2;  // [cells] along each axis
 
 struct Overlap {
   std::size_t a = 0, b = 0;  // bodies
@@ -61,11 +61,11 @@ std::vector<Overlap> overlaps(const Problem& problem, const LagrangianPhase& pha
     std::array<long, 3> number{};
     for (std::size_t d = 0; d < dim; ++d) {
       x[d] = data.initial_positions[dim * p + d] + way[dim * p + d];
-      number[d] = std::lround(std::floor(cells_before(problem.grid, d, x[d]) / block));
+      number[d] = std::lround(std::floor(cells_before(problem.grid, d, x[d]) / cells_of_block));
     }
     const auto body = static_cast<std::size_t>(data.bodies[p]);
     Contents& in = blocks[number];
-    in.filled[body] += share_of_cell(problem, body, x, volume[p]) / std::pow(block, problem.dim);
+    in.filled[body] += share_of_cell(problem, body, x, volume[p]) / std::pow(cells_of_block, problem.dim);
     in.at = std::move(x);
   }
 
@@ -97,7 +97,7 @@ std::string described(const Problem& problem, const Overlap& overlap) {
   return fmt::format(
       "{} and {} have gone through each other, by {} blocks of {} cells a side, as at ({:.4g}): only "
       "parts of borders that were opposite when a phase began press on each other; expected {}",
-      name(overlap.a), name(overlap.b), overlap.blocks, block, fmt::join(overlap.at, ", "), remedy);
+      name(overlap.a), name(overlap.b), overlap.blocks, cells_of_block, fmt::join(overlap.at, ", "), remedy);
 }
 
 class PassedBodies : public Watcher {

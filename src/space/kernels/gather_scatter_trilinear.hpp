@@ -78,8 +78,8 @@ struct GatherScatter<BSpline<1>, Kinematics::space> : Trilinear {
   [[gnu::always_inline]] static Conjugates conjugates(const Weights& weights, std::size_t k, std::size_t p,
                                                       std::size_t end, const Block& block) {
     const Positions at(weights, k, p);
-    const auto& [X, Y, Z] = at.along;
-    const auto& [YZ, ZX, XY] = at.product;
+    const Eight &X = at.along[0], &Y = at.along[1], &Z = at.along[2];
+    const Eight &YZ = at.product[0], &ZX = at.product[1], &XY = at.product[2];
     Conjugates f;
     unroll<dim>([&](auto i) __attribute__((always_inline)) {
       const auto force = [&](int j) __attribute__((always_inline)) {

@@ -100,8 +100,8 @@ class PointMotion {
   [[gnu::noinline]] void find_eight(const Points& points, const Trilinear::Coefficients<width>& c,
                                     const Trilinear::Positions& at, std::size_t p, std::size_t count, double s) {
     using Eight = Lanes<8>;
-    const auto& [X, Y, Z] = at.along;
-    const auto& [YZ, ZX, XY] = at.product;
+    const Eight &X = at.along[0], &Y = at.along[1], &Z = at.along[2];
+    const Eight &YZ = at.product[0], &ZX = at.product[1], &XY = at.product[2];
     const Eight XYZ = X.times(YZ);
     const auto interpolated = [&](int of) __attribute__((always_inline)) {
       return Eight{c[0][of] + c[1][of] * X.lanes + c[2][of] * Y.lanes + c[3][of] * XY.lanes + c[4][of] * Z.lanes +
