@@ -41,7 +41,7 @@ struct SimulationOptions {
   std::filesystem::path out{};  // folder for history.csv, the fields and checkpoints; empty: no files
   /// A checkpoint of the same scene to resume from, with the files in `out`; empty: from the start.
   std::filesystem::path resume{};
-  int threads = 0;  // 0: as many as OpenMP would take, or one where that is quicker
+  int threads = 0;  // at most so many, 0: as many as OpenMP would take; one where that is quicker
   /// True: steps end at the times of rows and snapshots, which are recorded.
   bool records = true;
   /// True: the scene's stop tests end the simulation; otherwise only a failure does.
