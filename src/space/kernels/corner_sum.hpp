@@ -50,7 +50,8 @@ class CornerSum {
       }
       return total;
     } else {
-      using Sum = Lanes<is_register ? Components : 4>;  // a fourth number is summed for nobody
+      // Of three, a fourth number is summed for nobody.
+      using Sum = Lanes<static_cast<int>(std::bit_ceil(static_cast<unsigned>(Components)))>;
       Sum total{};
       for (int c = begin_[function]; c < begin_[function + 1]; ++c) total = total.plus(Sum::load(values_of(c)));
       return total;
