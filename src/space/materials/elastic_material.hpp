@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/inlining.hpp"
 #include "space/materials/law_material.hpp"
 
 namespace stillpoint {
@@ -56,7 +57,7 @@ class ElasticMaterial : public LawMaterialBase<Law> {
         });
   }
   // For a law with P linear in H, δP = P(δH). A law with a rate is quicker by that than by its moduli.
-  [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
+  STILLPOINT_FLATTEN void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
     const Law law = law_;
     if constexpr (!Law::finite_strain) {
       loop(

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/inlining.hpp"
 #include "space/materials/history_base.hpp"
 
 namespace stillpoint {
@@ -53,7 +54,7 @@ class HistoryMaterial final : public HistoryBase<Law> {
           return tensor_of<K>(law.cauchy(now));
         });
   }
-  [[gnu::flatten]] void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
+  STILLPOINT_FLATTEN void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
     if (kind == Tangent::consistent) return Base::tangent(kind, block, V, dt);
     const Law law = law_;
     loop(
