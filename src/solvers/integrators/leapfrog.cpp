@@ -43,14 +43,14 @@ class Leapfrog final : public March {
         next_a_(system.vectors().make(system.size())) {}
 
   // A step ends with the force at its end, unless the step was refused.
-  Known known() const override { return {.force = is_at_state()}; }
+  Known known() const override { return kick_drift_.known(is_at_state()); }
 
  private:
   // M a_0 = Q_0 + D(v_0, Q_0) − C v_0
   bool begin(double t, const Vector& y) override {
     const ConstVec v = second_half(y.span());
     if (!system().damped_out_of_balance(t, first_half(y.span()), v, a_.span())) return false;
-    initial_acceleration_(0, v, a_.span());
+    begin_acceleration(v);
     return true;
   }
 
@@ -58,8 +58,17 @@ class Leapfrog final : public March {
     system().last_out_of_balance(t, a_.span());
     const ConstVec v = second_half(y.span());
     system().add_local_damping(v, a_.span());
-    initial_acceleration_(0, v, a_.span());
+    begin_acceleration(v);
     return true;
+  }
+
+  // Replaces Q_0 + D by a_0.
+  void begin_acceleration(ConstVec v) {
+    if (VelocityOfMomentum* const of = kick_drift_.velocity()) {
+      of->begin(v, a_.span());
+      initial_acceleration_(0, of->v.span(), of->a.span());
+    }
+    initial_acceleration_(0, v, a_.span());
   }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
@@ -70,22 +79,35 @@ class Leapfrog final : public March {
     if (!system().damped_out_of_balance(t + h, u_new, v_new, a_new))
       return {.status = StepReport::Status::inadmissible, .h = h};
     std::atomic<bool> finite = true;
-    acceleration_(h, v_new, a_new, [&](std::size_t begin, std::size_t count) {
-      const double *a_piece = a_new.data() + begin, *u_piece = u_new.data() + begin;
-      double *v_piece = v_new.data() + begin, squares = 0;
+    const auto kick = [&](Vec velocity, Vec acceleration) {
+      acceleration_(h, velocity, acceleration, [&](std::size_t begin, std::size_t count) {
+        const double *a_piece = acceleration.data() + begin, *u_piece = u_new.data() + begin;
+        double *v_piece = velocity.data() + begin, squares = 0;
 #pragma omp simd reduction(+ : squares)
-      for (std::size_t i = 0; i < count; ++i) {
-        v_piece[i] += h / 2 * a_piece[i];
-        squares += v_piece[i] * v_piece[i] + u_piece[i] * u_piece[i];
-      }
-      if (!std::isfinite(squares)) finite = false;
-    });
+        for (std::size_t i = 0; i < count; ++i) {
+          v_piece[i] += h / 2 * a_piece[i];
+          squares += v_piece[i] * v_piece[i] + u_piece[i] * u_piece[i];
+        }
+        if (!std::isfinite(squares)) finite = false;
+      });
+    };
+    if (VelocityOfMomentum* const of = kick_drift_.velocity()) {
+      of->take_force(a_new);
+      kick(of->next_v.span(), of->next_a.span());
+    }
+    kick(v_new, a_new);
     return {.h = h, .is_finite = finite};
   }
 
-  void accepted() override { std::swap(a_, next_a_); }
+  void accepted() override {
+    std::swap(a_, next_a_);
+    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->accept();
+  }
 
-  void archive_memory(const StateArchive& state) override { state("a", a_.span()); }
+  void archive_memory(const StateArchive& state) override {
+    state("a", a_.span());
+    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->archive(state);
+  }
 
   KickDrift kick_drift_;
   DampedAcceleration initial_acceleration_, acceleration_;

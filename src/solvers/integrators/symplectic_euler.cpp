@@ -35,14 +35,22 @@ class SymplecticEuler final : public March {
         a_(system.vectors().make(system.size())) {}
 
   // A step ends with the force at its end, unless the step was refused.
-  Known known() const override { return {.force = is_at_state()}; }
+  Known known() const override { return kick_drift_.known(is_at_state()); }
 
  private:
-  bool begin(double t, const Vector& y) override { return evaluate(t, y.span(), Q_.span()); }
+  bool begin(double t, const Vector& y) override {
+    if (!evaluate(t, y.span(), Q_.span())) return false;
+    begin_velocity(y);
+    return true;
+  }
   bool restart(double t, const Vector& y) override {
     system().last_out_of_balance(t, Q_.span());
     system().add_local_damping(second_half(y.span()), Q_.span());
+    begin_velocity(y);
     return true;
+  }
+  void begin_velocity(const Vector& y) {
+    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->begin(second_half(y.span()), Q_.span());
   }
 
   Attempt attempt(double t, Vector& y, double h, double /*t_stop*/, Vector& trial) override {
@@ -51,8 +59,14 @@ class SymplecticEuler final : public March {
 
     std::ranges::copy(std::as_const(Q_).span(), a.begin());
     acceleration_(h, v, a);
+    VelocityOfMomentum* const of = kick_drift_.velocity();
+    if (of) {
+      std::ranges::copy(std::as_const(of->b).span(), of->a.span().begin());
+      acceleration_(h, of->v.span(), of->a.span());
+    }
     kick_drift_(h, a, h, u, v, u_new, v_new);
     if (!evaluate(t + h, trial.span(), next_Q_.span())) return {.status = StepReport::Status::inadmissible, .h = h};
+    if (of) of->take_force(next_Q_.span());
     return {.h = h};
   }
 
@@ -61,9 +75,15 @@ class SymplecticEuler final : public March {
     return system().damped_out_of_balance(t, first_half(y), second_half(y), Q);
   }
 
-  void accepted() override { std::swap(Q_, next_Q_); }
+  void accepted() override {
+    std::swap(Q_, next_Q_);
+    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->accept();
+  }
 
-  void archive_memory(const StateArchive& state) override { state("Q", Q_.span()); }
+  void archive_memory(const StateArchive& state) override {
+    state("Q", Q_.span());
+    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->archive(state);
+  }
 
   KickDrift kick_drift_;
   DampedAcceleration acceleration_;
