@@ -18,6 +18,11 @@ target_compile_options(stillpoint_flags INTERFACE
   # Files that are compiled as one look like headers, in which nothing nameless should stand.
   $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
 
+# What src/base/inlining.hpp asks for. gcc's own __SANITIZE_ADDRESS__ is lost with a precompiled header.
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  target_compile_definitions(stillpoint_flags INTERFACE STILLPOINT_SANITIZED)
+endif()
+
 find_package(CLI11 CONFIG REQUIRED)  # of the command alone
 set(STILLPOINT_DEPENDENCIES
   fmt::fmt muparser::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json OpenMP::OpenMP_CXX
