@@ -111,6 +111,8 @@ std::string to_json(const Summary& s) {
                      {"plastic_overshoot", number(s.plastic_overshoot)},
                      {"unbalanced_plastic_work", number(s.unbalanced_plastic_work)},
                      {"rate_share", number(s.rate_share)},
+                     {"resting_points", number(s.resting_points)},
+                     {"held_force", number(s.held_force)},
                      {"single_phase_strain", number(s.single_phase_strain)},
                      {"mass_error", number(s.mass_error)},
                      {"momentum_error", number(s.momentum_error)},

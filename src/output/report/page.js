@@ -154,6 +154,8 @@ function runFacts(parent, s) {
   rows.push(
     ["Plastic strain against the forces", s.plastic_overshoot === null ? null : short(s.plastic_overshoot, 3)],
     ["Damping and inertia in the reactions", s.rate_share === null ? null : short(s.rate_share, 3)],
+    ["At rest, on average, and held by at most", s.resting_points === null ? null
+      : `${short(100 * s.resting_points, 3)} % of the points, ${short(100 * s.held_force, 2)} % of the forces around them`],
     ["Plastic work out of balance", s.unbalanced_plastic_work === null ? null : short(s.unbalanced_plastic_work, 3)],
     ["Mass, momentum, angular momentum off by", s.mass_error === null ? null
       : [s.mass_error, s.momentum_error, s.angular_momentum_error].map((value) => short(value, 2)).join(", ")]);

@@ -101,6 +101,10 @@ void add_grid(Tables& tables) {
            [](PhaseSpec& phase) { phase.max_motion = PhaseSpec::never; })
       .key("max_strain", &PhaseSpec::max_strain, "or a displacement gradient since the phase began",
            {.range = kPositive})
+      .key("rest", &PhaseSpec::rest,
+           "parts rest that move by less than this share of the largest motion, while less than this share of the "
+           "forces in them is out of balance; 0: none",
+           {.range = kShare})
       .key("transfer", &PhaseSpec::transfer, "of velocities from grid to points",
            {.words = {"flip", "pic", "apic", "xpic"},
             .fallback = "apic for elastic bodies of domains, if damped; otherwise flip"})

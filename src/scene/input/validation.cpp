@@ -87,6 +87,18 @@ void check_mass(SceneCheck& check, const Scene& scene) {
   if (mass.kind == MassKind::multigrid) check_multigrid(check, scene);
 }
 
+/// Parts rest while others move, and are looked at when a phase ends: where all comes to rest, none does.
+void check_rest(SceneCheck& check, const Scene& scene) {
+  const std::string key = "phase.rest";
+  if (!(scene.phase.rest > 0) || !check.sound(key)) return;
+  check.wrong_if(scene.solve.is_static() || scene.stop.wants_equilibrium(), key,
+                 "is for a motion that goes on until stop.time: the residual of an equilibrium would be that of the "
+                 "moving parts alone; leave it out, or set stop.residual = 0");
+  check.wrong_if(!scene.phase.ends_by_motion(), key, "needs phases that end by motion; set phase.max_motion");
+  check.wrong_if(scene.mass.kind != MassKind::lumped, key, "needs mass.kind = \"lumped\"");
+  check.wrong_if(scene.phase.dilatation != Dilatation::points, key, "needs phase.dilatation = \"points\"");
+}
+
 void check_integrator(SceneCheck& check, const Scene& scene, const StrategyInfo* strategy) {
   const IntegratorSpec& spec = scene.integrator;
   check.wrong_if(spec.step_fraction > 1 && spec.unstable_reason.empty(), "integrator.step_fraction",
@@ -198,6 +210,7 @@ void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading
   const bool grid = check_grid(check, scene);
   const std::optional<NamedBox> body = check_bodies(check, grid, files);
   check_mass(check, scene);
+  check_rest(check, scene);
   check_supports_and_walls(check, grid);
   check_rigid_bodies(check);
   check_contacts(check);

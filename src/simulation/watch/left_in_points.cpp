@@ -88,6 +88,11 @@ class LeftInPoints : public Watcher {
     summary.momentum_error = transfer.momentum;
     summary.angular_momentum_error = transfer.angular_momentum;
     summary.added_mass = transfer.added_mass;
+    if (run.scene.phase.rest > 0) {
+      const RestFigures rest = phase.control().rest_figures();
+      summary.resting_points = rest.points;
+      summary.held_force = rest.held_force;
+    }
     summary.null_space_stress = phase.fields().null_space_stress(run.t, run.motion->u());
     add_note(summary, null_space_note(run.scene, phase, *summary.null_space_stress));
     add_note(summary, lost_motion_note(phase, run.t, run.motion->u(), run.phases));

@@ -32,10 +32,16 @@ class HeldUnknowns {
   /// `from` [m] relative to the grid; owner: the number of the support in its scene, or nobody.
   void prescribe(int unknown, const PrescribedMotion& motion, std::size_t owner, double from = 0) {
     by_[static_cast<std::size_t>(unknown)] = support;
+    if (motion.moves() || motion.displacement(0) != 0 || from != 0) displaced_.push_back(prescribed_.size());
     prescribed_.push_back(unknown);
     motions_.push_back(&motion);
     owners_.push_back(owner);
     from_.push_back(from);
+  }
+  /// Holds an unknown where it is, for the phase.
+  void let_rest(int unknown) {
+    static const PrescribedMotion none(Expression(0.0), 1.0);
+    prescribe(unknown, none, nobody);
   }
   /// Marks an unknown along which a wall acts; it stays free.
   void guide(int unknown) {
@@ -47,6 +53,8 @@ class HeldUnknowns {
   /// The prescribed unknowns in the order in which they were prescribed, and the motion and owner of each.
   const std::vector<int>& prescribed() const { return prescribed_; }
   const PrescribedMotion& motion(std::size_t s) const { return *motions_[s]; }
+  /// The prescribed unknowns whose displacement is not 0 at all times, by their numbers s.
+  const std::vector<std::size_t>& displaced() const { return displaced_; }
   std::size_t owner(std::size_t s) const { return owners_[s]; }
   /// The displacement of prescribed unknown s relative to the grid with which the phase begins, without a strain.
   double from(std::size_t s) const { return from_[s]; }
@@ -69,6 +77,7 @@ class HeldUnknowns {
   double start_ = 0, share_ = 1;
   std::vector<By> by_;  // the condition on each unknown
   std::vector<int> prescribed_;
+  std::vector<std::size_t> displaced_;
   std::vector<const PrescribedMotion*> motions_;
   std::vector<std::size_t> owners_;
   std::vector<double> from_;

@@ -37,6 +37,7 @@ class NodalForce {
   /// The arrays that an evaluation writes to, those of a call at a time.
   struct Work {
     std::vector<double> corner;       // (cells × per_cell × dim), and slack [N]
+    long corners_at_rest_of = 0;      // the division into blocks whose cells at rest have their forces in `corner`
     std::vector<double> at_extended;  // forces at the extended unknowns [N]
   };
 
@@ -45,7 +46,13 @@ class NodalForce {
     points_ = &points;
     weights_ = &weights;
     corner_sum_ = &corner_sum;
-    divide_into_blocks();
+    divide_into_blocks({});
+  }
+  /// Lets cells rest in this phase, (cells): their functions do not move, and their forces stay what they are.
+  void let_rest(const std::vector<char>& cells) { divide_into_blocks(cells); }
+  /// Whether some cells rest whose forces are not in these arrays.
+  bool misses_forces_at_rest(const Work& work) const {
+    return moving_blocks_ < blocks_.size() && work.corners_at_rest_of != divisions_;
   }
 
   // Called once a block of up to 128 points, so that the cost of the call is negligible, and the loops around it are
@@ -57,12 +64,14 @@ class NodalForce {
   /// Computes forces. answer(material number, block) turns block.H (and dH, for u − u_before, if Increments) into
   /// block.VP and returns 0, or NaN if it cannot. u, u_before and, if Directed, the direction that goes to
   /// block.direction: over the grid's functions, component i at [dim function + i]. R: forces at the free degrees of
-  /// freedom, (n); reactions: at the prescribed ones, unless Directed. Returns false if an answer was NaN.
+  /// freedom, (n); reactions: at the prescribed ones, unless Directed. Cells at rest are answered by at_rest, or keep
+  /// the forces that the same arrays have of them if it is null. Returns false if an answer was NaN.
   template <bool Increments, bool Directed = false>
-  bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
-                Vec reactions, Work& work, const double* direction = nullptr) const {
+  bool evaluate(const double* u, const double* u_before, const Answer& answer, const Answer* at_rest,
+                const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work,
+                const double* direction = nullptr) const {
     double bad = 0;
-    const std::size_t blocks = blocks_.size();
+    const std::size_t moving = moving_blocks_, blocks = at_rest ? blocks_.size() : moving;
     prepare(dofs, work);
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
@@ -73,14 +82,22 @@ class NodalForce {
           gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
           if constexpr (Directed)
             gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
-          bad += answer(blocks_[b].material, block);
+          bad += b < moving ? answer(blocks_[b].material, block) : (*at_rest)(blocks_[b].material, block);
           scatter(blocks_[b], block, work.corner.data());
         });
       }
-      sum_corners<Directed>(dofs, R, reactions, work);
+      sum_corners<Directed>(dofs, R, reactions, work, /*all=*/blocks == blocks_.size());
     }
+    if (at_rest) work.corners_at_rest_of = Directed ? 0 : divisions_;
     give_to_sources<Directed>(dofs, R, reactions, work);
     return bad == 0;
+  }
+
+  /// The same with one answer for all cells.
+  template <bool Increments, bool Directed = false>
+  bool evaluate(const double* u, const double* u_before, const Answer& answer, const DegreesOfFreedom& dofs, Vec R,
+                Vec reactions, Work& work, const double* direction = nullptr) const {
+    return evaluate<Increments, Directed>(u, u_before, answer, &answer, dofs, R, reactions, work, direction);
   }
 
   /// As evaluate(), for forces of cells that are known without a law: of_cells(begin, end, corner) writes those of the
@@ -91,6 +108,7 @@ class NodalForce {
     const std::size_t cells = points_->cells(), parts = (cells + together - 1) / together;
     double bad = 0;
     prepare(dofs, work);
+    work.corners_at_rest_of = 0;
 #pragma omp parallel if (points_->size() > points_for_threads)
     {
 #pragma omp for schedule(static) reduction(+ : bad)
@@ -127,14 +145,17 @@ class NodalForce {
     work.corner.resize(dim * per_cell * points_->cells() + CornerSum::slack);
     work.at_extended.assign(dofs.extended.size(), 0.0);
   }
-  // Sums the corners' forces into R and reactions, by all threads of the calling team.
+  // Sums the corners' forces into R and reactions, by all threads of the calling team. all: those of functions whose
+  // cells are all at rest as well.
   template <bool Directed>
-  void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work) const {
+  void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work, bool all = true) const {
     const double* corners = work.corner.data();
     const int* number = dofs.number.data();
     const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
+    const std::size_t count = all ? corner_sum_->functions() : moving_functions_.size();
 #pragma omp for schedule(static)
-    for (std::size_t f = 0; f < corner_sum_->functions(); ++f) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t f = all ? k : moving_functions_[k];
       if (!corner_sum_->reaches(f)) continue;
       const auto total = corner_sum_->template sum<dim>(f, corners);
       for (int i = 0; i < dim; ++i) {
@@ -167,14 +188,35 @@ class NodalForce {
     std::size_t material;
   };
 
-  // Makes blocks of as many whole cells of one material as fit, or of one cell that does not fit.
-  void divide_into_blocks() {
+  // Makes blocks of as many whole cells of one material as fit, or of one cell that does not fit: first those that
+  // move, then those at rest. at_rest: (cells); empty: none is.
+  void divide_into_blocks(const std::vector<char>& at_rest) {
+    ++divisions_;
     blocks_.clear();
+    add_blocks([&](std::size_t k) { return at_rest.empty() || !at_rest[k]; });
+    moving_blocks_ = blocks_.size();
+    if (at_rest.empty()) return;
+    add_blocks([&](std::size_t k) { return at_rest[k] != 0; });
+    find_moving_functions(at_rest);
+  }
+  void find_moving_functions(const std::vector<char>& at_rest) {
+    std::vector<char> moves(corner_sum_->functions(), 0);
+    for (std::size_t k = 0; k < points_->cells(); ++k) {
+      for (int a = 0; a < per_cell && !at_rest[k]; ++a) moves[static_cast<std::size_t>(weights_->function(k, a))] = 1;
+    }
+    moving_functions_.clear();
+    for (std::size_t f = 0; f < moves.size(); ++f)
+      if (moves[f]) moving_functions_.push_back(f);
+  }
+  template <class Takes>
+  void add_blocks(const Takes& takes) {
+    const std::size_t first = blocks_.size();
     std::size_t begin = 0;
     for (std::size_t k = 0; k < points_->cells(); ++k) {
+      if (!takes(k)) continue;
       const auto material = static_cast<std::size_t>(points_->material_of_cell(k));
-      const bool fits =
-          !blocks_.empty() && blocks_.back().material == material && points_->end(k) - begin <= Block::size;
+      const bool fits = blocks_.size() > first && blocks_.back().last_cell == k &&
+                        blocks_.back().material == material && points_->end(k) - begin <= Block::size;
       if (!fits) {
         blocks_.push_back({k, k, material});
         begin = points_->begin(k);
@@ -226,6 +268,9 @@ class NodalForce {
   const Weights* weights_ = nullptr;
   const CornerSum* corner_sum_ = nullptr;
   std::vector<BlockOfCells> blocks_;
+  std::size_t moving_blocks_ = 0;              // the first ones, which are not at rest
+  std::vector<std::size_t> moving_functions_;  // those of their cells, if some cells are at rest
+  long divisions_ = 0;                         // into blocks, so far
 };
 
 }  // namespace stillpoint

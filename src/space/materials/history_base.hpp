@@ -23,6 +23,10 @@ class HistoryBase : public LawMaterialBase<Law> {
   using typename Base::Block, typename Base::Stresses;
 
  public:
+  void keep_history(const Block& block, double* trial) const override {
+    for (std::size_t h = 0; h < rows_; ++h)
+      std::copy_n(committed_at(block.first) + count_ * h, block.count, trial_at(trial, block.first) + count_ * h);
+  }
   void commit(std::vector<double>& trial) override { committed_.swap(trial); }
   void end_phase(const Block&) override {}
   Vec memory() override { return committed_; }

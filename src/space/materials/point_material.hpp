@@ -113,7 +113,9 @@ class PointMaterial {
   /// As stress(), for block.H = 0 and no increment since the last commit, and a law whose stress_stays: no history is
   /// written.
   virtual double committed_stress(PointBlock<K>& block, const double* V) const = 0;
-  /// Swaps the trial history and the committed one; stress() has to have written every block of it.
+  /// Writes the committed history of the block's points to trial, (history_size): of points that are at rest.
+  virtual void keep_history(const PointBlock<K>& /*block*/, double* /*trial*/) const {}
+  /// Swaps the trial history and the committed one; stress() or keep_history() has to have written every block of it.
   virtual void commit(std::vector<double>& trial) = 0;
   /// Sets block.VP = V_p (∂P/∂H at block.H, block.dH and dt) : block.direction.
   virtual void tangent(Tangent kind, PointBlock<K>& block, const double* V, double dt) const = 0;

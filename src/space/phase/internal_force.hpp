@@ -29,6 +29,7 @@ class InternalForce {
   static constexpr bool has_elastic_cells =
       (K == Kinematics::plane || K == Kinematics::space) && std::same_as<B, BSpline<1>>;
   using Block = PointBlock<K>;
+  using Answer = typename NodalForce<B, K>::Answer;
 
  public:
   struct Work : PointLaws<B, K>::Work {
@@ -43,6 +44,8 @@ class InternalForce {
   // --- a phase begins ------------------------------------------------------------------------------
   /// Prepares for the points in their present order: blocks can be visited.
   void take_points() { points_.rebuild(frame_.body.points, frame_.weights, frame_.corner_sum); }
+  /// As NodalForce::let_rest().
+  void let_rest(const std::vector<char>& cells) { points_.let_rest(cells); }
   /// Prepares evaluations in the phase that begins at t.
   void begin_phase(double t) {
     committed_.u.resize(static_cast<std::size_t>(dim) * frame_.functions_of_grid());
@@ -82,6 +85,7 @@ class InternalForce {
     auto arrays = trials_.borrow();
     arrays->u.assign(committed_.u.size(), 0);
     size_histories(*arrays);
+    arrays->holds_rest_of = -1;
     if (laws_.share_dilatation() && frame_.remembers) arrays->averages.resize(frame_.body.points.size());
     return arrays;
   }
@@ -114,13 +118,21 @@ class InternalForce {
                                                                                               Block& block) {
         return laws_.template stress<true>(m, block, dt, history[m].data(), averages, work);
       };
-      good = points_.template evaluate<true>(u, committed_.u.data(), std::cref(answer), dofs, R, trial.reactions,
-                                             work.nodal);
+      const Answer at_rest = [this, history = trial.arrays->history.data()](std::size_t m, Block& block) {
+        laws_.law(m).keep_history(block, history[m].data());
+        return laws_.law(m).committed_stress(block, laws_.volumes());
+      };
+      const bool knows_rest = trial.arrays->holds_rest_of == frame_.phase && !points_.misses_forces_at_rest(work.nodal);
+      good = points_.template evaluate<true>(u, committed_.u.data(), std::cref(answer), knows_rest ? nullptr : &at_rest,
+                                             dofs, R, trial.reactions, work.nodal);
+      trial.arrays->holds_rest_of = frame_.phase;
     } else if (elastic_cells_.empty()) {
-      const auto answer = [this, &work](std::size_t m, Block& block) {
+      const Answer answer = [this, &work](std::size_t m, Block& block) {
         return laws_.template stress<false>(m, block, 0, nullptr, nullptr, work);
       };
-      good = points_.template evaluate<false>(u, nullptr, answer, dofs, R, trial.reactions, work.nodal);
+      good = points_.template evaluate<false>(u, nullptr, answer,
+                                              points_.misses_forces_at_rest(work.nodal) ? &answer : nullptr, dofs, R,
+                                              trial.reactions, work.nodal);
     } else {
       good = points_.template evaluate_cells<false>(of_elastic_cells(u), dofs, R, trial.reactions, work.nodal);
     }

@@ -86,6 +86,12 @@ struct TransferErrors {
   double added_mass = 0;  // inertia that nodes were given so that none shortens the step, as a share of Σ_p m_p
 };
 
+/// What has rested while other parts moved (phase.rest).
+struct RestFigures {
+  double points = 0;      // the share of the points at rest, on average over the phases
+  double held_force = 0;  // the largest force that held a function at rest, as a share of those around it
+};
+
 /// The point whose committed stress exceeds its strength most, as that of a viscous law may for a while.
 struct OverStress {
   double share = 0;       // f/(√J₂ − f), the yield function over the strength; NaN if it is not finite
@@ -123,6 +129,7 @@ class PhaseControl {
   /// single phase, or if initial_velocity() has not begun the first one.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
+  virtual RestFigures rest_figures() const = 0;
   /// Takes the pressures of contact at (t, u) as multipliers, which changes R there: the body may go on to where
   /// nothing penetrates.
   virtual void update_multipliers(double t, ConstVec u) = 0;

@@ -112,6 +112,7 @@ class MaterialPointPhase final : public LagrangianPhase {
         std::make_unique<CarriedBodyOf<K>>(all_.problem, frame.body, frame.origin, frame.grid_moved, frame.phase, H);
     all_.conditions.archive(StateArchive::saving(carried->conditions));
     if (!frame.moves_on()) return carried;
+    all_.rest.wake();
     all_.begin_phase(t);
     carried->out_of_balance.assign(static_cast<std::size_t>(dim) * frame.functions_of_grid(), 0);
     const std::vector<double> Q = out_of_balance(t);

@@ -53,6 +53,8 @@ class MotionLimit {
         u.size(), 0.0, [u = u.data(), weight = weight_.data()](std::size_t k) { return std::abs(u[k]) * weight[k]; },
         [](double a, double b) { return a > b ? a : b; });
   }
+  /// The same of free unknown k alone.
+  double motion(std::size_t k, ConstVec u) const { return std::abs(u[k]) * weight_[k]; }
   /// Whether a trial is within the phase: a step past 3/2 of the motion that ends it is too long for the frozen
   /// weights.
   bool allows(double motion, const double* grid_u) const {

@@ -17,6 +17,7 @@
 #include "space/phase/phase_frame.hpp"
 #include "space/phase/phase_inertia.hpp"
 #include "space/phase/remap.hpp"
+#include "space/phase/resting_parts.hpp"
 
 namespace stillpoint {
 
@@ -57,7 +58,8 @@ struct PhaseAssembly {
   PhaseInertia<B, K> inertia{frame};
   MotionLimit<B, K> limit{frame, force};
   Remap<B, K> remap{frame, force, inertia, conditions};
-  std::vector<double> constant_force;  // constant part of F, (n)
+    std::vector<double> constant_force;  // constant part of F, (n)
+  RestingParts<B, K> rest{frame, force, limit, conditions, constant_force};
 
  private:
   void make_weights() {
@@ -71,7 +73,9 @@ struct PhaseAssembly {
     make_weights();
     std::vector<char> reached = frame.reached_functions();
     HeldUnknowns held = hold(t, reached);
+    rest.hold(reached, held);
     frame.unknowns.begin_phase(std::move(reached), std::move(held), frame.extension);
+    rest.begin_phase();
     limit.begin_phase(/*by_reach=*/remap.follows_positions());
   }
   void begin_forces(double t) {

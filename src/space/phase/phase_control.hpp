@@ -31,6 +31,7 @@ class PhaseControlOf final : public PhaseControl {
     return all_.limit.progress(t, u);
   }
   std::vector<double> begin_next(double t, ConstVec u, ConstVec v) override {
+    all_.rest.end_phase(t, u);
     all_.remap.end_phase(t, u, v, all_.limit.largest_motion(u));
     all_.begin_phase(t);
     return all_.remap.begin_motion(t);
@@ -43,7 +44,9 @@ class PhaseControlOf final : public PhaseControl {
   void change_materials(const std::map<std::string, MaterialSpec>& materials) override {
     stillpoint::change_materials(all_.frame.body, materials, all_.problem, all_.frame.moves_on());
     all_.force.take_new_materials();
+    all_.rest.wake();
   }
+  RestFigures rest_figures() const override { return all_.rest.figures(); }
   TransferErrors transfer_errors() const override {
     const auto& kept = all_.remap.conservation();
     return {kept.mass(), kept.momentum(), kept.angular_momentum(), all_.inertia.of_functions().largest_added_mass()};
@@ -64,8 +67,9 @@ class PhaseControlOf final : public PhaseControl {
       state(fmt::format("memory_of_material_{}", m), body.materials[m]->memory());
     if (frame.moves_on()) archive_points(state, body.points);
     all_.conditions.archive(state);
+    if (state.restores() && frame.moves_on()) take_saved_grid();
+    all_.rest.archive(state.part("rest"));
     if (state.restores() && frame.moves_on()) {
-      take_saved_grid();
       all_.resume_phase(t);
       all_.conditions.archive(state);  // replaces the initial state of the phase by the saved one
     }

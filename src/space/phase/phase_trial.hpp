@@ -14,6 +14,7 @@ struct TrialArrays {
   std::vector<double> u;                     // over the grid's functions, (functions × dim)
   std::vector<std::vector<double>> history;  // of each material
   std::vector<double> averages;              // effect of MeanDilatation on each point, if points share their dilatation
+  long holds_rest_of = -1;                   // the phase of whose points at rest `history` is
 };
 
 struct PhaseTrial final : TrialState {

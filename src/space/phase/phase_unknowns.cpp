@@ -29,7 +29,7 @@ void PhaseUnknowns::spread(double t, ConstVec u, std::vector<double>& grid) cons
 }
 
 void PhaseUnknowns::spread_others(double t, std::vector<double>& grid) const {
-  for (std::size_t s = 0; s < dofs_->prescribed.size(); ++s)
+  for (const std::size_t s : held_.displaced())
     grid[static_cast<std::size_t>(dofs_->prescribed[s])] = held_.displacement(s, t);
   dofs_->extend(grid.data());
 }

@@ -28,7 +28,8 @@ class PhaseUnknowns {
   /// Whether neither a support nor a wall holds a function in any component, (functions).
   const std::vector<char>& untouched() const { return untouched_; }
 
-  /// Sets the displacements of all functions from those of the free unknowns, u, and those of the supports at t.
+  /// Sets the displacements of all functions from those of the free unknowns, u, and those of the supports at t. grid:
+  /// 0 at the others, and at what a support holds without a displacement.
   void spread(double t, ConstVec u, std::vector<double>& grid) const;
   /// Sets the displacements with which the phase begins, from which points are strained: 0, and of what a support holds
   /// HeldUnknowns::from(). The displacement of a support when a run begins is a strain that laws have yet to answer.
@@ -43,7 +44,7 @@ class PhaseUnknowns {
   std::vector<double> free_values(const std::vector<double>& grid) const;
 
  private:
-  /// Sets the displacements of the unknowns that are not free.
+  /// Sets the displacements of the unknowns that are neither free nor 0.
   void spread_others(double t, std::vector<double>& grid) const;
 
   int dim_;

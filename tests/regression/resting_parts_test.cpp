@@ -1,0 +1,104 @@
+// Parts that rest while others move (phase.rest): the same motion for less work, and what is pushed moves again.
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "files.hpp"
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using Catch::Matchers::Contains;
+using stillpoint::test::TemporaryFolder;
+
+namespace {
+
+const std::vector<std::string> small_slope = {"grid.cells=[40,22]", "output.every=0.5", "output.stages=[]"};
+
+std::vector<std::string> with(std::vector<std::string> overrides, const std::vector<std::string>& more) {
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return overrides;
+}
+
+struct Run {
+  Summary summary;
+  std::vector<double> t, wall, back;  // thrusts [N/m]
+};
+Run run_slope(const std::vector<std::string>& overrides, int threads = 1) {
+  const TemporaryFolder folder;
+  Run of;
+  of.summary = run(scenes::load("slope", overrides), {.out = folder.path(), .threads = threads});
+  const auto history = stillpoint::test::columns_of(folder.path() / "history.csv");
+  of.t = history.at("t");
+  of.wall = history.at("wall.normal");
+  of.back = history.at("back.normal");
+  return of;
+}
+
+double mean_between(const Run& run, const std::vector<double>& values, double begin, double end) {
+  double sum = 0;
+  int rows = 0;
+  for (std::size_t k = 0; k < run.t.size(); ++k) {
+    if (run.t[k] < begin || run.t[k] > end) continue;
+    sum += values[k];
+    ++rows;
+  }
+  return sum / rows;
+}
+
+}  // namespace
+
+TEST_CASE("while a slope forms most of the soil rests, which changes the work and the thrust by less than its share") {
+  const std::vector<std::string> to_20_s = with(small_slope, {"stop.time=20"});
+  const Run all = run_slope(to_20_s), resting = run_slope(with(to_20_s, {"phase.rest=0.01"}));
+  REQUIRE(resting.summary.status == RunStatus::end_time);
+  CHECK_FALSE(all.summary.resting_points);
+  REQUIRE(resting.summary.resting_points);
+  REQUIRE(resting.summary.held_force);
+  CHECK(*resting.summary.resting_points > 0.3);
+  CHECK(*resting.summary.resting_points < 0.9);
+  CHECK(*resting.summary.held_force > 0);
+  CHECK(*resting.summary.held_force < 0.1);
+  CHECK(*resting.summary.external_work == Approx(*all.summary.external_work).epsilon(0.02));
+  // Two runs that differ by rounding alone differ by 2 % in the mean thrust of the flowing wedge.
+  CHECK(mean_between(resting, resting.wall, 2, 20) == Approx(mean_between(all, all.wall, 2, 20)).epsilon(0.05));
+  CHECK(mean_between(resting, resting.back, 2, 20) == Approx(mean_between(all, all.back, 2, 20)).epsilon(0.02));
+  CHECK(*resting.summary.mass_error < 1e-12);
+  CHECK(*resting.summary.momentum_error < 1e-12);
+}
+
+TEST_CASE("what rests moves again as soon as it is pushed") {
+  // The front wall gives way, and from t = 6 on the back wall pushes the soil that has come to rest before it.
+  const std::vector<std::string> pushed = with(small_slope, {"wall[0].motion=0.004*max(0, t - 6)", "stop.time=12"});
+  const Run all = run_slope(pushed), resting = run_slope(with(pushed, {"phase.rest=0.01"}));
+  CHECK(*resting.summary.resting_points > 0.1);
+  const double before = mean_between(all, all.back, 4, 6);
+  const double after = mean_between(all, all.back, 10, 12);
+  CHECK(after > 1.5 * before);
+  CHECK(mean_between(resting, resting.back, 4, 6) == Approx(before).epsilon(0.02));
+  CHECK(mean_between(resting, resting.back, 10, 12) == Approx(after).epsilon(0.03));
+}
+
+TEST_CASE("a run in which parts rest has the same bits for any number of threads") {
+  const std::vector<std::string> fine = {"stop.time=2", "output.stages=[]", "phase.rest=0.02"};
+  const Run one = run_slope(fine, 1), two = run_slope(fine, 2);
+  CHECK(*one.summary.resting_points > 0.1);
+  CHECK(one.wall == two.wall);
+  CHECK(*one.summary.external_work == *two.summary.external_work);
+  CHECK(*one.summary.held_force == *two.summary.held_force);
+}
+
+TEST_CASE("parts rest only in a motion that goes on until stop.time, in phases, with a lumped mass") {
+  const auto refused = [](const std::string& override) {
+    return scenes::refusal("slope", {"phase.rest=0.01", override});
+  };
+  CHECK(refused("stop.time=1").empty());
+  CHECK_THAT(refused("stop.residual=1e-6"), Contains("phase.rest") && Contains("stop.time"));
+  CHECK_THAT(refused("phase.max_motion='none'"), Contains("phase.rest") && Contains("phase.max_motion"));
+  CHECK_THAT(refused("mass={kind='consistent'}"), Contains("phase.rest") && Contains("lumped"));
+  CHECK_THAT(refused("phase.dilatation='cells'"), Contains("phase.rest") && Contains("dilatation"));
+  CHECK_THAT(refused("phase.rest=1.5"), Contains("phase.rest"));
+}
