@@ -82,6 +82,15 @@ TEST_CASE("what rests moves again as soon as it is pushed") {
   CHECK(mean_between(resting, resting.back, 10, 12) == Approx(after).epsilon(0.03));
 }
 
+TEST_CASE("what rests keeps its place when the grid is given columns before the first one") {
+  // The mirror image: the wall that the grid follows is on the left.
+  const std::vector<std::string> to_10_s = with(small_slope, {"stop.time=10", "phase.rest=0.01"});
+  const std::string walls = "wall=[{name='back', face='right'}, {name='wall', face='left', motion='-0.05*t'}]";
+  const Run right = run_slope(with(to_10_s, {"wall[1].motion=0.05*t"})), left = run_slope(with(to_10_s, {walls}));
+  CHECK(*left.summary.resting_points == Approx(*right.summary.resting_points).epsilon(0.1));
+  CHECK(mean_between(left, left.back, 2, 10) == Approx(mean_between(right, right.back, 2, 10)).epsilon(0.02));
+}
+
 TEST_CASE("a run in which parts rest has the same bits for any number of threads") {
   const std::vector<std::string> fine = {"stop.time=2", "output.stages=[]", "phase.rest=0.02"};
   const Run one = run_slope(fine, 1), two = run_slope(fine, 2);

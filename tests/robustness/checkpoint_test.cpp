@@ -198,6 +198,7 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
   const std::vector<std::string> small = {"grid.cells=[24, 10]", "stop.steps=150", "output.fields_every=0.005"};
   for (const char* transfer : {"flip", "pic", "xpic", "apic"})
     check_same_bits({"slope", with(small, {std::string("phase.transfer=") + transfer})}, 110);
+  check_same_bits({"slope", {"grid.cells=[24, 10]", "stop.steps=500", "output.stages=[]", "phase.rest=0.05"}}, 410);
   for (const char* dilatation : {"cells", "splines"}) {
     check_same_bits({"slope", with(small, {"grid.basis=quadratic", std::string("phase.dilatation=") + dilatation})},
                     110);

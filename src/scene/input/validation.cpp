@@ -97,6 +97,9 @@ void check_rest(SceneCheck& check, const Scene& scene) {
   check.wrong_if(!scene.phase.ends_by_motion(), key, "needs phases that end by motion; set phase.max_motion");
   check.wrong_if(scene.mass.kind != MassKind::lumped, key, "needs mass.kind = \"lumped\"");
   check.wrong_if(scene.phase.dilatation != Dilatation::points, key, "needs phase.dilatation = \"points\"");
+  check.wrong_if(scene.may_touch() || scene.load.has_value(), key,
+                 "does not see what touches a part at rest, or drives a load; leave it out with [[rigid]], [[contact]] "
+                 "and [load]");
 }
 
 void check_integrator(SceneCheck& check, const Scene& scene, const StrategyInfo* strategy) {

@@ -89,7 +89,7 @@ struct TransferErrors {
 /// What has rested while other parts moved (phase.rest).
 struct RestFigures {
   double points = 0;      // the share of the points at rest, on average over the phases
-  double held_force = 0;  // the largest force that held a function at rest, as a share of those around it
+  double held_force = 0;  // that held functions at rest, as a share of the forces around them: the largest of a phase
 };
 
 /// The point whose committed stress exceeds its strength most, as that of a viscous law may for a while.

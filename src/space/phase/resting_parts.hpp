@@ -2,14 +2,15 @@
 // their points are not evaluated, since nothing changes there.
 //
 // With the share τ of the scene, a function has been quiet in a phase if it moved by no more than τ of the largest
-// motion in it. It rests in the next phase if it and all functions that share a cell with it have been quiet in two
-// phases. What then holds it is out of balance by Q = F − R, which is looked at when the phase ends: the function and
-// those that share a cell with it move again once
+// motion in it. It rests in the next phase if it and all functions that share a cell with it have been quiet while that
+// motion came to 0.2 cells: in two phases of the usual length, or in as many steps as make them. What then holds it is
+// out of balance by Q = F − R, which is looked at when the phase ends: the function and those that share a cell with it
+// move again once
 //
 //   |Q| > τ S,   S² = F² + Σ r²   with the forces r of its cells' corners,
 //
-// the forces of the stresses around it. So the error in the forces that resting parts exert is about τ of their own; it
-// is measured, and the largest Q/S is reported.
+// the forces of the stresses around it. The root mean square of Q over all that rests, beside that of S, is reported:
+// holding many functions by a little adds up.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +52,7 @@ class RestingParts {
     follow_grid();
     rests_.assign(quiet_.size(), 0);
     for (std::size_t f = 0; f < quiet_.size(); ++f) {
-      rests_[f] = static_cast<char>(reached[f] && quiet_[f] >= phases_of_quiet);
+      rests_[f] = static_cast<char>(reached[f] && quiet_[f] >= long_enough);
       for (int i = 0; i < dim; ++i) {
         const int unknown = dim * static_cast<int>(f) + i;
         if (held.is_guided(unknown)) rests_[f] = 0;
@@ -96,8 +97,8 @@ class RestingParts {
     keep_loads();
     std::vector<char> moves = moved(u);
     if (std::ranges::any_of(rests_, [](char rests) { return rests != 0; })) let_go_what_is_out_of_balance(t, u, moves);
-    for (std::size_t f = 0; f < quiet_.size(); ++f)
-      quiet_[f] = moves[f] ? 0 : static_cast<char>(std::min(quiet_[f] + 1, phases_of_quiet));
+    const double motion = limit_.largest_motion(u);
+    for (std::size_t f = 0; f < quiet_.size(); ++f) quiet_[f] = moves[f] ? 0 : quiet_[f] + motion;
   }
 
   /// Lets everything move again in the next phase.
@@ -118,7 +119,7 @@ class RestingParts {
 
  private:
   using Counts = std::array<int, dim>;
-  static constexpr int phases_of_quiet = 2;
+  static constexpr double long_enough = 0.2;  // [cells]
 
   double share() const { return frame_.problem.phase.rest; }
   Counts counts() const {
@@ -138,8 +139,7 @@ class RestingParts {
     const Problem& problem = frame_.problem;
     const auto wall = std::ranges::find(problem.walls, problem.grid.follow, &WallSpec::name);
     const bool at_end = wall == problem.walls.end() || is_upper(wall->face);
-    std::vector<char> before(frame_.functions_of_grid(), 0);
-    std::vector<double> F_before(dim * before.size(), 0);
+    std::vector<double> before(frame_.functions_of_grid(), 0), F_before(dim * before.size(), 0);
     before.swap(quiet_);
     F_before.swap(F_);
     const std::size_t of_field = quiet_.size() / static_cast<std::size_t>(frame_.body.fields);
@@ -238,12 +238,12 @@ class RestingParts {
   const MotionLimit<B, K>& limit_;
   const Conditions<K>& conditions_;
   const std::vector<double>& load_;  // F of the present phase, (n) [N]
-  std::vector<char> quiet_;  // for how many phases each function has been quiet, up to phases_of_quiet; (functions)
-  std::vector<char> rests_;  // whether it rests in the present phase
-  std::vector<double> F_;    // the load on each unknown when it was free last, (functions × dim) [N]
-  Counts counts_{};          // the functions along the axes to which these belong
-  long phases_ = 0;          // in which parts could rest
-  RestFigures figures_;      // points: the sum over these phases
+  std::vector<double> quiet_;        // the largest motions while each function has been quiet, (functions) [cells]
+  std::vector<char> rests_;          // whether it rests in the present phase
+  std::vector<double> F_;            // the load on each unknown when it was free last, (functions × dim) [N]
+  Counts counts_{};                  // the functions along the axes to which these belong
+  long phases_ = 0;                  // in which parts could rest
+  RestFigures figures_;              // points: the sum over these phases
 };
 
 }  // namespace stillpoint
