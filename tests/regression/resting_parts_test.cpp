@@ -58,10 +58,10 @@ TEST_CASE("while a slope forms most of the soil rests, which changes the work an
   CHECK_FALSE(all.summary.resting_points);
   REQUIRE(resting.summary.resting_points);
   REQUIRE(resting.summary.held_force);
-  CHECK(*resting.summary.resting_points > 0.3);
+  CHECK(*resting.summary.resting_points > 0.15);  // 0.5 of the points at t = 20, hardly any in the beginning
   CHECK(*resting.summary.resting_points < 0.9);
   CHECK(*resting.summary.held_force > 0);
-  CHECK(*resting.summary.held_force < 0.1);
+  CHECK(*resting.summary.held_force < 0.2);
   CHECK(*resting.summary.external_work == Approx(*all.summary.external_work).epsilon(0.02));
   // Two runs that differ by rounding alone differ by 2 % in the mean thrust of the flowing wedge.
   CHECK(mean_between(resting, resting.wall, 2, 20) == Approx(mean_between(all, all.wall, 2, 20)).epsilon(0.05));
@@ -71,15 +71,17 @@ TEST_CASE("while a slope forms most of the soil rests, which changes the work an
 }
 
 TEST_CASE("what rests moves again as soon as it is pushed") {
-  // The front wall gives way, and from t = 6 on the back wall pushes the soil that has come to rest before it.
-  const std::vector<std::string> pushed = with(small_slope, {"wall[0].motion=0.004*max(0, t - 6)", "stop.time=12"});
+  // The wall goes out, stands, and comes in again from t = 6 on: what has come to rest behind it is pressed together.
+  const std::vector<std::string> pushed =
+      with(small_slope, {"wall[1].motion=0.05*min(t, 4) - 0.02*max(0, t - 6)", "stop.time=12"});
   const Run all = run_slope(pushed), resting = run_slope(with(pushed, {"phase.rest=0.01"}));
-  CHECK(*resting.summary.resting_points > 0.1);
-  const double before = mean_between(all, all.back, 4, 6);
-  const double after = mean_between(all, all.back, 10, 12);
-  CHECK(after > 1.5 * before);
-  CHECK(mean_between(resting, resting.back, 4, 6) == Approx(before).epsilon(0.02));
-  CHECK(mean_between(resting, resting.back, 10, 12) == Approx(after).epsilon(0.03));
+  CHECK(*resting.summary.resting_points > 0.02);
+  const auto thrust = [](const Run& of, double begin, double end) { return mean_between(of, of.back, begin, end); };
+  CHECK(thrust(all, 7, 9) > 2 * thrust(all, 2, 4));
+  // Without the push being noticed within a phase the thrust comes 0.7 s late, which is 30 % here.
+  CHECK(thrust(resting, 2, 4) == Approx(thrust(all, 2, 4)).epsilon(0.05));
+  CHECK(thrust(resting, 6.5, 8) == Approx(thrust(all, 6.5, 8)).epsilon(0.1));
+  CHECK(thrust(resting, 9, 12) == Approx(thrust(all, 9, 12)).epsilon(0.05));
 }
 
 TEST_CASE("what rests keeps its place when the grid is given columns before the first one") {

@@ -84,6 +84,7 @@ class MaterialPointPhase final : public LagrangianPhase {
       throw std::logic_error("a trial state that was not evaluated since the last commit");
     all_.conditions.commit(trial.t, trial.arrays->u.data());
     if (all_.frame.remembers && trial.keeps_history) all_.force.commit(trial);
+    all_.rest.observe(trial.reactions);
   }
 
   std::vector<double> initial_displacement(double t) const override {

@@ -26,7 +26,7 @@ class PhaseControlOf final : public PhaseControl {
 
   double progress(double t, ConstVec u) override {
     if (!all_.frame.moves_on()) return 0;
-    if (all_.problem.phase.max_motion == 0) return 1;
+    if (all_.problem.phase.max_motion == 0 || all_.rest.is_pushed()) return 1;
     if (all_.conditions.ask_for_next_phase(u)) return 1;
     return all_.limit.progress(t, u);
   }

@@ -4,19 +4,21 @@
 // With the share τ of the scene, a function has been quiet in a phase if it moved by no more than τ of the largest
 // motion in it. It rests in the next phase if it and all functions that share a cell with it have been quiet while that
 // motion came to 0.2 cells: in two phases of the usual length, or in as many steps as make them. What then holds it is
-// out of balance by Q = F − R, which is looked at when the phase ends: the function and those that share a cell with it
-// move again once
+// out of balance by Q = F − R: the function and those that share a cell with it move again in the phase after that in
+// which
 //
 //   |Q| > τ S,   S² = F² + Σ r²   with the forces r of its cells' corners,
 //
-// the forces of the stresses around it. The root mean square of Q over all that rests, beside that of S, is reported:
-// holding many functions by a little adds up.
+// the forces of the stresses around it. Once the root mean square of Q beside what moves passes 4 τ of that of S, as
+// when a wall begins to push, the phase ends at once, and all within a few cells moves again. The same ratio over all
+// that rests is reported: holding many functions by a little adds up.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "scene/throw_scene_error.hpp"
@@ -30,148 +32,198 @@ namespace stillpoint {
 
 template <AxisBasis B, Kinematics K>
 class RestingParts {
-  static constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
+  static constexpr std::size_t dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
 
  public:
-  /// The arguments must outlive this object. Throws SceneError if a law changes its stress without a motion.
+  /// load: F of the present phase, (n). The arguments must outlive this object. Throws SceneError if a law changes its
+  /// stress without a motion.
   RestingParts(const PhaseFrame<B, K>& frame, InternalForce<B, K>& force, const MotionLimit<B, K>& limit,
                const Conditions<K>& conditions, const std::vector<double>& load)
       : frame_(frame), force_(force), limit_(limit), conditions_(conditions), load_(load) {
-    const auto stays = [](const auto& law) { return law->info().stress_stays || !law->info().history_dependent; };
-    if (share() > 0 && !std::ranges::all_of(frame.body.materials, stays))
+    const auto stays = [](const auto& law) { return law->info().history_dependent && law->info().stress_stays; };
+    if (share() > 0 && !std::ranges::all_of(frame.body.materials, stays)) {
       throw_scene_error("phase.rest",
-                        "needs laws whose stress stays where nothing moves, which viscosity and softening "
-                        "do not leave");
+                        "is for soils that neither soften nor flow by viscosity: laws with a history, whose stress "
+                        "stays where nothing moves");
+    }
   }
 
-  bool act() const { return share() > 0 && frame_.phase > 0 && conditions_.loads_are_constant(); }
-
-  /// Holds what rests when a phase begins; all other conditions come first. reached: (functions).
+  // --- a phase begins, in this order ---------------------------------------------------------------
+  /// Holds what rests; all other conditions come first. reached: whether material reaches a function, (functions).
   void hold(const std::vector<char>& reached, HeldUnknowns& held) {
     if (!act()) return;
     follow_grid();
-    rests_.assign(quiet_.size(), 0);
-    for (std::size_t f = 0; f < quiet_.size(); ++f) {
-      rests_[f] = static_cast<char>(reached[f] && quiet_[f] >= long_enough);
-      for (int i = 0; i < dim; ++i) {
-        const int unknown = dim * static_cast<int>(f) + i;
-        if (held.is_guided(unknown)) rests_[f] = 0;
-      }
-    }
-    keep_neighbours_of(
-        rests_, [](char rests) { return rests == 0; }, 0);
+    rests_.resize(quiet_.size());
     for (std::size_t f = 0; f < rests_.size(); ++f) {
-      for (int i = 0; rests_[f] && i < dim; ++i) {
-        const int unknown = dim * static_cast<int>(f) + i;
-        if (!held.is_prescribed(unknown)) held.let_rest(unknown);
-      }
+      bool rests = reached[f] && quiet_[f] >= long_enough;
+      for (std::size_t i = 0; i < dim; ++i) rests = rests && !held.is_guided(static_cast<int>(dim * f + i));
+      rests_[f] = static_cast<char>(rests);
+    }
+    spread_by_a_cell(0, rests_);
+    for (std::size_t unknown = 0; unknown < dim * rests_.size(); ++unknown) {
+      if (rests_[unknown / dim] && !held.is_prescribed(static_cast<int>(unknown)))
+        held.let_rest(static_cast<int>(unknown));
     }
   }
   /// Lets the cells rest whose functions are all held where they are; the unknowns of the phase are known.
   void begin_phase() {
+    is_pushed_ = false;
+    resting_share_ = 0;
+    border_.clear();
     if (!act()) return;
-    const HeldUnknowns& held = frame_.held();
-    std::vector<char> still(dim * frame_.functions_of_grid(), 0);  // of the unknowns
-    for (const int unknown : held.prescribed()) still[static_cast<std::size_t>(unknown)] = 1;
-    for (const std::size_t s : held.displaced()) still[static_cast<std::size_t>(held.prescribed()[s])] = 0;
-    const MaterialPoints<dim>& points = frame_.body.points;
-    std::vector<char> cells(points.cells(), 1);
-    std::size_t resting = 0;
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      for (int a = 0; a < per_cell; ++a) {
-        for (int i = 0; i < dim; ++i)
-          cells[k] &= still[static_cast<std::size_t>(dim * frame_.weights.function(k, a) + i)];
-      }
-      if (cells[k]) resting += points.end(k) - points.begin(k);
-    }
-    figures_.points += static_cast<double>(resting) / static_cast<double>(points.size());
-    ++phases_;
+    const std::vector<char> cells = resting_cells();
     force_.let_rest(cells);
+    find_border(cells);
+    const MaterialPoints<static_cast<int>(dim)>& points = frame_.body.points;
+    std::size_t resting = 0;
+    for (std::size_t k = 0; k < cells.size(); ++k) resting += cells[k] ? points.end(k) - points.begin(k) : 0;
+    resting_share_ = static_cast<double>(resting) / static_cast<double>(points.size());
   }
+
+  // --- during a phase, and at its end --------------------------------------------------------------
+  /// Looks at the reactions after a step, (prescribed unknowns and others).
+  void observe(ConstVec reactions) {
+    constexpr double push = 4;  // beside the share by which a function alone is let go
+    const auto [held, around] = sums_of_squares(border_, reactions);
+    if (!(held <= push * share() * (push * share()) * around)) is_pushed_ = true;
+  }
+  /// Whether what moves pushes what rests, so that the phase has to end.
+  bool is_pushed() const { return is_pushed_; }
   /// Looks at a phase that ends at (t, u), before the points move on.
   void end_phase(double t, ConstVec u) {
     if (share() == 0 || !conditions_.loads_are_constant()) return;
-    quiet_.resize(frame_.functions_of_grid(), 0);
-    rests_.resize(quiet_.size(), 0);
+    const std::size_t functions = frame_.functions_of_grid();
+    quiet_.resize(functions, 0);
+    rests_.resize(functions, 0);
+    loads_.resize(dim * functions, 0);
     counts_ = counts();
-    keep_loads();
+    figures_.points += resting_share_;
+    ++phases_;
+    for (std::size_t k = 0; k < load_.size(); ++k) loads_[unknown(k)] = load_[k];
     std::vector<char> moves = moved(u);
-    if (std::ranges::any_of(rests_, [](char rests) { return rests != 0; })) let_go_what_is_out_of_balance(t, u, moves);
+    take_forces(t, u, moves);
     const double motion = limit_.largest_motion(u);
-    for (std::size_t f = 0; f < quiet_.size(); ++f) quiet_[f] = moves[f] ? 0 : quiet_[f] + motion;
+    for (std::size_t f = 0; f < functions; ++f) quiet_[f] = moves[f] ? 0 : quiet_[f] + motion;
   }
-
   /// Lets everything move again in the next phase.
   void wake() { quiet_.assign(quiet_.size(), 0); }
 
-  /// What has rested so far, on average over the phases.
+  /// What has rested so far: `points` on average over the phases.
   RestFigures figures() const {
     RestFigures mean = figures_;
     if (phases_ > 0) mean.points /= static_cast<double>(phases_);
     return mean;
   }
+  /// Saves or restores what is known of earlier phases; a phase is resumed afterwards.
   void archive(const StateArchive& state) {
-    state.none_or(frame_.functions_of_grid(), "quiet", quiet_);
-    state.none_or(dim * frame_.functions_of_grid(), "loads", F_);
-    if (state.restores() && !quiet_.empty()) counts_ = counts();
+    const std::size_t functions = frame_.functions_of_grid();
+    state.none_or(functions, "quiet", quiet_);
+    state.none_or(dim * functions, "loads", loads_);
+    state.none_or(functions, "forces_around", squares_);
     state("phases", phases_, "resting_points", figures_.points, "held_force", figures_.held_force);
+    if (state.restores() && !quiet_.empty()) counts_ = counts();
   }
 
  private:
-  using Counts = std::array<int, dim>;
   static constexpr double long_enough = 0.2;  // [cells]
+  struct Held {
+    std::size_t number, unknown;  // of the prescribed unknowns, and in the grid
+  };
+  using Counts = std::array<std::size_t, dim>;
 
   double share() const { return frame_.problem.phase.rest; }
+  bool act() const { return share() > 0 && frame_.phase > 0 && conditions_.loads_are_constant(); }
   Counts counts() const {
     Counts along;
-    for (int d = 0; d < dim; ++d) along[static_cast<std::size_t>(d)] = frame_.functions.count_along(d);
+    for (std::size_t d = 0; d < dim; ++d)
+      along[d] = static_cast<std::size_t>(frame_.functions.count_along(static_cast<int>(d)));
     return along;
   }
+  std::size_t function(std::size_t cell, std::size_t a) const {
+    return static_cast<std::size_t>(frame_.weights.function(cell, static_cast<int>(a)));
+  }
+  std::size_t unknown(std::size_t free) const { return static_cast<std::size_t>(frame_.dofs().free[free]); }
 
-  // Renumbers the functions after the grid has been given lines, or has lost some, at the wall that it follows.
+  // Renumbers what is known of the functions once the grid has been given lines, or has lost some, at the wall that it
+  // follows.
   void follow_grid() {
-    const Counts now = counts();
+    const Counts now = counts(), before = std::exchange(counts_, now);
     if (quiet_.empty()) quiet_.assign(frame_.functions_of_grid(), 0);
-    if (counts_ == Counts{} || now == counts_) {
-      counts_ = now;
-      return;
-    }
-    const Problem& problem = frame_.problem;
-    const auto wall = std::ranges::find(problem.walls, problem.grid.follow, &WallSpec::name);
-    const bool at_end = wall == problem.walls.end() || is_upper(wall->face);
-    std::vector<double> before(frame_.functions_of_grid(), 0), F_before(dim * before.size(), 0);
-    before.swap(quiet_);
-    F_before.swap(F_);
-    const std::size_t of_field = quiet_.size() / static_cast<std::size_t>(frame_.body.fields);
-    const std::size_t of_field_before = before.size() / static_cast<std::size_t>(frame_.body.fields);
-    for (std::size_t f = 0; f < quiet_.size(); ++f) {
-      std::size_t rest = f % of_field, stride = 1, old = f / of_field * of_field_before;
+    if (before == Counts{} || before == now) return;
+    const auto fields = static_cast<std::size_t>(frame_.body.fields);
+    std::vector<std::size_t> from(frame_.functions_of_grid(), none);  // the number that each function had
+    const std::size_t of_field = from.size() / fields, of_field_before = quiet_.size() / fields;
+    const bool at_end = !follows_lower_face();
+    for (std::size_t f = 0; f < from.size(); ++f) {
+      std::size_t left = f % of_field, stride = 1, old = f / of_field * of_field_before;
       bool is_new = false;
       for (std::size_t d = 0; d < dim; ++d) {
-        const int index = static_cast<int>(rest % static_cast<std::size_t>(now[d]));
-        const int was = at_end ? index : index + counts_[d] - now[d];
-        is_new = is_new || was < 0 || was >= counts_[d];
-        if (!is_new) old += static_cast<std::size_t>(was) * stride;
-        rest /= static_cast<std::size_t>(now[d]);
-        stride *= static_cast<std::size_t>(counts_[d]);
+        const std::size_t index = left % now[d];
+        const std::size_t was = at_end ? index : index + before[d] - now[d];  // too large if it is new
+        is_new = is_new || was >= before[d];
+        old += was * stride;
+        left /= now[d];
+        stride *= before[d];
       }
-      if (is_new) continue;
-      quiet_[f] = before[old];
-      for (std::size_t i = 0; i < dim; ++i) F_[dim * f + i] = F_before[dim * old + i];
+      if (!is_new) from[f] = old;
     }
-    counts_ = now;
+    renumber(from, 1, quiet_);
+    renumber(from, 1, squares_);
+    renumber(from, dim, loads_);
+  }
+  bool follows_lower_face() const {
+    const Problem& problem = frame_.problem;
+    const auto wall = std::ranges::find(problem.walls, problem.grid.follow, &WallSpec::name);
+    return wall != problem.walls.end() && !is_upper(wall->face);
+  }
+  static void renumber(const std::vector<std::size_t>& from, std::size_t components, std::vector<double>& values) {
+    std::vector<double> renumbered(components * from.size(), 0);
+    for (std::size_t k = 0; k < renumbered.size(); ++k) {
+      const std::size_t old = from[k / components];
+      if (old != none) renumbered[k] = values[components * old + k % components];
+    }
+    values.swap(renumbered);
   }
 
-  // Sets `value` at all functions that share a cell with one at which is(value there) held before.
-  template <class Is>
-  void keep_neighbours_of(std::vector<char>& of_functions, const Is& is, char value) const {
+  // Sets `value` at all functions that share a cell with one that has it.
+  void spread_by_a_cell(char value, std::vector<char>& of_functions) const {
     const std::vector<char> before = of_functions;
-    const auto at = [&](std::size_t k, int a) { return static_cast<std::size_t>(frame_.weights.function(k, a)); };
     for (std::size_t k = 0; k < frame_.body.points.cells(); ++k) {
       bool some = false;
-      for (int a = 0; a < per_cell; ++a) some = some || is(before[at(k, a)]);
-      for (int a = 0; some && a < per_cell; ++a) of_functions[at(k, a)] = value;
+      for (std::size_t a = 0; a < per_cell; ++a) some = some || before[function(k, a)] == value;
+      for (std::size_t a = 0; some && a < per_cell; ++a) of_functions[function(k, a)] = value;
     }
+  }
+  // Whether all functions of a cell are held where they are, by supports or at rest, (cells).
+  std::vector<char> resting_cells() const {
+    const HeldUnknowns& held = frame_.held();
+    std::vector<char> stays(dim * frame_.functions_of_grid(), 0);  // the unknowns
+    for (const int prescribed : held.prescribed()) stays[static_cast<std::size_t>(prescribed)] = 1;
+    for (const std::size_t s : held.displaced()) stays[static_cast<std::size_t>(held.prescribed()[s])] = 0;
+    std::vector<char> cells(frame_.body.points.cells(), 1);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      for (std::size_t c = 0; c < dim * per_cell; ++c) cells[k] &= stays[dim * function(k, c / dim) + c % dim];
+    }
+    return cells;
+  }
+  // Finds what is held at functions of which some cells move.
+  void find_border(const std::vector<char>& resting_cells) {
+    std::vector<char> beside(quiet_.size(), 0);
+    for (std::size_t k = 0; k < resting_cells.size(); ++k) {
+      for (std::size_t a = 0; a < per_cell && !resting_cells[k]; ++a) beside[function(k, a)] = 1;
+    }
+    border_ = held_at_rest();
+    std::erase_if(border_, [&](const Held& at) { return !beside[at.unknown / dim]; });
+  }
+  // What no support holds, but its rest.
+  std::vector<Held> held_at_rest() const {
+    const HeldUnknowns& held = frame_.held();
+    std::vector<Held> all;
+    for (std::size_t s = 0; s < held.prescribed().size(); ++s) {
+      const auto unknown = static_cast<std::size_t>(held.prescribed()[s]);
+      if (held.owner(s) == HeldUnknowns::nobody && rests_[unknown / dim]) all.push_back({s, unknown});
+    }
+    return all;
   }
 
   // Whether a function has moved in this phase, by more than the share of the largest motion, or was moved,
@@ -181,69 +233,71 @@ class RestingParts {
     const HeldUnknowns& held = frame_.held();
     std::vector<char> moves(quiet_.size(), 0);
     for (std::size_t k = 0; k < u.size(); ++k)
-      if (!(limit_.motion(k, u) <= allowed)) moves[static_cast<std::size_t>(frame_.dofs().free[k] / dim)] = 1;
-    for (const std::size_t s : held.displaced()) moves[static_cast<std::size_t>(held.prescribed()[s] / dim)] = 1;
+      if (!(limit_.motion(k, u) <= allowed)) moves[unknown(k) / dim] = 1;
+    for (const std::size_t s : held.displaced()) moves[static_cast<std::size_t>(held.prescribed()[s]) / dim] = 1;
     return moves;
   }
-
-  void let_go_what_is_out_of_balance(double t, ConstVec u, std::vector<char>& moves) {
+  double out_of_balance(const Held& at, ConstVec reactions) const { return loads_[at.unknown] - reactions[at.number]; }
+  // Σ Q² and Σ S² over what is held; S² is that of all components of a function.
+  std::pair<double, double> sums_of_squares(const std::vector<Held>& of, ConstVec reactions) const {
+    double held = 0, around = 0;
+    for (const Held& at : of) {
+      const double Q = out_of_balance(at, reactions);
+      held += Q * Q;
+      around += squares_[at.unknown / dim] / static_cast<double>(dim);
+    }
+    return {held, around};
+  }
+  // Evaluates the forces at (t, u), and lets what they put out of balance move.
+  void take_forces(double t, ConstVec u, std::vector<char>& moves) {
     const auto work = force_.borrow();
     PhaseTrial trial(force_.borrow_trial());
-    const HeldUnknowns& held = frame_.held();
     trial.t = t;
-    trial.reactions.assign(held.prescribed().size() + conditions_.other_reactions(), 0);
+    trial.reactions.assign(frame_.held().prescribed().size() + conditions_.other_reactions(), 0);
     frame_.unknowns.spread(t, u, trial.arrays->u);
     std::vector<double> R(u.size());
     force_.evaluate(trial, R, *work);
     conditions_.add_force(t, trial.arrays->u.data(), R, trial.reactions);
-    const std::vector<double> squares = squared_forces_around(work->nodal.corner);
+    take_forces_around(work->nodal.corner);
+
     std::vector<char> released(moves.size(), 0);
-    double all_held = 0, all_around = 0;
-    for (std::size_t s = 0; s < held.prescribed().size(); ++s) {
-      const auto unknown = static_cast<std::size_t>(held.prescribed()[s]), f = unknown / dim;
-      if (!rests_[f] || held.owner(s) != HeldUnknowns::nobody) continue;
-      const double Q = F_[unknown] - trial.reactions[s];
-      all_held += Q * Q;
-      all_around += squares[f] / dim;
-      if (!(Q * Q <= share() * share() * squares[f])) released[f] = 1;
+    const std::vector<Held> all = held_at_rest();
+    const auto [held, around] = sums_of_squares(all, trial.reactions);
+    if (around > 0) figures_.held_force = std::max(figures_.held_force, std::sqrt(held / around));
+    for (const Held& at : all) {
+      const double Q = out_of_balance(at, trial.reactions);
+      if (!(Q * Q <= share() * share() * squares_[at.unknown / dim])) released[at.unknown / dim] = 1;
     }
-    if (all_around > 0) figures_.held_force = std::max(figures_.held_force, std::sqrt(all_held / all_around));
-    keep_neighbours_of(
-        released, [](char is_released) { return is_released != 0; }, 1);
+    constexpr int cells_around_a_push = 4;
+    for (int cell = 0; cell < (is_pushed_ ? cells_around_a_push : 1); ++cell) spread_by_a_cell(1, released);
     for (std::size_t f = 0; f < moves.size(); ++f) moves[f] |= released[f];
   }
-  // F of the unknowns that are free in this phase; those at rest bear the load that they had when they came to rest.
-  void keep_loads() {
-    F_.resize(dim * quiet_.size(), 0);
-    for (std::size_t k = 0; k < load_.size(); ++k) F_[static_cast<std::size_t>(frame_.dofs().free[k])] = load_[k];
+  // Sets S² = F² + Σ r² of the forces r of the corners at each function.
+  void take_forces_around(const std::vector<double>& corner) {
+    squares_.assign(quiet_.size(), 0);
+    for (std::size_t unknown = 0; unknown < loads_.size(); ++unknown)
+      squares_[unknown / dim] += loads_[unknown] * loads_[unknown];
+    for (std::size_t c = 0; c < dim * per_cell * frame_.body.points.cells(); ++c)
+      squares_[function(c / (dim * per_cell), c / dim % per_cell)] += corner[c] * corner[c];
   }
-  // F² + Σ r² of the forces r of the corners at each function, (functions) [N²].
-  std::vector<double> squared_forces_around(const std::vector<double>& corner) const {
-    std::vector<double> squares(frame_.functions_of_grid(), 0);
-    for (std::size_t unknown = 0; unknown < F_.size(); ++unknown) squares[unknown / dim] += F_[unknown] * F_[unknown];
-    for (std::size_t k = 0; k < frame_.body.points.cells(); ++k) {
-      for (std::size_t a = 0; a < per_cell; ++a) {
-        double& sum = squares[static_cast<std::size_t>(frame_.weights.function(k, static_cast<int>(a)))];
-        for (std::size_t i = 0; i < dim; ++i) {
-          const double r = corner[dim * (per_cell * k + a) + i];
-          sum += r * r;
-        }
-      }
-    }
-    return squares;
-  }
+
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   const PhaseFrame<B, K>& frame_;
   InternalForce<B, K>& force_;
   const MotionLimit<B, K>& limit_;
   const Conditions<K>& conditions_;
-  const std::vector<double>& load_;  // F of the present phase, (n) [N]
-  std::vector<double> quiet_;        // the largest motions while each function has been quiet, (functions) [cells]
-  std::vector<char> rests_;          // whether it rests in the present phase
-  std::vector<double> F_;            // the load on each unknown when it was free last, (functions × dim) [N]
-  Counts counts_{};                  // the functions along the axes to which these belong
-  long phases_ = 0;                  // in which parts could rest
-  RestFigures figures_;              // points: the sum over these phases
+  const std::vector<double>& load_;
+  std::vector<double> quiet_;    // the largest motions while each function has been quiet, (functions) [cells]
+  std::vector<double> loads_;    // F of each unknown when it was free last, (functions × dim) [N]
+  std::vector<double> squares_;  // S² when the last phase ended, (functions) [N²]
+  Counts counts_{};              // the functions along the axes to which these belong
+  std::vector<char> rests_;      // whether each function rests in the present phase
+  std::vector<Held> border_;     // what rests beside what moves
+  bool is_pushed_ = false;
+  double resting_share_ = 0;  // of the points in the present phase
+  long phases_ = 0;           // that have ended
+  RestFigures figures_;       // points: the sum over these phases
 };
 
 }  // namespace stillpoint
