@@ -174,7 +174,7 @@ struct PhaseSpec {  // [phase]: when the points move on and the grid is reset
   /// A phase ends once some point has moved by this share of a cell; 0: after every step (classical MPM).
   Choice<double> max_motion = Choice<double>::open(never);
   std::optional<double> max_strain;  // or once some component of ∂u/∂x exceeds this; empty: not tested
-  double rest = 0;  // parts rest that move by less than this share of the largest motion; 0: none does
+  double rest = 0;                   // parts rest that move by less than this share of the largest motion; 0: none does
   Choice<Transfer> transfer = Choice<Transfer>::open(Transfer::flip);
   Choice<double> flip_share = Choice<double>::open(1);  // for "flip": 1 adds the increment of the nodal velocity, 0
                                                         // takes that velocity itself

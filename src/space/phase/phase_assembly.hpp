@@ -58,7 +58,7 @@ struct PhaseAssembly {
   PhaseInertia<B, K> inertia{frame};
   MotionLimit<B, K> limit{frame, force};
   Remap<B, K> remap{frame, force, inertia, conditions};
-    std::vector<double> constant_force;  // constant part of F, (n)
+  std::vector<double> constant_force;  // constant part of F, (n)
   RestingParts<B, K> rest{frame, force, limit, conditions, constant_force};
 
  private:

@@ -10,7 +10,8 @@
 //   |Q| > τ S,   S² = F² + Σ r²   with the forces r of its cells' corners,
 //
 // the forces of the stresses around it. Once the root mean square of Q beside what moves passes 4 τ of that of S, as
-// when a wall begins to push, the phase ends at once, and all within a few cells moves again. The same ratio over all
+// when a wall begins to push, the phase ends at once, all within a few cells moves again, and for a while parts have to
+// be quiet for longer, so that a body that is shaken does not change phases for their sake. The same ratio over all
 // that rests is reported: holding many functions by a little adds up.
 #pragma once
 
@@ -55,7 +56,7 @@ class RestingParts {
     follow_grid();
     rests_.resize(quiet_.size());
     for (std::size_t f = 0; f < rests_.size(); ++f) {
-      bool rests = reached[f] && quiet_[f] >= long_enough;
+      bool rests = reached[f] && quiet_[f] >= long_enough_;
       for (std::size_t i = 0; i < dim; ++i) rests = rests && !held.is_guided(static_cast<int>(dim * f + i));
       rests_[f] = static_cast<char>(rests);
     }
@@ -103,6 +104,8 @@ class RestingParts {
     std::vector<char> moves = moved(u);
     take_forces(t, u, moves);
     const double motion = limit_.largest_motion(u);
+    constexpr double a_phase_without_push = 0.97;
+    long_enough_ = std::clamp(long_enough_ * (is_pushed_ ? 2 : a_phase_without_push), shortest_quiet, longest_quiet);
     for (std::size_t f = 0; f < functions; ++f) quiet_[f] = moves[f] ? 0 : quiet_[f] + motion;
   }
   /// Lets everything move again in the next phase.
@@ -120,12 +123,13 @@ class RestingParts {
     state.none_or(functions, "quiet", quiet_);
     state.none_or(dim * functions, "loads", loads_);
     state.none_or(functions, "forces_around", squares_);
-    state("phases", phases_, "resting_points", figures_.points, "held_force", figures_.held_force);
+    state("long_enough", long_enough_, "phases", phases_, "resting_points", figures_.points, "held_force",
+          figures_.held_force);
     if (state.restores() && !quiet_.empty()) counts_ = counts();
   }
 
  private:
-  static constexpr double long_enough = 0.2;  // [cells]
+  static constexpr double shortest_quiet = 0.2, longest_quiet = 20;  // [cells]
   struct Held {
     std::size_t number, unknown;  // of the prescribed unknowns, and in the grid
   };
@@ -295,9 +299,10 @@ class RestingParts {
   std::vector<char> rests_;      // whether each function rests in the present phase
   std::vector<Held> border_;     // what rests beside what moves
   bool is_pushed_ = false;
-  double resting_share_ = 0;  // of the points in the present phase
-  long phases_ = 0;           // that have ended
-  RestFigures figures_;       // points: the sum over these phases
+  double long_enough_ = shortest_quiet;  // how long what rests has to have been quiet [cells]
+  double resting_share_ = 0;             // of the points in the present phase
+  long phases_ = 0;                      // that have ended
+  RestFigures figures_;                  // points: the sum over these phases
 };
 
 }  // namespace stillpoint
