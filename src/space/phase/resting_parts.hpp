@@ -104,7 +104,7 @@ class RestingParts {
     std::vector<char> moves = moved(u);
     take_forces(t, u, moves);
     const double motion = limit_.largest_motion(u);
-    constexpr double a_phase_without_push = 0.97;
+    constexpr double a_phase_without_push = 0.9;
     long_enough_ = std::clamp(long_enough_ * (is_pushed_ ? 2 : a_phase_without_push), shortest_quiet, longest_quiet);
     for (std::size_t f = 0; f < functions; ++f) quiet_[f] = moves[f] ? 0 : quiet_[f] + motion;
   }
@@ -129,7 +129,7 @@ class RestingParts {
   }
 
  private:
-  static constexpr double shortest_quiet = 0.2, longest_quiet = 20;  // [cells]
+  static constexpr double shortest_quiet = 0.2, longest_quiet = 1.6;  // [cells]
   struct Held {
     std::size_t number, unknown;  // of the prescribed unknowns, and in the grid
   };
