@@ -82,6 +82,14 @@ class KickDrift {
     return known;
   }
 
+  /// The trial becomes the state.
+  void accept() {
+    if (velocity_) velocity_->accept();
+  }
+  void archive(const StateArchive& state) {
+    if (velocity_) velocity_->archive(state);
+  }
+
   /// Kicks v by k a into v_new and drifts u by h into u_new. v, v_new: velocities or momenta; all (n). With a momentum
   /// its velocity is kicked by k velocity()->a, into next_v.
   void operator()(double k, ConstVec a, double h, ConstVec u, ConstVec v, Vec u_new, Vec v_new) {

@@ -101,12 +101,12 @@ class Leapfrog final : public March {
 
   void accepted() override {
     std::swap(a_, next_a_);
-    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->accept();
+    kick_drift_.accept();
   }
 
   void archive_memory(const StateArchive& state) override {
     state("a", a_.span());
-    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->archive(state);
+    kick_drift_.archive(state);
   }
 
   KickDrift kick_drift_;

@@ -77,12 +77,12 @@ class SymplecticEuler final : public March {
 
   void accepted() override {
     std::swap(Q_, next_Q_);
-    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->accept();
+    kick_drift_.accept();
   }
 
   void archive_memory(const StateArchive& state) override {
     state("Q", Q_.span());
-    if (VelocityOfMomentum* const of = kick_drift_.velocity()) of->archive(state);
+    kick_drift_.archive(state);
   }
 
   KickDrift kick_drift_;

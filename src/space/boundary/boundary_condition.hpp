@@ -38,11 +38,14 @@ class HeldUnknowns {
     owners_.push_back(owner);
     from_.push_back(from);
   }
-  /// Holds an unknown where it is, for the phase.
+  /// Holds an unknown where it is, for the phase; everything else that holds unknowns comes first.
   void let_rest(int unknown) {
     static const PrescribedMotion none(Expression(0.0), 1.0);
     prescribe(unknown, none, nobody);
+    ++at_rest_;
   }
+  /// The first of the prescribed unknowns that rest; all after it do.
+  std::size_t first_at_rest() const { return prescribed_.size() - at_rest_; }
   /// Marks an unknown along which a wall acts; it stays free.
   void guide(int unknown) {
     if (!is_prescribed(unknown)) by_[static_cast<std::size_t>(unknown)] = wall;
@@ -77,6 +80,7 @@ class HeldUnknowns {
   double start_ = 0, share_ = 1;
   std::vector<By> by_;  // the condition on each unknown
   std::vector<int> prescribed_;
+  std::size_t at_rest_ = 0;  // the number of those that rest
   std::vector<std::size_t> displaced_;
   std::vector<const PrescribedMotion*> motions_;
   std::vector<std::size_t> owners_;

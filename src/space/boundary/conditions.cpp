@@ -232,14 +232,6 @@ bool Conditions<K>::name_supports() const {
   return std::ranges::any_of(problem_.supports, [](const SupportSpec& support) { return !support.name.empty(); });
 }
 
-template <Kinematics K>
-std::vector<double> Conditions<K>::loads_on_supports(const Parts& phase, double t, const double* u) const {
-  std::vector<double> F_s(phase.held.prescribed().size(), 0);
-  for (const auto& condition : all_) condition->add_load_on_supports(phase, t, u, F_s);
-  load_control_.add_load_on_supports(phase, t, u, F_s);
-  return F_s;
-}
-
 // The reactions R_s − F_s at the prescribed values and −k g of springs. The reaction of a prescribed slope is a moment
 // and no force, and is left out.
 template <Kinematics K>
@@ -255,7 +247,9 @@ std::vector<SupportReaction> Conditions<K>::support_reactions(const Parts& phase
   }
   const HeldUnknowns& held = phase.held;
   const std::size_t prescribed = held.prescribed().size();
-  const std::vector<double> F_s = loads_on_supports(phase, t, u);
+  std::vector<double> F_s(prescribed, 0);
+  for (const auto& condition : all_) condition->add_load_on_supports(phase, t, u, F_s);
+  load_control_.add_load_on_supports(phase, t, u, F_s);
   // Adds the force f along axis i at x, and its moment x × f e_i.
   const auto bear = [&](SupportReaction& support, int i, double f, [[maybe_unused]] const auto& place_of) {
     support.force[static_cast<std::size_t>(i)] += f;

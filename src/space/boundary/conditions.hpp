@@ -100,8 +100,6 @@ class Conditions {
   // --- reactions and displacements; the argument `reactions` as in add_force() --------------------
   std::vector<WallReaction> wall_reactions(double t) const;
   std::vector<double> support_displacements(const HeldUnknowns& held, double t) const;
-  /// All loads at the prescribed unknowns, which what holds them bears directly, (prescribed) [N].
-  std::vector<double> loads_on_supports(const Parts& phase, double t, const double* u) const;
   /// Whether a support of the scene has a name.
   bool name_supports() const;
   std::vector<SupportReaction> support_reactions(const Parts& phase, double t, const double* u,

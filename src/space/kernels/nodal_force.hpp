@@ -50,6 +50,8 @@ class NodalForce {
   }
   /// Lets cells rest in this phase, (cells): their functions do not move, and their forces stay what they are.
   void let_rest(const std::vector<char>& cells) { divide_into_blocks(cells); }
+  /// The functions of the cells that move, if some rest.
+  const std::vector<std::size_t>& moving_functions() const { return moving_functions_; }
   /// Whether some cells rest whose forces are not in these arrays.
   bool misses_forces_at_rest(const Work& work) const {
     return moving_blocks_ < blocks_.size() && work.corners_at_rest_of != divisions_;

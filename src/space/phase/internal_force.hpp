@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "scene/point_sums.hpp"
-#include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/elastic_cells.hpp"
 #include "space/kernels/nodal_force.hpp"
-#include "space/materials/moduli_of.hpp"
 #include "space/phase/matrix_of_means.hpp"
+#include "space/phase/matrix_of_points.hpp"
 #include "space/phase/phase_frame.hpp"
 #include "space/phase/phase_trial.hpp"
 #include "space/phase/point_laws.hpp"
@@ -170,7 +169,7 @@ class InternalForce {
     heed_laws();
     laws_.add_shared_forces(u, dR, {}, work);
   }
-  /// The stiffness K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i.
+  /// The tangent as a matrix, (n × n).
   SparseMatrix matrix(Tangent kind, double t, Work& work) const {
     const double dt = t - committed_.t;
     if constexpr (dim > 1) {
@@ -180,31 +179,7 @@ class InternalForce {
       }
     }
     std::ranges::transform(work.u, committed_.u, work.du.begin(), std::minus<>());
-    const PointWeights<B, K>& weights = frame_.weights;
-    const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<dim, per_cell>& matrix) {
-      const auto H = weights.gradient(work.u.data(), k, p), dH = weights.gradient(work.du.data(), k, p);
-      const auto A = moduli_of(frame_.material_of(k), kind, H, dH, dt, p);
-      std::array<TensorOf<K>, dim * per_cell> G{};
-      const auto dN = weights.dN(k, p);
-      for (int a = 0; a < per_cell; ++a) {
-        for (int i = 0; i < dim; ++i) {
-          for (int j = 0; j < dim; ++j) G[dim * a + i][dim * i + j] = dN[per_cell * j + a];
-        }
-        if constexpr (K == Kinematics::axisymmetric) G[dim * a][dim * dim] = dN[per_cell * dim + a];
-      }
-      for (int row = 0; row < dim * per_cell; ++row) {
-        TensorOf<K> left{};  // V G A
-        for (int c = 0; c < components; ++c) {
-          if (G[row][c] == 0) continue;
-          for (int d = 0; d < components; ++d)
-            left[d] += frame_.body.points.volume[p] * G[row][c] * A[components * c + d];
-        }
-        for (int column = 0; column < dim * per_cell; ++column) {
-          for (int d = 0; d < components; ++d) matrix[row][column] += left[d] * G[column][d];
-        }
-      }
-    };
-    return assemble_cells<B, K>(frame_.grid, frame_.body.points, weights, frame_.dofs(), add_point).free;
+    return matrix_of_points(frame_, kind, dt, work.u, work.du);
   }
   /// The largest stiffness bound of a point at work.u, as a frequency in its cell, over that when the run began.
   double stiffening(Work& work) const { return largest_bound(work) / undeformed_bound_; }

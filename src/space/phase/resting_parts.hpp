@@ -24,6 +24,7 @@
 
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/conditions.hpp"
+#include "space/grid/followed_functions.hpp"
 #include "space/phase/internal_force.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/phase/motion_limit.hpp"
@@ -54,15 +55,15 @@ class RestingParts {
   void hold(const std::vector<char>& reached, HeldUnknowns& held) {
     if (!act()) return;
     follow_grid();
-    rests_.resize(quiet_.size());
-    for (std::size_t f = 0; f < rests_.size(); ++f) {
-      bool rests = reached[f] && quiet_[f] >= long_enough_;
-      for (std::size_t i = 0; i < dim; ++i) rests = rests && !held.is_guided(static_cast<int>(dim * f + i));
-      rests_[f] = static_cast<char>(rests);
+    std::vector<char> rests(quiet_.size());
+    for (std::size_t f = 0; f < rests.size(); ++f) {
+      bool may_rest = reached[f] && quiet_[f] >= long_enough_;
+      for (std::size_t i = 0; i < dim; ++i) may_rest = may_rest && !held.is_guided(static_cast<int>(dim * f + i));
+      rests[f] = static_cast<char>(may_rest);
     }
-    spread_by_a_cell(0, rests_);
-    for (std::size_t unknown = 0; unknown < dim * rests_.size(); ++unknown) {
-      if (rests_[unknown / dim] && !held.is_prescribed(static_cast<int>(unknown)))
+    spread_by_a_cell(0, rests);
+    for (std::size_t unknown = 0; unknown < dim * rests.size(); ++unknown) {
+      if (rests[unknown / dim] && !held.is_prescribed(static_cast<int>(unknown)))
         held.let_rest(static_cast<int>(unknown));
     }
   }
@@ -74,7 +75,7 @@ class RestingParts {
     if (!act()) return;
     const std::vector<char> cells = resting_cells();
     force_.let_rest(cells);
-    find_border(cells);
+    border_ = held_beside_what_moves();
     const MaterialPoints<static_cast<int>(dim)>& points = frame_.body.points;
     std::size_t resting = 0;
     for (std::size_t k = 0; k < cells.size(); ++k) resting += cells[k] ? points.end(k) - points.begin(k) : 0;
@@ -95,18 +96,18 @@ class RestingParts {
     if (share() == 0 || !conditions_.loads_are_constant()) return;
     const std::size_t functions = frame_.functions_of_grid();
     quiet_.resize(functions, 0);
-    rests_.resize(functions, 0);
     loads_.resize(dim * functions, 0);
     counts_ = counts();
     figures_.points += resting_share_;
     ++phases_;
     for (std::size_t k = 0; k < load_.size(); ++k) loads_[unknown(k)] = load_[k];
-    std::vector<char> moves = moved(u);
-    take_forces(t, u, moves);
-    const double motion = limit_.largest_motion(u);
+    add_quiet(u);
     constexpr double a_phase_without_push = 0.9;
     long_enough_ = std::clamp(long_enough_ * (is_pushed_ ? 2 : a_phase_without_push), shortest_quiet, longest_quiet);
-    for (std::size_t f = 0; f < functions; ++f) quiet_[f] = moves[f] ? 0 : quiet_[f] + motion;
+    squares_.assign(functions, 0);
+    const bool some_may_rest = std::ranges::any_of(quiet_, [&](double quiet) { return quiet >= long_enough_; });
+    const std::vector<Held> at_rest = held_at_rest();
+    if (!at_rest.empty() || some_may_rest) let_go_what_is_out_of_balance(t, u, at_rest);
   }
   /// Lets everything move again in the next phase.
   void wake() { quiet_.assign(quiet_.size(), 0); }
@@ -119,6 +120,7 @@ class RestingParts {
   }
   /// Saves or restores what is known of earlier phases; a phase is resumed afterwards.
   void archive(const StateArchive& state) {
+    if (share() == 0) return;
     const std::size_t functions = frame_.functions_of_grid();
     state.none_or(functions, "quiet", quiet_);
     state.none_or(dim * functions, "loads", loads_);
@@ -148,45 +150,19 @@ class RestingParts {
   }
   std::size_t unknown(std::size_t free) const { return static_cast<std::size_t>(frame_.dofs().free[free]); }
 
-  // Renumbers what is known of the functions once the grid has been given lines, or has lost some, at the wall that it
-  // follows.
+  // Renumbers what is known of the functions once the grid has followed its wall. There is one field of them: bodies in
+  // contact do not rest.
   void follow_grid() {
     const Counts now = counts(), before = std::exchange(counts_, now);
     if (quiet_.empty()) quiet_.assign(frame_.functions_of_grid(), 0);
     if (before == Counts{} || before == now) return;
-    const auto fields = static_cast<std::size_t>(frame_.body.fields);
-    std::vector<std::size_t> from(frame_.functions_of_grid(), none);  // the number that each function had
-    const std::size_t of_field = from.size() / fields, of_field_before = quiet_.size() / fields;
-    const bool at_end = !follows_lower_face();
-    for (std::size_t f = 0; f < from.size(); ++f) {
-      std::size_t left = f % of_field, stride = 1, old = f / of_field * of_field_before;
-      bool is_new = false;
-      for (std::size_t d = 0; d < dim; ++d) {
-        const std::size_t index = left % now[d];
-        const std::size_t was = at_end ? index : index + before[d] - now[d];  // too large if it is new
-        is_new = is_new || was >= before[d];
-        old += was * stride;
-        left /= now[d];
-        stride *= before[d];
-      }
-      if (!is_new) from[f] = old;
-    }
-    renumber(from, 1, quiet_);
-    renumber(from, 1, squares_);
-    renumber(from, dim, loads_);
-  }
-  bool follows_lower_face() const {
     const Problem& problem = frame_.problem;
     const auto wall = std::ranges::find(problem.walls, problem.grid.follow, &WallSpec::name);
-    return wall != problem.walls.end() && !is_upper(wall->face);
-  }
-  static void renumber(const std::vector<std::size_t>& from, std::size_t components, std::vector<double>& values) {
-    std::vector<double> renumbered(components * from.size(), 0);
-    for (std::size_t k = 0; k < renumbered.size(); ++k) {
-      const std::size_t old = from[k / components];
-      if (old != none) renumbered[k] = values[components * old + k % components];
-    }
-    values.swap(renumbered);
+    const bool at_end = wall == problem.walls.end() || is_upper(wall->face);
+    const std::vector<std::size_t> from = numbers_before(before, now, at_end);
+    quiet_ = renumbered(quiet_, from, 1);
+    squares_ = renumbered(squares_, from, 1);
+    loads_ = renumbered(loads_, from, dim);
   }
 
   // Sets `value` at all functions that share a cell with one that has it.
@@ -210,36 +186,31 @@ class RestingParts {
     }
     return cells;
   }
-  // Finds what is held at functions of which some cells move.
-  void find_border(const std::vector<char>& resting_cells) {
-    std::vector<char> beside(quiet_.size(), 0);
-    for (std::size_t k = 0; k < resting_cells.size(); ++k) {
-      for (std::size_t a = 0; a < per_cell && !resting_cells[k]; ++a) beside[function(k, a)] = 1;
-    }
-    border_ = held_at_rest();
-    std::erase_if(border_, [&](const Held& at) { return !beside[at.unknown / dim]; });
-  }
-  // What no support holds, but its rest.
+  // What is held by its rest alone.
   std::vector<Held> held_at_rest() const {
     const HeldUnknowns& held = frame_.held();
     std::vector<Held> all;
-    for (std::size_t s = 0; s < held.prescribed().size(); ++s) {
-      const auto unknown = static_cast<std::size_t>(held.prescribed()[s]);
-      if (held.owner(s) == HeldUnknowns::nobody && rests_[unknown / dim]) all.push_back({s, unknown});
-    }
+    for (std::size_t s = held.first_at_rest(); s < held.prescribed().size(); ++s)
+      all.push_back({s, static_cast<std::size_t>(held.prescribed()[s])});
     return all;
   }
+  // What of that is at functions of which some cells move.
+  std::vector<Held> held_beside_what_moves() const {
+    std::vector<char> moves(frame_.functions_of_grid(), 0);
+    for (const std::size_t f : force_.points().moving_functions()) moves[f] = 1;
+    std::vector<Held> beside = held_at_rest();
+    std::erase_if(beside, [&](const Held& at) { return !moves[at.unknown / dim]; });
+    return beside;
+  }
 
-  // Whether a function has moved in this phase, by more than the share of the largest motion, or was moved,
-  // (functions).
-  std::vector<char> moved(ConstVec u) const {
-    const double allowed = share() * limit_.largest_motion(u);
-    const HeldUnknowns& held = frame_.held();
-    std::vector<char> moves(quiet_.size(), 0);
+  // Adds a phase to the time for which each function has been quiet, or begins it anew.
+  void add_quiet(ConstVec u) {
+    const double motion = limit_.largest_motion(u), allowed = share() * motion;
+    for (double& quiet : quiet_) quiet += motion;
     for (std::size_t k = 0; k < u.size(); ++k)
-      if (!(limit_.motion(k, u) <= allowed)) moves[unknown(k) / dim] = 1;
-    for (const std::size_t s : held.displaced()) moves[static_cast<std::size_t>(held.prescribed()[s]) / dim] = 1;
-    return moves;
+      if (!(limit_.motion(k, u) <= allowed)) quiet_[unknown(k) / dim] = 0;
+    const HeldUnknowns& held = frame_.held();
+    for (const std::size_t s : held.displaced()) quiet_[static_cast<std::size_t>(held.prescribed()[s]) / dim] = 0;
   }
   double out_of_balance(const Held& at, ConstVec reactions) const { return loads_[at.unknown] - reactions[at.number]; }
   // Σ Q² and Σ S² over what is held; S² is that of all components of a function.
@@ -252,8 +223,8 @@ class RestingParts {
     }
     return {held, around};
   }
-  // Evaluates the forces at (t, u), and lets what they put out of balance move.
-  void take_forces(double t, ConstVec u, std::vector<char>& moves) {
+  // Evaluates the forces at (t, u), and lets go what they put out of balance.
+  void let_go_what_is_out_of_balance(double t, ConstVec u, const std::vector<Held>& at_rest) {
     const auto work = force_.borrow();
     PhaseTrial trial(force_.borrow_trial());
     trial.t = t;
@@ -262,30 +233,27 @@ class RestingParts {
     std::vector<double> R(u.size());
     force_.evaluate(trial, R, *work);
     conditions_.add_force(t, trial.arrays->u.data(), R, trial.reactions);
-    take_forces_around(work->nodal.corner);
+    add_forces_around(work->nodal.corner);
 
-    std::vector<char> released(moves.size(), 0);
-    const std::vector<Held> all = held_at_rest();
-    const auto [held, around] = sums_of_squares(all, trial.reactions);
+    const auto [held, around] = sums_of_squares(at_rest, trial.reactions);
     if (around > 0) figures_.held_force = std::max(figures_.held_force, std::sqrt(held / around));
-    for (const Held& at : all) {
+    std::vector<char> released(quiet_.size(), 0);
+    for (const Held& at : at_rest) {
       const double Q = out_of_balance(at, trial.reactions);
       if (!(Q * Q <= share() * share() * squares_[at.unknown / dim])) released[at.unknown / dim] = 1;
     }
     constexpr int cells_around_a_push = 4;
     for (int cell = 0; cell < (is_pushed_ ? cells_around_a_push : 1); ++cell) spread_by_a_cell(1, released);
-    for (std::size_t f = 0; f < moves.size(); ++f) moves[f] |= released[f];
+    for (std::size_t f = 0; f < released.size(); ++f)
+      if (released[f]) quiet_[f] = 0;
   }
-  // Sets S² = F² + Σ r² of the forces r of the corners at each function.
-  void take_forces_around(const std::vector<double>& corner) {
-    squares_.assign(quiet_.size(), 0);
+  // Adds S² = F² + Σ r² of the forces r of the corners at each function.
+  void add_forces_around(const std::vector<double>& corner) {
     for (std::size_t unknown = 0; unknown < loads_.size(); ++unknown)
       squares_[unknown / dim] += loads_[unknown] * loads_[unknown];
     for (std::size_t c = 0; c < dim * per_cell * frame_.body.points.cells(); ++c)
       squares_[function(c / (dim * per_cell), c / dim % per_cell)] += corner[c] * corner[c];
   }
-
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   const PhaseFrame<B, K>& frame_;
   InternalForce<B, K>& force_;
@@ -296,7 +264,6 @@ class RestingParts {
   std::vector<double> loads_;    // F of each unknown when it was free last, (functions × dim) [N]
   std::vector<double> squares_;  // S² when the last phase ended, (functions) [N²]
   Counts counts_{};              // the functions along the axes to which these belong
-  std::vector<char> rests_;      // whether each function rests in the present phase
   std::vector<Held> border_;     // what rests beside what moves
   bool is_pushed_ = false;
   double long_enough_ = shortest_quiet;  // how long what rests has to have been quiet [cells]
