@@ -89,10 +89,8 @@ def runs_in_space(threads, quick):
 
 
 def output_of(command):
-    # As the command has it for itself: threads that wait long for each other take a busy machine's cores.
-    environment = {"GOMP_SPINCOUNT": "20000"} | os.environ
     words = [str(word) for word in command]
-    done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode not in (0, 3):  # 3: ended by stop.steps
         raise BadFigures(f"{Path(command[0]).name} ended with {done.returncode}: {done.stderr.strip()}")
     return done.stdout

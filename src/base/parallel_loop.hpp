@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "base/thread_team.hpp"
+
 namespace stillpoint {
 
 /// The number of entries below which a thread team costs more than it saves.
@@ -13,16 +15,15 @@ inline constexpr std::size_t threaded_from = 1 << 13;
 /// Calls body(i) for i = 0 … n−1, in any order.
 template <class Body>
 inline void for_each_index(std::size_t n, const Body& body) {
-  if (n < threaded_from) {
+  const auto loop = [&body](std::size_t begin, std::size_t end) {
+    const Body own(body);  // a copy of the thread's own, which no store can change, so that the loop is vectorised
 #pragma omp simd
-    for (std::size_t i = 0; i < n; ++i) body(i);
+    for (std::size_t i = begin; i < end; ++i) own(i);
+  };
+  if (n < threaded_from) {
+    loop(0, n);
   } else {
-#pragma omp parallel
-    {
-      const Body own(body);  // a copy of the thread's own, which no store can change, so that the loop is vectorised
-#pragma omp for simd schedule(static)
-      for (std::size_t i = 0; i < n; ++i) own(i);
-    }
+    in_parts(n, 1, loop);
   }
 }
 
@@ -33,16 +34,28 @@ inline void for_each_piece(std::size_t n, const Body& body) {
   constexpr std::size_t piece = 2048;
   static_assert(piece < threaded_from);  // one thread each
   const std::size_t pieces = (n + piece - 1) / piece;
-#pragma omp parallel for schedule(static) if (n >= threaded_from)
-  for (std::size_t k = 0; k < pieces; ++k) body(k * piece, std::min(piece, n - k * piece));
+  const auto loop = [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) body(k * piece, std::min(piece, n - k * piece));
+  };
+  if (n < threaded_from) {
+    loop(0, pieces);
+  } else {
+    in_parts(pieces, 4, loop);
+  }
 }
 
 /// Calls body(k) for k = 0 … n−1, a body that is itself a loop over the points of a cell: threaded from a thousand on.
 template <class Body>
 inline void for_each_block(std::size_t n, const Body& body) {
   constexpr std::size_t blocks_for_threads = 1024;
-#pragma omp parallel for schedule(static) if (n >= blocks_for_threads)
-  for (std::size_t k = 0; k < n; ++k) body(k);
+  const auto loop = [&body](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) body(k);
+  };
+  if (n < blocks_for_threads) {
+    loop(0, n);
+  } else {
+    in_parts(n, 4, loop);
+  }
 }
 
 /// For each k < count ≤ most: joins term(k, 0) … term(k, n−1), join associative up to rounding. All k are done in one
@@ -80,11 +93,13 @@ inline std::array<Value, most> reduce_each(std::size_t count, std::size_t n, Val
       of_block[b][k] = all;
     }
   };
+  const auto reduce_blocks = [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) reduce_block(b);
+  };
   if (n < threaded_from) {
-    for (std::size_t b = 0; b < blocks; ++b) reduce_block(b);
+    reduce_blocks(0, blocks);
   } else {
-#pragma omp parallel for schedule(static)
-    for (std::size_t b = 0; b < blocks; ++b) reduce_block(b);
+    in_parts(blocks, 2, reduce_blocks);
   }
 
   std::array<Value, most> result;

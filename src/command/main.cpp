@@ -12,7 +12,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <malloc.h>
-#include <unistd.h>
 
 #include "base/gpl.hpp"
 #include "base/work_apart.hpp"
@@ -121,15 +120,6 @@ CLI::App& add_safety(CLI::App& app, SafetyArguments& arguments) {
   return safety;
 }
 
-// OpenMP's threads wait for the next loop by spinning, for milliseconds: best alone on a machine, but ten times slower
-// than one thread if another program wants a core. They therefore wait for microseconds here, unless the user has
-// chosen otherwise. The OpenMP library reads its environment before main(): the program starts itself once more, which
-// takes 20 ms.
-void wait_briefly(char** argv, int threads) {
-  if (threads == 1 || std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", argv);
-}
-
 // A check for the number of threads: the word "auto" becomes 0.
 std::string number_or_auto(std::string& text) {
   constexpr std::string_view all_or_one = "auto";
@@ -201,21 +191,14 @@ int dispatch(int argc, char** argv) {
     fmt::print(stderr, "run: expected a SCENE, or --resume DIR\n");
     return bad_input;
   }
-  if (run_app.parsed()) {
-    wait_briefly(argv, run_arguments.threads);
-    return run(run_arguments);
-  }
-  if (compare_app.parsed()) {
-    wait_briefly(argv, compare_arguments.options.threads);
-    return compare(compare_arguments);
-  }
+  if (run_app.parsed()) return run(run_arguments);
+  if (compare_app.parsed()) return compare(compare_arguments);
   if (converge_app.parsed()) return converge(converge_arguments);
   if (safety_app.parsed()) {
     if (const std::string wrong = safety_arguments.options.validate(); !wrong.empty()) {
       fmt::print(stderr, "--{}\n", wrong);
       return bad_input;
     }
-    wait_briefly(argv, safety_arguments.options.threads);
     return safety(safety_arguments);
   }
   if (check_app.parsed()) return check(scene_arguments);

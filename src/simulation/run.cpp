@@ -5,9 +5,8 @@
 #include <memory>
 #include <string>
 
-#include <omp.h>
-
 #include "base/atomic_file.hpp"
+#include "base/thread_team.hpp"
 #include "output/history.hpp"
 #include "output/report/report_page.hpp"
 #include "output/report/run_report.hpp"
@@ -37,7 +36,7 @@ Summary leave_stopped_set_up(const Problem& problem, const SimulationOptions& op
   s.exit_status = 3;
   s.t = resumes ? std::numeric_limits<double>::quiet_NaN() : 0;
   s.residual = s.kinetic_energy = s.omega_max = std::numeric_limits<double>::quiet_NaN();
-  s.threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  s.threads = options.threads > 0 ? options.threads : loop_threads();
   s.wall_s = stopped.wall_s();
   s.method = problem.solve.method;
   if (problem.solve.is_static()) return s;

@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include <omp.h>
-
+#include "base/thread_team.hpp"
 #include "plan/problem_size.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/parts.hpp"
@@ -11,7 +10,7 @@
 
 namespace stillpoint {
 Simulation::Simulation(Scene scene, SimulationOptions options) {
-  const int all = omp_get_max_threads();
+  const int all = loop_threads();
   const ThreadScope threads(threads_to_begin_with(options.threads, body_size(scene).points));
   impl_ = located(scene, [&] { return std::make_unique<Impl>(scene, std::move(options), all); });
 }

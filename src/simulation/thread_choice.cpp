@@ -4,10 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include <omp.h>
-
 #include "base/parallel_loop.hpp"
 #include "base/stopwatch.hpp"
+#include "base/thread_team.hpp"
 
 namespace stillpoint {
 namespace {
@@ -75,7 +74,7 @@ void ThreadChoice::end_trial() {
 
 int threads_to_begin_with(int asked, double points) {
   constexpr double large_body = 5000;  // whose set-up takes longer than this trial
-  const int all = asked > 0 ? asked : omp_get_max_threads();
+  const int all = asked > 0 ? asked : loop_threads();
   if (all == 1 || points < large_body) return all;
   constexpr double at_least = 0.006;  // [s]
   std::vector<double> x(1 << 16);

@@ -4,27 +4,10 @@
 #include <array>
 #include <limits>
 
-#include <omp.h>
-
 namespace stillpoint {
 
-/// While it lives, loops take `threads` threads; afterwards as many as before.
-class ThreadScope {
- public:
-  /// 0: as many as OpenMP would take.
-  explicit ThreadScope(int threads) : before_(omp_get_max_threads()) {
-    if (threads > 0) omp_set_num_threads(threads);
-  }
-  ~ThreadScope() { omp_set_num_threads(before_); }
-  ThreadScope(const ThreadScope&) = delete;
-  ThreadScope& operator=(const ThreadScope&) = delete;
-
- private:
-  int before_;
-};
-
 /// Tries both at the start and now and then, a few milliseconds each: a second thread is no gain in a small scene, and
-/// a loss where another program keeps a core busy, since every loop waits for the thread that is not let run.
+/// a loss where another program keeps a core busy, since a loop waits for a thread that is stopped amid its work.
 class ThreadChoice {
  public:
   static constexpr double trial_s = 0.005;     // length of a trial of one number, made twice

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "base/thread_team.hpp"
 #include "simulation/parts.hpp"
-#include "simulation/thread_choice.hpp"
 
 namespace stillpoint {
 namespace {

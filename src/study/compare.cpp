@@ -14,6 +14,7 @@
 
 #include "base/stop_request.hpp"
 #include "base/stopwatch.hpp"
+#include "base/thread_team.hpp"
 #include "plan/problem_size.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/setup/multigrid_mass.hpp"
@@ -45,7 +46,7 @@ class Comparing {
     result_.scene_text = scene_.text;
     result_.overrides = scene_.overrides;
     result_.goal = options_.goal;
-    result_.threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+    result_.threads = options_.threads > 0 ? options_.threads : loop_threads();
     result_.chooses_threads = options_.threads == 0 && result_.threads > 1;
     result_.transient = scene_.stop.time > 0 && !scene_.stop.wants_equilibrium();
     candidates_ = candidates(options_, scene_, result_.transient);

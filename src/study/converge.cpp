@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "base/thread_team.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "study/common_places.hpp"
@@ -120,7 +121,7 @@ class Converging {
 
   // Runs the finest level first, which takes longest.
   void run(std::vector<Job>& jobs, const std::function<void(const std::string&)>& done) {
-    side_by_side(options_.threads > 0 ? options_.threads : omp_get_max_threads(), jobs.size(), [&](std::size_t k) {
+    side_by_side(options_.threads > 0 ? options_.threads : loop_threads(), jobs.size(), [&](std::size_t k) {
       Job& job = jobs[jobs.size() - 1 - k];
       if (!job.is_done && !is_interrupted()) {
         job.run = run_level(with(scene_, job.set), places_ ? &*places_ : nullptr, options_.interrupted);

@@ -6,12 +6,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <omp.h>
 
+#include "base/thread_team.hpp"
 #include "output/point_fields.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/parts.hpp"
-#include "simulation/thread_choice.hpp"
 #include "study/rest_or_motion.hpp"
 #include "study/setting.hpp"
 #include "study/strength_reduction.hpp"
@@ -177,7 +176,7 @@ double ReducedBody::residual() const {
 int ReducedBody::threads() {
   constexpr std::size_t few_points = 20'000;  // which one thread moves as quickly
   if (options_.threads > 0) return options_.threads;
-  return phase().points() < few_points ? 1 : omp_get_max_threads();
+  return phase().points() < few_points ? 1 : loop_threads();
 }
 
 // Newton's method knows no contact, and takes long where a factor of K is large.

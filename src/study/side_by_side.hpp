@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "simulation/thread_choice.hpp"
+#include "base/thread_team.hpp"
 
 namespace stillpoint {
 

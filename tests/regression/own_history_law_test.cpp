@@ -112,6 +112,42 @@ TEST_CASE("a block of a UMAT in Fortran or C moves and flows as one of the built
   }
 }
 
+TEST_CASE("a UMAT of Cam clay is pressed and sheared as ground of the built-in law, in one phase and in many") {
+  const TemporaryFolder folder;
+  compiled_umat(folder, "cam_clay.f", "clay");
+  const std::string ours =
+      "law = \"cam-clay\"\nM = 1.2\nlambda = 0.2\nkappa = 0.04\nnu = 0.3\nrho = 1\ne0 = 1\nOCR = 1.2";
+  const std::string theirs =
+      "law = \"umat\"\nlibrary = \"clay.so\"\nprops = [1.2, 0.2, 0.04, 0.3, 1, 1.2]\n"
+      "statev = [\"pc\", \"void_ratio\", \"plastic_strain\"]\nrho = 1";
+  for (const std::string state : {"plane-strain", "axisymmetric", "space"}) {
+    const bool in_space = state == "space";
+    const std::string third = in_space ? ", 1" : "";
+    const auto scene = [&](const std::string& material, const std::string& motion) {
+      std::string text = fmt::format("dim = {}\n[grid]\nmin = [0, 0{}]\nmax = [1, 1{}]\ncells = [4, 4{}]\n",
+                                     in_space ? 3 : 2, in_space ? ", 0" : "", third, in_space ? ", 4" : "");
+      text += "[body]\nmaterial = \"m\"\n";
+      if (!in_space) text += "state = \"" + state + "\"\n";
+      text += "[material.m]\n" + material + "\n[initial]\nstress = [-100, -100, -100, 0";
+      text += in_space ? ", 0, 0]\n" : "]\n";
+      text += "[[support]]\nface = \"bottom\"\n[[support]]\nface = \"left\"\nkind = \"roller\"\n";
+      text += "[[support]]\nface = \"right\"\nkind = \"roller\"\n";
+      text +=
+          "[[traction]]\nface = \"top\"\nvalue = [\"0\", \"-100-400*t\"" + std::string(in_space ? ", \"40*t\"]" : "]");
+      // The same step for both: that of a UMAT comes from its DDSDDE, here of differences.
+      text += "\n[integrator]\nstep = 5e-4\n[damping]\nc = 3\n[stop]\nresidual = 0\nsteps = 1000000\n";
+      return scene_of(folder, text, {motion});
+    };
+    for (const char* motion : {"phase.max_motion=none", "phase.max_motion=0.002"}) {
+      CAPTURE(state, motion);
+      constexpr int steps = 300;
+      const Fields own = after(steps, scene(theirs, motion));
+      check_same(own, after(steps, scene(ours, motion)), 1e-10);
+      CHECK(largest_value(own.plastic_strain) > 1e-4);
+    }
+  }
+}
+
 TEST_CASE("a law with a history that a program adds moves points as the built-in one of the same formula does") {
   add_my_cone();
   const TemporaryFolder folder;
@@ -167,6 +203,22 @@ TEST_CASE("Newton's method finds with a UMAT what it finds with the built-in law
   const auto [of_umat, of_umat_evaluations] = solved(umat("fortran"));
   CHECK(largest_difference(of_umat, u) < 1e-8 * largest_magnitude(u));  // to the residual
   CHECK(of_umat_evaluations <= evaluations + 2);
+}
+
+TEST_CASE("where no static solver finds a way since a UMAT gives no answer, the material and the place are told") {
+  const TemporaryFolder folder;
+  compiled_umat(folder, "faulty.c", "leaves", "-DSHORTENS -Wl,--unresolved-symbols=ignore-all");
+  const std::string material = "law = \"umat\"\nlibrary = \"leaves.so\"\nrho = 1";
+  for (const char* method : {"newton", "lbfgs", "cg"}) {
+    CAPTURE(method);
+    Simulation simulation(
+        scene_of(folder, block("plane-strain", material),
+                 {std::string("solve.method=") + method, "solve.load_steps=1", "body_force.value=[2e3, -3e3]"}),
+        {.threads = 1});
+    CHECK(simulation.run() != RunStatus::equilibrium);
+    CHECK(simulation.reason().find("of the law is not finite") != std::string::npos);
+    CHECK(simulation.reason().find("material.m") != std::string::npos);
+  }
 }
 
 TEST_CASE("a UMAT stands for the effective stress of undrained ground") {

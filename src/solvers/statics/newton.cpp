@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -78,6 +79,7 @@ class Newton {
   bool load_step(LoadStep& step, Vec u) {
     const std::vector<double> start(u.begin(), u.end());
     full_steps_ = false;
+    refusal_.clear();
     if (last_.is_known()) {
       const double share = step.to - step.from;
       last_.extrapolate(share, u);
@@ -119,7 +121,8 @@ class Newton {
         // Opening or just yielding points may leave K singular; K_e never is in a body that is held.
         ++report_.elastic_iterations;
         if (!evaluate(step.to, u) || !direction_.find_elastic(u) || !descend(step.to, u, residual)) {
-          report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller", residual);
+          report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller{}", residual,
+                                       refusal_.empty() ? "" : "; on the way, " + refusal_);
           return false;
         }
       }
@@ -157,7 +160,10 @@ class Newton {
     for (int halvings = 0; halvings < most_halvings; ++halvings) {
       const double lambda = std::ldexp(1, -halvings);
       for (std::size_t i = 0; i < u.size(); ++i) trial_[i] = u[i] + lambda * direction_.du()[i];
-      if (!evaluate(s, trial_)) continue;
+      if (!evaluate(s, trial_)) {
+        if (refusal_.empty()) refusal_ = system_.diagnosis().refusal(balance_.trial());
+        continue;
+      }
       if (!full_steps_ && !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
       std::ranges::copy(trial_, u.begin());
       short_steps_ = lambda < short_step ? short_steps_ + 1 : 0;
@@ -189,6 +195,7 @@ class Newton {
   static constexpr double short_step = 0.3;
   bool full_steps_ = false;  // full steps are taken, whatever ‖Q‖ does
   int short_steps_ = 0;      // short steps in succession
+  std::string refusal_;      // why the first state of this load step that could not be evaluated was refused
   bool refused_ = false;     // an equilibrium was refused since the last one taken
   bool accepts_ = false;     // indefinite equilibria are accepted
 };

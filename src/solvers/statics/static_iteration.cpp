@@ -53,6 +53,7 @@ TrialStepper::Attempt StaticIteration::attempt(double t, Vector& y, double h, do
   std::ranges::copy(u, u_new.begin());
   std::ranges::fill(second_half(trial.span()), 0.0);
   if (is_lost_) return {.status = StepReport::Status::failed, .h = h, .message = failure()};
+  refusal_.clear();
   went_downhill_ = dot(Q_, z_) > 0;
   if (!went_downhill_) return {.h = h};  // in balance to the last bit
   if (makes_no_way() && begin_half(t, u_new)) return {.h = h};
@@ -113,6 +114,7 @@ bool StaticIteration::search(double t, Vec u_new) {
     alpha_ = line.alpha();
     for_each_index(u.size(), [=, alpha = alpha_](std::size_t i) { u_new[i] = u[i] + alpha * p[i]; });
     if (!evaluate(t, u_new, next_Q_)) {
+      if (refusal_.empty()) refusal_ = system().system().diagnosis().refusal(*system().last().trial);
       line.refused();
     } else if (line.done(dot(next_Q_, p_))) {
       return true;
@@ -187,9 +189,9 @@ bool StaticIteration::begin_half(double t, Vec u_new) {
 
 std::string StaticIteration::failure() {
   return fmt::format(
-      "{}the line search finds no state that is more in balance; the out-of-balance force is largest at {}",
+      "{}the line search finds no state that is more in balance; the out-of-balance force is largest at {}{}",
       load_.is_divided() ? fmt::format("no equilibrium beyond the load factor {:.4g}: ", load_.from()) : "",
-      largest_at(system().system(), std::as_const(Q_).span()));
+      largest_at(system().system(), std::as_const(Q_).span()), refusal_.empty() ? "" : "; on the way, " + refusal_);
 }
 
 }  // namespace stillpoint

@@ -78,6 +78,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   long steps_of_first_ = 0, steps_of_this_ = 0;  // steps of the first increment (0 before its end) and of this one
   bool supports_set_out_ = false;                // they had gone none of their way when it began
   bool is_lost_ = false;                         // an increment could not be begun
+  std::string refusal_;         // why the first state of this step's searches that could not be evaluated was refused
   bool went_downhill_ = false;  // the last attempt: neither was it in balance to the last bit, nor did it go back
 };
 

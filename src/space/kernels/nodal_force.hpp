@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -72,27 +73,23 @@ class NodalForce {
   bool evaluate(const double* u, const double* u_before, const Answer& answer, const Answer* at_rest,
                 const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work,
                 const double* direction = nullptr) const {
-    double bad = 0;
+    std::atomic<bool> is_answered = true;
     const std::size_t moving = moving_blocks_, blocks = at_rest ? blocks_.size() : moving;
     prepare(dofs, work);
-#pragma omp parallel if (points_->size() > points_for_threads)
-    {
-      Block block;
-#pragma omp for schedule(static) reduction(+ : bad)
-      for (std::size_t b = 0; b < blocks; ++b) {
-        for_each_part(blocks_[b], block, [&] {
-          gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
-          if constexpr (Directed)
-            gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
-          bad += b < moving ? answer(blocks_[b].material, block) : (*at_rest)(blocks_[b].material, block);
-          scatter(blocks_[b], block, work.corner.data());
-        });
-      }
-      sum_corners<Directed>(dofs, R, reactions, work, /*all=*/blocks == blocks_.size());
-    }
+    in_threads(blocks, [&](std::size_t begin, std::size_t end) {
+      double bad = 0;
+      for_each_block_of_points(begin, end, [&](std::size_t b, Block& block) {
+        gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
+        if constexpr (Directed) gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
+        bad += b < moving ? answer(blocks_[b].material, block) : (*at_rest)(blocks_[b].material, block);
+        scatter(blocks_[b], block, work.corner.data());
+      });
+      if (bad != 0) is_answered = false;
+    });
+    sum_corners<Directed>(dofs, R, reactions, work, /*all=*/blocks == blocks_.size());
     if (at_rest) work.corners_at_rest_of = Directed ? 0 : divisions_;
     give_to_sources<Directed>(dofs, R, reactions, work);
-    return bad == 0;
+    return is_answered;
   }
 
   /// The same with one answer for all cells.
@@ -108,18 +105,18 @@ class NodalForce {
   bool evaluate_cells(const OfCells& of_cells, const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work) const {
     constexpr std::size_t together = 64;
     const std::size_t cells = points_->cells(), parts = (cells + together - 1) / together;
-    double bad = 0;
+    std::atomic<bool> is_answered = true;
     prepare(dofs, work);
     work.corners_at_rest_of = 0;
-#pragma omp parallel if (points_->size() > points_for_threads)
-    {
-#pragma omp for schedule(static) reduction(+ : bad)
-      for (std::size_t part = 0; part < parts; ++part)
+    in_threads(parts, [&](std::size_t begin, std::size_t end) {
+      double bad = 0;
+      for (std::size_t part = begin; part < end; ++part)
         bad += of_cells(together * part, std::min(together * (part + 1), cells), work.corner.data());
-      sum_corners<Directed>(dofs, R, reactions, work);
-    }
+      if (bad != 0) is_answered = false;
+    });
+    sum_corners<Directed>(dofs, R, reactions, work);
     give_to_sources<Directed>(dofs, R, reactions, work);
-    return bad == 0;
+    return is_answered;
   }
 
   /// Calls visit(material number, block) with block.H filled (and dH, and direction, as in evaluate()), which it may
@@ -127,50 +124,55 @@ class NodalForce {
   template <bool Increments = false, bool Directed = false>
   void visit(const double* u, const Visit& visit, const double* u_before = nullptr,
              const double* direction = nullptr) const {
-#pragma omp parallel if (points_->size() > points_for_threads)
-    {
-      Block block;
-#pragma omp for schedule(static)
-      for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        for_each_part(blocks_[b], block, [&] {
-          gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
-          if constexpr (Directed)
-            gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
-          visit(blocks_[b].material, block);
-        });
-      }
-    }
+    in_threads(blocks_.size(), [&](std::size_t begin, std::size_t end) {
+      for_each_block_of_points(begin, end, [&](std::size_t b, Block& block) {
+        gather<Increments>(blocks_[b], u, u_before, block, block.H, block.dH);
+        if constexpr (Directed) gather<false>(blocks_[b], direction, nullptr, block, block.direction, block.direction);
+        visit(blocks_[b].material, block);
+      });
+    });
   }
 
  private:
+  // Calls work(begin, end) for ranges of 0 … n − 1, pieces of the work on all points: a block of points that yields
+  // takes longer than one that does not.
+  template <class Work>
+  void in_threads(std::size_t n, const Work& work) const {
+    constexpr std::size_t parts_a_thread = 8;
+    if (points_->size() > points_for_threads) {
+      in_parts(n, parts_a_thread, work);
+    } else {
+      work(0, n);
+    }
+  }
   void prepare(const DegreesOfFreedom& dofs, Work& work) const {
     work.corner.resize(dim * per_cell * points_->cells() + CornerSum::slack);
     work.at_extended.assign(dofs.extended.size(), 0.0);
   }
-  // Sums the corners' forces into R and reactions, by all threads of the calling team. all: those of functions whose
-  // cells are all at rest as well.
+  // Sums the corners' forces into R and reactions. all: those of functions whose cells are all at rest as well.
   template <bool Directed>
   void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work, bool all = true) const {
     const double* corners = work.corner.data();
     const int* number = dofs.number.data();
     const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
     const std::size_t count = all ? corner_sum_->functions() : moving_functions_.size();
-#pragma omp for schedule(static)
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t f = all ? k : moving_functions_[k];
-      if (!corner_sum_->reaches(f)) continue;
-      const auto total = corner_sum_->template sum<dim>(f, corners);
-      for (int i = 0; i < dim; ++i) {
-        const int dof = number[dim * f + i];
-        if (dof >= first_extended) {
-          work.at_extended[static_cast<std::size_t>(dof - first_extended)] = total[i];
-        } else if (dof >= n) {
-          if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
-        } else if (dof >= 0) {
-          R[static_cast<std::size_t>(dof)] = total[i];
+    in_threads(count, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t f = all ? k : moving_functions_[k];
+        if (!corner_sum_->reaches(f)) continue;
+        const auto total = corner_sum_->template sum<dim>(f, corners);
+        for (int i = 0; i < dim; ++i) {
+          const int dof = number[dim * f + i];
+          if (dof >= first_extended) {
+            work.at_extended[static_cast<std::size_t>(dof - first_extended)] = total[i];
+          } else if (dof >= n) {
+            if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
+          } else if (dof >= 0) {
+            R[static_cast<std::size_t>(dof)] = total[i];
+          }
         }
       }
-    }
+    });
   }
   template <bool Directed>
   void give_to_sources(const DegreesOfFreedom& dofs, Vec R, Vec reactions, const Work& work) const {
@@ -225,6 +227,12 @@ class NodalForce {
       }
       blocks_.back().last_cell = k + 1;
     }
+  }
+  // Calls work(b, block) for the blocks of cells begin … end − 1.
+  template <class Work>
+  void for_each_block_of_points(std::size_t begin, std::size_t end, const Work& work) const {
+    Block block;
+    for (std::size_t b = begin; b < end; ++b) for_each_part(blocks_[b], block, [&] { work(b, block); });
   }
   // Calls work() with as many points in the block as it holds: once, except for a cell that has more.
   template <class Work>

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <vector>
 
 #include "scene/point_sums.hpp"
@@ -247,11 +248,12 @@ class InternalForce {
   }
   double largest_bound(Work& work) const {
     double largest = 0;
+    std::mutex largest_is_written;
     laws_.take_means(work.u.data(), work);
     points_.visit(work.u.data(), [&](std::size_t m, Block& block) {
       laws_.average(m, block, work);
       const double bound = laws_.law(m).stiffness_bound(block) * per_modulus(m, block);
-#pragma omp critical(stillpoint_stiffening)
+      const std::scoped_lock lock(largest_is_written);
       largest = bound <= largest ? largest : bound;
     });
     return largest;

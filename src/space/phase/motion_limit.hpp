@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <vector>
 
 #include "scene/grid_lines.hpp"
@@ -102,12 +103,13 @@ class MotionLimit {
   }
   double largest_strain(const double* grid_u) const {
     double largest = 0;
+    std::mutex largest_is_written;
     force_.points().visit(grid_u, [&](std::size_t, const Block& block) {
       double of_block = 0;
       for (const auto& row : block.H) {
         for (std::size_t q = 0; q < block.count; ++q) of_block = std::max(of_block, std::abs(row[q]));
       }
-#pragma omp critical(stillpoint_largest_strain)
+      const std::scoped_lock lock(largest_is_written);
       largest = std::max(largest, of_block);
     });
     return largest;

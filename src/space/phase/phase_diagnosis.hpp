@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -91,6 +92,7 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
       int number = 0;
     };
     std::vector<Bad> all;
+    std::mutex all_is_written;
     const MaterialPoints<dim>& points = frame_.body.points;
     const InternalForce<B, K>& force = all_.force;
     const double dt = frame_.remembers ? trial.t - force.committed().t : 0;
@@ -104,7 +106,7 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
         for (int c = 0; c < components; ++c) {
           if (std::isfinite(block.VP[c][q])) continue;
           const std::size_t p = block.first + q;
-#pragma omp critical(stillpoint_diagnosis)
+          const std::scoped_lock lock(all_is_written);
           all.push_back({det[q], block.VP[c][q], c, p, points.number[p]});
           break;
         }

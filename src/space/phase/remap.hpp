@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -126,9 +127,10 @@ class Remap {
     const NextCells<dim> next_cells(next_grid);
     order_.cells().resize(points_.size());
     const PointMotion<B, K>& motion = transfer_.motion();
+    std::mutex first_outside_is_written;
     const auto find_cells = [&](std::size_t k) {
       if (next_cells.find(points_, k, frame_.weights.cell_at(k), motion.x, order_.cells())) return;
-#pragma omp critical(stillpoint_lost_point)
+      const std::scoped_lock lock(first_outside_is_written);
       first_outside = std::min(first_outside, k);
     };
     transfer_.move(points_, frame_.weights, frame_.corner_sum, inertia_.node_mass(), grid_u, grid_v, start_velocity_,

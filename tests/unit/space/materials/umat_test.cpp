@@ -1,6 +1,7 @@
 // UMATs of ours at a point, beside the built-in laws.
 #include "space/materials/umat.hpp"
 
+#include <stillpoint/cam_clay.hpp>
 #include <stillpoint/drucker_prager.hpp>
 
 #include <algorithm>
@@ -82,17 +83,16 @@ struct RandomWalk {
 };
 
 // The largest difference of P along a walk, relative to the largest entry.
-template <StressState S>
-double distance_along_a_walk(const HistoryAnswers& umat, const DruckerPragerParameters& parameters) {
-  const DruckerPrager<S> law(parameters);
+template <StressState S, class Law>
+double distance_along_a_walk(const HistoryAnswers& umat, const Law& law, double step = 0.02) {
   Stress<S> start{};
   start[0] = -5, start[1] = -9, start[2] = -6, start[3] = 2;
   AnsweredPath<S> path(umat, start);
-  auto now = law.initial_history(start);
+  auto now = law.initial_history(start, {});
   RandomWalk<S> walk;
   Largest apart, size;
   for (int k = 0; k < 200; ++k) {
-    walk.go(0.02);
+    walk.go(step);
     const Gradient<S> P = law.first_piola(walk.H, walk.dH, 0.1, now), Q = path.step(walk.H, walk.dH);
     for (std::size_t c = 0; c < P.size(); ++c) {
       apart.take_magnitude(P[c] - Q[c]);
@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE_SIG("a UMAT in Fortran or C answers as the built-in law of it
                        "", ((StressState S), S), StressState::plane_strain, StressState::axisymmetric,
                        StressState::space) {
   const test::TemporaryFolder folder;
-  const DruckerPragerParameters elastic{.E = E, .nu = nu, .c = 1e12}, mises{.E = E, .nu = nu, .c = strength};
+  const DruckerPrager<S> elastic({.E = E, .nu = nu, .c = 1e12}), mises({.E = E, .nu = nu, .c = strength});
   constexpr double rounding = 1e-10;  // of 200 increments
   CHECK(distance_along_a_walk<S>(*make_umat<S>(material(compiled_umat(folder, "elastic.f", "elastic"), {E, nu})),
                                  elastic) < rounding);
@@ -118,6 +118,24 @@ TEMPLATE_TEST_CASE_SIG("a UMAT in Fortran or C answers as the built-in law of it
     CHECK(distance_along_a_walk<S>(*make_umat<S>(material(library, {E, nu, strength}, {"plastic_strain"})), mises) <
           rounding);
     CHECK(distance_along_a_walk<S>(*make_umat<S>(material(library, {E, nu, 2 * strength}, {""})), mises) > 1e-3);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("a UMAT of Cam clay answers as the built-in law along 200 increments, wet, dry and in between",
+                       "", ((StressState S), S), StressState::plane_strain, StressState::axisymmetric,
+                       StressState::space) {
+  const test::TemporaryFolder folder;
+  const auto library = compiled_umat(folder, "cam_clay.f", "cam_clay");
+  for (const double OCR : {1.0, 1.5, 8.0}) {
+    CAPTURE(OCR);
+    const CamClayParameters clay{.M = 1.2, .lambda = 0.2, .kappa = 0.04, .nu = 0.3, .e0 = 1, .OCR = OCR};
+    const auto umat = make_umat<S>(
+        material(library, {clay.M, clay.lambda, clay.kappa, clay.nu, clay.e0, OCR}, {"pc", "void_ratio", "strain"}));
+    constexpr double rounding = 1e-10, step = 2e-3;  // of 200 increments, which are in reach of the flow
+    CHECK(distance_along_a_walk<S>(*umat, CamClay<S>(clay), step) < rounding);
+    CamClayParameters other = clay;
+    other.kappa *= 1.01;
+    CHECK(distance_along_a_walk<S>(*umat, CamClay<S>(other), step) > 1e-4);
   }
 }
 
