@@ -23,7 +23,7 @@ inline void for_each_index(std::size_t n, const Body& body) {
   if (n < threaded_from) {
     loop(0, n);
   } else {
-    in_parts(n, 1, loop);
+    in_aligned_parts(n, 1, loop);
   }
 }
 
@@ -33,14 +33,13 @@ template <class Body>
 inline void for_each_piece(std::size_t n, const Body& body) {
   constexpr std::size_t piece = 2048;
   static_assert(piece < threaded_from);  // one thread each
-  const std::size_t pieces = (n + piece - 1) / piece;
-  const auto loop = [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) body(k * piece, std::min(piece, n - k * piece));
+  const auto loop = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += piece) body(first, std::min(piece, end - first));
   };
   if (n < threaded_from) {
-    loop(0, pieces);
+    loop(0, n);
   } else {
-    in_parts(pieces, 4, loop);
+    in_aligned_parts(n, 1, loop);
   }
 }
 
@@ -93,13 +92,13 @@ inline std::array<Value, most> reduce_each(std::size_t count, std::size_t n, Val
       of_block[b][k] = all;
     }
   };
-  const auto reduce_blocks = [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b) reduce_block(b);
+  const auto reduce_entries = [&](std::size_t begin, std::size_t end) {  // in blocks that begin there
+    for (std::size_t b = (begin + block - 1) / block; b * block < end; ++b) reduce_block(b);
   };
   if (n < threaded_from) {
-    reduce_blocks(0, blocks);
+    reduce_entries(0, n);
   } else {
-    in_parts(blocks, 2, reduce_blocks);
+    in_aligned_parts(n, 1, reduce_entries);
   }
 
   std::array<Value, most> result;

@@ -1,7 +1,9 @@
 #include "base/thread_team.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -15,6 +17,8 @@
 namespace stillpoint {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // How long a thread that has nothing to do looks for work before it sleeps: longer than what most steps do between
 // loops, much shorter than the time for which a system lets a program run.
 constexpr std::chrono::microseconds looks_for{50};
@@ -27,44 +31,57 @@ void pause() {
 #endif
 }
 
-// Returns once value is no longer `old`.
-template <class T>
-void wait_while(const std::atomic<T>& value, T old) {
+// Looks until something is so, or for a time. Returns whether it is.
+template <class IsSo>
+bool look(Clock::duration time, const IsSo& is_so) {
   constexpr int looks = 32;  // between two looks at the clock
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   do {
     for (int k = 0; k < looks; ++k) {
-      if (value.load(std::memory_order_acquire) != old) return;
+      if (is_so()) return true;
       pause();
     }
-  } while (std::chrono::steady_clock::now() - begin < looks_for);
-  value.wait(old, std::memory_order_acquire);
+  } while (Clock::now() - begin < time);
+  return false;
 }
 
-// What a team and its threads share. A loop has a number; a range of its parts holds the number too, so that a thread
-// that comes late, when the next loop is being written, finds nothing that it could take for its own.
+using Work = void (*)(const void* of, std::size_t part);
+
+// A loop: each thread has `each` of its parts, the last ones fewer.
+struct Loop {
+  Work work = nullptr;
+  const void* of = nullptr;
+  std::size_t threads = 0, parts = 0, each = 0;
+  std::uint64_t begin = 0;  // the ticket of each thread's first part
+};
+
+// What a team and its threads share. A line of memory takes a third of a microsecond from one core to another that is
+// far, which is what a loop costs at least: so each of them writes to few, and only to its own. The tickets of a
+// thread's parts go on from loop to loop, so that a thread that comes late finds its tickets taken.
 class Board {
  public:
-  using Work = void (*)(const void* of, std::size_t part);
+  explicit Board(std::size_t threads) : shares_(threads) {}
+  std::size_t most_threads() const { return shares_.size(); }
 
-  explicit Board(std::size_t threads) : ranges_(threads) {}
-  std::size_t most_threads() const { return ranges_.size(); }
-
+  // By the thread whose team it is.
   void run(std::size_t threads, std::size_t parts, Work work, const void* of) {
-    // Nobody works on the loop of before, so that nobody who reads this can take a part.
-    work_.store(work, std::memory_order_relaxed);
-    of_.store(of, std::memory_order_relaxed);
-    threads_.store(threads, std::memory_order_relaxed);
-    unfinished_.store(static_cast<std::uint32_t>(parts), std::memory_order_relaxed);
-    const std::uint32_t number = loop_.load(std::memory_order_relaxed) + 1;
-    for (std::size_t k = 0; k < threads; ++k) {
-      ranges_[k].left.store(range(number, k * parts / threads, (k + 1) * parts / threads), std::memory_order_release);
+    const Loop loop{work, of, threads, parts, (parts + threads - 1) / threads, tickets_};
+    tickets_ += loop.each;
+    for (std::size_t k = 0; k < threads; ++k) {  // who had no part in the last loop has tickets of another
+      if (shares_[k].next.load(std::memory_order_relaxed) != loop.begin)
+        shares_[k].next.store(loop.begin, std::memory_order_relaxed);
     }
-    loop_.store(number);
-    loop_.notify_all();
-    take_parts(number, 0);
-    while (const std::uint32_t unfinished = unfinished_.load(std::memory_order_acquire))
-      wait_while(unfinished_, unfinished);
+    std::uint64_t of_all = 0;
+    for (const Share& share : shares_) of_all += share.done.load(std::memory_order_relaxed);
+    of_all += loop.each * threads;
+    publish(loop);
+    take_parts(loop, 0);
+    const auto is_done = [&] {
+      std::uint64_t done = 0;
+      for (const Share& share : shares_) done += share.done.load(std::memory_order_acquire);
+      return done == of_all;
+    };
+    while (!look(looks_for, is_done)) std::this_thread::sleep_for(looks_for);
     if (has_failed_.load(std::memory_order_relaxed)) {
       has_failed_ = false;
       std::rethrow_exception(std::exchange(failure_, nullptr));
@@ -73,68 +90,93 @@ class Board {
 
   // Takes part in loops, as one of the others, until close() is called.
   void stand_by(std::size_t self) {
-    for (std::uint32_t seen = 0; !closed_.load(std::memory_order_relaxed);) {
-      wait_while(loop_, seen);
-      seen = loop_.load(std::memory_order_acquire);
-      take_parts(seen, self);
+    std::uint32_t seen = 0;
+    const auto is_new = [&] { return number_.load(std::memory_order_acquire) != seen; };
+    for (;;) {
+      if (!look(looks_for, is_new)) number_.wait(seen, std::memory_order_acquire);
+      if (closed_.load(std::memory_order_relaxed)) return;
+      const std::uint32_t number = number_.load(std::memory_order_acquire);
+      if (number % 2 != 0) continue;  // it is being written
+      const Loop loop{work_.load(std::memory_order_relaxed),    of_.load(std::memory_order_relaxed),
+                      threads_.load(std::memory_order_relaxed), parts_.load(std::memory_order_relaxed),
+                      each_.load(std::memory_order_relaxed),    begin_.load(std::memory_order_relaxed)};
+      std::atomic_thread_fence(std::memory_order_acquire);
+      if (number_.load(std::memory_order_relaxed) != number) continue;  // it has been written meanwhile
+      seen = number;
+      if (self < loop.threads) take_parts(loop, self);
     }
   }
   void close() {
     closed_ = true;
-    ++loop_;
-    loop_.notify_all();
+    number_ += 2;
+    number_.notify_all();
   }
 
  private:
-  // The parts that nobody has begun: the loop's number, the first of them and one past the last.
-  struct alignas(64) Range {
-    std::atomic<std::uint64_t> left{0};
+  struct alignas(128) Share {
+    std::atomic<std::uint64_t> next{0};  // the next ticket of the thread's own parts
+    std::atomic<std::uint64_t> done{0};  // how many tickets, anyone's, this thread has done
   };
-  static std::uint64_t range(std::uint32_t number, std::size_t begin, std::size_t end) {
-    return static_cast<std::uint64_t>(number) << 32 | static_cast<std::uint64_t>(begin) << 16 | end;
+
+  void publish(const Loop& loop) {
+    const std::uint32_t number = number_.load(std::memory_order_relaxed);
+    number_.store(number + 1, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_release);
+    work_.store(loop.work, std::memory_order_relaxed);
+    of_.store(loop.of, std::memory_order_relaxed);
+    threads_.store(loop.threads, std::memory_order_relaxed);
+    parts_.store(loop.parts, std::memory_order_relaxed);
+    each_.store(loop.each, std::memory_order_relaxed);
+    begin_.store(loop.begin, std::memory_order_relaxed);
+    number_.store(number + 2);
+    number_.notify_all();
   }
 
-  // Takes the first part of a range, if it is one of this loop and there is one.
-  static bool takes(Range& from, std::uint32_t number, std::size_t& part) {
-    std::uint64_t left = from.left.load(std::memory_order_acquire);
-    for (;;) {
-      const std::size_t begin = left >> 16 & 0xffff, end = left & 0xffff;
-      if (left >> 32 != number || begin == end) return false;
-      if (from.left.compare_exchange_weak(left, range(number, begin + 1, end), std::memory_order_acq_rel)) {
-        part = begin;
-        return true;
-      }
-    }
+  // Does one's own parts, then those that others have not begun although it is high time: what a part works on is in
+  // the caches of the core that did it last.
+  void take_parts(const Loop& loop, std::size_t self) {
+    constexpr Clock::duration least_patience = std::chrono::microseconds(10);
+    const auto begin = Clock::now();
+    take_parts_of(loop, self, self);
+    const auto all_are_taken = [&] {
+      for (std::size_t k = 0; k < loop.threads; ++k)
+        if (shares_[k].next.load(std::memory_order_relaxed) < loop.begin + loop.each) return false;
+      return true;
+    };
+    if (look(std::max(least_patience, (Clock::now() - begin) / 2), all_are_taken)) return;
+    for (std::size_t k = 1; k < loop.threads; ++k) take_parts_of(loop, (self + k) % loop.threads, self);
   }
-  // Does one's own parts, then those that others have not begun.
-  void take_parts(std::uint32_t number, std::size_t self) {
-    const Work work = work_.load(std::memory_order_relaxed);
-    const void* const of = of_.load(std::memory_order_relaxed);
-    const std::size_t threads = threads_.load(std::memory_order_relaxed);
-    if (self >= threads) return;
-    std::uint32_t done = 0;
-    for (std::size_t k = 0; k < threads; ++k) {
-      Range& from = ranges_[(self + k) % threads];
-      for (std::size_t part = 0; takes(from, number, part); ++done) {
-        try {
-          work(of, part);
-        } catch (...) {
-          const std::scoped_lock lock(failing_);
-          failure_ = std::current_exception();
-          has_failed_ = true;
-        }
+  void take_parts_of(const Loop& loop, std::size_t owner, std::size_t self) {
+    const std::uint64_t end = loop.begin + loop.each;
+    std::atomic<std::uint64_t>& next = shares_[owner].next;
+    std::uint64_t done = 0;
+    for (std::uint64_t ticket = next.load(std::memory_order_relaxed); ticket < end;) {
+      if (!next.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel)) continue;
+      const std::size_t part = owner * loop.each + (ticket - loop.begin);
+      try {
+        if (part < loop.parts) loop.work(loop.of, part);
+      } catch (...) {
+        const std::scoped_lock lock(failing_);
+        failure_ = std::current_exception();
+        has_failed_ = true;
       }
+      ++done;
+      ++ticket;
     }
-    if (done > 0 && unfinished_.fetch_sub(done, std::memory_order_acq_rel) == done) unfinished_.notify_one();
+    if (done == 0) return;
+    std::atomic<std::uint64_t>& all_done = shares_[self].done;
+    all_done.store(all_done.load(std::memory_order_relaxed) + done, std::memory_order_release);
   }
 
-  alignas(64) std::atomic<std::uint32_t> loop_{0};
+  // The present loop, and its number; odd: it is being written.
+  alignas(128) std::atomic<std::uint32_t> number_{0};
+  std::atomic<bool> closed_{false}, has_failed_{false};
   std::atomic<Work> work_{nullptr};
   std::atomic<const void*> of_{nullptr};
-  std::atomic<std::size_t> threads_{0};
-  std::atomic<bool> closed_{false}, has_failed_{false};
-  alignas(64) std::atomic<std::uint32_t> unfinished_{0};
-  std::vector<Range> ranges_;
+  std::atomic<std::size_t> threads_{0}, parts_{0}, each_{0};
+  std::atomic<std::uint64_t> begin_{0};
+  std::vector<Share> shares_;
+  std::uint64_t tickets_ = 0;  // of each thread, of all loops so far
   std::mutex failing_;
   std::exception_ptr failure_;
 };

@@ -56,4 +56,21 @@ inline void in_parts(std::size_t n, std::size_t parts_a_thread, const Body& body
   share_parts(threads, loop.parts, work, &loop);
 }
 
+/// The same for ranges that begin at multiples of `grain`: the same ranges for each thread in any loop over as many
+/// entries, whatever parts_a_thread, so that what a core has in its caches is what it works on next.
+template <class Body>
+inline void in_aligned_parts(std::size_t n, std::size_t parts_a_thread, const Body& body) {
+  constexpr std::size_t grain = 1024;
+  const std::size_t grains = (n + grain - 1) / grain, threads = static_cast<std::size_t>(loop_threads());
+  if (threads == 1) {
+    body(std::size_t{0}, n);
+    return;
+  }
+  const std::size_t parts = parts_a_thread * threads;
+  const auto begin_of = [=](std::size_t part) { return std::min(n, part * grains / parts * grain); };
+  in_parts(parts, parts_a_thread, [&](std::size_t first, std::size_t last) {
+    if (const std::size_t begin = begin_of(first), end = begin_of(last); begin < end) body(begin, end);
+  });
+}
+
 }  // namespace stillpoint

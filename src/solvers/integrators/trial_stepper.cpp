@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel_loop.hpp"
 #include "linalg/vector_operations.hpp"
 #include "system/largest_at.hpp"
 
@@ -102,10 +103,16 @@ bool TrialStepper::is_finite(const Attempt& attempt) const {
 }
 
 StepReport TrialStepper::take(const Attempt& attempt) {
+  const ConstVec trial = std::as_const(*trial_).span();
+  const Vec u = first_half(y_->span()), v = second_half(y_->span());
+  const double *u_new = first_half(trial).data(), *v_new = second_half(trial).data();
   if (attempt.keeps_v) {
-    copy(*trial_u_, *u_);
+    for_each_index(u.size(), [=](std::size_t i) { u[i] = u_new[i]; });
   } else {
-    copy(*trial_, *y_);
+    for_each_index(u.size(), [=](std::size_t i) {
+      u[i] = u_new[i];
+      v[i] = v_new[i];
+    });
   }
   is_at_state_ = true;
   accepted();

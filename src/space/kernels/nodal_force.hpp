@@ -156,7 +156,7 @@ class NodalForce {
     const int* number = dofs.number.data();
     const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
     const std::size_t count = all ? corner_sum_->functions() : moving_functions_.size();
-    in_threads(count, [&](std::size_t begin, std::size_t end) {
+    const auto sum = [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t f = all ? k : moving_functions_[k];
         if (!corner_sum_->reaches(f)) continue;
@@ -172,7 +172,14 @@ class NodalForce {
           }
         }
       }
-    });
+    };
+    if (!all || points_->size() <= points_for_threads || n == 0) return in_threads(count, sum);
+    // The functions of the unknowns that each thread has in other loops: these are in their order.
+    const auto function_of = [&](std::size_t k) {
+      return k == 0 ? 0 : k == R.size() ? count : static_cast<std::size_t>(dofs.free[k] / dim);
+    };
+    in_aligned_parts(R.size(), 1,
+                     [&](std::size_t begin, std::size_t end) { sum(function_of(begin), function_of(end)); });
   }
   template <bool Directed>
   void give_to_sources(const DegreesOfFreedom& dofs, Vec R, Vec reactions, const Work& work) const {
