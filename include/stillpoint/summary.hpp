@@ -110,9 +110,9 @@ struct Summary {
   /// Mean share of damping and inertia in the forces on moving supports, walls and driven loads, |∫ Q·v dt| over their
   /// work, where something drives the body and no equilibrium is asked for.
   std::optional<double> rate_share;
-  /// With phase.rest: the share of the points that rested, on average over the phases, and the force that held the
-  /// functions at rest against what is out of balance there, as a share of the forces around them: root mean squares,
-  /// of the phase in which it was largest.
+  /// With phase.rest: the share of the points that rested, on average over the time, and the forces that held them
+  /// against what is out of balance there, Σ |Q|, as a share of the forces that pass through the body, of the phase in
+  /// which it was largest.
   std::optional<double> resting_points, held_force;
   std::optional<double> single_phase_strain;  // largest component of ∂u/∂x, if a body that yields has one phase
   std::optional<double> slope_angle;          // at the end, if a probe asks for it [degrees]

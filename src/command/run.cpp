@@ -76,8 +76,10 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
     row("rate",
         fmt::format("damping and inertia are {:.2g} % of what drives the body, on average", 100 * *s.rate_share));
   if (s.resting_points && s.held_force)
-    row("at rest", fmt::format("{:.3g} % of the points, on average, held by at most {:.2g} % of the forces around them",
-                               100 * *s.resting_points, 100 * *s.held_force));
+    row("at rest",
+        fmt::format("{:.3g} % of the points, on average, held by up to {:.2g} % of the forces in the body; the "
+                    "residual is that of what moves",
+                    100 * *s.resting_points, 100 * *s.held_force));
   for (const auto& [name, fields] : s.probes) {
     std::string values;
     for (const auto& [field, value] : fields) values += fmt::format("{} = {:.9g}  ", field, value);

@@ -38,6 +38,71 @@ Run run_slope(const std::vector<std::string>& overrides, int threads = 1) {
   return of;
 }
 
+// A block that stands on a smooth floor, and another one beside it that slides away from it, for 5 s; at t = 6 nothing
+// moves any more.
+const char* const two_blocks = R"toml(
+dim = 2
+[grid]
+min = [0, 0]
+max = [12, 2]
+cells = [60, 10]
+[[body]]
+name = "stands"
+max = [2, 1]
+material = "soil"
+[[body]]
+name = "slides"
+min = [6, 0]
+max = [7, 1]
+material = "soil"
+[material.soil]
+law = "drucker-prager"
+E = 2e6
+nu = 0.3
+rho = 1800
+phi = 35
+c = 1e6
+[phase]
+max_motion = 0.1
+rest = 0.01
+[mass]
+kind = "lumped"
+[[support]]
+face = "bottom"
+kind = "roller"
+[[support]]
+face = "left"
+component = "x"
+stiffness = 1e6
+name = "pull"
+u = "0"
+[[support]]
+face = "right"
+kind = "roller"
+[body_force]
+value = [0, -9.81]
+[initial.geostatic]
+K0 = "0.3/0.7"
+surface = 1
+[initial]
+v = ["1*min(1, max(0, (x-5)*1000))", "0"]
+[damping]
+strategy = "one-sided"
+alpha = 0.2
+[stop]
+residual = 0
+time = 6
+)toml";
+Summary run_blocks(const std::vector<std::string>& overrides) {
+  const TemporaryFolder folder;
+  return run(load_scene(folder.write("scene.toml", two_blocks), overrides), {.out = folder.path(), .threads = 1});
+}
+bool says(const Summary& summary, const std::string& text) {
+  for (const std::string& note : summary.notes)
+    if (note.find(text) != std::string::npos) return true;
+  return false;
+}
+
 double mean_between(const Run& run, const std::vector<double>& values, double begin, double end) {
   double sum = 0;
   int rows = 0;
@@ -129,4 +194,101 @@ TEST_CASE("parts rest only in a motion that goes on until stop.time, in phases, 
   CHECK_THAT(refused("mass={kind='consistent'}"), Contains("phase.rest") && Contains("lumped"));
   CHECK_THAT(refused("phase.dilatation='cells'"), Contains("phase.rest") && Contains("dilatation"));
   CHECK_THAT(refused("phase.rest=1.5"), Contains("phase.rest"));
+}
+
+TEST_CASE("a spring that begins to move takes with it what would rest, and the run says that nothing rests") {
+  const std::vector<std::string> pulls = {"support[1].u=0.1*max(0, t-4)", "stop.time=8"};
+  const Summary all = run_blocks(with(pulls, {"phase.rest=0"})), resting = run_blocks(pulls);
+  CHECK(std::abs(all.reactions.at("pull")[0]) > 1);
+  CHECK(resting.reactions == all.reactions);  // nothing else was done
+  CHECK(*resting.resting_points == 0);
+  CHECK(says(resting, "phase.rest lets nothing rest"));
+  CHECK_FALSE(says(run_blocks({}), "phase.rest lets nothing rest"));
+  CHECK(says(run_blocks({"traction=[{line=[[0,1],[1,1]], value=['0','-0*t']}]"}), "phase.rest lets nothing rest"));
+}
+
+TEST_CASE("soil that creeps does not rest") {
+  CHECK_NOTHROW(run_blocks({"material.soil.fluidity=0", "stop.time=0.1"}));
+  CHECK_THROWS_WITH(run_blocks({"material.soil.fluidity=1e-7"}), Contains("flow by viscosity"));
+}
+
+TEST_CASE("what has rested counts from the first stage to the end, the phase at the end included") {
+  const Summary before = run_blocks({"stop.time=4"});
+  CHECK(*before.resting_points > 0.05);
+  CHECK(*before.held_force > 0);
+  // Nothing rests for a while after a stage has begun.
+  const std::vector<std::string> stage = {"stage=[{at=4, ramp=0, remove=['slides']}]", "stop.time=4.2"};
+  const Summary after = run_blocks(stage);
+  CHECK(*after.resting_points * 4.2 > 0.9 * *before.resting_points * 4);
+  CHECK(*after.held_force > 0.5 * *before.held_force);  // the last step of one is cut, which changes all that follows
+  // With the largest share all rests after the first phase, which is the last one.
+  const Summary frozen = run_blocks({"phase.rest=0.999", "stop.time=4"});
+  CHECK(*frozen.resting_points > 0.5);
+}
+
+// The left wall presses a bar that was prestressed by 100 kPa, slower and slower beside the speed of another body.
+TEST_CASE("many functions that are held by a little add up in the force that is reported") {
+  const TemporaryFolder folder;
+  const auto bar = [&](double rest) {
+    return load_scene(folder.write("bar.toml", R"toml(
+dim = 2
+[grid]
+min = [0, 0]
+max = [20, 16]
+cells = [100, 80]
+follow = "left"
+[[body]]
+name = "bar"
+max = [20, 0.4]
+material = "soil"
+[[body]]
+name = "flies"
+min = [9.6, 2]
+max = [10, 2.4]
+material = "soil"
+[material.soil]
+law = "drucker-prager"
+E = 20e6
+nu = 0.3
+rho = 1800
+phi = 35
+c = 1e7
+[phase]
+max_motion = 0.1
+[mass]
+kind = "lumped"
+[[support]]
+face = "bottom"
+kind = "roller"
+[[support]]
+face = "right"
+kind = "roller"
+name = "end"
+[[wall]]
+name = "left"
+face = "left"
+motion = "0.0004*t^2"
+[initial]
+stress = [-1e5, 0, 0, 0]
+v = ["0", "3*min(1, max(0, (y-1)*1000))"]
+[damping]
+strategy = "one-sided"
+alpha = 0.2
+[stop]
+residual = 0
+time = 4
+)toml"),
+                      {"phase.rest=" + std::to_string(rest)});
+  };
+  const auto thrust = [&](const Summary& summary) { return std::abs(summary.reactions.at("end")[0]); };
+  const Summary all = run(bar(0), {.out = folder.path(), .threads = 1});
+  double before = 0;
+  for (const double rest : {0.003, 0.01, 0.03}) {
+    CAPTURE(rest);
+    const Summary resting = run(bar(rest), {.out = folder.path(), .threads = 1});
+    const double error = std::abs(thrust(resting) - thrust(all)) / thrust(all);
+    CHECK(*resting.held_force > error);
+    CHECK(*resting.held_force > before);  // a smaller share holds with less
+    before = *resting.held_force;
+  }
 }

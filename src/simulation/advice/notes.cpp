@@ -184,6 +184,24 @@ std::vector<std::string> damping_notes(const Problem& problem, const LagrangianP
                   problem.damping.strategy)};
 }
 
+// A border feels contact at two places in a cell, along each of its directions: what is narrower than their distance
+// goes in between.
+std::vector<std::string> thin_rigid_notes(const Problem& problem) {
+  std::vector<std::string> notes;
+  for (const RigidSpec& rigid : problem.rigid) {
+    double width = std::numeric_limits<double>::infinity();
+    for (std::size_t d = 0; d < rigid.min.size(); ++d) width = std::min(width, rigid.max[d] - rigid.min[d]);
+    if (!rigid.disc.empty() || !rigid.sphere.empty() || !rigid.cylinder.empty()) width = 2 * rigid.radius;
+    const double cells = width / mean_cell(problem.grid);
+    if (!(cells < 1)) continue;
+    notes.push_back(
+        fmt::format("the rigid body '{}' is {:.2g} cells wide: it may go in between the places of a border that feel "
+                    "contact, two in a cell; expected smaller cells",
+                    rigid.name, cells));
+  }
+  return notes;
+}
+
 }  // namespace
 
 // ½ Σ_p m_p |x(x_p)|² beside ½ xᵀMx. A lumped mass gives a function that is steep in a sliver more inertia than the
@@ -257,6 +275,7 @@ std::vector<std::string> accuracy_notes(const Problem& problem, const Lagrangian
   std::ranges::move(phase_notes(problem, phase), std::back_inserter(notes));
   std::ranges::move(damping_notes(problem, phase), std::back_inserter(notes));
   std::ranges::move(softening_notes(problem), std::back_inserter(notes));
+  std::ranges::move(thin_rigid_notes(problem), std::back_inserter(notes));
   if (std::optional<std::string> note = locking_note(problem)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = slender_cells_note(problem)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = hourglass_note(problem)) notes.push_back(std::move(*note));

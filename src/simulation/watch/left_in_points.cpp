@@ -63,6 +63,13 @@ std::string null_space_note(const Problem& problem, const LagrangianPhase& phase
                      null_space_stress, remedy);
 }
 
+// A note if the parts that were to rest cannot; empty: they may.
+std::string note_on_rest(const RestFigures& rest) {
+  if (rest.may_rest) return "";
+  return "phase.rest lets nothing rest while a load or the place of a spring is a formula of t, a pressure follows the "
+         "body, or a stage comes on; expected loads that stay what they are";
+}
+
 class LeftInPoints : public Watcher {
  public:
   /// Takes an equilibrium back if a wall has pushed a part of the body out of itself at once, by a good part of a cell;
@@ -89,9 +96,11 @@ class LeftInPoints : public Watcher {
     summary.angular_momentum_error = transfer.angular_momentum;
     summary.added_mass = transfer.added_mass;
     if (run.scene.phase.rest > 0) {
-      const RestFigures rest = phase.control().rest_figures();
+      run.motion->evaluate(run.t);
+      const RestFigures rest = phase.control().rest_figures(run.t, run.motion->system.last().trial->reactions);
       summary.resting_points = rest.points;
       summary.held_force = rest.held_force;
+      add_note(summary, note_on_rest(rest));
     }
     summary.null_space_stress = phase.fields().null_space_stress(run.t, run.motion->u());
     add_note(summary, null_space_note(run.scene, phase, *summary.null_space_stress));

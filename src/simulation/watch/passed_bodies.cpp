@@ -1,7 +1,8 @@
-// Bodies that have gone through each other. Two pieces of border press on each other if they were opposite when the
-// phase began: bodies that turn to each other only later in the same phase meet nothing, and a run would end at rest
-// with both in one place. So the volume of the bodies that can move apart is summed in blocks of the grid, where it
-// must fit.
+// Bodies that have gone through each other, or through rigid ones. Two pieces of border press on each other if they
+// were opposite when the phase began: bodies that turn to each other only later in the same phase meet nothing, and a
+// run would end at rest with both in one place. So the volume of the bodies that can move apart is summed in blocks of
+// the grid, where it must fit. A rigid body presses on the border of a body alone: once past it, it would rest in the
+// middle of the body, which bears nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,11 +19,9 @@
 namespace stillpoint {
 namespace {
 
-constexpr int cells_of_block = 2;  // [cells] along each axis
-
 struct Overlap {
   std::size_t a = 0, b = 0;  // bodies
-  int blocks = 0;
+  int places = 0;
   std::vector<double> at{};  // a position in one of them [m]
 };
 
@@ -42,81 +41,174 @@ double fullest(const Problem& problem, std::size_t a, std::size_t b) {
   return 1.1 + 1.0 / fewest;
 }
 
-/// Pairs of bodies that fill the same blocks more than they can.
-std::vector<Overlap> overlaps(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+/// The points at (t, u), and what each takes of its cell.
+struct PlacedPoints {
+  std::size_t dim = 0;
+  std::vector<int> bodies;
+  std::vector<double> x, share;  // (P × dim) [m], (P)
+};
+PlacedPoints place_points(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
   const auto dim = static_cast<std::size_t>(problem.dim);
   const PointData data = phase.fields().point_data();
-  const std::size_t points = data.bodies.size();
-  std::vector<double> way(dim * points), volume(points);
+  PlacedPoints placed{.dim = dim, .bodies = data.bodies, .x = data.initial_positions, .share = data.volumes};
+  std::vector<double> way(placed.x.size());
   phase.fields().point_displacement(t, u, way);
-  phase.fields().point_field(PointQuantity::volume, t, u, volume);
+  for (std::size_t k = 0; k < way.size(); ++k) placed.x[k] += way[k];
+  phase.fields().point_field(PointQuantity::volume, t, u, placed.share);
+  for (std::size_t p = 0; p < placed.share.size(); ++p)
+    placed.share[p] = share_of_cell(problem, static_cast<std::size_t>(data.bodies[p]),
+                                    ConstVec(placed.x).subspan(dim * p, dim), placed.share[p]);
+  return placed;
+}
 
+/// Calls visit(a, b, what a fills, what b fills, a position) for each pair of bodies in a block of so many cells along
+/// each axis; the blocks begin at `shift`, in cells.
+template <class Visit>
+void for_shared_blocks(const Problem& problem, const PlacedPoints& placed, int cells,
+                       const std::array<double, 3>& shift, const Visit& visit) {
   struct Contents {
     std::map<std::size_t, double> filled;  // by each body, in blocks
-    std::vector<double> at;
+    std::size_t point = 0;
   };
   std::map<std::array<long, 3>, Contents> blocks;
-  for (std::size_t p = 0; p < points; ++p) {
-    std::vector<double> x(dim);
+  for (std::size_t p = 0; p < placed.bodies.size(); ++p) {
     std::array<long, 3> number{};
-    for (std::size_t d = 0; d < dim; ++d) {
-      x[d] = data.initial_positions[dim * p + d] + way[dim * p + d];
-      number[d] = std::lround(std::floor(cells_before(problem.grid, d, x[d]) / cells_of_block));
+    for (std::size_t d = 0; d < placed.dim; ++d) {
+      const double before = cells_before(problem.grid, d, placed.x[placed.dim * p + d]);
+      number[d] = std::lround(std::floor((before - shift[d]) / cells));
     }
-    const auto body = static_cast<std::size_t>(data.bodies[p]);
     Contents& in = blocks[number];
-    in.filled[body] += share_of_cell(problem, body, x, volume[p]) / std::pow(cells_of_block, problem.dim);
-    in.at = std::move(x);
+    in.filled[static_cast<std::size_t>(placed.bodies[p])] += placed.share[p] / std::pow(cells, problem.dim);
+    in.point = p;
   }
-
-  constexpr double negligible = 0.25;
-  std::map<std::pair<std::size_t, std::size_t>, Overlap> found;
   for (const auto& [number, in] : blocks) {
+    const auto x = placed.x.begin() + static_cast<std::ptrdiff_t>(placed.dim * in.point);
     for (auto a = in.filled.begin(); a != in.filled.end(); ++a) {
-      for (auto b = std::next(a); b != in.filled.end(); ++b) {
-        if (std::min(a->second, b->second) < negligible ||
-            !(a->second + b->second > fullest(problem, a->first, b->first)))
-          continue;
-        Overlap& overlap = found[{a->first, b->first}];
-        if (overlap.blocks++ == 0) overlap.a = a->first, overlap.b = b->first, overlap.at = in.at;
-      }
+      for (auto b = std::next(a); b != in.filled.end(); ++b)
+        visit(a->first, b->first, a->second, b->second,
+              std::vector<double>(x, x + static_cast<std::ptrdiff_t>(placed.dim)));
     }
+  }
+}
+
+/// Pairs of bodies that fill the same places more than they can: blocks of two cells, or each of them nearly all of the
+/// same cell, wherever the grid's lines are, as a plate does that is one cell thick.
+std::vector<Overlap> overlaps(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+  const PlacedPoints placed = place_points(problem, phase, t, u);
+  std::map<std::pair<std::size_t, std::size_t>, Overlap> found;
+  const auto add = [&](std::size_t a, std::size_t b, std::vector<double> at) {
+    Overlap& overlap = found[{a, b}];
+    if (overlap.places++ == 0) overlap.a = a, overlap.b = b, overlap.at = std::move(at);
+  };
+  constexpr double negligible = 0.25;
+  for_shared_blocks(problem, placed, 2, {}, [&](std::size_t a, std::size_t b, double of_a, double of_b, auto at) {
+    if (std::min(of_a, of_b) >= negligible && of_a + of_b > fullest(problem, a, b)) add(a, b, std::move(at));
+  });
+  for (int shifts = 0; shifts < 1 << placed.dim; ++shifts) {
+    std::array<double, 3> shift{};
+    for (std::size_t d = 0; d < placed.dim; ++d) shift[d] = (shifts >> d & 1) != 0 ? 0.5 : 0;
+    for_shared_blocks(problem, placed, 1, shift, [&](std::size_t a, std::size_t b, double of_a, double of_b, auto at) {
+      if (std::min(of_a, of_b) > fullest(problem, a, b) - 0.75) add(a, b, std::move(at));
+    });
   }
   std::vector<Overlap> list;
   for (const auto& [pair, overlap] : found) list.push_back(overlap);
   return list;
 }
 
+std::string name_of_body(const Problem& problem, std::size_t k) {
+  return problem.bodies[k].name.empty() ? fmt::format("body[{}]", k) : "'" + problem.bodies[k].name + "'";
+}
+
 std::string described(const Problem& problem, const Overlap& overlap) {
-  const auto name = [&](std::size_t k) {
-    return problem.bodies[k].name.empty() ? fmt::format("body[{}]", k) : "'" + problem.bodies[k].name + "'";
-  };
+  const auto name = [&](std::size_t k) { return name_of_body(problem, k); };
   const char* remedy = !have_contact(problem, overlap.a, overlap.b) ? "a [[contact]] between them"
                        : problem.phase.ends()                       ? "phases that end sooner"
                                                                     : "phases that end, as by phase.max_motion = 0.1";
   return fmt::format(
-      "{} and {} have gone through each other, by {} blocks of {} cells a side, as at ({:.4g}): only "
+      "{} and {} have gone through each other, in {} places, as at ({:.4g}): only "
       "parts of borders that were opposite when a phase began press on each other; expected {}",
-      name(overlap.a), name(overlap.b), overlap.blocks, cells_of_block, fmt::join(overlap.at, ", "), remedy);
+      name(overlap.a), name(overlap.b), overlap.places, fmt::join(overlap.at, ", "), remedy);
+}
+
+/// Whether so much is inside that no force is right: a material point is some way below the border, which may lie in a
+/// rigid body by no more than its penetration, but for a corner, and for that only if the rest of the border bears it.
+/// The border itself has no place that feels contact in its corners.
+bool is_grave(const Intrusion& found) {
+  constexpr double corner = 0.15, half = 0.5, rounding = 0.02;  // [cells]
+  if (found.of == Intrusion::Of::border) return !found.bears && found.cells > half;
+  return found.cells > (found.bears ? corner : rounding);
+}
+bool is_worth_a_note(const Intrusion& found) {
+  constexpr double seen = 0.25, rounding = 0.02;  // [cells], where a corner may lie without being felt
+  return is_grave(found) || (found.of == Intrusion::Of::border && found.cells > (found.bears ? seen : rounding));
+}
+
+std::string described(const Problem& problem, const Intrusion& found) {
+  const auto rigid = [&](std::size_t k) { return "'" + problem.rigid[k].name + "'"; };
+  if (found.of == Intrusion::Of::rigid)
+    return fmt::format(
+        "{} and {} are in each other by {:.2g} cells, as at ({:.4g}): rigid bodies do not touch each other; expected a "
+        "body between them, or one of them not to be rigid",
+        rigid(found.rigid), rigid(found.other), found.cells, fmt::join(found.at, ", "));
+  const std::string body = name_of_body(problem, found.other);
+  if (found.of == Intrusion::Of::border)
+    return fmt::format(
+        "{} reaches {:.2g} cells into the border of {} at ({:.4g}), between the places that feel contact, and {}; "
+        "expected smaller cells, or a rounding of half a cell",
+        rigid(found.rigid), found.cells, body, fmt::join(found.at, ", "),
+        found.bears ? "nothing bears it there" : "presses on nothing");
+  return fmt::format(
+      "{} has gone past the border of {}: a material point at ({:.4g}) lies {:.2g} cells inside it, and only a border "
+      "feels contact; expected a slower motion{}, or a rigid body of more than two cells",
+      rigid(found.rigid), body, fmt::join(found.at, ", "), found.cells,
+      problem.phase.ends() ? "" : ", phases that end, as by phase.max_motion = 0.1");
+}
+
+/// Bodies that have turned over on each other in a phase; empty: none has.
+std::string fault_of_turn(const LagrangianPhase& phase, double t, ConstVec u) {
+  for (const ContactReport& contact : phase.supports().contacts(t, u)) {
+    if (!(contact.turned > std::numbers::pi / 2)) continue;
+    return fmt::format(
+        "the bodies of contact {} have turned by {:.0f} degrees on each other since the phase began, and still touch "
+        "the parts of their borders that were opposite then; expected phases, as by phase.max_motion = 0.1",
+        contact.name, contact.turned * 180 / std::numbers::pi);
+  }
+  return "";
 }
 
 class PassedBodies : public Watcher {
  public:
   void confirm(RunState& run, Verdict& verdict) override {
-    const std::vector<Overlap> found = look(run);
-    if (found.empty()) return;
-    verdict = {RunStatus::step_limit, fmt::format("no equilibrium: {}; it ended with {}",
-                                                  described(run.scene, found.front()), verdict.reason)};
+    const Findings found = look(run);
+    if (!found.faults.empty())
+      verdict = {RunStatus::step_limit,
+                 fmt::format("no equilibrium: {}; it ended with {}", found.faults.front(), verdict.reason)};
   }
   void fill_state(Summary& summary, RunState& run) override {
-    for (const Overlap& overlap : look(run)) add_note(summary, described(run.scene, overlap));
+    const Findings found = look(run);
+    for (const std::string& fault : found.faults) add_note(summary, fault);
+    for (const std::string& note : found.notes) add_note(summary, note);
   }
 
  private:
-  // Bodies without a contact are bonded, and cannot.
-  static std::vector<Overlap> look(RunState& run) {
-    if (run.scene.contacts.empty()) return {};
-    return overlaps(run.scene, *run.model.phase, run.t, run.motion->u());
+  struct Findings {
+    std::vector<std::string> faults, notes;
+  };
+  static Findings look(RunState& run) {
+    Findings found;
+    if (!run.scene.may_touch()) return found;  // bodies without a contact are bonded
+    const LagrangianPhase& phase = *run.model.phase;
+    const ConstVec u = run.motion->u();
+    if (!run.scene.contacts.empty())
+      for (const Overlap& overlap : overlaps(run.scene, phase, run.t, u))
+        found.faults.push_back(described(run.scene, overlap));
+    for (const Intrusion& intrusion : phase.supports().intrusions(run.t, u)) {
+      if (is_worth_a_note(intrusion))
+        (is_grave(intrusion) ? found.faults : found.notes).push_back(described(run.scene, intrusion));
+    }
+    if (std::string fault = fault_of_turn(phase, run.t, u); !fault.empty()) found.faults.push_back(std::move(fault));
+    return found;
   }
 };
 

@@ -35,10 +35,13 @@ std::string note_on_rate_share(std::optional<double> share, const Problem& probl
                                ? fmt::format(", or less than damping.alpha = {:g}", problem.damping.alpha)
                            : strategy && strategy->takes("c") ? ", or a smaller damping.c"
                                                               : "";
+  const bool rests = problem.phase.rest > 0;
   return fmt::format(
-      "damping and inertia took {:.2g} % of the work of what drives the body: reactions and driven loads may be off by "
-      "as much on average; expected a slower motion{}",
-      100 * *share, less);
+      "damping and inertia{} took {:.2g} % of the work of what drives the body: reactions and driven loads may be off "
+      "by "
+      "as much on average; expected a slower motion{}{}",
+      rests ? ", and parts that rest," : "", 100 * *share, less,
+      rests ? fmt::format(", or less than phase.rest = {:g}", problem.phase.rest) : "");
 }
 
 class RateShare : public Watcher {

@@ -30,6 +30,18 @@ std::string note_on_single_phase(std::optional<double> strain) {
       100 * *strain);
 }
 
+// A note on a law of small strains in a body that turns or strains by more; empty: there is nothing to say.
+std::string note_on_small_strain(const LagrangianPhase& phase, double t, ConstVec u) {
+  constexpr double negligible = 0.1;
+  if (!phase.info().of_small_strain || phase.info().dim == 1) return "";
+  const LargestStrain most = largest_strain(phase, t, u);
+  if (!(most.strain > negligible)) return "";
+  return fmt::format(
+      "the largest of the displacement gradients is {:.2g}: a law of small strains takes a rotation for a strain, and "
+      "is off by about as much; expected a smaller motion, or law = \"hencky\" or \"neo-hookean\"",
+      most.strain);
+}
+
 class SinglePhase : public Watcher {
  public:
   /// Takes an equilibrium back if the body has gone nearly as far as its own size, and doubts one that goes some way.
@@ -49,6 +61,7 @@ class SinglePhase : public Watcher {
     if (const auto most = strain_in_single_phase(*run.model.phase, run.t, run.motion->u()))
       summary.single_phase_strain = most->strain;
     add_note(summary, note_on_single_phase(summary.single_phase_strain));
+    add_note(summary, note_on_small_strain(*run.model.phase, run.t, run.motion->u()));
   }
 };
 

@@ -180,6 +180,7 @@ void BodyContact<K>::add_reports(const double* u, std::vector<ContactReport>& to
   for (const auto& pair : pairs_) {
     to.push_back(pair->force.report(0, u));
     to.back().slid = pair->force.slid(u);
+    to.back().turned = pair->force.turned(u);
     to.back().name = pair->spec.name();
   }
 }

@@ -49,7 +49,19 @@ struct ContactReport {
   double penetration = 0;                // the largest [cells]
   double slipping = 0;                   // share of that area which slips
   double slid = 0;                       // how far bodies have moved along each other in the phase, where most [cells]
+  double turned = 0;   // by how much a piece that touches has turned on what it touches in the phase, where most [rad]
   double stretch = 1;  // by which a piece of the border that touches is drawn out, where most, if it is not cut anew
+};
+
+/// What lies in a rigid body without being felt, where it lies deepest.
+struct Intrusion {
+  enum class Of { points, border, rigid };
+  Of of = Of::points;  // of material points; of the border beside the pieces that feel contact, where these bear
+                       // nothing; or of a rigid body
+  std::size_t rigid = 0, other = 0;  // numbers in the scene, of the rigid body and of the body or rigid body in it
+  double cells = 0;                  // the depth [cells]
+  bool bears = false;                // whether anything presses on the rigid body
+  std::vector<double> at{};          // [m]
 };
 
 /// Contact with rigid bodies, and of bodies with each other.

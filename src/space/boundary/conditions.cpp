@@ -69,6 +69,12 @@ bool Conditions<K>::loads_are_constant() const {
 }
 
 template <Kinematics K>
+bool Conditions<K>::let_parts_rest(double t) const {
+  const auto changes = [](const auto& condition) { return condition->varies() || condition->follows(); };
+  return fading_.is_over(t) && !weak_supports_.move() && std::ranges::none_of(all_, changes);
+}
+
+template <Kinematics K>
 bool Conditions<K>::loads_follow() const {
   return std::ranges::any_of(all_, [](const auto& condition) { return condition->follows(); });
 }
@@ -157,6 +163,11 @@ std::vector<ContactReport> Conditions<K>::contacts(double t, const double* u) co
   rigid_contact_->add_reports(t, u, reports);
   body_contact_->add_reports(u, reports);
   return reports;
+}
+
+template <Kinematics K>
+std::vector<Intrusion> Conditions<K>::intrusions(const Parts& phase, double t, const double* u) const {
+  return rigid_contact_->empty() ? std::vector<Intrusion>() : rigid_contact_->intrusions(phase, t, u);
 }
 
 template <Kinematics K>

@@ -83,6 +83,9 @@ class Conditions {
   /// As RigidContact::move_on().
   bool move_rigid_bodies_on(double share);
   Contact* contact() const { return contact_; }
+  /// Whether loads stay what they are and springs where they are, so that nothing but motions in the body can put out
+  /// of balance what rests at t.
+  bool let_parts_rest(double t) const;
   void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(double t, const double* u);
@@ -107,6 +110,7 @@ class Conditions {
   std::vector<WeakSupport> weak_supports(double t, const double* u) const { return weak_supports_.report(t, u); }
   std::vector<ContactReport> contacts(double t, const double* u) const;
   ContactState contact_state(double t, const double* u) const;
+  std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
   bool are_driven() const { return load_control_.acts(); }
   LoadState load_state(double t, const double* u) const { return load_control_.state(t, u); }
 

@@ -111,11 +111,15 @@ class ContactForce {
   ContactReport report(double t, const double* u) const;
   /// How far pieces that touch have moved along what they touch since the phase began, where most [cells].
   double slid(const double* u) const;
+  /// By how much they have turned on it, where most [rad].
+  double turned(const double* u) const;
+  /// T, of a free body with its d.
+  RigidPlacement<N> placement(double t, const double* u) const;
+  /// Whether a piece of a patch bears a pressure, (patches).
+  std::vector<char> bearing_patches(const RigidPlacement<N>& placement, const double* u) const;
 
  private:
   static constexpr double touching = 1e-6;  // [cells]
-  /// T, of a free body with its d.
-  RigidPlacement<N> placement(double t, const double* u) const;
   Balance<N> balance(double t, const RigidPlacement<N>& placement, const double* u) const;
   // What acts on a body of an axisymmetric scene across the axis is none, as it cancels around it.
   static Matrix along_axes(Matrix stiffness) {

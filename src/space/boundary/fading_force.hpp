@@ -42,6 +42,7 @@ class FadingForce {
     }
   }
   bool acts() const { return over_ > begin_; }
+  bool is_over(double t) const { return !acts() || t >= over_; }
 
   /// In a later phase the functions around each place share its force.
   void begin_phase(const Parts& phase) {
@@ -67,7 +68,7 @@ class FadingForce {
     }
   }
   void add_load(double t, Vec F) const {
-    if (!acts() || t >= over_) return;
+    if (is_over(t)) return;
     const double left = std::min(1.0, (over_ - t) / (over_ - begin_));
     for (std::size_t k = 0; k < F.size(); ++k) F[k] += left * force_[k];
   }

@@ -1,7 +1,7 @@
 #include "space/boundary/rigid_contact.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -71,27 +71,13 @@ void RigidContact<K>::refuse_points_inside(const Parts& phase, double t) const {
   constexpr double most = 0.5;  // [cells]
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const TouchFinder<K>& finder = bodies_[r].finder();
-    const RigidPlacement<N> placement = finder.placement(t);
-    for (std::size_t k = 0; k < phase.points.cells(); ++k) {
-      const auto cell = phase.weights.cell_at(k);
-      double side = std::numeric_limits<double>::infinity();
-      for (int axis = 0; axis < dim; ++axis) {
-        const std::vector<double>& nodes = phase.grid.axes[static_cast<std::size_t>(axis)].nodes;
-        const auto i = static_cast<std::size_t>(cell[static_cast<std::size_t>(axis)]);
-        side = std::min(side, nodes[i + 1] - nodes[i]);
-      }
-      for (std::size_t p = phase.points.begin(k); p < phase.points.end(k); ++p) {
-        const double cells = -finder.distance(phase.points.position(p), placement) / side;
-        if (!(cells > most)) continue;
-        const auto body = std::ranges::upper_bound(first_number_, phase.points.number[p]) - first_number_.begin() - 1;
-        if (!finder.touches(static_cast<std::size_t>(body))) continue;
-        throw_scene_error(
-            fmt::format("rigid[{}]", r),
-            fmt::format("{} is inside body[{}]: a material point at ({:.6g}) is {:.3g} cells inside it when the run "
-                        "begins; expected at most half a cell, or a hole in the body",
-                        in_quotes(finder.spec().name), body, fmt::join(phase.points.position(p), ", "), cells));
-      }
-    }
+    const Intrusion deepest = deepest_point(r, finder.placement(t), phase, nullptr);
+    if (!(deepest.cells > most)) continue;
+    throw_scene_error(
+        fmt::format("rigid[{}]", r),
+        fmt::format("{} is inside body[{}]: a material point at ({:.6g}) is {:.3g} cells inside it when "
+                    "the run begins; expected at most half a cell, or a hole in the body",
+                    in_quotes(finder.spec().name), deepest.other, fmt::join(deepest.at, ", "), deepest.cells));
   }
 }
 

@@ -49,6 +49,8 @@ class RigidContact {
   void update_multipliers(double t, const double* u);
   void add_fit(double t, const double* u, ContactFit& fit) const;
   void add_reports(double t, const double* u, std::vector<ContactReport>& to) const;
+  /// What lies in rigid bodies at (t, u), at most one place of a kind for each.
+  std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
 
  private:
   using RigidBody = ContactForce<K, TouchFinder<K>>;
@@ -56,6 +58,13 @@ class RigidContact {
   std::size_t of_each() const { return dim * surface_.patches().size(); }
   void refuse_overlaps(double t) const;
   void refuse_points_inside(const Parts& phase, double t) const;
+  /// The material point of a body that it touches which lies deepest in rigid body r; u: null for the start of a phase.
+  Intrusion deepest_point(std::size_t r, const RigidPlacement<N>& placement, const Parts& phase, const double* u) const;
+  /// The same of the border in patches that bear nothing; bearing: whether they do, (patches).
+  Intrusion deepest_border(std::size_t r, const RigidPlacement<N>& placement, const std::vector<char>& bearing,
+                           const double* u) const;
+  Intrusion deepest_overlap(std::size_t r, std::size_t other, const std::vector<RigidPlacement<N>>& placements,
+                            const Grid<dim>& grid) const;
 
   const std::vector<int>& first_number_;
   ContactSurface<K> surface_;

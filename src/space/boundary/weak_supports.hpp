@@ -19,6 +19,7 @@
 #include <stillpoint/material.hpp>
 #include <stillpoint/problem.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -44,6 +45,8 @@ class WeakSupports {
 
   bool empty() const { return held_.empty(); }
   const Springs& springs() const { return springs_; }
+  /// Whether one of them moves with time.
+  bool move() const { return std::ranges::any_of(motions_, &PrescribedMotion::moves); }
   /// The support of spring s, and the component that it holds.
   std::size_t owner(std::size_t s) const { return held_[s].support; }
   int component(std::size_t s) const { return held_[s].component; }

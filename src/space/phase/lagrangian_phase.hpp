@@ -40,7 +40,8 @@ struct PhaseInfo {
   bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
   bool may_touch = false;                  // whether rigid or other bodies may touch a body
   bool stiffens = false;  // whether a point can become stiffer than before, so that the critical step has to follow
-  bool points_stiffen = false;  // by the material alone
+  bool points_stiffen = false;   // by the material alone
+  bool of_small_strain = false;  // whether all laws take a rotation for a strain
 };
 
 /// The discretisation of a phase, for `stillpoint check`.
@@ -88,8 +89,11 @@ struct TransferErrors {
 
 /// What has rested while other parts moved (phase.rest).
 struct RestFigures {
-  double points = 0;      // the share of the points at rest, on average over the phases
-  double held_force = 0;  // that held functions at rest, as a share of the forces around them: the largest of a phase
+  double points = 0;  // the share of the points at rest, on average over the time
+  /// The forces that held what rested, Σ |Q|, as a share of those that pass through the body: half of the loads and
+  /// reactions together. The largest of a phase.
+  double held_force = 0;
+  bool may_rest = true;  // whether loads and springs let parts rest now
 };
 
 /// The point whose committed stress exceeds its strength most, as that of a viscous law may for a while.
@@ -129,7 +133,8 @@ class PhaseControl {
   /// single phase, or if initial_velocity() has not begun the first one.
   virtual std::vector<double> begin_next(double t, ConstVec u, ConstVec v) = 0;
   virtual TransferErrors transfer_errors() const = 0;
-  virtual RestFigures rest_figures() const = 0;
+  /// At t, in the state of an evaluation with these reactions, TrialState's.
+  virtual RestFigures rest_figures(double t, ConstVec reactions) const = 0;
   /// Takes the pressures of contact at (t, u) as multipliers, which changes R there: the body may go on to where
   /// nothing penetrates.
   virtual void update_multipliers(double t, ConstVec u) = 0;
@@ -188,6 +193,8 @@ class PhaseSupports {
   virtual std::vector<ContactReport> contacts(double t, ConstVec u) const = 0;
   /// How well the multipliers of contact fit at (t, u).
   virtual ContactState contact_state(double t, ConstVec u) const = 0;
+  /// What lies in rigid bodies without being felt, at (t, u): at most one place of a kind for each.
+  virtual std::vector<Intrusion> intrusions(double t, ConstVec u) const = 0;
   /// The state of loads that a displacement drives, at (t, u); empty if there are none.
   virtual std::optional<LoadState> load_state(double t, ConstVec u) const = 0;
   /// For each body of the scene, the axes along which a support, a spring or a wall acts at a function that reaches it.

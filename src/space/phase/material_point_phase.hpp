@@ -26,6 +26,7 @@ class MaterialPointPhase final : public LagrangianPhase {
   MaterialPointPhase(const Problem& problem, const PhaseBegin& begin)
       : LagrangianPhase({fields_, supports_, shape_, control_, diagnosis_}), all_(problem, begin) {
     info_ = all_.frame.account().describe(all_.conditions.hold_by_springs());
+    info_.of_small_strain = all_.frame.is_of_small_strain();
     if (all_.conditions.may_touch()) {
       info_.nonlinear = info_.may_touch = true;
       info_.stiffens = info_.stiffens || all_.frame.moves_on();
@@ -102,6 +103,7 @@ class MaterialPointPhase final : public LagrangianPhase {
     PhaseFrame<B, K>& frame = all_.frame;
     const StageEnd<B, K> end(frame, all_.force);
     std::vector<TensorOf<K>> H;  // that the points have not taken into what they remember
+    all_.rest.end_phase(t, u);
     if (!frame.moves_on()) {
       H = end.leave_single_phase(t, u);
     } else if (frame.is_of_small_strain()) {
@@ -112,6 +114,7 @@ class MaterialPointPhase final : public LagrangianPhase {
     auto carried =
         std::make_unique<CarriedBodyOf<K>>(all_.problem, frame.body, frame.origin, frame.grid_moved, frame.phase, H);
     all_.conditions.archive(StateArchive::saving(carried->conditions));
+    carried->rest = all_.rest.record();
     if (!frame.moves_on()) return carried;
     all_.rest.wake();
     all_.begin_phase(t);

@@ -31,7 +31,10 @@ struct PhaseAssembly {
         frame(problem, static_cast<const CarriedBodyOf<K>*>(begin.carried)),
         conditions(problem, whole, frame.grid, frame.body, frame.within_shapes(), frame.account().shortest_time()) {
     extend_into_slivers();
-    if (begin.carried) conditions.take_over(begin.carried->conditions);
+    if (begin.carried) {
+      conditions.take_over(begin.carried->conditions);
+      rest.take_over(begin.carried->rest);
+    }
     if (frame.moves_on()) set_initial_velocity(problem, frame.body);
     begin_phase(begin.t);
   }
@@ -73,7 +76,7 @@ struct PhaseAssembly {
     make_weights();
     std::vector<char> reached = frame.reached_functions();
     HeldUnknowns held = hold(t, reached);
-    rest.hold(reached, held);
+    rest.hold(t, reached, held);
     frame.unknowns.begin_phase(std::move(reached), std::move(held), frame.extension);
     rest.begin_phase();
     limit.begin_phase(/*by_reach=*/remap.follows_positions());

@@ -46,7 +46,7 @@ class PhaseControlOf final : public PhaseControl {
     all_.force.take_new_materials();
     all_.rest.wake();
   }
-  RestFigures rest_figures() const override { return all_.rest.figures(); }
+  RestFigures rest_figures(double t, ConstVec reactions) const override { return all_.rest.figures(t, reactions); }
   TransferErrors transfer_errors() const override {
     const auto& kept = all_.remap.conservation();
     return {kept.mass(), kept.momentum(), kept.angular_momentum(), all_.inertia.of_functions().largest_added_mass()};

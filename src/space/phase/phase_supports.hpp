@@ -37,6 +37,10 @@ class PhaseSupportsOf final : public PhaseSupports {
     if (!all_.conditions.may_touch()) return {};
     return all_.conditions.contact_state(t, spread(t, u)->u.data());
   }
+  std::vector<Intrusion> intrusions(double t, ConstVec u) const override {
+    if (!all_.conditions.may_touch()) return {};
+    return all_.conditions.intrusions(all_.inertia.parts(), t, spread(t, u)->u.data());
+  }
   std::optional<LoadState> load_state(double t, ConstVec u) const override {
     if (!all_.conditions.are_driven()) return std::nullopt;
     return all_.conditions.load_state(t, spread(t, u)->u.data());

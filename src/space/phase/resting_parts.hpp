@@ -11,8 +11,8 @@
 //
 // the forces of the stresses around it. Once the root mean square of Q beside what moves passes 4 τ of that of S, as
 // when a wall begins to push, the phase ends at once, all within a few cells moves again, and for a while parts have to
-// be quiet for longer, so that a body that is shaken does not change phases for their sake. The same ratio over all
-// that rests is reported: holding many functions by a little adds up.
+// be quiet for longer, so that a body that is shaken does not change phases for their sake. Holding many functions by a
+// little adds up: Σ |Q| over all that rests is reported beside the forces that pass through the body.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,9 @@ class RestingParts {
   RestingParts(const PhaseFrame<B, K>& frame, InternalForce<B, K>& force, const MotionLimit<B, K>& limit,
                const Conditions<K>& conditions, const std::vector<double>& load)
       : frame_(frame), force_(force), limit_(limit), conditions_(conditions), load_(load) {
-    const auto stays = [](const auto& law) { return law->info().history_dependent && law->info().stress_stays; };
+    const auto stays = [](const auto& law) {
+      return law->info().history_dependent && law->info().stress_stays && !law->info().viscous;
+    };
     if (share() > 0 && !std::ranges::all_of(frame.body.materials, stays)) {
       throw_scene_error("phase.rest",
                         "is for soils that neither soften nor flow by viscosity: laws with a history, whose stress "
@@ -51,8 +53,10 @@ class RestingParts {
   }
 
   // --- a phase begins, in this order ---------------------------------------------------------------
-  /// Holds what rests; all other conditions come first. reached: whether material reaches a function, (functions).
-  void hold(const std::vector<char>& reached, HeldUnknowns& held) {
+  /// Holds what rests from t on; all other conditions come first. reached: whether material reaches a function,
+  /// (functions).
+  void hold(double t, const std::vector<char>& reached, HeldUnknowns& held) {
+    began_ = t;
     if (!act()) return;
     follow_grid();
     std::vector<char> rests(quiet_.size());
@@ -93,13 +97,13 @@ class RestingParts {
   bool is_pushed() const { return is_pushed_; }
   /// Looks at a phase that ends at (t, u), before the points move on.
   void end_phase(double t, ConstVec u) {
-    if (share() == 0 || !conditions_.loads_are_constant()) return;
+    if (share() == 0) return;
+    add_present_phase(t, record_);
+    if (!conditions_.let_parts_rest(t)) return;
     const std::size_t functions = frame_.functions_of_grid();
     quiet_.resize(functions, 0);
     loads_.resize(dim * functions, 0);
     counts_ = counts();
-    figures_.points += resting_share_;
-    ++phases_;
     for (std::size_t k = 0; k < load_.size(); ++k) loads_[unknown(k)] = load_[k];
     add_quiet(u);
     constexpr double a_phase_without_push = 0.9;
@@ -112,12 +116,18 @@ class RestingParts {
   /// Lets everything move again in the next phase.
   void wake() { quiet_.assign(quiet_.size(), 0); }
 
-  /// What has rested so far: `points` on average over the phases.
-  RestFigures figures() const {
-    RestFigures mean = figures_;
-    if (phases_ > 0) mean.points /= static_cast<double>(phases_);
-    return mean;
+  /// What has rested so far, at t in the present phase, in the state of an evaluation with these reactions.
+  RestFigures figures(double t, ConstVec reactions) const {
+    RestRecord now = record_;
+    add_present_phase(t, now);
+    return {.points = now.time > 0 ? now.points / now.time : 0,
+            .held_force = std::max(now.held_force, held_share(held_at_rest(), t, reactions)),
+            .may_rest = conditions_.let_parts_rest(t)};
   }
+  /// The record of all phases that have ended.
+  const RestRecord& record() const { return record_; }
+  /// Before the first phase: goes on from the record of the stages before.
+  void take_over(const RestRecord& from_stage) { record_ = from_stage; }
   /// Saves or restores what is known of earlier phases; a phase is resumed afterwards.
   void archive(const StateArchive& state) {
     if (share() == 0) return;
@@ -125,8 +135,8 @@ class RestingParts {
     state.none_or(functions, "quiet", quiet_);
     state.none_or(dim * functions, "loads", loads_);
     state.none_or(functions, "forces_around", squares_);
-    state("long_enough", long_enough_, "phases", phases_, "resting_points", figures_.points, "held_force",
-          figures_.held_force);
+    state("long_enough", long_enough_);
+    record_.archive(state.part("record"));
     if (state.restores() && !quiet_.empty()) counts_ = counts();
   }
 
@@ -138,7 +148,11 @@ class RestingParts {
   using Counts = std::array<std::size_t, dim>;
 
   double share() const { return frame_.problem.phase.rest; }
-  bool act() const { return share() > 0 && frame_.phase > 0 && conditions_.loads_are_constant(); }
+  bool act() const { return share() > 0 && frame_.phase > 0 && conditions_.let_parts_rest(began_); }
+  void add_present_phase(double t, RestRecord& to) const {
+    to.time += t - began_;
+    to.points += resting_share_ * (t - began_);
+  }
   Counts counts() const {
     Counts along;
     for (std::size_t d = 0; d < dim; ++d)
@@ -223,6 +237,23 @@ class RestingParts {
     }
     return {held, around};
   }
+  // Σ |Q| over all that rests, as a share of the forces that pass through the body, (Σ |F| + Σ |r|)/2 with the
+  // reactions r of supports, springs and walls.
+  double held_share(const std::vector<Held>& at_rest, double t, ConstVec reactions) const {
+    double held = 0, passing = 0;
+    for (const Held& at : at_rest) {
+      held += std::abs(out_of_balance(at, reactions));
+      passing += std::abs(loads_[at.unknown]);
+    }
+    if (held == 0) return 0;
+    for (const double F : load_) passing += std::abs(F);
+    const std::size_t of_supports = frame_.held().first_at_rest(), others = frame_.held().prescribed().size();
+    for (std::size_t s = 0; s < reactions.size(); ++s)
+      if (s < of_supports || s >= others) passing += std::abs(reactions[s]);
+    for (const WallReaction& wall : conditions_.wall_reactions(t))
+      passing += std::abs(wall.normal) + std::abs(wall.shear[0]) + std::abs(wall.shear[1]);
+    return held / (passing / 2);
+  }
   // Evaluates the forces at (t, u), and lets go what they put out of balance.
   void let_go_what_is_out_of_balance(double t, ConstVec u, const std::vector<Held>& at_rest) {
     const auto work = force_.borrow();
@@ -235,8 +266,7 @@ class RestingParts {
     conditions_.add_force(t, trial.arrays->u.data(), R, trial.reactions);
     add_forces_around(work->nodal.corner);
 
-    const auto [held, around] = sums_of_squares(at_rest, trial.reactions);
-    if (around > 0) figures_.held_force = std::max(figures_.held_force, std::sqrt(held / around));
+    record_.held_force = std::max(record_.held_force, held_share(at_rest, t, trial.reactions));
     std::vector<char> released(quiet_.size(), 0);
     for (const Held& at : at_rest) {
       const double Q = out_of_balance(at, trial.reactions);
@@ -267,9 +297,9 @@ class RestingParts {
   std::vector<Held> border_;     // what rests beside what moves
   bool is_pushed_ = false;
   double long_enough_ = shortest_quiet;  // how long what rests has to have been quiet [cells]
-  double resting_share_ = 0;             // of the points in the present phase
-  long phases_ = 0;                      // that have ended
-  RestFigures figures_;                  // points: the sum over these phases
+  double began_ = 0;                     // when the present phase did [s]
+  double resting_share_ = 0;             // of the points in it
+  RestRecord record_;                    // of the phases before it
 };
 
 }  // namespace stillpoint

@@ -183,6 +183,7 @@ class CarriedBodyOf final : public CarriedBody {
     }
     conditions.clear();
     out_of_balance.clear();
+    rest = {};
     grid_moved_ = 0;
     phase_ = 0;
   }
@@ -203,6 +204,7 @@ class CarriedBodyOf final : public CarriedBody {
     materials_.resize(count);
     for (std::size_t m = 0; m < count; ++m) materials_[m].archive(state.part(fmt::format("material_{}", m)));
     state("out_of_balance", out_of_balance);
+    rest.archive(state.part("rest"));
     state.part("conditions").everything(conditions);
     if (state.restores()) check();
   }

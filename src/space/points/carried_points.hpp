@@ -8,6 +8,15 @@
 
 namespace stillpoint {
 
+/// What has rested so far while other parts moved (phase.rest).
+struct RestRecord {
+  double time = 0;        // over which parts could rest or move [s]
+  double points = 0;      // ∫ share of the points at rest dt [s]
+  double held_force = 0;  // RestFigures::held_force
+
+  void archive(const StateArchive& state) { state("time", time, "points", points, "held_force", held_force); }
+};
+
 class CarriedBody {
  public:
   virtual ~CarriedBody() = default;
@@ -20,6 +29,7 @@ class CarriedBody {
 
   SavedState conditions;               // what walls, loads and supports remember, by their kinds
   std::vector<double> out_of_balance;  // F − R at the end, (functions × dim) [N]; empty: not known
+  RestRecord rest;                     // of all stages so far
 };
 
 }  // namespace stillpoint

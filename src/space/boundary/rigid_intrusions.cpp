@@ -1,0 +1,161 @@
+// What lies in rigid bodies without being felt. Contact acts at the pieces of a border: a rigid body that has jumped
+// past them, or gone in between two of them, presses on nothing from there on.
+#include <algorithm>
+#include <limits>
+
+#include "space/boundary/rigid_contact.hpp"
+
+namespace stillpoint {
+namespace {
+
+template <std::size_t Dim>
+void take_if_deeper(double cells, std::size_t other, const std::array<double, Dim>& x, Intrusion& deepest) {
+  if (!(cells > deepest.cells)) return;
+  deepest.cells = cells;
+  deepest.other = other;
+  deepest.at.assign(x.begin(), x.end());
+}
+
+template <int Dim>
+double shortest_side(const Grid<Dim>& grid, const std::array<int, static_cast<std::size_t>(Dim)>& cell) {
+  double side = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    const std::vector<double>& nodes = grid.axes[axis].nodes;
+    const auto i = static_cast<std::size_t>(cell[axis]);
+    side = std::min(side, nodes[i + 1] - nodes[i]);
+  }
+  return side;
+}
+
+}  // namespace
+
+template <Kinematics K>
+std::vector<Intrusion> RigidContact<K>::intrusions(const Parts& phase, double t, const double* u) const {
+  std::vector<RigidPlacement<N>> placements;
+  for (const RigidBody& rigid : bodies_) placements.push_back(rigid.placement(t, u));
+  std::vector<Intrusion> found;
+  const auto take = [&](Intrusion one) {
+    if (one.cells > 0) found.push_back(std::move(one));
+  };
+  for (std::size_t r = 0; r < bodies_.size(); ++r) {
+    const std::vector<char> bearing = bodies_[r].bearing_patches(placements[r], u);
+    const bool bears = std::ranges::any_of(bearing, [](char one) { return one != 0; });
+    for (Intrusion one : {deepest_point(r, placements[r], phase, u), deepest_border(r, placements[r], bearing, u)}) {
+      one.bears = bears;
+      take(std::move(one));
+    }
+    for (std::size_t other = 0; other < r; ++other) {
+      if (bodies_[r].finder().is_free() || bodies_[other].finder().is_free())
+        take(deepest_overlap(r, other, placements, phase.grid));
+    }
+  }
+  return found;
+}
+
+template <Kinematics K>
+Intrusion RigidContact<K>::deepest_point(std::size_t r, const RigidPlacement<N>& placement, const Parts& phase,
+                                         const double* u) const {
+  Intrusion deepest{.of = Intrusion::Of::points, .rigid = r};
+  const TouchFinder<K>& finder = bodies_[r].finder();
+  typename PointFunctions<dim>::Numbers N_a;
+  for (std::size_t k = 0; k < phase.points.cells(); ++k) {
+    const double side = shortest_side(phase.grid, phase.weights.cell_at(k));
+    for (std::size_t p = phase.points.begin(k); p < phase.points.end(k); ++p) {
+      Point<dim> x = phase.points.position(p);
+      if (u) phase.weights.values(k, p, N_a);
+      for (int a = 0; u && a < phase.weights.functions_of_cell(); ++a) {
+        const double* const of_function = u + dim * phase.weights.function(k, a);
+        for (std::size_t i = 0; i < dim; ++i) x[i] += N_a[static_cast<std::size_t>(a)] * of_function[i];
+      }
+      const double cells = -finder.distance(x, placement) / side;
+      if (!(cells > deepest.cells)) continue;
+      const auto body = std::ranges::upper_bound(first_number_, phase.points.number[p]) - first_number_.begin() - 1;
+      if (finder.touches(static_cast<std::size_t>(body)))
+        take_if_deeper(cells, static_cast<std::size_t>(body), x, deepest);
+    }
+  }
+  return deepest;
+}
+
+// Along the lines through the pieces of a patch that bears nothing, two Gauss points of it, from end to end.
+template <Kinematics K>
+Intrusion RigidContact<K>::deepest_border(std::size_t r, const RigidPlacement<N>& placement,
+                                          const std::vector<char>& bearing, const double* u) const {
+  constexpr double beyond = 0.3660254037844386;  // (√3 − 1)/2: the ends of a line, in distances of its Gauss points
+  constexpr int looks = 8;                       // along a line
+  Intrusion deepest{.of = Intrusion::Of::border, .rigid = r};
+  const TouchFinder<K>& finder = bodies_[r].finder();
+  const auto patches = surface_.patches();
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    if (bearing[k] || !finder.touches(patches[k].body)) continue;
+    std::vector<Point<dim>> x;
+    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s) x.push_back(surface_.position(s, u));
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      for (std::size_t j = i + 1; j < x.size(); ++j) {
+        for (int look = 0; look <= looks; ++look) {
+          const double share = (1 + 2 * beyond) * look / looks - beyond;
+          Point<dim> between;
+          for (std::size_t d = 0; d < dim; ++d) between[d] = x[i][d] + share * (x[j][d] - x[i][d]);
+          take_if_deeper(-finder.distance(between, placement) / patches[k].cell, patches[k].body, between, deepest);
+        }
+      }
+    }
+  }
+  return deepest;
+}
+
+// The place that lies deepest in both: of a lattice over the grid, and from there by ever shorter ways.
+template <Kinematics K>
+Intrusion RigidContact<K>::deepest_overlap(std::size_t r, std::size_t other,
+                                           const std::vector<RigidPlacement<N>>& placements,
+                                           const Grid<dim>& grid) const {
+  constexpr int in_a_cell = 2;
+  const double side = shortest_side(grid, std::array<int, static_cast<std::size_t>(dim)>{});
+  const auto depth = [&](const Point<dim>& x) {
+    return -std::max(bodies_[r].finder().distance(x, placements[r]),
+                     bodies_[other].finder().distance(x, placements[other]));
+  };
+  std::array<int, dim> count, at{};
+  for (std::size_t axis = 0; axis < dim; ++axis) count[axis] = in_a_cell * grid.axes[axis].cells() + 1;
+  Point<dim> best{};
+  double most = -std::numeric_limits<double>::infinity();
+  const auto take = [&](const Point<dim>& x) {
+    const double here = depth(x);
+    if (!(here > most)) return false;
+    most = here;
+    best = x;
+    return true;
+  };
+  for (std::size_t axis = 0; axis < dim;) {
+    Point<dim> x;
+    for (std::size_t d = 0; d < dim; ++d) {
+      const Axis& along = grid.axes[d];
+      x[d] = along.min() + (along.max() - along.min()) * at[d] / (count[d] - 1);
+    }
+    take(x);
+    for (axis = 0; axis < dim && ++at[axis] == count[axis];) at[axis++] = 0;
+  }
+  constexpr double shortest = 1e-3;  // [cells]
+  for (double way = side / in_a_cell; way > shortest * side;) {
+    bool nearer = false;
+    for (std::size_t d = 0; d < dim; ++d) {
+      for (const double step : {-way, way}) {
+        Point<dim> x = best;
+        x[d] += step;
+        nearer = take(x) || nearer;
+      }
+    }
+    if (!nearer) way /= 2;
+  }
+  Intrusion deepest{.of = Intrusion::Of::rigid, .rigid = r};
+  take_if_deeper(most / side, other, best, deepest);
+  return deepest;
+}
+
+template std::vector<Intrusion> RigidContact<Kinematics::line>::intrusions(const Parts&, double, const double*) const;
+template std::vector<Intrusion> RigidContact<Kinematics::plane>::intrusions(const Parts&, double, const double*) const;
+template std::vector<Intrusion> RigidContact<Kinematics::axisymmetric>::intrusions(const Parts&, double,
+                                                                                   const double*) const;
+template std::vector<Intrusion> RigidContact<Kinematics::space>::intrusions(const Parts&, double, const double*) const;
+
+}  // namespace stillpoint

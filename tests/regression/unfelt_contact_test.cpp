@@ -1,0 +1,210 @@
+// What lies in another body without being felt is found at the end: no such state is an equilibrium.
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+using namespace stillpoint;
+using Catch::Matchers::Contains;
+
+namespace stillpoint::test {
+namespace {
+
+Summary run_text(const std::string& text, const std::vector<std::string>& set = {}) {
+  const TemporaryFolder folder;
+  return run(load_scene(folder.write("scene.toml", text), set), {.out = folder.path(), .threads = 1});
+}
+bool says(const Summary& summary, const std::string& text) {
+  for (const std::string& note : summary.notes)
+    if (note.find(text) != std::string::npos) return true;
+  return false;
+}
+
+const std::string ends = "[damping]\nstrategy = \"auto\"\n[stop]\nsteps = 200000\n";
+
+// A pad of 16 × 8 cells, into which a smooth disc is pushed from where it touches the top.
+const std::string pad = R"toml(
+dim = 2
+[constants]
+push = 0.3
+R = 0.3
+at = 2.125
+[grid]
+min = [0, 0]
+max = [4, 4]
+cells = [16, 16]
+[[body]]
+name = "pad"
+max = [4, 2]
+material = "m"
+placement = "gauss"
+[material.m]
+law = "neo-hookean"
+E = 1e6
+nu = 0.3
+rho = 1000
+[[support]]
+face = "bottom"
+)toml";
+const std::string disc =
+    "[[rigid]]\nname = \"pin\"\ndisc = [\"at\", \"2+R\"]\nradius = \"R\"\nmotion = [\"0\", \"-push*min(t,1)\"]\n";
+
+}  // namespace
+
+TEST_CASE(
+    "a disc that has jumped past the border of a body is at no equilibrium in its middle, in the plane or in space") {
+  const Summary pressed = run_text(pad + disc + ends, {"constants.push=0.4"});
+  CHECK(pressed.status == RunStatus::equilibrium);
+  CHECK(pressed.contacts.at("pin.force_y") < -2e5);
+  CHECK_FALSE(says(pressed, "past the border"));
+  for (const char* law : {"neo-hookean", "linear-elastic"}) {
+    CAPTURE(law);
+    const Summary past = run_text(pad + disc + ends, {"constants.push=1", std::string("material.m.law=") + law});
+    CHECK(past.status != RunStatus::equilibrium);
+    CHECK_THAT(past.reason, Contains("'pin' has gone past the border of 'pad'"));
+  }
+}
+
+TEST_CASE("a pin that goes in between two places that feel contact is found by the material that lies in it") {
+  const Summary in = run_text(pad + disc + ends, {"constants.R=0.1", "constants.push=0.5"});
+  CAPTURE(in.reason);
+  CHECK(in.status != RunStatus::equilibrium);
+  CHECK_THAT(in.reason, Contains("'pin'") && Contains("'pad'"));
+}
+
+TEST_CASE("free rigid bodies that stand in each other are at no equilibrium") {
+  const std::string boxes =
+      "[[rigid]]\nname = \"low\"\nmin = [1.5, 2]\nmax = [2.5, 2.3]\nfree = true\nmass = 100\n"
+      "[[rigid]]\nname = \"up\"\nmin = [1.5, 2.3]\nmax = [2.5, 2.6]\nfree = true\nmass = 200\n"
+      "[body_force]\nvalue = [0, -10]\n";
+  const Summary stack = run_text(pad + boxes + ends);
+  CHECK(stack.status != RunStatus::equilibrium);
+  CHECK_THAT(stack.reason, Contains("'up' and 'low' are in each other"));
+  // With a body between them they are not.
+  const std::string apart =
+      "[[rigid]]\nname = \"low\"\nmin = [0.5, 2]\nmax = [1.5, 2.3]\nfree = true\nmass = 100\n"
+      "[[rigid]]\nname = \"up\"\nmin = [2.5, 2]\nmax = [3.5, 2.3]\nfree = true\nmass = 200\n"
+      "[body_force]\nvalue = [0, -10]\n";
+  CHECK(run_text(pad + apart + ends).status == RunStatus::equilibrium);
+}
+
+TEST_CASE(
+    "a slab of one cell that ends in the middle of another body is at no equilibrium, wherever the grid's lines are") {
+  for (const char* y : {"1.5", "1.625"}) {
+    CAPTURE(y);
+    const std::string scene = std::string(R"toml(
+dim = 2
+[grid]
+min = [0, 0]
+max = [4, 3]
+cells = [16, 12]
+[[body]]
+name = "base"
+max = [2, 1]
+material = "m"
+placement = "gauss"
+[[body]]
+name = "slab"
+min = [2.3, )toml") + y + "]\nmax = [3.3, \"" +
+                              y + R"toml(+0.25"]
+material = "m"
+placement = "gauss"
+[material.m]
+law = "neo-hookean"
+E = 1e6
+nu = 0.3
+rho = 1000
+[[rigid]]
+name = "stop"
+half_plane = [[0.5, 0], [1, 0]]
+bodies = ["slab"]
+[[rigid]]
+name = "floor"
+half_plane = [[0, 0.5], [0, 1]]
+bodies = ["slab"]
+[[contact]]
+bodies = ["slab", "base"]
+friction = 0.3
+[[support]]
+face = "bottom"
+[body_force]
+value = [-1, -0.5]
+)toml";
+    const Summary inside = run_text(scene + ends);
+    CHECK(inside.status != RunStatus::equilibrium);
+    CHECK_THAT(inside.reason, Contains("'base' and 'slab' have gone through each other"));
+  }
+}
+
+TEST_CASE("a block that has tipped over the edge of a shelf in a single phase does not hang from its underside") {
+  const Summary hangs = run_text(R"toml(
+dim = 2
+[grid]
+min = [0, 0]
+max = [4, 3]
+cells = [16, 12]
+[[body]]
+name = "shelf"
+min = [0, 1.5]
+max = [2, 1.75]
+material = "m"
+placement = "gauss"
+[[body]]
+name = "block"
+min = [1.5, 1.75]
+max = [3, 2.25]
+material = "m"
+placement = "gauss"
+[material.m]
+law = "neo-hookean"
+E = 1e6
+nu = 0.3
+rho = 1000
+[[contact]]
+bodies = ["block", "shelf"]
+friction = 0.5
+[[support]]
+face = "left"
+[body_force]
+value = [0, -0.2]
+)toml" + ends);
+  CHECK(hangs.status != RunStatus::equilibrium);
+  CHECK_THAT(hangs.reason, Contains("have turned by"));
+}
+
+TEST_CASE("a tower of a law of small strains that leans by 30 degrees says that its rotation is beyond the law") {
+  const std::string tower = R"toml(
+dim = 2
+[grid]
+min = [-0.5, -0.5]
+max = [2, 2.5]
+cells = [20, 24]
+[[body]]
+min = [0, 0]
+max = [0.5, 2]
+material = "m"
+placement = "gauss"
+[material.m]
+law = "linear-elastic"
+E = 1e7
+nu = 0
+rho = 1000
+[[rigid]]
+name = "floor"
+half_plane = [[0, 0], [0, 1]]
+friction = "rough"
+[[rigid]]
+name = "wall"
+half_plane = [[1.5, 0], [-1, 0]]
+[body_force]
+value = [4, -10]
+)toml";
+  CHECK(says(run_text(tower + ends), "takes a rotation for a strain"));
+  CHECK_FALSE(says(run_text(tower + ends, {"material.m.law=neo-hookean"}), "takes a rotation for a strain"));
+  CHECK_FALSE(says(run_text(tower + ends, {"body_force.value=[0.1, -10]"}), "takes a rotation for a strain"));
+}
+
+}  // namespace stillpoint::test
