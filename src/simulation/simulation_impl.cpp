@@ -55,7 +55,12 @@ RunStatus Simulation::Impl::step(double t_stop) {
     if (leaves_checkpoints()) leave_checkpoint();
   }
   try {
-    take_step(t_stop);
+    if (is_judging_) {
+      run_->progress = run_->model.phase->control().progress(run_->t, run_->motion->u());
+      end_step();
+    } else {
+      take_step(t_stop);
+    }
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(run_->failed("no memory is left for what a step takes").reason);
   }
@@ -78,6 +83,10 @@ void Simulation::Impl::take_step(double t_stop) {
   run_->motion->accept(run_->t);
   run_->progress = run_->model.phase->control().progress(run_->t, run_->motion->u());
   observe();
+  end_step();
+}
+
+void Simulation::Impl::end_step() {
   if (run_->options.stops) judge();
   record(done());
   report_progress();
@@ -128,15 +137,18 @@ void Simulation::Impl::observe() {
   for (const Watched& watched : watchers_) watched.watcher->observe(*run_);
 }
 
+// If a request to end breaks it off, the run that goes on from there begins with the watcher that was broken off.
 void Simulation::Impl::judge() {
   const StopScope scope(run_->asks_to_end());
+  is_judging_ = true;
   try {
-    for (const Watched& watched : watchers_) {
-      verdict_ = watched.watcher->judge(*run_);
+    for (; next_to_judge_ < watchers_.size() && !done(); ++next_to_judge_) {
+      verdict_ = watchers_[next_to_judge_].watcher->judge(*run_);
       if (verdict_.status == RunStatus::equilibrium && !run_->scene.stages.empty())
         stage_verdict_ = std::exchange(verdict_, {});
-      if (done()) return;
     }
+    is_judging_ = false;
+    next_to_judge_ = 0;
   } catch (const Stopped&) {
     end_as_asked("the step was finished");
     if (leaves_checkpoints()) leave_checkpoint();

@@ -90,7 +90,7 @@ void Simulation::Impl::resume(const fs::path& from) {
 void Simulation::Impl::archive(const StateArchive& state) {
   archive_stages(state);
   run_->archive(state);
-  state("started", started_);
+  state("started", started_, "is_judging", is_judging_, "next_to_judge", next_to_judge_);
   for (const auto& [name, watcher] : watchers_) watcher->archive(state.part(name), *run_);
   if (recorder_) recorder_->archive(state.part("records"));
   archive_end(state);

@@ -11,13 +11,16 @@
 #include "child.hpp"
 #include "files.hpp"
 #include "linalg/multigrid.hpp"
+#include "resumed_runs.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
+using stillpoint::test::resumed;
 using stillpoint::test::TemporaryFolder;
+using stillpoint::test::unbroken;
 namespace fs = std::filesystem;
 
 namespace {
@@ -32,36 +35,10 @@ std::vector<std::string> with(std::vector<std::string> set, const std::vector<st
   return set;
 }
 
-// What a run leaves behind, but for its times on the clock.
-std::string left_by(const Summary& s, const fs::path& out) {
-  std::string left = fmt::format("{} {} steps {} evaluations {} phases {} rejected\n{:a} {:a} {:a} {:a} {:a}\n{}\n",
-                                 s.reason, s.steps, s.rhs_evaluations, s.phases, s.rejected_steps, s.residual,
-                                 s.distance.value_or(0), s.momentum_error.value_or(0), s.plastic_overshoot.value_or(-1),
-                                 s.unbalanced_plastic_work.value_or(-1), fmt::join(s.notes, "\n"));
-  for (const StageFigures& stage : s.stages)
-    left += fmt::format("{:a} to {:a}: {} {} {:a} {}\n", stage.begin, stage.end, to_string(stage.status), stage.reason,
-                        stage.residual, stage.steps);
-  for (const char* name : {"history.csv", "fields.h5", "fields.xdmf"})
-    if (fs::exists(out / name)) left += contents(out / name);
-  return left;
-}
-
-std::string unbroken(const Scene& scene) {
-  const TemporaryFolder folder;
-  const Summary s = run(scene, {.out = folder.path()});
-  return left_by(s, folder.path());
-}
-
 // The process ends within a step, after some of them.
 void break_off(const Scene& scene, const fs::path& out, long steps) {
   Simulation simulation(scene, {.out = out});
   while (!simulation.done() && simulation.steps() < steps) simulation.step();
-}
-
-std::string resumed(const fs::path& out) {
-  const fs::path checkpoint = out / "checkpoint.h5";
-  const Summary s = run(load_scene_of(checkpoint), {.out = out, .resume = checkpoint});
-  return left_by(s, out);
 }
 
 void check_same_bits(const Case& one, long steps) {
@@ -250,21 +227,6 @@ TEST_CASE("a run may be resumed again and again, and by another number of thread
     Simulation simulation(load_scene_of(checkpoint), {.out = folder.path(), .resume = checkpoint, .threads = 2});
     while (simulation.steps() < steps) simulation.step();
   }
-  CHECK((resumed(folder.path()) == unbroken(scene)));
-}
-
-TEST_CASE("a run that was interrupted goes on where it was, from the step of the interrupt") {
-  const Scene scene =
-      scenes::load("block_on_wall", {"stop.steps=150", "checkpoint.every_steps=1000", "output.stages=[1e-3, 1e3]"});
-  const TemporaryFolder folder;
-  int asked = 0;
-  const Summary s = run(scene, {.out = folder.path(), .interrupted = [&] {
-                                  return fs::exists(folder.path() / "history.csv.partial") && ++asked == 77;
-                                }});
-  CHECK(s.status == RunStatus::interrupted);
-  CHECK(s.steps == 77);
-  const fs::path checkpoint = folder.path() / "checkpoint.h5";
-  CHECK(Simulation(load_scene_of(checkpoint), {.resume = checkpoint}).steps() == 77);
   CHECK((resumed(folder.path()) == unbroken(scene)));
 }
 
