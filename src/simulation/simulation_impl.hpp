@@ -85,8 +85,8 @@ class Simulation::Impl {
   std::shared_ptr<FolderLock> folder_lock_;  // until the run is over
   std::optional<Recorder> recorder_;
   bool started_ = false;
-  bool is_judging_ = false;        // the last step has still to be judged,
-  std::size_t next_to_judge_ = 0;  // by the watchers from this one on
+  bool is_judging_ = false;                             // the last step has still to be judged,
+  std::size_t next_to_judge_ = 0;                       // by the watchers from this one on
   double next_progress_s_ = 0, next_checkpoint_s_ = 0;  // on the clock of the run [s]
   long last_checkpoint_ = 0;                            // [steps]
   std::vector<double> field_;
