@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""beside_fem.py [--quick] [--only CASE]: Stillpoint beside finite elements by FEniCSx, error against unknowns and time.
+
+For each case both programs solve the same problem on a series of meshes, each run a process of its own on one thread, and
+their u and σ are read at the same places inside the body and compared with the exact answer. Runs go one after another,
+and each repetition begins with another way, so that what the machine does meanwhile falls on all of them; of a way's
+repetitions the fastest counts. Prints a line for each way and size, and writes DIR/beside_fem.csv, DIR/beside_fem.json (the
+orders, ratios, crossings and verdicts), DIR/CASE.png and DIR/beside_fem.md. Exit status 1 if a run has no solution, which
+leaves its place empty, 2 for bad input or without FEniCSx. Needs build/release/stillpoint.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from beside_fem_cases import CASES
+from beside_fem_page import line, page
+from beside_fem_runs import FEM, QUICK_WAYS, ROOT, cases_named, fem_row, first_cells, our_errors, our_row, sizes_of, ways_of
+from beside_fem_table import write_csv
+from beside_fem_verdict import judged
+from scaling import best, enough, rotated
+
+QUICK_CASE, QUICK_SIZES = "lame", 2
+
+
+def measured(options, case, way, unknowns):
+    folder = options.out / "runs"
+    folder.mkdir(parents=True, exist_ok=True)
+    first = first_cells(case, way, unknowns)
+    if way.program == FEM:
+        return fem_row(case, way, first, folder, options.seconds)
+    return our_row(options.program, case, way, first, folder, options.seconds)
+
+
+def with_errors(options, case, way, row):
+    """Stillpoint's errors are read once, by a run that does not count."""
+    if not row.found or way.program == FEM:
+        return row
+    errors = our_errors(options.program, case, way, int(row.cells), options.out / "runs", options.seconds)
+    return row.with_figures(**errors) if errors else row.missing("the run with probes failed")
+
+
+def measure_size(options, case, ways, unknowns, turn):
+    """The rows of all ways, and the turn that is next."""
+    rows = {way: [] for way in ways}
+    while not all(enough(found, options.repeat) for found in rows.values()):
+        for way in rotated(ways, turn):
+            if not enough(rows[way], options.repeat):
+                rows[way].append(measured(options, case, way, unknowns))
+        turn += 1
+    return [with_errors(options, case, way, best(found)) for way, found in rows.items()], turn
+
+
+def measure_case(options, case):
+    rows, turn = [], 0
+    for unknowns in sizes_of(case)[: options.sizes]:
+        ways = [way for way in (QUICK_WAYS if options.quick else ways_of(case)) if unknowns <= way.most]
+        found, turn = measure_size(options, case, ways, unknowns, turn)
+        for row in found:
+            print(line(row), flush=True)
+        rows += found
+    return rows
+
+
+def fem_is_there():
+    return subprocess.run(["/usr/bin/python3", "-c", "import dolfinx"], capture_output=True, check=False).returncode == 0
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = parser.add_argument
+    add("--quick", action="store_true", help="two sizes of three ways in one case, under half a minute")
+    add("--only", action="append", choices=list(CASES), metavar="CASE", help=f"of {', '.join(CASES)}; may be repeated")
+    add("--out", type=Path, default=Path("out/beside_fem"), metavar="DIR")
+    add("--repeat", type=int, default=3, metavar="N", help="runs of each; of long ones fewer")
+    add("--sizes", type=int, default=None, metavar="N", help="the N smallest sizes alone")
+    add("--seconds", type=float, default=1800, help="of the processor, after which a run is cut off")
+    add("--accept", action="store_true", help="write the page and its pictures to problems/, of all cases")
+    add("--program", type=Path, default=ROOT / "build/release/stillpoint", help="instead of build/release/stillpoint")
+    options = parser.parse_args()
+    if options.repeat < 1:
+        parser.error("--repeat: expected 1 or more")
+    if options.quick and options.only:
+        parser.error(f"--quick is of the case {QUICK_CASE}: leave out --only")
+    if options.accept and (options.quick or options.only or options.sizes):
+        parser.error("--accept is of all cases: leave out --quick, --only and --sizes")
+    if not options.program.is_file():
+        parser.error(f"--program: there is no {options.program}")
+    if options.quick:
+        options.only, options.sizes, options.repeat = [QUICK_CASE], QUICK_SIZES, 1
+    return options
+
+
+def about(options, load):
+    return (
+        f"{os.cpu_count()} cores, each run on one thread, the fastest of {options.repeat} runs in turn (of long ones fewer), "
+        f"others' load {load:.1f} when they began."
+    )
+
+
+def write(options, rows, verdicts, text):
+    write_csv(options.out / "beside_fem.csv", rows)
+    (options.out / "beside_fem.json").write_text(json.dumps(verdicts, indent=2) + "\n", encoding="utf-8")
+    import plot_beside_fem  # here: drawing takes a second to begin
+
+    pictures = plot_beside_fem.draw_all(rows, options.out)
+    (options.out / "beside_fem.md").write_text(text, encoding="utf-8")
+    if options.accept:
+        shutil.copy(options.out / "beside_fem.md", ROOT / "problems/beside_fem.md")
+        for picture in pictures:
+            shutil.copy(picture, ROOT / "problems" / picture.name)
+
+
+def main():
+    options, start, load = parse(), time.monotonic(), os.getloadavg()[0]
+    if not fem_is_there():
+        print("beside_fem: there is no FEniCSx here: scripts/install_packages fem", file=sys.stderr)
+        return 2
+    options.out.mkdir(parents=True, exist_ok=True)
+    rows = [row for case in cases_named(options.only) for row in measure_case(options, case)]
+    verdicts = judged(rows)
+    text = page(rows, verdicts, about(options, load))
+    write(options, rows, verdicts, text)
+    missing = sum(not row.found for row in rows)
+    print(f"{len(rows)} figures, {missing} missing, {time.monotonic() - start:.0f} s; {options.out / 'beside_fem.md'}")
+    return 1 if missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,195 @@
+"""The runs of scripts/beside_fem: by FEniCSx and by Stillpoint, each a process of its own on one thread."""
+
+import json
+import os
+import shlex
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from beside_fem_cases import CASES
+from beside_fem_errors import errors_of
+from beside_fem_table import Row
+from limited_run import run_in
+from ring_scene import ring_scene
+
+ROOT = Path(__file__).resolve().parent.parent
+FEM, OURS = "FEniCSx", "Stillpoint"
+AXES = "xyz"
+STRESSES = {2: ("xx", "yy", "zz", "xy"), 3: ("xx", "yy", "zz", "xy", "yz", "zx")}
+
+
+@dataclass(frozen=True)
+class Way:
+    program: str
+    functions: str  # P1, P2, Q1, Q2; linear, quadratic, cubic
+    solver: str
+    most: float = float("inf")  # unknowns
+    settings: tuple[str, ...] = ()
+
+    @property
+    def name(self):
+        return f"{self.program} {self.functions}, {self.solver}"
+
+
+# --- sizes ---------------------------------------------------------------------------------------------
+
+
+def first_cells(case, way, unknowns):
+    """The number of cells along the first parameter of a mesh, or along the first axis of a grid, that has about as many
+    unknowns."""
+    dim, nodes = case.dim, unknowns / case.dim
+    if way.program == FEM:
+        return max(1, round((nodes / np.prod(case.aspect)) ** (1 / dim) * case.aspect[0] / int(way.functions[1])))
+    return max(2, round((nodes / case.filled / np.prod(case.grid)) ** (1 / dim) * case.grid[0]))
+
+
+def points_per_cell(case, functions):
+    """Gauss points that integrate a cell fully; in cells that a border cuts as many as Stillpoint's notes ask for."""
+    along = {"linear": 2, "quadratic": 3, "cubic": 4}[functions]
+    return (along if case.fitted else {2: 4, 3: 4, 4: 6}[along]) ** case.dim
+
+
+# --- FEniCSx -------------------------------------------------------------------------------------------
+
+
+def fem_row(case, way, first, folder, seconds):
+    file = folder / "figures.json"
+    words = [case.name, way.functions, way.solver, str(first)]
+    row = Row(case.name, FEM, *words[1:], command=shlex.join(["scripts/fem_run.py", *words, "figures.json"]))
+    command = ["/usr/bin/python3", str(ROOT / "scripts/fem_run.py"), *words, str(file)]
+    try:
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False, env=one_thread())
+    except subprocess.TimeoutExpired:
+        return row.missing(f"no end within {seconds:g} s")
+    if ended.returncode != 0:
+        return row.missing((ended.stderr.strip().splitlines() or [f"exit status {ended.returncode}"])[-1])
+    found = json.loads(file.read_text(encoding="utf-8"))
+    return row.with_figures(
+        whole_s=found["meshing_s"] + found["solution_s"],
+        recovery_s=found["projection_s"],
+        **{key: value for key, value in found.items() if key not in ("meshing_s", "projection_s")},
+    )
+
+
+def one_thread():
+    return os.environ | {"OMP_NUM_THREADS": "1"}
+
+
+# --- Stillpoint ----------------------------------------------------------------------------------------
+
+
+def scene_of(case, first, folder):
+    """The scene's file, written to the folder if the project does not have it."""
+    if case.scene:
+        return ROOT / "problems" / case.scene
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{case.name}_{first}.toml"
+    file.write_text(ring_scene(first), encoding="utf-8")
+    return file
+
+
+def settings_of(case, way, first):
+    cells = [max(1, round(first * share / case.grid[0])) for share in case.grid]
+    solve = {"newton": ("solve.method=newton",), "auto": ("solve.method=relaxation", "damping.strategy=auto")}
+    return [
+        f"grid.basis={way.functions}", f"grid.cells=[{','.join(map(str, cells))}]",
+        f"body.points_per_cell={points_per_cell(case, way.functions)}", f"stop.residual={case.residual:g}",
+        *solve[way.solver.partition(",")[0]], *case.settings, *way.settings,
+    ]  # fmt: skip
+
+
+def our_command(program, scene, settings):
+    return [str(program), "run", str(scene), *(word for setting in settings for word in ("--set", setting))]
+
+
+def probes(case, x):
+    """[[probe]] tables that read u, ∂u/∂x and σ at these places."""
+    axes = AXES[: case.dim]
+    fields = [f"u.{i}" for i in axes] + [f"strain.{i}{j}" for i in axes for j in axes]
+    fields += [f"stress.{name}" for name in STRESSES[case.dim]]
+    names = ", ".join(f'"{name}"' for name in fields)
+    return "".join(
+        f'\n[[probe]]\nname = "p{k}"\nat = {[float(value) for value in place]}\nfields = [{names}]\n' for k, place in enumerate(x)
+    )
+
+
+def read_probes(case, summary, count):
+    """u (n, dim), ∂u/∂x (n, dim, dim), σ (n, 3, 3)"""
+    axes = AXES[: case.dim]
+    read = [summary["probes"][f"p{k}"] for k in range(count)]
+
+    def column(name):
+        return np.array([np.nan if probe[name] is None else probe[name] for probe in read], dtype=float)
+
+    stress = np.zeros((count, 3, 3))
+    for name in STRESSES[case.dim]:
+        i, j = map(AXES.index, name)
+        stress[:, i, j] = stress[:, j, i] = column(f"stress.{name}")
+    gradient = np.array([[column(f"strain.{i}{j}") for j in axes] for i in axes])
+    return np.stack([column(f"u.{i}") for i in axes], axis=1), np.moveaxis(gradient, -1, 0), stress
+
+
+def our_row(program, case, way, first, folder, seconds):
+    measuring = [sys.executable, "-I", "-S", str(ROOT / "scripts/measured_run.py"), str(folder / "usage.json")]
+    scene = scene_of(case, first, folder)
+    command = our_command(Path(program).resolve(), scene, settings_of(case, way, first))
+    words = our_command("build/release/stillpoint", os.path.relpath(scene, ROOT), settings_of(case, way, first))
+    row = Row(case.name, OURS, way.functions, way.solver, str(first), command=shlex.join([*words, "--threads", "1"]))
+    run = run_in(folder / "run", measuring + command, seconds)
+    if run.exit_status != 0:
+        return row.missing(run.message or run.summary.get("reason") or f"exit status {run.exit_status}")
+    took = json.loads((folder / "usage.json").read_text(encoding="utf-8"))
+    return row.with_figures(
+        unknowns=run.summary["dofs"], iterations=run.summary["rhs_evaluations"], whole_s=took["seconds"],
+        solution_s=run.summary["wall_s"], megabytes=took["megabytes"],
+    )  # fmt: skip
+
+
+def our_errors(program, case, way, first, folder, seconds):
+    """{error: value}, by a run of its own that reads the places."""
+    x = case.place(case.parameters())
+    scene = folder / "with_probes.toml"
+    scene.write_text(scene_of(case, first, folder).read_text(encoding="utf-8") + probes(case, x), encoding="utf-8")
+    run = run_in(folder / "probed", our_command(Path(program).resolve(), scene, settings_of(case, way, first)), seconds)
+    if run.exit_status != 0:
+        return {}
+    u, gradient, stress = read_probes(case, run.summary, len(x))
+    return errors_of(case, x, u, case.law.stress(gradient), stress)
+
+
+# --- what is run ---------------------------------------------------------------------------------------
+
+PLANE_SIZES, SPACE_SIZES = (1e3, 4e3, 1.6e4, 6.4e4), (3e3, 2e4, 1e5, 3e5)
+IN_PLANE = [Way(FEM, element, "cholmod") for element in ("P1", "P2", "Q1", "Q2")] + [
+    Way(FEM, "Q2", "mumps"),
+    Way(FEM, "P2", "gamg"),
+    Way(FEM, "Q2", "gamg"),
+]
+AT_LARGE_STRAIN = [Way(FEM, element, "mumps") for element in ("P1", "P2", "Q1", "Q2")]
+IN_SPACE = [Way(FEM, element, "gamg") for element in ("P1", "P2", "Q1", "Q2")] + [
+    Way(FEM, element, "cholmod", most=3e4) for element in ("Q1", "Q2")
+]
+OUR_PLANE = [Way(OURS, basis, solver) for basis in ("linear", "quadratic", "cubic") for solver in ("newton", "auto")]
+OUR_SPACE = [Way(OURS, basis, "auto") for basis in ("linear", "quadratic", "cubic")] + [
+    Way(OURS, basis, "auto, lumped mass", settings=("mass.kind=lumped",)) for basis in ("linear", "quadratic")
+] + [Way(OURS, basis, "newton", most=3e4) for basis in ("linear", "quadratic")]  # fmt: skip
+
+
+QUICK_WAYS = [Way(FEM, "Q2", "cholmod"), Way(OURS, "quadratic", "newton"), Way(OURS, "cubic", "newton")]  # of the quick case
+
+
+def ways_of(case):
+    if case.dim == 3:
+        return IN_SPACE + OUR_SPACE
+    return (AT_LARGE_STRAIN if case.law.large_strain else IN_PLANE) + OUR_PLANE
+
+
+def sizes_of(case):
+    return SPACE_SIZES if case.dim == 3 else PLANE_SIZES
+
+
+def cases_named(names):
+    return [CASES[name] for name in names] if names else list(CASES.values())

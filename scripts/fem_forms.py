@@ -1,0 +1,74 @@
+"""What FEniCSx is given of each case: loads as forms, the law, the supports."""
+
+import dolfinx
+import numpy as np
+import ufl
+from beside_fem_cases import CUBE_AMPLITUDES, INNER, PRESSURE
+from petsc4py import PETSc
+
+
+def small_stress(u, law):
+    lam, mu = law.lame
+    strain = ufl.sym(ufl.grad(u))
+    return lam * ufl.tr(strain) * ufl.Identity(len(u)) + 2 * mu * strain
+
+
+def large_work(u, law, dx):
+    """∫ W with W = μ/2 (tr C − 2 − 2 ln J) + λ/2 (ln J)², in plane strain"""
+    lam, mu = law.lame
+    F = ufl.Identity(2) + ufl.grad(u)
+    log_J = ufl.ln(ufl.det(F))
+    return (mu / 2 * (ufl.tr(F.T * F) - 2 - 2 * log_J) + lam / 2 * log_J**2) * dx
+
+
+def vortex_load(x, law):
+    """ρ b of problems/ladder/vortex_disc.toml"""
+    A, w, n, mu = 1.0, 1.5, 4, law.lame[1]
+    R2 = ufl.dot(x, x)
+    q = 1 - R2 / w**2
+    angle = A * q**n
+    a = -2 * n * A * q ** (n - 1) / w**2
+    b = 4 * n * (n - 1) * A * q ** (n - 2) / w**4
+    outwards = ufl.as_vector([x[0] * ufl.cos(angle) - x[1] * ufl.sin(angle), x[0] * ufl.sin(angle) + x[1] * ufl.cos(angle)])
+    around = ufl.as_vector([-outwards[1], outwards[0]])
+    load = mu * R2 * a**2 * outwards - mu * (4 * a + R2 * b) * around
+    return ufl.conditional(ufl.gt(q, 0), 1.0, 0.0) * load
+
+
+def cube_load(x, law):
+    """ρ b of problems/ladder/mms_cube.toml"""
+    lam, mu = law.lame
+    s, c = [ufl.sin(ufl.pi * xi) for xi in x], [ufl.cos(ufl.pi * xi) for xi in x]
+    total = float(CUBE_AMPLITUDES.sum())
+    return ufl.as_vector([
+        ufl.pi**2 * (3 * mu * float(A) + (lam + mu) * total) * s[i] * c[i - 2] * c[i - 1]
+        for i, A in enumerate(CUBE_AMPLITUDES)
+    ])  # fmt: skip
+
+
+def work_of_loads(case, mesh, v, dx, degree):
+    """The loads' virtual work."""
+    x = ufl.SpatialCoordinate(mesh)
+    if case.name == "vortex":
+        return ufl.inner(vortex_load(x, case.law), v) * dx
+    if case.name == "cube":
+        return ufl.inner(cube_load(x, case.law), v) * dx
+    inside = dolfinx.mesh.locate_entities_boundary(mesh, 1, lambda at: np.hypot(at[0], at[1]) < INNER * (1 + 1e-6))
+    return -PRESSURE * ufl.inner(ufl.FacetNormal(mesh), v) * on_facets(mesh, inside, degree)
+
+
+def on_facets(mesh, facets, degree):
+    """The measure of these facets alone."""
+    tags = dolfinx.mesh.meshtags(mesh, mesh.topology.dim - 1, np.sort(facets), np.ones(len(facets), dtype=np.int32))
+    return ufl.Measure("ds", domain=mesh, subdomain_data=tags, metadata={"quadrature_degree": degree})(1)
+
+
+def supports_of(case, V):
+    """Dirichlet conditions u_c = 0."""
+    mesh, conditions = V.mesh, []
+    for support in case.supports:
+        facets = dolfinx.mesh.locate_entities_boundary(mesh, case.dim - 1, lambda x: np.isclose(x[support.axis], support.at))
+        for component in support.components:
+            dofs = dolfinx.fem.locate_dofs_topological(V.sub(component), case.dim - 1, facets)
+            conditions.append(dolfinx.fem.dirichletbc(PETSc.ScalarType(0), dofs, V.sub(component)))
+    return conditions
