@@ -20,7 +20,7 @@ from pathlib import Path
 
 from beside_fem_cases import CASES
 from beside_fem_page import line, page
-from beside_fem_runs import FEM, QUICK_WAYS, ROOT, cases_named, fem_row, first_cells, our_errors, our_row, sizes_of, ways_of
+from beside_fem_runs import FEM, QUICK_WAYS, ROOT, cases_named, fem_row, first_cells, our_errors, our_row, refer, sizes_of, ways_of
 from beside_fem_table import write_csv
 from beside_fem_verdict import judged
 from scaling import best, enough, rotated
@@ -58,6 +58,7 @@ def measure_size(options, case, ways, unknowns, turn):
 
 def measure_case(options, case):
     rows, turn = [], 0
+    refer(case)
     for unknowns in sizes_of(case)[: options.sizes]:
         ways = [way for way in (QUICK_WAYS if options.quick else ways_of(case)) if unknowns <= way.most]
         found, turn = measure_size(options, case, ways, unknowns, turn)

@@ -7,10 +7,13 @@ Stillpoint is given is a scene of problems/, or of ring_scene.py.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 
 PLACES = 1000  # at which both programs are read
+REFERENCES = Path(__file__).resolve().parent.parent / "build/beside_fem"  # of fem_reference.py
 
 
 @dataclass(frozen=True)
@@ -65,12 +68,20 @@ class Case:
     filled: float = 1.0  # share of the grid that the body fills
     grid: tuple[float, ...] = (1.0, 1.0)  # cells of the grid along each axis, relative
     settings: tuple[str, ...] = field(default=())  # of the scene in each run
+    dilatation: bool = False  # whether Stillpoint's cells, or splines, share their change of volume
+    reference: bool = False  # no closed form: u and its gradient are those of fem_reference.py
+    read: tuple[tuple[float, ...], int] | None = None  # parameters of a place, and the component of u that is read there
 
     def parameters(self, count=PLACES):
+        """Those of the places at which both programs are read."""
         return self.even(spread(count, self.dim))
 
     def stress(self, x):
         return self.law.stress(self.gradient(x))
+
+    def value_error(self, value):
+        """Of what the case reads of u, relative."""
+        return {"value": abs(value / float(referred(self.name)["read"]) - 1)}
 
 
 def spread(count, dim):
@@ -223,4 +234,56 @@ CUBE = Case(
     residual=1e-6,
 )
 
-CASES = {case.name: case for case in (VORTEX, RING, CUBE)}
+# --- Cook's membrane -----------------------------------------------------------------------------------
+
+COOK_LOAD = 1 / 16  # F/16 along y on the right side
+
+
+def cook_place(s):
+    low, high = 44 * s[:, 0], 44 + 16 * s[:, 0]
+    return np.stack([48 * s[:, 0], low + (high - low) * s[:, 1]], axis=1)
+
+
+def cook_even(s):
+    """The height is 44 − 28 ξ: as many places on each side of a line if ξ solves (44 ξ − 14 ξ²)/30 = s. Those closer than 4
+    to the clamped corners, where the stress has no bound, are moved along the line of their height to x = 4."""
+    along = (44 - np.sqrt(44**2 - 4 * 14 * 30 * s[:, 0])) / 28
+    x = cook_place(np.stack([along, s[:, 1]], axis=1))
+    close = np.minimum(np.hypot(x[:, 0], x[:, 1]), np.hypot(x[:, 0], x[:, 1] - 44)) < 4
+    return np.stack([np.where(close, 4 / 48, along), s[:, 1]], axis=1)
+
+
+@cache
+def referred(name):
+    """What fem_reference.py found for a case without a closed form."""
+    with np.load(REFERENCES / f"{name}.npz") as found:
+        return {key: found[key] for key in found.files}
+
+
+def cook(name, title, nu, settings=()):
+    return Case(
+        name,
+        title,
+        "ladder/cook.toml",
+        Law(1.0, nu),
+        2,
+        place=cook_place,
+        even=cook_even,
+        supports=(Support(0, 0.0, (0, 1)),),
+        u=lambda x: referred(name)["u"],
+        gradient=lambda x: referred(name)["gradient"],
+        aspect=(1, 1),
+        fitted=False,
+        filled=0.5,
+        grid=(4.0, 5.0),
+        settings=(f"constants.nu={nu}", "body.placement=gauss", *settings),
+        dilatation=nu > 0.49,
+        reference=True,
+        read=((1.0, 0.5), 1),
+    )
+
+
+COOK = cook("cook", "Cook's membrane, ν = 0.3, cut out of the grid", 0.3)
+COOK_INCOMPRESSIBLE = cook("cook_incompressible", "Cook's membrane, ν = 0.4999, cut out of the grid", 0.4999)
+
+CASES = {case.name: case for case in (VORTEX, RING, COOK, COOK_INCOMPRESSIBLE, CUBE)}

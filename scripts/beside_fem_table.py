@@ -24,6 +24,7 @@ class Row:
     raw_max: float | None = None
     recovered_l2: float | None = None  # σ as projected, or as fitted to the points around the place
     recovered_max: float | None = None
+    value: float | None = None  # of u where the case reads it, a relative error
     whole_s: float | None = None
     solution_s: float | None = None
     recovery_s: float | None = None

@@ -3,7 +3,7 @@
 import dolfinx
 import numpy as np
 import ufl
-from beside_fem_cases import CUBE_AMPLITUDES, INNER, PRESSURE
+from beside_fem_cases import COOK_LOAD, CUBE_AMPLITUDES, INNER, PRESSURE
 from petsc4py import PETSc
 
 
@@ -46,29 +46,56 @@ def cube_load(x, law):
     ])  # fmt: skip
 
 
-def work_of_loads(case, mesh, v, dx, degree):
-    """The loads' virtual work."""
-    x = ufl.SpatialCoordinate(mesh)
-    if case.name == "vortex":
-        return ufl.inner(vortex_load(x, case.law), v) * dx
-    if case.name == "cube":
-        return ufl.inner(cube_load(x, case.law), v) * dx
-    inside = dolfinx.mesh.locate_entities_boundary(mesh, 1, lambda at: np.hypot(at[0], at[1]) < INNER * (1 + 1e-6))
-    return -PRESSURE * ufl.inner(ufl.FacetNormal(mesh), v) * on_facets(mesh, inside, degree)
+def vortex_work(case, mesh, v, degree):
+    return ufl.inner(vortex_load(ufl.SpatialCoordinate(mesh), case.law), v) * ufl.dx(metadata={"quadrature_degree": degree})
 
 
-def on_facets(mesh, facets, degree):
-    """The measure of these facets alone."""
+def cube_work(case, mesh, v, degree):
+    return ufl.inner(cube_load(ufl.SpatialCoordinate(mesh), case.law), v) * ufl.dx(metadata={"quadrature_degree": degree})
+
+
+def ring_work(case, mesh, v, degree):
+    inside = on_facets(mesh, lambda x: np.hypot(x[0], x[1]) < INNER * (1 + 1e-6), degree)
+    return -PRESSURE * ufl.inner(ufl.FacetNormal(mesh), v) * inside
+
+
+def cook_work(case, mesh, v, degree):
+    return COOK_LOAD * v[1] * on_facets(mesh, lambda x: np.isclose(x[0], 48), degree)
+
+
+# The loads' virtual work by case.
+WORK_OF_LOADS = {
+    "vortex": vortex_work,
+    "lame": ring_work,
+    "cook": cook_work,
+    "cook_incompressible": cook_work,
+    "cube": cube_work,
+}
+
+
+def on_facets(mesh, marker, degree):
+    """The measure of the facets on the border whose corners are marked."""
+    facets = dolfinx.mesh.locate_entities_boundary(mesh, mesh.topology.dim - 1, marker)
     tags = dolfinx.mesh.meshtags(mesh, mesh.topology.dim - 1, np.sort(facets), np.ones(len(facets), dtype=np.int32))
     return ufl.Measure("ds", domain=mesh, subdomain_data=tags, metadata={"quadrature_degree": degree})(1)
 
 
-def supports_of(case, V):
-    """Dirichlet conditions u_c = 0."""
+def large_stress(u, law):
+    """σ = (μ (F Fᵀ − I) + λ ln J I)/J, and σ_zz"""
+    lam, mu = law.lame
+    F = ufl.Identity(2) + ufl.grad(u)
+    J = ufl.det(F)
+    through = lam * ufl.ln(J) / J
+    return mu / J * (F * F.T - ufl.Identity(2)) + through * ufl.Identity(2), through
+
+
+def supports_of(case, V, W=None):
+    """Dirichlet conditions u_c = 0; W: of u and a pressure."""
     mesh, conditions = V.mesh, []
     for support in case.supports:
         facets = dolfinx.mesh.locate_entities_boundary(mesh, case.dim - 1, lambda x: np.isclose(x[support.axis], support.at))
         for component in support.components:
-            dofs = dolfinx.fem.locate_dofs_topological(V.sub(component), case.dim - 1, facets)
-            conditions.append(dolfinx.fem.dirichletbc(PETSc.ScalarType(0), dofs, V.sub(component)))
+            of_component = (V if W is None else W.sub(0)).sub(component)
+            dofs = dolfinx.fem.locate_dofs_topological(of_component, case.dim - 1, facets)
+            conditions.append(dolfinx.fem.dirichletbc(PETSc.ScalarType(0), dofs, of_component))
     return conditions
