@@ -37,12 +37,20 @@ def measured(options, case, way, unknowns):
     return our_row(options.program, case, way, first, folder, options.seconds)
 
 
-def with_errors(options, case, way, row):
-    """Stillpoint's errors are read once, by a run that does not count."""
-    if not row.found or way.program == FEM:
+def with_errors(options, case, rows):
+    """rows: {way: row} of one size. Stillpoint's errors are read by a run that does not count, one for all solvers."""
+    errors = {}
+    for way, row in rows.items():
+        if row.found and way.program != FEM and way.functions not in errors:
+            folder = options.out / "runs"
+            errors[way.functions] = our_errors(options.program, case, way, int(row.cells), folder, options.seconds)
+    return [with_these(row, errors.get(way.functions)) for way, row in rows.items()]
+
+
+def with_these(row, errors):
+    if errors is None or not row.found:
         return row
-    errors = our_errors(options.program, case, way, int(row.cells), options.out / "runs", options.seconds)
-    return row.with_figures(**errors) if errors else row.missing("the run with probes failed")
+    return row.with_figures(**errors) if errors else row.without_figures("the run with probes failed")
 
 
 def measure_size(options, case, ways, unknowns, turn):
@@ -53,7 +61,7 @@ def measure_size(options, case, ways, unknowns, turn):
             if not enough(rows[way], options.repeat):
                 rows[way].append(measured(options, case, way, unknowns))
         turn += 1
-    return [with_errors(options, case, way, best(found)) for way, found in rows.items()], turn
+    return with_errors(options, case, {way: best(found) for way, found in rows.items()}), turn
 
 
 def measure_case(options, case):

@@ -1,6 +1,7 @@
 """The runs of scripts/beside_fem: by FEniCSx and by Stillpoint, each a process of its own on one thread."""
 
 import json
+import math
 import os
 import shlex
 import subprocess
@@ -32,7 +33,7 @@ class Way:
     program: str
     functions: str  # P1, P2, Q1, Q2, P2-P1 or Q2-Q1 with a pressure; linear, quadratic, cubic
     solver: str
-    most: float = float("inf")  # unknowns
+    most: float = math.inf  # unknowns
 
     @property
     def name(self):
@@ -193,8 +194,16 @@ IN_SPACE = [Way(FEM, element, "gamg") for element in ("P1", "P2", "Q1", "Q2")] +
     Way(FEM, element, "cholmod", most=3e4) for element in ("Q1", "Q2")
 ]
 BASES = ("linear", "quadratic", "cubic")
-OUR_PLANE = [Way(OURS, basis, solver) for basis in BASES for solver in SOLVERS]
-OUR_SPACE = [Way(OURS, basis, solver, 3e4 if solver == "newton" else float("inf")) for basis in BASES for solver in SOLVERS]
+# Where K becomes too wide to be worth the wait [unknowns].
+PLANE_MOST = {("cubic", solver): 2e4 for solver in SOLVERS}
+SPACE_MOST = {
+    ("linear", "newton"): 3e4, ("quadratic", "newton"): 5e3, ("cubic", "newton"): 5e3,
+    ("quadratic", "auto, multigrid"): 3e4, ("cubic", "auto, multigrid"): 5e3, ("cubic", "auto, lumped mass"): 1.2e5,
+}  # fmt: skip
+OUR_PLANE, OUR_SPACE = (
+    [Way(OURS, basis, solver, most.get((basis, solver), math.inf)) for basis in BASES for solver in SOLVERS]
+    for most in (PLANE_MOST, SPACE_MOST)
+)
 QUICK_WAYS = [Way(FEM, "Q2", "cholmod"), Way(OURS, "quadratic", "newton"), Way(OURS, "cubic", "newton")]  # of the quick case
 
 

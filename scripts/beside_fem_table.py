@@ -54,7 +54,11 @@ class Row:
         return min(self.raw_max, self.recovered_max)
 
     def missing(self, reason):
+        """Of a row that has no figures yet."""
         return replace(self, reason=reason or "no solution")
+
+    def without_figures(self, reason):
+        return Row(self.case, self.program, self.functions, self.solver, self.cells, reason=reason, command=self.command)
 
     def with_figures(self, **figures):
         return replace(self, **figures)

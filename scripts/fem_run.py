@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """fem_run.py CASE ELEMENT SOLVER CELLS FILE: one case of scripts/beside_fem by finite elements, with FEniCSx.
 
-ELEMENT is P1, P2, Q1, Q2, or P2-P1 or Q2-Q1 with a pressure; SOLVER is cholmod, mumps or gamg; CELLS are those along the first parameter of the body. FILE
-gets an object with the unknowns, the errors at the places at which both programs are read, the wall time of meshing, of
-the solution (assembly and solver) and of the stress's projection, and the peak memory of these. Python's imports and all
-that is done to forms, by Python and by the compiler, is in none of them. Exit status 1 without FEniCSx, or if there is no solution.
+ELEMENT is P1, P2, Q1, Q2, or P2-P1 or Q2-Q1 with a pressure; SOLVER is cholmod, mumps or gamg; CELLS are those along the
+first parameter of the body. FILE gets an object with the unknowns, the errors at the places at which both programs are
+read, the wall time of meshing, of the solution (assembly and solver) and of the stress's projection, and the peak memory of
+these. Python's imports and all that is done to forms, by Python and by the compiler, is in none of them. Exit status 1
+without FEniCSx, or if there is no solution.
 """
 
 import json
