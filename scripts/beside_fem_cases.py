@@ -131,7 +131,7 @@ def vortex_gradient(x):
 
 VORTEX = Case(
     "vortex",
-    "a vortex at large strain on a fitted grid",
+    "A vortex at large strain on a fitted grid",
     "ladder/vortex_disc.toml",
     Law(1000.0, 0.3, large_strain=True),
     2,
@@ -220,7 +220,7 @@ def cube_gradient(x):
 
 CUBE = Case(
     "cube",
-    "a block in space under a smooth load",
+    "A block in space under a smooth load",
     "ladder/mms_cube.toml",
     Law(1.0, 0.3),
     3,

@@ -2,7 +2,7 @@
 """plot_beside_fem.py DIR: the pictures of scripts/beside_fem, DIR/beside_fem_CASE.png, from DIR/beside_fem.csv.
 
 Above the errors of u and of the stress (the better of a program's two) against unknowns, with the orders in h; below
-against the wall time of the whole program, of the quickest way with each kind of functions. Lines with circles are
+against the wall time of the whole program, of each size by the quickest solver. Lines with circles are
 Stillpoint's, broken ones with squares FEniCSx's. Exit status 2 and a message if there is nothing to draw.
 """
 
@@ -41,22 +41,20 @@ def draw_errors(axis, rows, quantity, dim):
     axis.legend(title="order in h (95 %)", frameon=False, fontsize="small")
 
 
-def quickest(rows):
-    """{functions: the rows of the way that is quickest at the largest size}"""
+def quickest(rows, quantity):
+    """{functions: of each size the row of the quickest solver}"""
     found = {}
     for functions, of_it in by([row for row in rows if row.found], "functions").items():
-        ways = by(of_it, "way").values()
-        largest = max(row.unknowns for row in of_it)
-        reaching = [way for way in ways if max(row.unknowns for row in way) > 0.5 * largest]
-        found[functions] = min(reaching, key=lambda way: max(row.whole_s for row in way))
+        found[functions] = [min(of_size, key=lambda row: seconds_for(row, quantity)) for of_size in by(of_it, "cells").values()]
     return found
 
 
 def draw_times(axis, rows, quantity):
-    for number, (functions, of_it) in enumerate(quickest(rows).items()):
+    for number, (functions, of_it) in enumerate(quickest(rows, quantity).items()):
         axis.plot([seconds_for(row, quantity) for row in of_it], [getattr(row, quantity) for row in of_it],
-                  label=f"{functions}, {of_it[0].solver}", **look_of(number, of_it[0].program))  # fmt: skip
-    axis.set(xscale="log", yscale="log", xlabel="wall time of the whole program [s]", ylabel=QUANTITIES[quantity])
+                  label=functions, **look_of(number, of_it[0].program))  # fmt: skip
+    axis.set(xscale="log", yscale="log", xlabel="wall time of the whole program, of each size by the quickest solver [s]",
+             ylabel=QUANTITIES[quantity])  # fmt: skip
     axis.legend(frameon=False, fontsize="small")
 
 

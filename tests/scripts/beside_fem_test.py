@@ -9,7 +9,7 @@ import sys
 import tomllib
 from dataclasses import replace
 
-from claims import ROOT, call, check_the_claim, claim, script_module
+from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
 
 np = script_module("numpy")
 PLANE, SPACE = "lame", "cube"
@@ -323,6 +323,16 @@ def _(folder):
     assert all(row["reason"] and not row["whole_s"] for row in rows), rows
     assert (folder / "out/beside_fem.md").read_text().count("missing: ") == 6
     assert json.loads((folder / "out/beside_fem.json").read_text())["claims"]["more time"]["verdict"] == "not measured"
+
+
+@claim("scripts/beside_fem installs, builds, measures and ends with its status")
+def _(folder):
+    scripts, environment = copy_of_scripts(folder, "#!/bin/bash\nexit 4\n")
+    (scripts / "install_packages").write_text('#!/bin/bash\necho "$*" >"$CALLS"\n')
+    (folder / "dolfinx.py").write_text("")
+    result = call(scripts / "beside_fem", "--quick", cwd=folder, env=environment | {"PYTHONPATH": str(folder)})
+    assert result.returncode == 1 and (folder / "out/beside_fem/beside_fem.md").exists(), result
+    assert (folder / "calls").read_text() == "run fem\n"
 
 
 @claim("options that do not go together, and a program that is not there, are refused with status 2")
