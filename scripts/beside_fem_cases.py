@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-PLACES = 1000  # at which both programs are read
+PLACES = {2: 1000, 3: 200}  # at which both programs are read, by dimension
 REFERENCES = Path(__file__).resolve().parent.parent / "build/beside_fem"  # of fem_reference.py
 
 
@@ -72,9 +72,9 @@ class Case:
     reference: bool = False  # no closed form: u and its gradient are those of fem_reference.py
     read: tuple[tuple[float, ...], int] | None = None  # parameters of a place, and the component of u that is read there
 
-    def parameters(self, count=PLACES):
-        """Those of the places at which both programs are read."""
-        return self.even(spread(count, self.dim))
+    def parameters(self, count=None):
+        """Those of the places at which both programs are read, or of as many as are asked for."""
+        return self.even(spread(count or PLACES[self.dim], self.dim))
 
     def stress(self, x):
         return self.law.stress(self.gradient(x))

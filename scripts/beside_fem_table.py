@@ -47,11 +47,11 @@ class Row:
     @property
     def stress_l2(self):
         """The better of the two stresses' errors."""
-        return min(self.raw_l2, self.recovered_l2)
+        return self.raw_l2 if self.recovered_l2 is None else min(self.raw_l2, self.recovered_l2)
 
     @property
     def stress_max(self):
-        return min(self.raw_max, self.recovered_max)
+        return self.raw_max if self.recovered_max is None else min(self.raw_max, self.recovered_max)
 
     def missing(self, reason):
         """Of a row that has no figures yet."""
@@ -105,8 +105,13 @@ class Curve:
 
 
 def curve(rows, over, quantity):
-    pairs = sorted((getattr(row, over), getattr(row, quantity)) for row in rows if row.found)
+    pairs = sorted((getattr(row, over), getattr(row, quantity)) for row in having(rows, quantity))
     return Curve(tuple(x for x, _ in pairs), tuple(y for _, y in pairs))
+
+
+def having(rows, quantity):
+    """Those that have a figure of it."""
+    return [row for row in rows if row.found and getattr(row, quantity) is not None]
 
 
 def ratio_at_end(one, other):
@@ -135,7 +140,7 @@ def crossings(one, other):
 def time_to(rows, error, quantity="stress_l2"):
     """The wall time at which one way's error has fallen to this, straight between its sizes on logarithmic axes: of the
     smallest size if that is as good. None if no size is."""
-    path = [(row.unknowns, getattr(row, quantity), seconds_for(row, quantity)) for row in rows if row.found]
+    path = [(row.unknowns, getattr(row, quantity), seconds_for(row, quantity)) for row in having(rows, quantity)]
     before = None
     for _, now, seconds in sorted(path):
         if now <= error:
@@ -149,7 +154,7 @@ def time_to(rows, error, quantity="stress_l2"):
 
 def seconds_for(row, quantity):
     """The whole, with the projection where the error is that of the projected stress."""
-    recovered = quantity.startswith("recovered") or (quantity == "stress_l2" and row.recovered_l2 < row.raw_l2)
+    recovered = quantity.startswith("recovered") or (quantity == "stress_l2" and row.stress_l2 < row.raw_l2)
     return row.whole_s + (row.recovery_s or 0 if recovered else 0)
 
 
@@ -161,7 +166,7 @@ def best_time_to(rows, error, quantity="stress_l2"):
 
 def order(rows, dim, quantity):
     """(order, low, high) in h, which falls as unknowns to the power −1/dim; None of fewer than two sizes."""
-    points = [(-math.log(row.unknowns) / dim, math.log(getattr(row, quantity))) for row in rows if row.found]
+    points = [(-math.log(row.unknowns) / dim, math.log(getattr(row, quantity))) for row in having(rows, quantity)]
     return fitted_slope(*zip(*points)) if len(points) > 1 else None
 
 

@@ -98,6 +98,17 @@ def _(_folder):
     assert table.seconds_for(row, "raw_l2") == table.seconds_for(better, "u_l2") == row.whole_s
 
 
+@claim("where no recovered stress is read, the functions' own counts, and its curve ends")
+def _(_folder):
+    table = script_module("beside_fem_table")
+    rows = series("quadratic", "Stillpoint", 1.0)
+    rows[-1] = replace(rows[-1], recovered_l2=None, recovered_max=None)
+    assert rows[-1].stress_l2 == rows[-1].raw_l2 and rows[-1].stress_max == rows[-1].raw_max
+    assert table.curve(rows, "unknowns", "recovered_l2").x == SIZES[:2] and len(table.curve(rows, "unknowns", "stress_l2").x) == 3
+    assert table.seconds_for(rows[-1], "stress_l2") == rows[-1].whole_s
+    assert abs(table.order(rows, 2, "recovered_l2")[0] - 2) < 1e-9 and table.time_to(rows, 1e-5, "recovered_l2") is None
+
+
 @claim("rows come back from their CSV as they were, with those that are missing")
 def _(folder):
     table = script_module("beside_fem_table")
@@ -216,6 +227,10 @@ def _(_folder):
         found = runs.read_probes(case, summary, len(x))
         assert [table["at"] for table in tables] == x.tolist()
         assert all(np.array_equal(one, other) for one, other in zip(found, exact.values())), case.name
+        assert "stress" not in runs.probes(case, x, stress=False)
+        for values in summary["probes"].values():
+            del values["stress.xx"]
+        assert runs.read_probes(case, summary, len(x))[2] is None
 
 
 @claim("errors are relative in L2, and the largest over the largest exact value; a place that is not read has none")
