@@ -43,7 +43,7 @@ def with_errors(options, case, rows):
     for way, row in rows.items():
         if row.found and way.program != FEM and way.functions not in errors:
             folder = options.out / "runs"
-            errors[way.functions] = our_errors(options.program, case, way, row, folder, options.seconds)
+            errors[way.functions] = our_errors(options.program, case, way, int(row.cells), folder, options.seconds)
     return [with_these(row, errors.get(way.functions)) for way, row in rows.items()]
 
 
