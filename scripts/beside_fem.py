@@ -130,6 +130,7 @@ def main():
     if not fem_is_there():
         print("beside_fem: there is no FEniCSx here: scripts/install_packages fem", file=sys.stderr)
         return 2
+    shutil.rmtree(options.out / "runs", ignore_errors=True)
     options.out.mkdir(parents=True, exist_ok=True)
     rows = [row for case in cases_named(options.only) for row in measure_case(options, case)]
     verdicts = judged(rows)

@@ -170,7 +170,7 @@ def our_row(program, case, way, first, folder, seconds):
     took = json.loads((folder / "usage.json").read_text(encoding="utf-8"))
     return row.with_figures(
         unknowns=run.summary["dofs"], iterations=run.summary["rhs_evaluations"], whole_s=took["seconds"],
-        solution_s=run.summary["wall_s"], megabytes=took["megabytes"],
+        processor_s=took["processor_seconds"], solution_s=run.summary["wall_s"], megabytes=took["megabytes"],
     )  # fmt: skip
 
 

@@ -26,6 +26,7 @@ class Row:
     recovered_max: float | None = None
     value: float | None = None  # of u where the case reads it, a relative error
     whole_s: float | None = None
+    processor_s: float | None = None  # of the whole
     solution_s: float | None = None
     recovery_s: float | None = None
     megabytes: float | None = None
