@@ -21,7 +21,7 @@ def row_of(functions="Q2", program="FEniCSx", solver="direct", case=PLANE, unkno
     table = script_module("beside_fem_table")
     times = {"whole_s": seconds, "processor_s": seconds, "solution_s": seconds / 2, "recovery_s": 0.25}
     figures = errors | times | {"megabytes": 10.0} | more
-    return table.Row(case, program, functions, solver, "8", unknowns, 3, **figures)
+    return table.Row(case, program, functions, solver, str(unknowns), unknowns, 3, **figures)
 
 
 def series(functions, program, factor, case=PLANE, power=1.0, solver="direct", pace=1e-5):
@@ -265,6 +265,16 @@ def _(_folder):
     claims = judged(poorly_read)["claims"]
     assert claims["less accurate"]["verdict"].startswith("does not hold"), claims
     assert claims["less accurate where probes read"]["verdict"].startswith("holds"), claims
+
+
+@claim("errors are compared at all sizes that any solver has, whichever solver ends first")
+def _(_folder):
+    errors_beside = script_module("beside_fem_verdict").errors_beside
+    newton = [replace(row, solver="newton") for row in series("quadratic", "Stillpoint", 0.5)]
+    failed = newton[1].without_figures("too large")
+    auto = series("quadratic", "Stillpoint", 0.5, solver="auto")
+    found = errors_beside(series("Q2", "FEniCSx", 1.0) + [newton[0], replace(failed, cells=auto[1].cells)] + auto)
+    assert found["quadratic/Q2 raw_l2"]["unknowns"] == SIZES[-1], found
 
 
 @claim("the claim on time is judged at equal errors, not at equal unknowns")
