@@ -1,11 +1,11 @@
 """The rows of scripts/beside_fem: as CSV and back, curves of them, where two cross, and orders."""
 
-import csv
 import math
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from fitted_line import fitted_slope
+from row_files import read_rows, write_rows
 
 
 @dataclass
@@ -65,27 +65,13 @@ class Row:
         return replace(self, **figures)
 
 
-NUMBERS = {field.name: int if field.type == int | None else float for field in fields(Row) if field.type != str}
-COLUMNS = [field.name for field in fields(Row)]
-
-
 def write_csv(file, rows):
-    with open(file, "w", newline="", encoding="utf-8") as table:
-        writer = csv.DictWriter(table, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(asdict(row) for row in rows)
+    write_rows(file, Row, rows)
 
 
 def read_csv(file):
     """ValueError or TypeError if the file is not of scripts/beside_fem."""
-    with open(file, newline="", encoding="utf-8") as table:
-        return [Row(**{name: value_of(name, text) for name, text in line.items()}) for line in csv.DictReader(table)]
-
-
-def value_of(column, text):
-    if column not in NUMBERS:
-        return text
-    return NUMBERS[column](text) if text else None
+    return read_rows(file, Row)
 
 
 # --- curves --------------------------------------------------------------------------------------------

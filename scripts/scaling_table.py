@@ -1,10 +1,10 @@
 """The figures of scripts/scaling: as lines, as scaling.csv and back, and as a table with exponents."""
 
-import csv
 import math
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass
 
 from fitted_line import fitted_slope
+from row_files import columns_of, read_rows, write_rows
 
 LEAST = 5000  # unknowns: below, what a run costs whatever its size is seen most
 
@@ -27,27 +27,16 @@ class Figure:
         return self.status == "equilibrium"
 
 
-NUMBERS = {"unknowns": int, "evaluations": int, "seconds": float, "megabytes": float}
-COLUMNS = [field.name for field in fields(Figure)]
+COLUMNS = columns_of(Figure)
 
 
 def write_csv(file, rows):
-    with open(file, "w", newline="", encoding="utf-8") as table:
-        writer = csv.DictWriter(table, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(asdict(row) for row in rows)
+    write_rows(file, Figure, rows)
 
 
 def read_csv(file):
     """ValueError or TypeError if the file is not of scripts/scaling."""
-    with open(file, newline="", encoding="utf-8") as table:
-        return [Figure(**{name: number(name, text) for name, text in row.items()}) for row in csv.DictReader(table)]
-
-
-def number(column, text):
-    if column not in NUMBERS:
-        return text
-    return NUMBERS[column](text) if text else None
+    return read_rows(file, Figure)
 
 
 # --- exponents -----------------------------------------------------------------------------------------
