@@ -79,6 +79,19 @@ def read_table(file, what):
     return lines
 
 
+def read_figures(file, read_csv, study):
+    """The rows of a study's table, which has figures; read_csv raises ValueError or TypeError if it is another's."""
+    if not file.exists():
+        raise Refused(f"{file.parent}: no {file.name}; is this the folder of {study}?")
+    try:
+        rows = read_csv(file)
+    except (ValueError, TypeError) as error:
+        raise Refused(f"{file}: {error}") from None
+    if not any(row.found for row in rows):
+        raise Refused(f"{file}: no figures")
+    return rows
+
+
 def draw_table(name, about, read, draw):
     """The program plot_NAME.py DIR [--out FILE], of DIR/NAME.csv; returns the exit status."""
     parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)

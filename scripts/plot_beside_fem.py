@@ -10,7 +10,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from pictures import COLOURS, STYLE, Refused  # before pyplot: sets the backend
+from pictures import COLOURS, STYLE, Refused, read_figures  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 
 from beside_fem_cases import CASES
@@ -84,15 +84,7 @@ def draw_all(rows, folder):
 
 
 def read(file):
-    if not file.exists():
-        raise Refused(f"{file.parent}: no {file.name}; is this the folder of scripts/beside_fem?")
-    try:
-        rows = read_csv(file)
-    except (ValueError, TypeError) as error:
-        raise Refused(f"{file}: {error}") from None
-    if not any(row.found for row in rows):
-        raise Refused(f"{file}: no figures")
-    return rows
+    return read_figures(file, read_csv, "scripts/beside_fem")
 
 
 def main():

@@ -7,7 +7,7 @@ unknowns below; a ring where a way is as quick as Newton's method with CHOLMOD. 
 
 import sys
 
-from pictures import COLOURS, STYLE, Refused, draw_table, plain  # before pyplot: sets the backend
+from pictures import COLOURS, STYLE, draw_table, plain, read_figures  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 
 from scaling_table import by_way, exponent, exponent_text, overtaken, read_csv
@@ -47,15 +47,7 @@ def draw(rows, file):
 
 
 def read(file):
-    if not file.exists():
-        raise Refused(f"{file.parent}: no {file.name}; is this the folder of a scaling study?")
-    try:
-        rows = read_csv(file)
-    except (ValueError, TypeError) as error:
-        raise Refused(f"{file}: {error}") from None
-    if not any(row.found for row in rows):
-        raise Refused(f"{file}: no figures")
-    return rows
+    return read_figures(file, read_csv, "a scaling study")
 
 
 if __name__ == "__main__":
