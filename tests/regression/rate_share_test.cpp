@@ -1,5 +1,4 @@
 // What a body that is driven bears by its material, and what damping and inertia add to that.
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -9,9 +8,11 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "says.hpp"
 #include "scenes.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::says;
 
 namespace {
 
@@ -103,9 +104,6 @@ time = 2
 residual = 0
 )";
 
-bool says(const Summary& s, const std::string& part) {
-  return std::ranges::any_of(s.notes, [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
 const std::string told = "damping and inertia took";
 
 Summary end_of(const std::string& scene, const std::vector<std::string>& set) {

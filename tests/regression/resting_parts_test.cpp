@@ -7,11 +7,13 @@
 #include <catch2/catch.hpp>
 
 #include "files.hpp"
+#include "says.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
+using stillpoint::test::says;
 using stillpoint::test::TemporaryFolder;
 
 namespace {
@@ -97,12 +99,6 @@ Summary run_blocks(const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
   return run(load_scene(folder.write("scene.toml", two_blocks), overrides), {.out = folder.path(), .threads = 1});
 }
-bool says(const Summary& summary, const std::string& text) {
-  for (const std::string& note : summary.notes)
-    if (note.find(text) != std::string::npos) return true;
-  return false;
-}
-
 double mean_between(const Run& run, const std::vector<double>& values, double begin, double end) {
   double sum = 0;
   int rows = 0;

@@ -9,6 +9,14 @@
 #include "space/boundary/rigid_contact.hpp"
 
 namespace stillpoint {
+namespace {
+
+template <int Dim>
+bool stay_what_they_are(const BoundaryConditions<Dim>& all) {
+  return std::ranges::none_of(all, [](const auto& one) { return one->varies() || one->follows(); });
+}
+
+}  // namespace
 
 template <Kinematics K>
 Conditions<K>::Conditions(const Problem& problem, const Problem& whole, const Grid<dim>& grid, const Body<K>& body,
@@ -64,14 +72,12 @@ bool Conditions<K>::move_rigid_bodies_on(double share) {
 
 template <Kinematics K>
 bool Conditions<K>::loads_are_constant() const {
-  return !fading_.acts() &&
-         std::ranges::none_of(all_, [](const auto& condition) { return condition->varies() || condition->follows(); });
+  return !fading_.acts() && stay_what_they_are(all_);
 }
 
 template <Kinematics K>
 bool Conditions<K>::let_parts_rest(double t) const {
-  const auto changes = [](const auto& condition) { return condition->varies() || condition->follows(); };
-  return fading_.is_over(t) && !weak_supports_.move() && std::ranges::none_of(all_, changes);
+  return fading_.is_over(t) && !weak_supports_.move() && stay_what_they_are(all_);
 }
 
 template <Kinematics K>

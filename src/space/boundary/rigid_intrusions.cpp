@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "space/boundary/rigid_contact.hpp"
+#include "space/grid/shortest_side.hpp"
 
 namespace stillpoint {
 namespace {
@@ -14,17 +15,6 @@ void take_if_deeper(double cells, std::size_t other, const std::array<double, Di
   deepest.cells = cells;
   deepest.other = other;
   deepest.at.assign(x.begin(), x.end());
-}
-
-template <int Dim>
-double shortest_side(const Grid<Dim>& grid, const std::array<int, static_cast<std::size_t>(Dim)>& cell) {
-  double side = std::numeric_limits<double>::infinity();
-  for (std::size_t axis = 0; axis < Dim; ++axis) {
-    const std::vector<double>& nodes = grid.axes[axis].nodes;
-    const auto i = static_cast<std::size_t>(cell[axis]);
-    side = std::min(side, nodes[i + 1] - nodes[i]);
-  }
-  return side;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/point_sums.hpp"
+#include "space/grid/shortest_side.hpp"
 #include "space/kernels/elastic_cells.hpp"
 #include "space/kernels/nodal_force.hpp"
 #include "space/phase/matrix_of_means.hpp"
@@ -237,13 +238,8 @@ class InternalForce {
   // 1/(ρ h²) with the shortest side h of the block's cells: what makes a frequency of a modulus.
   double per_modulus(std::size_t m, const Block& block) const {
     double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = block.first_cell; k < block.last_cell; ++k) {
-      const auto cell = frame_.grid.cell_at(frame_.body.points.cell[k]);
-      for (std::size_t axis = 0; axis < dim; ++axis) {
-        const auto& nodes = frame_.grid.axes[axis].nodes;
-        shortest = std::min(shortest, nodes[cell[axis] + 1] - nodes[cell[axis]]);
-      }
-    }
+    for (std::size_t k = block.first_cell; k < block.last_cell; ++k)
+      shortest = std::min(shortest, shortest_side(frame_.grid, frame_.grid.cell_at(frame_.body.points.cell[k])));
     return 1 / (frame_.body.smallest_density[m] * shortest * shortest);
   }
   double largest_bound(Work& work) const {
