@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+import kirsch_plate
 import numpy as np
 
 PLACES = {2: 1000, 3: 200}  # at which both programs are read, by dimension
@@ -196,6 +197,26 @@ RING = Case(
 )
 
 
+# --- a plate with a hole -------------------------------------------------------------------------------
+
+PLATE_LAW = Law(1.0, 0.3)
+PLATE = Case(
+    "kirsch",
+    "A plate with a round hole under tension, cut out of the grid",
+    "ladder/kirsch.toml",
+    PLATE_LAW,
+    2,
+    place=kirsch_plate.place,
+    even=kirsch_plate.even,
+    supports=(Support(0, 0.0, (0,)), Support(1, 0.0, (1,))),
+    u=lambda x: kirsch_plate.displacement(x, PLATE_LAW),
+    gradient=lambda x: kirsch_plate.gradient(x, PLATE_LAW),
+    aspect=(1, 2),  # a line of the mesh runs to the corner
+    curved=True,
+    fitted=False,
+    filled=1 - np.pi / 64,
+)
+
 # --- a cube --------------------------------------------------------------------------------------------
 
 CUBE_AMPLITUDES = np.array([0.01, -0.004, 0.007])
@@ -286,4 +307,4 @@ def cook(name, title, nu, settings=()):
 COOK = cook("cook", "Cook's membrane, ν = 0.3, cut out of the grid", 0.3)
 COOK_INCOMPRESSIBLE = cook("cook_incompressible", "Cook's membrane, ν = 0.4999, cut out of the grid", 0.4999)
 
-CASES = {case.name: case for case in (VORTEX, RING, COOK, COOK_INCOMPRESSIBLE, CUBE)}
+CASES = {case.name: case for case in (VORTEX, RING, PLATE, COOK, COOK_INCOMPRESSIBLE, CUBE)}

@@ -4,6 +4,7 @@ import dolfinx
 import numpy as np
 import ufl
 from beside_fem_cases import COOK_LOAD, CUBE_AMPLITUDES, INNER, PRESSURE
+from kirsch_plate import HOLE, SIDE, TENSION
 from petsc4py import PETSc
 
 
@@ -59,6 +60,18 @@ def ring_work(case, mesh, v, degree):
     return -PRESSURE * ufl.inner(ufl.FacetNormal(mesh), v) * inside
 
 
+def plate_work(case, mesh, v, degree):
+    """σ·n on the sides away from the hole, by problems/ladder/kirsch.toml"""
+    x = ufl.SpatialCoordinate(mesh)
+    q2, angle = HOLE**2 / ufl.dot(x, x), ufl.atan_2(x[1], x[0])
+    c2, c4, s2, s4 = ufl.cos(2 * angle), ufl.cos(4 * angle), ufl.sin(2 * angle), ufl.sin(4 * angle)
+    xx = 1 - q2 * (1.5 * c2 + c4) + 1.5 * q2**2 * c4
+    yy = -q2 * (0.5 * c2 - c4) - 1.5 * q2**2 * c4
+    xy = -q2 * (0.5 * s2 + s4) + 1.5 * q2**2 * s4
+    sides = on_facets(mesh, lambda x: np.isclose(x[:2].max(axis=0), SIDE), degree)
+    return TENSION * ufl.inner(ufl.as_matrix([[xx, xy], [xy, yy]]) * ufl.FacetNormal(mesh), v) * sides
+
+
 def cook_work(case, mesh, v, degree):
     return COOK_LOAD * v[1] * on_facets(mesh, lambda x: np.isclose(x[0], 48), degree)
 
@@ -67,6 +80,7 @@ def cook_work(case, mesh, v, degree):
 WORK_OF_LOADS = {
     "vortex": vortex_work,
     "lame": ring_work,
+    "kirsch": plate_work,
     "cook": cook_work,
     "cook_incompressible": cook_work,
     "cube": cube_work,
