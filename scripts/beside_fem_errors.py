@@ -11,11 +11,9 @@ def relative(found, exact):
 
 
 def errors_of(case, x, u, raw, recovered):
-    """x: the places; u (n, dim); raw, recovered: σ (n, 3, 3), that of the functions' gradient and that of the recovery, which
-    may be None."""
+    """x: the places; u (n, dim); raw, recovered: σ (n, 3, 3), that of the functions' gradient and that of the recovery."""
     exact_u, exact_stress = case.u(x), case.stress(x)
     errors = {"u_l2": relative(u, exact_u)[0]}
     errors["raw_l2"], errors["raw_max"] = relative(raw, exact_stress)
-    if recovered is not None:
-        errors["recovered_l2"], errors["recovered_max"] = relative(recovered, exact_stress)
+    errors["recovered_l2"], errors["recovered_max"] = relative(recovered, exact_stress)
     return errors

@@ -120,16 +120,11 @@ def our_command(program, scene, settings):
     return [str(program), "run", str(scene), *(word for setting in settings for word in ("--set", setting))]
 
 
-def reads_stress(case, functions):
-    """Whether probes read the stress: in space the fit takes 0.1 s a place with quadratic functions, and 3 s with cubic."""
-    return case.dim == 2 or functions != "cubic"
-
-
-def probes(case, x, stress=True):
-    """[[probe]] tables that read u, ∂u/∂x and, if asked for, σ at these places."""
+def probes(case, x):
+    """[[probe]] tables that read u, ∂u/∂x and σ at these places."""
     axes = AXES[: case.dim]
     fields = [f"u.{i}" for i in axes] + [f"strain.{i}{j}" for i in axes for j in axes]
-    fields += [f"stress.{name}" for name in STRESSES[case.dim] if stress]
+    fields += [f"stress.{name}" for name in STRESSES[case.dim]]
     names = ", ".join(f'"{name}"' for name in fields)
     tables = [probe(f"p{k}", place, names) for k, place in enumerate(x)]
     if case.read:
@@ -143,15 +138,15 @@ def probe(name, place, fields):
 
 
 def read_probes(case, summary, count):
-    """u (n, dim), ∂u/∂x (n, dim, dim), σ (n, 3, 3) or None if it was not read"""
+    """u (n, dim), ∂u/∂x (n, dim, dim), σ (n, 3, 3)"""
     axes = AXES[: case.dim]
     read = [summary["probes"][f"p{k}"] for k in range(count)]
 
     def column(name):
         return np.array([np.nan if probe[name] is None else probe[name] for probe in read], dtype=float)
 
-    stress = np.zeros((count, 3, 3)) if "stress.xx" in read[0] else None
-    for name in STRESSES[case.dim] if stress is not None else ():
+    stress = np.zeros((count, 3, 3))
+    for name in STRESSES[case.dim]:
         i, j = map(AXES.index, name)
         stress[:, i, j] = stress[:, j, i] = column(f"stress.{name}")
     gradient = np.array([[column(f"strain.{i}{j}") for j in axes] for i in axes])
@@ -178,7 +173,7 @@ def our_errors(program, case, way, first, folder, seconds):
     """{error: value}, by a run of its own that reads the places."""
     x = case.place(case.parameters())
     scene = folder / "with_probes.toml"
-    tables = probes(case, x, reads_stress(case, way.functions))
+    tables = probes(case, x)
     scene.write_text(scene_of(case, first, folder).read_text(encoding="utf-8") + tables, encoding="utf-8")
     run = run_in(folder / "probed", our_command(Path(program).resolve(), scene, settings_of(case, way, first)), seconds)
     if run.exit_status != 0:

@@ -76,9 +76,10 @@ struct ObservedOrder {
   std::size_t first = 0, last = 0;  // first and last level that it is observed on, counted from 0
 };
 
-/// One quantity, on all levels.
+/// One quantity, on all levels. Names: "u_l2", "u_max", "u_energy", "stress_l2" of the points' stress, "stress_read_l2"
+/// of that which probes read, or "probe.field".
 struct StudiedQuantity {
-  std::string name;              // "u_l2", "u_max", "u_energy", "stress_l2", or "probe.field"
+  std::string name;
   std::vector<double> values{};  // errors, or the values of a probe; NaN where a level has none, (levels)
   std::vector<double> errors{};  // errors against the reference; NaN where a level has none, (levels)
   std::optional<ObservedOrder> order{};

@@ -29,13 +29,6 @@ struct Norms {
   double rel_l2() const { return std::sqrt(difference / exact); }
 };
 
-// σ:σ from the components xx; or xx, yy, zz, xy; or those and yz, zx.
-double contracted(std::span<const double> sigma) {
-  double sum = 0;
-  for (std::size_t k = 0; k < sigma.size(); ++k) sum += (k < 3 ? 1 : 2) * sigma[k] * sigma[k];
-  return sum;
-}
-
 /// Calls visit(p, σ_h − σ, σ) for every material point.
 template <class Visit>
 void for_stresses(const ExactSolution& solution, const LagrangianPhase& phase, const PointData& data, double t,
@@ -65,6 +58,12 @@ double energy(const MaterialSpec& material, StressState state, std::span<const d
 }
 
 }  // namespace
+
+double contracted(std::span<const double> sigma) {
+  double sum = 0;
+  for (std::size_t k = 0; k < sigma.size(); ++k) sum += (k < 3 ? 1 : 2) * sigma[k] * sigma[k];
+  return sum;
+}
 
 std::optional<ExactError> exact_error(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
   const auto solution = exact_solution(problem);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -47,32 +49,38 @@ class PlaceFields {
   /// then and moved_before, (dim).
   void read(const PlaceReader& places, const std::vector<double>& x, const std::vector<double>& moved_before,
             std::vector<double>& values) const {
+    std::map<std::string, std::vector<double>> read;  // each field once, whatever components are asked for
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       const PointFieldComponent& field = fields_[f];
-      std::vector<double> all(field.components, std::numeric_limits<double>::quiet_NaN());
-      if (!is_there_[f]) {  // in a stage whose laws have no such field
-      } else if (field.name == "u") {
-        places.displacement(x, all);
-        for (std::size_t d = 0; d < all.size(); ++d) all[d] += moved_before[d];
-      } else if (field.name == "v") {
-        places.velocity(x, all);
-      } else if (field.name == "strain") {
-        places.strain(x, all);
-      } else if (field.name == "stress") {
-        places.stress(x, all);
-      } else if (field.name == "effective_stress") {
-        places.stress(x, all);
-        if (has_water_) make_effective(all, places.history("pore_pressure", x));
-      } else {
-        all[0] = places.history(field.name, x);
-      }
-      values.push_back(all[field.component]);
+      const auto [all, is_new] =
+          read.try_emplace(field.name, field.components, std::numeric_limits<double>::quiet_NaN());
+      if (is_new && is_there_[f]) read_field(field.name, places, x, moved_before, all->second);
+      values.push_back(all->second[field.component]);
     }
   }
 
  private:
+  void read_field(const std::string& name, const PlaceReader& places, const std::vector<double>& x,
+                  const std::vector<double>& moved_before, std::vector<double>& all) const {
+    if (name == "u") {
+      places.displacement(x, all);
+      for (std::size_t d = 0; d < all.size(); ++d) all[d] += moved_before[d];
+    } else if (name == "v") {
+      places.velocity(x, all);
+    } else if (name == "strain") {
+      places.strain(x, all);
+    } else if (name == "stress") {
+      places.stress(x, all);
+    } else if (name == "effective_stress") {
+      places.stress(x, all);
+      if (has_water_) make_effective(all, places.history("pore_pressure", x));
+    } else {
+      all[0] = places.history(name, x);
+    }
+  }
+
   std::vector<PointFieldComponent> fields_;
-  std::vector<bool> is_there_;
+  std::vector<bool> is_there_;  // not in a stage whose laws have no such field
   bool has_water_;
 };
 

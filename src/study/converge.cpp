@@ -96,10 +96,10 @@ class Converging {
   }
 
  private:
-  // Chooses places in the cells of the finest level at which they are not too many to read.
+  // Chooses places in the cells of the finest level at which they are not too many to read: for a single norm fewer.
   void choose_places() {
-    if (has_same_points(options_.refine) || scene_.exact.known()) return;
-    constexpr double most = 2e5;
+    if (has_same_points(options_.refine)) return;
+    const double most = scene_.exact.known() ? 2e4 : 2e5;
     for (auto level = levels_.rbegin(); level != levels_.rend() && !places_; ++level)
       if (const Scene scene = with(scene_, level->set); count_of_places(scene) <= most) places_ = common_places(scene);
     if (!places_) places_ = common_places(scene_);
@@ -126,8 +126,6 @@ class Converging {
       if (!job.is_done && !is_interrupted()) {
         job.run = run_level(with(scene_, job.set), places_ ? &*places_ : nullptr, options_.interrupted);
         job.run.level.set = texts_of(job.set);
-        // Errors relative to the exact solution are already computed: these arrays serve nothing else.
-        if (!has_same_points(options_.refine) && !places_) job.run.u = job.run.stress = job.run.volume = {};
         kept_.keep(job.name, job.run);
         job.is_done = job.run.is_there;
       }

@@ -16,7 +16,7 @@ namespace {
 std::string number_or_nothing(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : ""; }
 
 // The columns that every study has; a field is empty if the study has no such error.
-const std::vector<std::string> norms = {"u_l2", "u_max", "u_energy", "stress_l2"};
+const std::vector<std::string> norms = {"u_l2", "u_max", "u_energy", "stress_l2", "stress_read_l2"};
 
 // The varied keys, from "key=value".
 std::vector<std::string> keys_of(const ConvergenceStudy& study) {

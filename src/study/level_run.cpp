@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -35,15 +37,27 @@ double exact_value(const ExactSolution* exact, const LagrangianPhase& phase, con
   return values[component];
 }
 
-// Reads fields at the places in a single phase only: shape functions belong to positions at the beginning of a phase.
-void read_at_places(Simulation& simulation, const CommonPlaces& places, LevelRun& run) {
+// Fields at the places in a single phase only: shape functions belong to positions at the beginning of a phase.
+std::optional<FieldsAtPlaces> fields_at(const CommonPlaces& places, Simulation& simulation) {
   const LagrangianPhase& phase = simulation.parts().phase;
-  if (phase.info().updated_lagrangian) return;
+  if (phase.info().updated_lagrangian) return std::nullopt;
   const auto reader = phase.fields().read_places(simulation.t(), simulation.u(), simulation.v());
-  FieldsAtPlaces fields = read_at(places, *reader, static_cast<std::size_t>(phase.info().stress_components));
-  run.u = std::move(fields.u);
-  run.stress = std::move(fields.stress);
-  run.volume = places.volume;
+  return read_at(places, *reader, static_cast<std::size_t>(phase.info().stress_components));
+}
+
+// ‖σ_h − σ‖/‖σ‖ of the stress that probes read, over the places.
+double error_of_read_stress(const CommonPlaces& places, const std::vector<double>& stress, const ExactSolution& exact,
+                            double t) {
+  const std::size_t components = stress.size() / places.size(), dim = places.x.size() / places.size();
+  std::vector<double> sigma(components);
+  double difference = 0, size = 0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    exact.stress({places.x.data() + dim * k, dim}, t, sigma);
+    size += places.volume[k] * contracted(sigma);
+    for (std::size_t i = 0; i < components; ++i) sigma[i] -= stress[components * k + i];
+    difference += places.volume[k] * contracted(sigma);
+  }
+  return std::sqrt(difference / size);
 }
 
 void read_end(const Scene& scene, Simulation& simulation, const Summary& s, const CommonPlaces* places, LevelRun& run) {
@@ -65,7 +79,20 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
               : std::abs(value - exact_value(exact.get(), simulation.parts().phase, field, at->second, s.t)));
     }
   }
-  if (places) return read_at_places(simulation, *places, run);
+  if (places && exact) {
+    if (!s.error || !exact->has_stress()) return;
+    if (const auto fields = fields_at(*places, simulation))
+      run.norms.emplace_back("stress_read_l2", error_of_read_stress(*places, fields->stress, *exact, s.t));
+    return;
+  }
+  if (places) {
+    auto fields = fields_at(*places, simulation);
+    if (!fields) return;
+    run.u = std::move(fields->u);
+    run.stress = std::move(fields->stress);
+    run.volume = places->volume;
+    return;
+  }
   const auto copy = [&](const char* name) {
     const ConstVec field = simulation.field(name);
     return std::vector<double>(field.begin(), field.end());

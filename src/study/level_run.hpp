@@ -27,7 +27,7 @@ struct LevelRun {
 };
 
 /// Runs the scene with one thread. A failure is reported by the level's status. places: the places at which u and
-/// stress are read, in a scene of one phase; null: at the material points.
+/// stress are read, in a scene of one phase, or of an exact stress its error; null: at the material points.
 LevelRun run_level(const Scene& scene, const CommonPlaces* places, const std::function<bool()>& interrupted);
 
 /// Throws SceneError if the scene is refused during its set-up, for example for a probe at a place without material.

@@ -64,7 +64,8 @@ TEST_CASE(
   CHECK(run("two", {"--threads", "2"}) == 0);
   const std::vector<std::string> csv = lines(folder.path() / "one" / "converge.csv");
   CHECK(csv.at(0) ==
-        "level,h,points,step,evaluations,wall_s,u_l2,u_max,u_energy,stress_l2,third.u,third.stress,size,status");
+        "level,h,points,step,evaluations,wall_s,u_l2,u_max,u_energy,stress_l2,stress_read_l2,third.u,third.stress,size,"
+        "status");
   CHECK(std::ranges::count_if(csv, [](const std::string& line) { return line.ends_with(",equilibrium"); }) == 3);
   const auto one = json_of(folder.path() / "one" / "converge.json"),
              two = json_of(folder.path() / "two" / "converge.json");

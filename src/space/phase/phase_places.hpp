@@ -37,7 +37,7 @@ class PhasePlaces final : public PlaceReader {
   PhasePlaces(std::unique_ptr<const GridFunctions<dim>> functions, int degree, const Body<K>& body,
               const DegreesOfFreedom& dofs, GradientOfPoint<K> gradient, std::vector<double> u, std::vector<double> v)
       : functions_(std::move(functions)),
-        degree_(std::max(1, degree - 1)),
+        degree_(degree == 3 ? 4 : degree),
         grid_(functions_->grid()),
         body_(body),
         dofs_(dofs),
@@ -217,7 +217,8 @@ class PhasePlaces final : public PlaceReader {
   }
 
   std::unique_ptr<const GridFunctions<dim>> functions_;
-  int degree_;  // degree of the fits
+  // Degree of the fits. Amid points on all sides those of degree 2 and 3 have the same value, to order 4 alone.
+  int degree_;
   const Grid<dim>& grid_;
   const Body<K>& body_;
   const DegreesOfFreedom& dofs_;

@@ -42,13 +42,22 @@ std::vector<double> local_fit(const std::vector<double>& xi, const std::vector<d
   constexpr double rounding = 1e-8, most = 10;
   const VectorXd root = Eigen::Map<const VectorXd>(weight.data(), static_cast<Index>(weight.size())).cwiseSqrt();
   for (;; --degree) {
-    // With A = [monomials at ξ_p], c = W A (Aᵀ W A)⁻¹ e_1 = W^½ (first row of the pseudo-inverse of W^½ A).
-    const MatrixXd A = root.asDiagonal() * monomials(xi, dim, degree);
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
-    decomposition.setThreshold(rounding);
-    decomposition.compute(A);
-    if (decomposition.rank() < A.cols() && degree > 0) continue;
-    const VectorXd c = root.cwiseProduct(decomposition.pseudoInverse().row(0).transpose());
+    // With A = [monomials at ξ_p] and W^½ A P = Q R,
+    //
+    //   c = W A (Aᵀ W A)⁻¹ e_1 = W^½ Q R⁻ᵀ Pᵀ e_1.
+    Eigen::ColPivHouseholderQR<MatrixXd> qr;
+    qr.setThreshold(rounding);
+    qr.compute(root.asDiagonal() * monomials(xi, dim, degree));
+    const Index columns = qr.cols();
+    if (qr.rank() < columns && degree > 0) continue;
+    VectorXd c = VectorXd::Zero(root.size());
+    c.head(columns) = qr.colsPermutation().transpose() * VectorXd::Unit(columns, 0);
+    qr.matrixR()
+        .topLeftCorner(columns, columns)
+        .triangularView<Eigen::Upper>()
+        .transpose()
+        .solveInPlace(c.head(columns));
+    c = root.cwiseProduct(qr.householderQ() * c);
     if (c.lpNorm<1>() <= most || degree == 0) return {c.begin(), c.end()};
   }
 }

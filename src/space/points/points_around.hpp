@@ -31,23 +31,31 @@ class PointsAround {
     return nearest_->to(x);
   }
 
-  /// The least-squares fit at x, over the points of the cell of x and of all that touch it, of the material of the
-  /// nearest one. The polynomial has this degree as far as the points determine it (local_fit.hpp), and the weights are
+  /// The least-squares fit at x, over the points of the cells around, of the material of the nearest one. The
+  /// polynomial has this degree as far as the points determine it (local_fit.hpp), and the weights are
   ///
-  ///   w_p = V_p Π_d (1 − (ξ_d/2)²)²,   ξ = (x_p − x)/h with the sides h of the widest cell around:
+  ///   w_p = V_p Π_d N(ξ_d),   ξ = (x_p − x)/h with the sides h of the widest cell around,
   ///
-  /// so that nearer points count more.
+  /// with the quadratic B-spline N, which ends one and a half cells from x. Shifted by whole cells, N, ξ N and ξ² N
+  /// each add up to a constant: amid points on all sides, what their values have wrong alike in each cell, and not on
+  /// average, takes no part in a fit of degree 2.
   std::vector<Share> fit(const Point<Dim>& x, int degree) const {
     const Cell here = grid_.cell_of(x);
     Point<Dim> h{};
+    Cell from, to;
     for (int d = 0; d < Dim; ++d) {
       const Axis& axis = grid_.axes[d];
       for (const int beside : {here[d] - 1, here[d], here[d] + 1}) {
         const auto c = static_cast<std::size_t>(std::clamp(beside, 0, axis.cells() - 1));
         h[d] = std::max(h[d], axis.nodes[c + 1] - axis.nodes[c]);
       }
+      const auto line = [&](int i) { return axis.nodes[static_cast<std::size_t>(i)]; };
+      from[d] = here[d];
+      while (from[d] > 0 && line(from[d]) > x[d] - reach * h[d]) --from[d];
+      to[d] = here[d] + 1;
+      while (to[d] < axis.cells() && line(to[d]) < x[d] + reach * h[d]) ++to[d];
     }
-    std::vector<PointInCell> around = points_around(here);
+    std::vector<PointInCell> around = points_between(from, to);
     if (around.empty()) around.push_back(nearest(x));
     const auto square_of_distance = [&](const PointInCell& point) {
       double sum = 0;
@@ -65,10 +73,8 @@ class PointsAround {
       if (points_.material_of_cell(k) != material) continue;
       double w = points_.volume[p];
       for (int d = 0; d < Dim; ++d) {
-        constexpr double least = 1e-3;  // lower limit, for a point two cells away
         xi.push_back((points_.x[d][p] - x[d]) / h[d]);
-        const double fall = std::max(1 - xi.back() * xi.back() / 4, least);
-        w *= fall * fall;
+        w *= spline(std::abs(xi.back()));
       }
       weight.push_back(w);
       shares.push_back({k, p, 0});
@@ -96,40 +102,42 @@ class PointsAround {
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) list_[next[cell_of[p]]++] = {k, p};
     }
   }
-  // The points of cell `here` and of all cells that touch it.
-  std::vector<PointInCell> points_around(const Cell& here) const {
-    return points_.has_domains() || Dim == 3 ? listed_around(here) : sorted_around(here);
+  static constexpr double reach = 1.5;  // [cells]
+
+  // The quadratic B-spline times 4/3; a little beyond its end, for places where there are no other points.
+  static double spline(double xi) {
+    constexpr double least = 1e-6;
+    const double value = xi < 0.5 ? 1 - 4 * xi * xi / 3 : xi < reach ? 2 * (reach - xi) * (reach - xi) / 3 : 0;
+    return std::max(value, least);
+  }
+
+  // The points of the cells from `from` to the one before `to` along each axis.
+  std::vector<PointInCell> points_between(const Cell& from, const Cell& to) const {
+    return points_.has_domains() || Dim == 3 ? listed_between(from, to) : sorted_between(from, to);
   }
   // Finds the points on a line or in the plane, where they are sorted by their cells, which points with domains need
   // not be.
-  std::vector<PointInCell> sorted_around(const Cell& here) const {
-    Cell from, to;
-    for (int d = 0; d < Dim; ++d) {
-      from[d] = std::max(here[d] - 1, 0);
-      to[d] = std::min(here[d] + 1, grid_.axes[d].cells() - 1);
-    }
-    const int rows = Dim == 1 ? 1 : to[Dim - 1] - from[Dim - 1] + 1, across = grid_.axes[0].cells();
+  std::vector<PointInCell> sorted_between(const Cell& from, const Cell& to) const {
+    const int rows = Dim == 1 ? 1 : to[Dim - 1] - from[Dim - 1], across = grid_.axes[0].cells();
     std::vector<PointInCell> found;
     for (std::size_t k = 0; k < points_.cells(); ++k) {
       const int beyond = points_.cell[k] - grid_.cell_number(from);
-      if (beyond < 0 || beyond / across >= rows || beyond % across > to[0] - from[0]) continue;
+      if (beyond < 0 || beyond / across >= rows || beyond % across >= to[0] - from[0]) continue;
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) found.push_back({k, p});
     }
     return found;
   }
-  std::vector<PointInCell> listed_around(const Cell& here) const {
+  std::vector<PointInCell> listed_between(const Cell& from, const Cell& to) const {
     if (list_begin_.empty()) list_points();
     std::vector<PointInCell> found;
-    for (int k = 0; k < power(3, Dim); ++k) {
-      Cell cell = here;
-      bool is_cell = true;
-      for (int d = 0; d < Dim; ++d) {
-        cell[d] += k / power(3, d) % 3 - 1;
-        is_cell = is_cell && cell[d] >= 0 && cell[d] < grid_.axes[d].cells();
-      }
-      if (!is_cell) continue;
+    for (Cell cell = from; cell[Dim - 1] < to[Dim - 1];) {
       const auto number = static_cast<std::size_t>(grid_.cell_number(cell));
       for (std::size_t l = list_begin_[number]; l < list_begin_[number + 1]; ++l) found.push_back(list_[l]);
+      int d = 0;
+      while (++cell[d] == to[d] && d < Dim - 1) {
+        cell[d] = from[d];
+        ++d;
+      }
     }
     return found;
   }

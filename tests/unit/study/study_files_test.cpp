@@ -53,10 +53,11 @@ TEST_CASE("converge.csv has a row a level of each series, with the varied values
   const std::vector<std::string> csv = lines(folder.path() / "converge.csv");
   REQUIRE(csv.size() == 5);
   CHECK(csv[0] ==
-        "grid.basis,probe,level,h,points,step,evaluations,wall_s,u_l2,u_max,u_energy,stress_l2,tip.u,size,status");
+        "grid.basis,probe,level,h,points,step,evaluations,wall_s,u_l2,u_max,u_energy,stress_l2,stress_read_l2,tip.u,"
+        "size,status");
   CHECK(csv[1] ==
-        "linear,\"[1,2]\",1,0.33333333333333331,0,0,0,0,0.10000000000000001,,,,,0.33333333333333331,equilibrium");
-  CHECK(csv[4] == "cubic,\"[1,2]\",2,0,0,0,0,0,,,,,6,0,failed");
+        "linear,\"[1,2]\",1,0.33333333333333331,0,0,0,0,0.10000000000000001,,,,,,0.33333333333333331,equilibrium");
+  CHECK(csv[4] == "cubic,\"[1,2]\",2,0,0,0,0,0,,,,,,6,0,failed");
 }
 
 TEST_CASE("converge.json has null for what is no number, orders with their levels from 1, and a list of series") {
