@@ -1,20 +1,10 @@
 #include "space/boundary/border_chains.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <numbers>
 #include <utility>
 
 namespace stillpoint {
-namespace {
-
-/// Whether numbers are those at which parts of so many end, none of them empty.
-bool are_ends(const std::vector<std::size_t>& ends, std::size_t of) {
-  const bool ascend = std::ranges::adjacent_find(ends, std::ranges::greater_equal{}) == ends.end();
-  return !ends.empty() && ascend && ends.front() > 0 && ends.back() == of;
-}
-
-}  // namespace
 
 template <Kinematics K>
 void BorderChains<K>::add(const BodySpec& body, const std::vector<BorderPatch<K>>& patches, std::size_t first) {
@@ -75,42 +65,19 @@ std::vector<PieceOrigin> BorderChains<K>::cut_anew(Pieces& pieces, Patches& patc
 }
 
 template <Kinematics K>
-void BorderChains<K>::archive(const StateArchive& state, Pieces& pieces, Patches& patches) {
-  std::vector<std::size_t> ends_of_chains, ends;
-  for (const Chain& chain : chains_) ends_of_chains.push_back(chain.end);
-  for (const SurfacePatch& patch : patches) ends.push_back(patch.end);
-  state("chains", ends_of_chains, "patches", ends);
-  if (state.restores()) {
-    take_numbers(ends_of_chains, ends, patches);
-    pieces.resize(ends.back(), pieces.front());
-  }
-  state.each(
-      "undeformed", pieces, [](BorderPiece<K> & piece) -> auto& { return piece.X; });
-  std::vector<double> sizes;
-  for (const BorderPiece<K>& piece : pieces) sizes.push_back(piece.area);
-  for (const SurfacePatch& patch : patches) sizes.push_back(patch.cell), sizes.push_back(patch.depth);
-  state("sizes", Vec(sizes));
-  auto from = sizes.begin();
-  for (BorderPiece<K>& piece : pieces) piece.area = *from++;
-  for (SurfacePatch& patch : patches) patch.cell = *from++, patch.depth = *from++;
+std::vector<std::size_t> BorderChains<K>::ends(std::size_t first, std::size_t end) const {
+  std::vector<std::size_t> ends;
+  for (const Chain& chain : chains_)
+    if (chain.begin >= first && chain.begin < end) ends.push_back(chain.end - first);
+  return ends;
 }
 
 template <Kinematics K>
-void BorderChains<K>::take_numbers(const std::vector<std::size_t>& ends_of_chains, const std::vector<std::size_t>& ends,
-                                   Patches& patches) {
-  if (ends_of_chains.size() != chains_.size() || !are_ends(ends_of_chains, ends.size()) ||
-      !are_ends(ends, ends.empty() ? 0 : ends.back()))
-    throw StateError("'chains' and 'patches' are not those of a border");
-  Patches all;
+void BorderChains<K>::take_ends(const std::vector<std::size_t>& ends) {
   for (std::size_t c = 0; c < chains_.size(); ++c) {
-    const SurfacePatch like = patches[chains_[c].begin];
-    chains_[c].begin = all.size(), chains_[c].end = ends_of_chains[c];
-    for (std::size_t k = all.size(); k < ends_of_chains[c]; ++k) {
-      all.push_back(like);
-      all[k].begin = k == 0 ? 0 : ends[k - 1], all[k].end = ends[k];
-    }
+    chains_[c].begin = c == 0 ? 0 : ends[c - 1];
+    chains_[c].end = ends[c];
   }
-  patches = std::move(all);
 }
 
 template class BorderChains<Kinematics::line>;

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -31,19 +32,31 @@ auto ContactForce<K, Finder>::slips(double t, const double* u) const -> std::vec
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::archive(const StateArchive& state) {
-  lambda_.resize(surface_.patches().size());
-  if (remembers()) {
-    lambda_t_.resize(lambda_.size());
-    anchor_.resize(surface_.size());
-    closed_.resize(anchor_.size());
-  }
-  state("lambda", Vec(lambda_));
+  resize();
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
+  for (const auto& part : surface_.parts()) archive_part(state.part(surface_.name_of(part)), part);
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::resize() {
+  lambda_.resize(surface_.patches().size());
   if (!remembers()) return;
+  lambda_t_.resize(lambda_.size());
+  anchor_.resize(surface_.size());
+  closed_.resize(anchor_.size());
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::archive_part(const StateArchive& state, const typename ContactSurface<K>::Part& part) {
+  const std::size_t patches = part.end_patch - part.first_patch, pieces = part.end_piece - part.first_piece;
+  state("lambda", Vec(lambda_).subspan(part.first_patch, patches));
+  if (!remembers()) return;
+  std::span<Position> lambda_t = std::span(lambda_t_).subspan(part.first_patch, patches),
+                      anchor = std::span(anchor_).subspan(part.first_piece, pieces);
   state.each(
-      "lambda_t", lambda_t_, [](Position & of) -> auto& { return of; });
+      "lambda_t", lambda_t, [](Position & of) -> auto& { return of; });
   state.each(
-      "anchor", anchor_, [](Position & of) -> auto& { return of; });
+      "anchor", anchor, [](Position & of) -> auto& { return of; });
 }
 
 template <Kinematics K, class Finder>

@@ -119,6 +119,8 @@ class ContactForce {
   std::vector<char> bearing_patches(const RigidPlacement<N>& placement, const double* u) const;
 
  private:
+  void resize();
+  void archive_part(const StateArchive& state, const typename ContactSurface<K>::Part& part);
   static constexpr double touching = 1e-6;  // [cells]
   Balance<N> balance(double t, const RigidPlacement<N>& placement, const double* u) const;
   // What acts on a body of an axisymmetric scene across the axis is none, as it cancels around it.

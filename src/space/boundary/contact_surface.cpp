@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Core>
+#include <fmt/format.h>
 
 namespace stillpoint {
 template <Kinematics K>
@@ -12,6 +14,7 @@ ContactSurface<K>::ContactSurface(const Problem& problem, const std::vector<char
   const bool stretches = dim == 2 && problem.phase.ends() &&
                          problem.phase.quadrature != Quadrature::domains;  // as pieces that are carried
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+    number_of_body_.push_back(problem.bodies[k].number);
     if (!touched[k]) continue;
     const std::vector<BorderPatch<K>> patches = border_patches<K>(problem, k, grid);
     if (stretches) chains_.add(problem.bodies[k], patches, patches_.size());
@@ -169,17 +172,48 @@ void ContactSurface<K>::end_phase(const double* u) {
 }
 
 template <Kinematics K>
-void ContactSurface<K>::archive(const StateArchive& state) {
-  if (empty()) return;
-  if (!chains_.empty()) chains_.archive(state.part("chains"), pieces_, patches_);
-  state.each(
-      "positions", pieces_, [](BorderPiece<K> & piece) -> auto& { return piece.at.x; });
-  state.each(
-      "areas", pieces_, [](BorderPiece<K> & piece) -> auto& { return piece.vector; });
-  std::vector<double> stiffness;
-  for (const Patch& patch : patches_) stiffness.push_back(patch.stiffness);
-  state("stiffness", Vec(stiffness));
-  for (std::size_t k = 0; k < patches_.size(); ++k) patches_[k].stiffness = stiffness[k];
+auto ContactSurface<K>::parts() const -> std::vector<Part> {
+  std::vector<Part> parts;
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    const Patch& patch = patches_[k];
+    if (parts.empty() || parts.back().body != patch.body)
+      parts.push_back({patch.body, number_of_body_[patch.body], k, k, patch.begin, patch.begin});
+    parts.back().end_patch = k + 1;
+    parts.back().end_piece = patch.end;
+  }
+  return parts;
+}
+
+template <Kinematics K>
+std::string ContactSurface<K>::name_of(const Part& part) {
+  return fmt::format("body_{}", part.number);
+}
+
+template <Kinematics K>
+void ContactSurface<K>::archive_parts(const StateArchive& state, bool some_are_new) {
+  std::vector<BorderPiece<K>> pieces;
+  std::vector<Patch> patches;
+  std::vector<std::size_t> ends_of_chains;
+  for (const Part& part : parts()) {
+    const auto slice = [](const auto& all, std::size_t begin, std::size_t end) {
+      return std::vector(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                         all.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    BorderOfBody<K> border{slice(pieces_, part.first_piece, part.end_piece),
+                           slice(patches_, part.first_patch, part.end_patch),
+                           chains_.ends(part.first_patch, part.end_patch)};
+    for (Patch& patch : border.patches) patch.begin -= part.first_piece, patch.end -= part.first_piece;
+    const bool is_new = some_are_new && !state.has_part(name_of(part));
+    if (!is_new) border.archive(state.part(name_of(part)));
+    for (const std::size_t end : border.ends_of_chains) ends_of_chains.push_back(patches.size() + end);
+    for (Patch& patch : border.patches) patch.begin += pieces.size(), patch.end += pieces.size();
+    pieces.insert(pieces.end(), border.pieces.begin(), border.pieces.end());
+    patches.insert(patches.end(), border.patches.begin(), border.patches.end());
+  }
+  if (!state.restores()) return;
+  pieces_ = std::move(pieces);
+  patches_ = std::move(patches);
+  chains_.take_ends(ends_of_chains);
 }
 
 // The bound max_a κ_a/m_a, κ_a = Σ_s A_s κ |w_sa| Σ_b |w_sb|, on how much all pieces together add to ω_max² [1/s²]; 0

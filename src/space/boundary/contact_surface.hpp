@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "space/boundary/border_chains.hpp"
@@ -133,7 +134,16 @@ class ContactSurface {
   double stretch(std::size_t s) const {
     return chains_.empty() ? std::pow(pieces_[s].size() / pieces_[s].area, 1.0 / std::max(1, dim - 1)) : 1;
   }
-  void archive(const StateArchive& state);
+  /// The part of the surface that is the border of a body.
+  struct Part {
+    std::size_t body, number;  // in the present stage, and in all of them
+    std::size_t first_patch, end_patch;
+    std::size_t first_piece, end_piece;
+  };
+  /// In the order of the bodies, without those that may not be touched.
+  std::vector<Part> parts() const;
+  static std::string name_of(const Part& part);
+  void archive(const StateArchive& state) { archive_parts(state, /*some_are_new=*/false); }
 
  private:
   using Partners = std::vector<std::vector<Entry>>;
@@ -146,6 +156,7 @@ class ContactSurface {
     double w;
   };
 
+  void archive_parts(const StateArchive& state, bool some_are_new);
   void freeze(const Parts& phase);
   void take_weights(const Parts& phase, const Partners* partners);
   void take_functions();
@@ -153,7 +164,8 @@ class ContactSurface {
   double bound_of_frequency(const Parts& phase) const;
 
   bool phases_end_, has_begun_ = false;
-  int free_ = 0;  // n
+  std::vector<std::size_t> number_of_body_;  // (bodies)
+  int free_ = 0;                             // n
   std::vector<BorderPiece<K>> pieces_;
   std::vector<Patch> patches_;
   BorderChains<K> chains_;             // of all patches, in the plane and with material points; else empty
