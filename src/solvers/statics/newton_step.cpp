@@ -2,6 +2,7 @@
 #include <stillpoint/static_solution.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/statics/static_methods.hpp"
@@ -28,19 +29,25 @@ class NewtonStep final : public WithoutTime<Stepper> {
     std::ranges::fill(second_half(state().span()), 0.0);
     constexpr double smaller = 1e-2, rounding = 1e-14;
     options_.tolerance = std::clamp(smaller * report.residual, rounding, options_.tolerance);
-    const bool moved = report.iterations > 0 || steps_ == 0;
+    // Forces that have changed may be in balance as they are: those of multipliers that were right at once.
+    const bool may_stay = std::exchange(forces_changed_, false) || steps_ == 0;
+    const bool moved = report.iterations > 0 || may_stay;
     if (report.converged && moved) return {.t = t_, .message = report.reason};
     return {.status = StepReport::Status::failed,
             .t = t_,
             .message = report.converged ? "Newton's method comes no nearer: " + report.reason : report.reason};
   }
-  void take_changed_forces(double /*t*/) override { options_.tolerance = tolerance_; }
+  void take_changed_forces(double /*t*/) override {
+    options_.tolerance = tolerance_;
+    forces_changed_ = true;
+  }
   void set_max_step(double /*h*/) override {}
-  void archive(const StateArchive& state) override { state("iterations", steps_); }
+  void archive(const StateArchive& state) override { state("iterations", steps_, "forces_changed", forces_changed_); }
 
  private:
   NewtonOptions options_;
-  double tolerance_;  // of the first answer
+  double tolerance_;             // of the first answer
+  bool forces_changed_ = false;  // since then
   double t_ = 0;
 };
 
