@@ -96,7 +96,7 @@ class MovingPlace final : public Probe {
         x_(spec.at),
         next_(spec.at),
         moved_in_place_(spec.at.size(), 0),
-        stays_(!phase.info().nonlinear) {
+        stays_(phase.info().of_small_strain) {
     if (!waits) return;
     const std::vector<double> nothing(phase.size(), 0.0);
     waits_ = !phase.fields().read_places(0, nothing, nothing)->holds(start_);
