@@ -209,7 +209,8 @@ struct GeostaticSpec {  // [initial.geostatic]: initial stress below a horizonta
 struct StageSpec {  // [[stage]]: what changes at a time of the run
   /// When the stage begins, at the earliest [s].
   double at = 0;
-  std::vector<std::string> add, remove;       // the names of bodies that appear without stress, and of those that go
+  std::vector<std::string> add, remove;       // the names of bodies, also rigid ones, that appear (those of material
+                                              // without stress), and of those that go
   std::vector<std::string> hold, release;     // the names of supports that begin and end
   std::vector<std::string> change, material;  // the names of bodies, and of the material that each has from now on
   /// Whether it lasts until the body is in equilibrium, at least.
@@ -261,7 +262,10 @@ struct Problem : BoundarySpecs {
   std::vector<StageSpec> stages;             // those that follow, in time
   std::vector<BodySpec> later_bodies;        // that they add
   std::vector<SupportSpec> later_supports;   // that they begin to hold
+  std::vector<RigidSpec> later_rigid;        // that they add
   std::vector<std::string> named_supports;   // the names of those of all stages, as written
+  std::vector<std::string> named_bodies;     // likewise
+  std::vector<RigidSpec> rigid_as_written;   // those of all stages
   std::optional<StageSpec> present_stage{};  // what the present stage is; empty: the beginning of the run
   ExactSpec exact;
   SolveSpec solve;

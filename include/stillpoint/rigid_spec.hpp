@@ -4,6 +4,7 @@
 #include <stillpoint/expression.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -47,7 +48,8 @@ struct RigidSpec {  // [[rigid]]: a rigid body of one shape, which pushes and ne
   double friction = 0;              // Coulomb's coefficient; infinite: rough
   std::vector<std::string> bodies;  // names of the bodies that it touches; empty: all
 
-  StlSolid from_stl{};  // contents of `stl`; resolve() reads them, once
+  StlSolid from_stl{};     // contents of `stl`; resolve() reads them, once
+  std::size_t number = 0;  // which rigid body of the problem it is, in all its stages
 
   /// Whether it touches a body of this name; bodies without a name have an empty one.
   bool touches(const std::string& body) const { return bodies.empty() || std::ranges::count(bodies, body) > 0; }

@@ -42,7 +42,8 @@ void resolve_component(SupportSpec& support) {
 void take_outline(const Problem& problem, BodySpec& body, const PointFile& points) {
   body.outline = {};
   const auto is_on_line = [](const TractionSpec& one) { return !one.line.empty(); };
-  if (problem.dim != 2 || (!problem.may_touch() && std::ranges::none_of(problem.tractions, is_on_line))) return;
+  const bool may_touch = problem.may_touch() || !problem.later_rigid.empty();
+  if (problem.dim != 2 || (!may_touch && std::ranges::none_of(problem.tractions, is_on_line))) return;
   std::vector<double> area = points.volume;
   const bool axisymmetric = problem.state == StressState::axisymmetric;
   for (std::size_t p = 0; p < area.size(); ++p)

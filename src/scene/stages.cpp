@@ -16,6 +16,14 @@ bool is_among(const Names& names, const std::string& name) {
   return !name.empty() && std::ranges::find(names, name) != names.end();
 }
 
+template <class Part>
+Names names_of(const std::vector<Part>& parts) {
+  Names names;
+  for (const Part& part : parts)
+    if (!part.name.empty()) names.push_back(part.name);
+  return names;
+}
+
 // The entry of an array of tables under which a part stood, and that under which it stands now.
 struct Renamed {
   std::string from, to;
@@ -72,16 +80,26 @@ constexpr const char* body = "body";
 constexpr const char* later_body = "later_body";
 constexpr const char* support = "support";
 constexpr const char* later_support = "later_support";
+constexpr const char* rigid = "rigid";
+constexpr const char* later_rigid = "later_rigid";
+
+template <class Part>
+void number(std::vector<Part>& parts) {
+  for (std::size_t k = 0; k < parts.size(); ++k) parts[k].number = k;
+}
 
 }  // namespace
 
 void set_later_parts_aside(Problem& problem, Locations& where) {
   if (problem.phase.at_stages) return;
-  for (std::size_t k = 0; k < problem.bodies.size(); ++k) problem.bodies[k].number = k;
-  for (std::size_t k = 0; k < problem.supports.size(); ++k) problem.supports[k].number = k;
+  number(problem.bodies);
+  number(problem.supports);
+  number(problem.rigid);
   problem.phase.at_stages = !problem.stages.empty() || !problem.initial_from.empty();
-  for (const SupportSpec& one : problem.supports)
-    if (problem.phase.at_stages && !one.name.empty()) problem.named_supports.push_back(one.name);
+  if (!problem.phase.at_stages) return;
+  problem.named_supports = names_of(problem.supports);
+  problem.named_bodies = names_of(problem.bodies);
+  problem.rigid_as_written = problem.rigid;
   if (problem.stages.empty()) return;
   Names added, held;
   for (const StageSpec& stage : problem.stages) {
@@ -93,6 +111,7 @@ void set_later_parts_aside(Problem& problem, Locations& where) {
   };
   move_parts(problem.bodies, body, problem.later_bodies, later_body, where, comes(added));
   move_parts(problem.supports, support, problem.later_supports, later_support, where, comes(held));
+  move_parts(problem.rigid, rigid, problem.later_rigid, later_rigid, where, comes(added));
   if (problem.stages.front().at > 0) return;
   problem.present_stage = problem.stages.front();  // which changes nothing
   problem.stages.erase(problem.stages.begin());
@@ -130,11 +149,13 @@ void begin_next_stage(Scene& scene) {
   scene.initial_v.clear();
   drop_parts(scene.bodies, body, scene.where, stage.remove);
   drop_parts(scene.supports, support, scene.where, stage.release);
+  drop_parts(scene.rigid, rigid, scene.where, stage.remove);
   const auto comes = [](const Names& names) {
     return [&names](const auto& part) { return is_among(names, part.name); };
   };
   move_parts(scene.later_bodies, later_body, scene.bodies, body, scene.where, comes(stage.add));
   move_parts(scene.later_supports, later_support, scene.supports, support, scene.where, comes(stage.hold));
+  move_parts(scene.later_rigid, later_rigid, scene.rigid, rigid, scene.where, comes(stage.add));
   for (std::size_t k = 0; k < std::min(stage.change.size(), stage.material.size()); ++k) {
     const auto changed = std::ranges::find(scene.bodies, stage.change[k], &BodySpec::name);
     if (changed != scene.bodies.end()) changed->material = stage.material[k];

@@ -12,9 +12,10 @@ namespace stillpoint {
 /// Locations of keys in a scene file, as in Scene::where; the keys of what stands aside begin with "later_".
 using Locations = std::map<std::string, Location>;
 
-/// Sets aside the bodies and supports of a problem as it was written that stages add or hold, and numbers its bodies.
+/// Sets aside the bodies, rigid bodies and supports of a problem as it was written that stages add or hold, and numbers
+/// all of them.
 /// Does nothing if that was done before, or without stages. A stage from t = 0 on becomes the present one. where:
-/// follows the numbers of bodies and supports.
+/// follows these numbers.
 void set_later_parts_aside(Problem& problem, Locations& where);
 
 /// When the present stage ends, at the earliest; 0: the run has one stage and no end [s].

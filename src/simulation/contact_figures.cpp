@@ -16,10 +16,11 @@ struct TouchingPair {
   bool rubs, is_free;
 };
 
-/// In the order of PhaseSupports::contacts().
+/// Those of all stages: what is not there bears nothing.
 std::vector<TouchingPair> touching_pairs(const Problem& problem) {
   std::vector<TouchingPair> pairs;
-  for (const RigidSpec& rigid : problem.rigid) pairs.push_back({rigid.name, rigid.friction > 0, rigid.free});
+  for (const RigidSpec& rigid : problem.phase.at_stages ? problem.rigid_as_written : problem.rigid)
+    pairs.push_back({rigid.name, rigid.friction > 0, rigid.free});
   for (const ContactSpec& contact : problem.contacts) pairs.push_back({contact.name(), contact.friction > 0, false});
   return pairs;
 }
@@ -44,17 +45,18 @@ std::vector<std::string> contact_columns(const Problem& problem) {
 
 std::vector<double> contact_values(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
   std::vector<double> values;
-  if (!problem.may_touch()) return values;
-  const std::vector<ContactReport> reports = phase.supports().contacts(t, u);
   const std::vector<TouchingPair> pairs = touching_pairs(problem);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const ContactReport& report = reports[k];
+  if (pairs.empty()) return values;
+  const std::vector<ContactReport> reports = phase.supports().contacts(t, u);
+  for (const TouchingPair& pair : pairs) {
+    const auto found = std::ranges::find(reports, pair.name, &ContactReport::name);
+    const ContactReport report = found == reports.end() ? ContactReport{} : *found;
     values.insert(values.end(), report.force.begin(), report.force.begin() + problem.dim);
     if (has_moments(problem))
       values.insert(values.end(), report.moment.begin() + (problem.dim == 3 ? 0 : 2), report.moment.end());
     values.insert(values.end(), {report.area, report.penetration});
-    if (pairs[k].rubs) values.push_back(report.slipping);
-    if (pairs[k].is_free)
+    if (pair.rubs) values.push_back(report.slipping);
+    if (pair.is_free)
       values.insert(values.end(), report.displacement.begin(), report.displacement.begin() + problem.dim);
   }
   return values;

@@ -83,12 +83,15 @@ void RunState::begin_next_phase(ConstVec v0) {
   begin_phase(std::vector<double>(v0.size(), 0.0), v0);
 }
 
+// A static solver finds the equilibrium of a stage under the loads of the time at which the next one begins.
+bool RunState::loads_stay() const {
+  const double ramp = scene.present_stage && stage.carried ? scene.present_stage->ramp.value() : 0;
+  return (schedule.settled(t) || (model.static_method && !scene.stages.empty())) && t >= stage.t + ramp;
+}
+
 bool RunState::loads_settled() const {
   const Contact* const contact = model.phase->contact();
-  // A static solver finds the equilibrium of a stage under the loads of the time at which the next one begins.
-  const bool loads_stay = schedule.settled(t) || (model.static_method && !scene.stages.empty());
-  const double ramp = scene.present_stage && stage.carried ? scene.present_stage->ramp.value() : 0;
-  return loads_stay && t >= stage.t + ramp && (!contact || contact->is_settled()) && contact_settled;
+  return loads_stay() && (!contact || contact->is_settled()) && contact_settled;
 }
 
 Verdict RunState::failed(const std::string& what) const {
@@ -106,8 +109,8 @@ void RunState::archive(const StateArchive& state) {
   state("body", body);
   if (body != placed) throw StateError("it is of another body: its material points were placed elsewhere");
 
-  state("t", t, "step", step, "phases", phases, "steps_before", earlier_steps, "evaluations_before",
-        earlier_evaluations, "rejected_before", earlier_rejected);
+  state("t", t, "step", step, "phases", phases, "steps_before", earlier_steps,
+        "evaluations_before", earlier_evaluations, "rejected_before", earlier_rejected);
   double before_s = wall_s();
   state("wall_s", before_s);
   if (state.restores()) earlier_wall_s = before_s;

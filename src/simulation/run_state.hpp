@@ -43,6 +43,8 @@ struct RunState {
   /// True if all that acts on the body is what it will be at the end, walls that are still on their way and multipliers
   /// of contact included.
   bool loads_settled() const;
+  /// True if loads, supports, rigid bodies and what a stage lets come on are what they will be at the end of the stage.
+  bool loads_stay() const;
   /// The question whether the run is to end, as a function; empty if the run heeds no such request.
   std::function<bool()> asks_to_end();
   /// The verdict that the run has failed now: "at t = 0.31 s, after 120 steps, in phase 3: " and what happened.
@@ -62,9 +64,9 @@ struct RunState {
   Measurements measured;
   std::optional<PhaseMotion> motion;  // through the present phase
 
-  double t, step = 0;   // [s]
-  bool is_cut = true;   // whether the last step is as short as it is to end at a time that was asked for
-  double progress = 0;  // of the phase towards its end, which comes at 1
+  double t, step = 0;               // [s]
+  bool is_cut = true;               // whether the last step is as short as it is to end at a time that was asked for
+  double progress = 0;              // of the phase towards its end, which comes at 1
   int phases = 1;
   long earlier_steps = 0, earlier_evaluations = 0, earlier_rejected = 0;  // in the phases before
   double stepping_s = 0, earlier_wall_s = 0;  // wall time of all steps, and of the runs that this one resumes [s]

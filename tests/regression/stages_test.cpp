@@ -174,6 +174,20 @@ TEST_CASE("a support that is released hands its load on, and one that begins to 
   }
 }
 
+TEST_CASE("springs hold on from stage to stage what they held, also a body of small strain, which stays in place") {
+  const auto top = [](const std::string& stages) {
+    const Summary s = run(scenes::load(
+        "ladder/lifts", {"body=[{name='ground', max=['h', '3*h'], material='fill', state='plane-strain'}]",
+                         "support=[{face='bottom', kind='roller', stiffness=1e6}, {face='left', kind='roller'}, "
+                         "{face='right', kind='roller'}]",
+                         "stage=[" + stages + "]", "probe=[{name='top', at=['h/2', '3*h'], fields=['u.y']}]"}));
+    return scenes::probe(s, "top", "u.y");
+  };
+  const double exact = -18e3 * 3 / 1e6 - 1.8e-3 * 9 / 2;
+  CHECK(top("") == Approx(exact).epsilon(1e-6));
+  CHECK(top("{at=1}, {at=2}") == Approx(exact).epsilon(1e-6));
+}
+
 TEST_CASE("ground that was drained carries what comes later by its water, once a stage makes it undrained") {
   const std::vector<std::string> soils = {"material.fill.law=mohr-coulomb",
                                           "material.fill.c=1e9",

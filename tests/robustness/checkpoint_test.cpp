@@ -117,6 +117,25 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
                   700);
 }
 
+TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one in stages with contact") {
+  for (const char* law : {"law=linear-elastic", "law=hencky", "law=drucker-prager"}) {
+    const std::vector<std::string> set = {
+        std::string("material.fill.") + law,
+        "solve.method=relaxation",
+        "damping.strategy=cundall",
+        "stop.time=1.2",
+        "output.every=0.05",
+        "body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', min=[0, '2*h'], "
+        "max=['h', '3*h'], material='fill'}, {name='c', min=[0, '3*h'], max=['h', '4*h'], material='fill'}]",
+        "rigid=[{name='plate', half_plane=[[0, '4*h'], [0, -1]], motion=['0.01*t', '-0.02*t'], friction=0.3}, "
+        "{name='footing', min=[0, '3*h'], max=['h', '5*h'], free=true, force=['0', '-2e4'], bodies=['b']}]",
+        "contact=[{bodies=['c', 'b'], friction=0.4}]",
+        "stage=[{at=0.2, add=['c', 'plate']}, {at=0.6, remove=['c', 'plate'], add=['footing']}]",
+        "probe=[{name='ground', at=['h/2', '2*h'], fields=['u.y', 'stress.yy']}]"};
+    for (const long steps : {60L, 150L, 250L}) check_same_bits({"ladder/lifts", set}, steps);
+  }
+}
+
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with rigid bodies that touch it") {
   check_same_bits({"ladder/incline", {"rigid[0].friction=0.28", "stop.steps=90", "output.every=0.05"}}, 70);
   check_same_bits({"ladder/pressed_plate", {"damping.strategy=viscous", "checkpoint.every_steps=5"}}, 72);

@@ -10,9 +10,10 @@ namespace stillpoint {
            &Scene::stages)
       .key("at", &StageSpec::at, "when it begins; later if the stage before waits for equilibrium",
            {.range = kNotNegative, .unit = "s", .required = true})
-      .key("add", &StageSpec::add, "names of bodies that are placed, free of stress; before, they are not there",
+      .key("add", &StageSpec::add,
+           "names of bodies that are placed, free of stress, and of rigid bodies; before, they are not there",
            {.list = true})
-      .key("remove", &StageSpec::remove, "names of bodies that are taken away", {.list = true})
+      .key("remove", &StageSpec::remove, "names of bodies and rigid bodies that are taken away", {.list = true})
       .key("hold", &StageSpec::hold, "names of supports that hold from now on; before, they do not", {.list = true})
       .key("release", &StageSpec::release, "names of supports that hold no longer", {.list = true})
       .key("change", &StageSpec::change, "names of bodies that get another material", {.list = true})

@@ -50,9 +50,9 @@ void check_company(SceneCheck& check) {
 }  // namespace
 
 void check_body_names(SceneCheck& check, const std::string& key, const std::vector<std::string>& bodies) {
-  std::vector<std::string> names;
+  std::vector<std::string> names = check.scene().named_bodies;  // of all stages
   for (const BodySpec& body : check.scene().bodies)
-    if (!body.name.empty()) names.push_back(body.name);
+    if (!body.name.empty() && !check.scene().phase.at_stages) names.push_back(body.name);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const std::string one = fmt::format("{}[{}]", key, k), &name = bodies[k];
     const auto here = bodies.begin() + static_cast<std::ptrdiff_t>(k);

@@ -108,6 +108,9 @@ void check_names(SceneCheck& check) {
       check.wrong_if(std::ranges::any_of(entries, is_same), key, "there is a {} {} already", what, in_quotes(name));
     };
     taken("support", scene.supports);
+    check.wrong_if(std::ranges::count(scene.named_supports, name) > 0 &&
+                       std::ranges::none_of(scene.supports, [&](const SupportSpec& one) { return one.name == name; }),
+                   key, "there is a support {} in another stage", in_quotes(name));
     taken("wall", scene.walls);
     taken("probe", scene.probes);
   }

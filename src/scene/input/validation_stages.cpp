@@ -24,7 +24,7 @@ std::vector<std::string> named(const std::vector<Part>& present, const std::vect
   return names;
 }
 
-/// The names of the bodies or supports that there are at a time, as one stage follows another.
+/// The names of the bodies, rigid bodies or supports that there are at a time, as one stage follows another.
 class Presence {
  public:
   template <class Part>
@@ -33,34 +33,34 @@ class Presence {
     for (const Part& part : present) now_.insert(part.name);
   }
 
-  void begin(const std::string& key, const std::vector<std::string>& names) {
-    check_each(key, names, "{} {} comes twice", [&](const std::string& name) {
+  /// Each of these looks at one name of a list.
+  void begin(const std::string& key, const std::vector<std::string>& names, std::size_t k) {
+    check_one(key, names, k, "{} {} comes twice", [&](const std::string& name) {
       const bool is_first = came_.insert(name).second;
       return now_.insert(name).second && is_first;
     });
   }
-  void end(const std::string& key, const std::vector<std::string>& names) {
-    check_each(key, names, not_there, [&](const std::string& name) { return now_.erase(name) > 0; });
+  void end(const std::string& key, const std::vector<std::string>& names, std::size_t k) {
+    check_one(key, names, k, not_there, [&](const std::string& name) { return now_.erase(name) > 0; });
   }
-  void expect(const std::string& key, const std::vector<std::string>& names) {
-    check_each(key, names, not_there, [&](const std::string& name) { return now_.contains(name); });
+  void expect(const std::string& key, const std::vector<std::string>& names, std::size_t k) {
+    check_one(key, names, k, not_there, [&](const std::string& name) { return now_.contains(name); });
   }
   bool none_is_left() const { return now_.empty(); }
+  bool knows(const std::string& name) const { return std::ranges::find(all_, name) != all_.end(); }
 
  private:
   static constexpr const char* not_there = "{} {} is not there then";
 
-  /// Reports names that nothing has, and with this message those that are not in order.
+  /// Reports a name that nothing has, and with this message one that is not in order.
   template <class IsInOrder>
-  void check_each(const std::string& key, const std::vector<std::string>& names, const char* message,
-                  const IsInOrder& is_in_order) {
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      const std::string one = fmt::format("{}[{}]", key, k);
-      if (std::ranges::find(all_, names[k]) == all_.end()) {
-        check_.add_unknown(one, what_, "[[" + what_ + "]] with a name", names[k], all_);
-      } else if (!is_in_order(names[k])) {
-        check_.add(one, fmt::format(fmt::runtime(message), what_, in_quotes(names[k])));
-      }
+  void check_one(const std::string& key, const std::vector<std::string>& names, std::size_t k, const char* message,
+                 const IsInOrder& is_in_order) {
+    const std::string one = fmt::format("{}[{}]", key, k);
+    if (!knows(names[k])) {
+      check_.add_unknown(one, what_, "[[" + what_ + "]] with a name", names[k], all_);
+    } else if (!is_in_order(names[k])) {
+      check_.add(one, fmt::format(fmt::runtime(message), what_, in_quotes(names[k])));
     }
   }
 
@@ -68,6 +68,45 @@ class Presence {
   std::string what_;
   std::vector<std::string> all_;
   std::set<std::string> now_, came_;
+};
+
+/// The bodies and the rigid bodies that there are, which come and go by the same keys.
+class BodyPresence {
+ public:
+  explicit BodyPresence(SceneCheck& check)
+      : check_(check),
+        bodies_(check, "body", check.scene().bodies, check.scene().later_bodies),
+        rigid_(check, "rigid body", check.scene().rigid, check.scene().later_rigid) {}
+
+  void end(const std::string& key, const std::vector<std::string>& names) {
+    check_one_by_one(key, names, &Presence::end);
+  }
+  void begin(const std::string& key, const std::vector<std::string>& names) {
+    check_one_by_one(key, names, &Presence::begin);
+  }
+  void expect(const std::string& key, const std::vector<std::string>& names) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const std::string one = fmt::format("{}[{}]", key, k);
+      if (!check_.wrong_if(rigid_.knows(names[k]), one, "{} is a rigid body, which has no material",
+                           in_quotes(names[k])))
+        bodies_.expect(key, names, k);
+    }
+  }
+  bool no_body_is_left() const { return bodies_.none_is_left(); }
+
+ private:
+  void check_one_by_one(const std::string& key, const std::vector<std::string>& names,
+                        void (Presence::*check)(const std::string&, const std::vector<std::string>&, std::size_t)) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const bool is_rigid = rigid_.knows(names[k]);
+      if (!check_.wrong_if(is_rigid && bodies_.knows(names[k]), fmt::format("{}[{}]", key, k),
+                           "a body and a rigid body have the name {}; give each one of its own", in_quotes(names[k])))
+        ((is_rigid ? rigid_ : bodies_).*check)(key, names, k);
+    }
+  }
+
+  SceneCheck& check_;
+  Presence bodies_, rigid_;
 };
 
 /// A law without history knows no stress but that of its deformation, which another material did not have.
@@ -117,9 +156,6 @@ void check_new_bodies(SceneCheck& check, const StageSpec& stage, const std::stri
 void check_company_of_stages(SceneCheck& check) {
   const Scene& scene = check.scene();
   const std::string first = scene.initial_from.empty() ? "stage[0]" : "initial.from";
-  check.wrong_if(scene.may_touch(), first,
-                 "stages and contact with rigid bodies or between bodies cannot be had together yet; take supports or "
-                 "walls");
   check.wrong_if(scene.load.has_value(), first,
                  "stages and loads that a displacement drives cannot be had together yet; give the loads as formulas "
                  "of t");
@@ -146,6 +182,9 @@ void check_other_run(SceneCheck& check) {
   const std::string from = "initial.from";
   check.refuse_if(scene.initial_from.empty(), "initial", {"displacements"}, "goes with from, another run");
   if (scene.initial_from.empty()) return;
+  check.wrong_if(scene.may_touch() || !scene.later_rigid.empty(), from,
+                 "the border of a body that another run has strained is not known, so that nothing can touch it; put "
+                 "both runs into one scene, of which the second is a [[stage]] that adds what touches");
   std::error_code none;
   check.wrong_if(!std::filesystem::is_regular_file(scene.initial_from, none), from, "there is no file {}",
                  scene.initial_from.string());
@@ -169,7 +208,7 @@ void check_stages(SceneCheck& check) {
   check_other_run(check);
   if (!scene.phase.at_stages) return;
   check_company_of_stages(check);
-  Presence bodies(check, "body", scene.bodies, scene.later_bodies);
+  BodyPresence bodies(check);
   Presence supports(check, "support", scene.supports, scene.later_supports);
   const std::size_t offset = scene.present_stage ? 1 : 0;
   double before = 0;
@@ -194,11 +233,11 @@ void check_stages(SceneCheck& check) {
     check_wait(stage, key);
     bodies.end(key + ".remove", stage.remove);
     bodies.begin(key + ".add", stage.add);
-    if (check.wrong_if(bodies.none_is_left(), key + ".remove", "no body is left then")) return;
+    if (check.wrong_if(bodies.no_body_is_left(), key + ".remove", "no body is left then")) return;
     bodies.expect(key + ".change", stage.change);
     check_changed_once(check, stage, key);
-    supports.end(key + ".release", stage.release);
-    supports.begin(key + ".hold", stage.hold);
+    for (std::size_t one = 0; one < stage.release.size(); ++one) supports.end(key + ".release", stage.release, one);
+    for (std::size_t one = 0; one < stage.hold.size(); ++one) supports.begin(key + ".hold", stage.hold, one);
     check_new_materials(check, stage, key);
     check_new_bodies(check, stage, key);
     const bool is_last = k + 1 == scene.stages.size();

@@ -32,7 +32,7 @@ class Multipliers : public Watcher {
 
   void observe(RunState& run) override {
     if (!touches_) return;
-    const bool loads_stay = run.schedule.settled(run.t);
+    const bool loads_stay = run.loads_stay();
     if (!is_due(run, loads_stay)) return;
     const LagrangianPhase& phase = *run.model.phase;
     const ContactState state = phase.supports().contact_state(run.t, run.motion->u());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,9 +15,10 @@
 namespace stillpoint {
 namespace {
 
+/// body: which may be none of the present ones.
 std::vector<char> only(const Problem& problem, std::size_t body) {
   std::vector<char> touched(problem.bodies.size(), 0);
-  touched[body] = 1;
+  if (body < touched.size()) touched[body] = 1;
   return touched;
 }
 
@@ -32,8 +34,9 @@ std::vector<typename CarriedPoint<dimensions(K)>::Entry> weights_at(const Opposi
     if (foot.freeze_in_single_phase(phase)) return foot.at.entries;
   }
   auto entries = piece.at.entries;
+  const auto x = piece.place();
   for (auto& entry : entries)
-    for (std::size_t d = 0; d < facet.foot.size(); ++d) entry.w += (facet.foot[d] - piece.at.x[d]) * entry.dN[d];
+    for (std::size_t d = 0; d < facet.foot.size(); ++d) entry.w += (facet.foot[d] - x[d]) * entry.dN[d];
   return entries;
 }
 
@@ -49,21 +52,26 @@ BodyContact<K>::Pair::Pair(const Problem& problem, std::size_t k, const Grid<dim
 
 template <Kinematics K>
 BodyContact<K>::BodyContact(const Problem& problem, const Grid<dim>& grid) : problem_(problem) {
-  for (std::size_t k = 0; k < problem.contacts.size(); ++k) pairs_.push_back(std::make_unique<Pair>(problem, k, grid));
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    pairs_.push_back(std::make_unique<Pair>(problem, k, grid));
+    if (are_there(problem, problem.contacts[k])) whole_.push_back(pairs_.back().get());
+  }
 }
 
 template <Kinematics K>
 void BodyContact<K>::begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound) {
   if (pairs_.empty()) return;
   std::vector<double> bounds = has_begun_ ? std::vector<double>() : stiffness_bound();
-  for (const auto& pair : pairs_) {
+  for (const auto& pair : pairs_)
     for (ContactSurface<K>* const surface : {&pair->first, &pair->second})
       surface->begin_phase(phase, [&] { return bounds; });
-    if (!has_begun_) pair->first.put_in_series(pair->second.mean_stiffness());
+  for (Pair* const pair : whole_) {
+    const bool is_first = !has_begun_ && !pair->was_whole;
+    if (is_first) pair->first.put_in_series(pair->second.mean_stiffness());
     oppose(*pair, phase);
     pair->first.take_growth(phase);
     pair->force.anchor_at_start(0, pair->slip);
-    if (!has_begun_) refuse_overlap(*pair);
+    if (is_first) refuse_overlap(*pair);
   }
   has_begun_ = true;
 }
@@ -92,48 +100,88 @@ void BodyContact<K>::refuse_overlap(const Pair& pair) const {
       if (!pair.force.finder().is_there(s)) continue;
       const double cells = -pair.force.finder().gap_at_start(s) / patch.cell;
       if (!(cells > most)) continue;
-      throw_scene_error(
-          fmt::format("contact[{}].bodies", pair.number),
-          fmt::format("{} and {} overlap by {:.3g} cells at ({:.6g}) when the run begins; expected at most half a cell",
-                      in_quotes(pair.spec.bodies[0]), in_quotes(pair.spec.bodies[1]), cells,
-                      fmt::join(pair.first.start(s), ", ")));
+      throw_scene_error(fmt::format("contact[{}].bodies", pair.number),
+                        fmt::format("{} and {} overlap by {:.3g} cells at ({:.6g}) when the second of them appears; "
+                                    "expected at most half a cell",
+                                    in_quotes(pair.spec.bodies[0]), in_quotes(pair.spec.bodies[1]), cells,
+                                    fmt::join(pair.first.start(s), ", ")));
     }
   }
 }
 
 template <Kinematics K>
-void BodyContact<K>::end_phase(const double* u) {
+void BodyContact<K>::end_phase(const double* u, bool in_place) {
+  for (Pair* const pair : whole_) pair->slip = pair->force.slips(0, u);
   for (const auto& pair : pairs_) {
-    pair->slip = pair->force.slips(0, u);
-    const std::vector<Position> ways = pair->force.ways_to_mean_gap(0, u);
-    pair->first.end_phase(u);
-    pair->first.move(ways);
-    const std::vector<PieceOrigin> origins = pair->first.cut_anew();
-    if (!origins.empty()) pair->force.follow(origins, pair->slip);
-    pair->second.end_phase(u);
-    pair->second.cut_anew();
+    if (in_place) {
+      pair->first.end_phase(u, in_place);
+      pair->second.end_phase(u, in_place);
+    } else {
+      end_phase_of(*pair, u);
+    }
   }
+}
+
+template <Kinematics K>
+void BodyContact<K>::end_phase_of(Pair& pair, const double* u) {
+  const bool is_whole = pair.force.finder().has_facets();
+  const std::vector<Position> ways = is_whole ? pair.force.ways_to_mean_gap(0, u) : std::vector<Position>();
+  pair.first.end_phase(u, /*in_place=*/false);
+  pair.first.move(ways);
+  const std::vector<PieceOrigin> origins = pair.first.cut_anew();
+  if (is_whole && !origins.empty()) pair.force.follow(origins, pair.slip);
+  pair.second.end_phase(u, /*in_place=*/false);
+  pair.second.cut_anew();
 }
 
 template <Kinematics K>
 void BodyContact<K>::archive(const StateArchive& state) {
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const StateArchive part = state.part(fmt::format("pair_{}", k));
-    Pair& pair = *pairs_[k];
-    pair.first.archive(part.part("first"));
-    pair.second.archive(part.part("second"));
-    pair.force.archive(part.part("force"));
+  for (const auto& pair : pairs_) {
+    pair->first.archive(state.part(name_of(*pair) + "/first"));
+    pair->second.archive(state.part(name_of(*pair) + "/second"));
+  }
+  for (Pair* const pair : whole_) {
+    pair->force.archive(state.part(name_of(*pair) + "/force"));
+    archive_slip(state.part(name_of(*pair)), *pair);
   }
 }
 
 template <Kinematics K>
+void BodyContact<K>::take_over(const StateArchive& state) {
+  for (const auto& pair : pairs_) {
+    pair->first.take_over(state.part(name_of(*pair) + "/first"));
+    pair->second.take_over(state.part(name_of(*pair) + "/second"));
+  }
+  for (Pair* const pair : whole_) {
+    pair->was_whole = state.has_part(name_of(*pair) + "/force");
+    if (!pair->was_whole) continue;
+    pair->force.take_over(state.part(name_of(*pair) + "/force"));
+    archive_slip(state.part(name_of(*pair)), *pair);
+  }
+}
+
+template <Kinematics K>
+std::string BodyContact<K>::name_of(const Pair& pair) {
+  return fmt::format("pair_{}", pair.number);
+}
+
+template <Kinematics K>
+void BodyContact<K>::archive_slip(const StateArchive& state, Pair& pair) {
+  std::vector<double> slip;
+  for (const Position& of_piece : pair.slip) slip.insert(slip.end(), of_piece.begin(), of_piece.end());
+  state.none_or(N * pair.first.size(), "slip", slip);
+  pair.slip.assign(slip.size() / N, Position::Zero());
+  for (std::size_t k = 0; k < slip.size(); ++k) pair.slip[k / N][static_cast<Eigen::Index>(k % N)] = slip[k];
+}
+
+template <Kinematics K>
 void BodyContact<K>::add_force(const double* u, Vec R, Vec at_supports) const {
-  for (const auto& pair : pairs_) pair->force.add_force(0, u, R, at_supports, {});
+  for (const Pair* const pair : whole_) pair->force.add_force(0, u, R, at_supports, {});
 }
 
 template <Kinematics K>
 void BodyContact<K>::add_product(Tangent kind, const double* u, const double* du, Vec dR) const {
-  for (const auto& pair : pairs_) {
+  for (const Pair* const pair : whole_) {
     if (kind == Tangent::stiffest) {
       pair->first.add_product_held(du, dR);
     } else {
@@ -144,7 +192,7 @@ void BodyContact<K>::add_product(Tangent kind, const double* u, const double* du
 
 template <Kinematics K>
 void BodyContact<K>::add_entries(Tangent kind, const double* u, MatrixEntries& entries) const {
-  for (const auto& pair : pairs_) {
+  for (const Pair* const pair : whole_) {
     if (kind == Tangent::stiffest) {
       pair->first.add_entries_held(entries);
     } else {
@@ -156,32 +204,36 @@ void BodyContact<K>::add_entries(Tangent kind, const double* u, MatrixEntries& e
 template <Kinematics K>
 double BodyContact<K>::growth() const {
   double most = 1;
-  for (const auto& pair : pairs_) most = std::max(most, pair->first.growth());
+  for (const Pair* const pair : whole_) most = std::max(most, pair->first.growth());
   return most;
 }
 
 template <Kinematics K>
 void BodyContact<K>::commit(const double* u) {
-  for (const auto& pair : pairs_) pair->force.commit(0, u);
+  for (Pair* const pair : whole_) pair->force.commit(0, u);
 }
 
 template <Kinematics K>
 void BodyContact<K>::update_multipliers(const double* u) {
-  for (const auto& pair : pairs_) pair->force.update_multipliers(0, u);
+  for (Pair* const pair : whole_) pair->force.update_multipliers(0, u);
 }
 
 template <Kinematics K>
 void BodyContact<K>::add_fit(const double* u, ContactFit& fit) const {
-  for (const auto& pair : pairs_) pair->force.add_fit(0, u, fit);
+  for (const Pair* const pair : whole_) pair->force.add_fit(0, u, fit);
 }
 
 template <Kinematics K>
 void BodyContact<K>::add_reports(const double* u, std::vector<ContactReport>& to) const {
   for (const auto& pair : pairs_) {
-    to.push_back(pair->force.report(0, u));
-    to.back().slid = pair->force.slid(u);
-    to.back().turned = pair->force.turned(u);
-    to.back().name = pair->spec.name();
+    ContactReport report;  // of nothing
+    if (are_there(problem_, pair->spec)) {
+      report = pair->force.report(0, u);
+      report.slid = pair->force.slid(u);
+      report.turned = pair->force.turned(u);
+    }
+    report.name = pair->spec.name();
+    to.push_back(std::move(report));
   }
 }
 

@@ -6,9 +6,12 @@
 // bears the other exerts: no force is lost, and of a moment no more than by the way along each other within a phase.
 //
 // The stiffness of a patch is that of the two bodies in series, 1/κ = 1/κ_1 + 1/κ_2, with the mean κ_2 of the second.
+//
+// While a stage of the run has only one of the two bodies, its border is followed all the same: the other may come.
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "space/boundary/contact_force.hpp"
@@ -27,10 +30,13 @@ class BodyContact {
   /// The problem must outlive this object; grid: that of the first phase.
   BodyContact(const Problem& problem, const Grid<dim>& grid);
 
-  /// Throws SceneError if the bodies of a contact overlap by more than half a cell when the run begins.
+  /// Throws SceneError if the bodies of a contact overlap by more than half a cell when the second of them appears.
   void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound);
-  void end_phase(const double* u);
+  /// in_place: see ContactSurface.
+  void end_phase(const double* u, bool in_place);
   void archive(const StateArchive& state);
+  /// Before the first phase of a stage: takes over what the stage before remembers, as archive() saved it.
+  void take_over(const StateArchive& state);
 
   /// R −= the forces at u, (n); at_supports: the same at prescribed unknowns.
   void add_force(const double* u, Vec R, Vec at_supports) const;
@@ -54,14 +60,19 @@ class BodyContact {
     std::size_t number;
     ContactSurface<K> first, second;
     ContactForce<K, FacetFinder<K>> force;
+    bool was_whole = false;      // whether both bodies were there in the stage before
     std::vector<Position> slip;  // the elastic slip of each piece when the last phase ended, with friction [m]
   };
 
   void oppose(Pair& pair, const Parts& phase) const;
   void refuse_overlap(const Pair& pair) const;
+  static void end_phase_of(Pair& pair, const double* u);
+  static std::string name_of(const Pair& pair);
+  static void archive_slip(const StateArchive& state, Pair& pair);
 
   const Problem& problem_;
   std::vector<std::unique_ptr<Pair>> pairs_;
+  std::vector<Pair*> whole_;  // those of which both bodies are there
   bool has_begun_ = false;
 };
 

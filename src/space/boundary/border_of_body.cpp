@@ -35,6 +35,8 @@ void BorderOfBody<K>::archive(const StateArchive& state) {
   state.each(
       "positions", pieces, [](BorderPiece<K> & piece) -> auto& { return piece.at.x; });
   state.each(
+      "gone", pieces, [](BorderPiece<K> & piece) -> auto& { return piece.gone; });
+  state.each(
       "areas", pieces, [](BorderPiece<K> & piece) -> auto& { return piece.vector; });
   std::vector<double> stiffness;
   for (const SurfacePatch& patch : patches) stiffness.push_back(patch.stiffness);

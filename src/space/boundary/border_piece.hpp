@@ -18,6 +18,8 @@ struct BorderPiece {
   CarriedPoint<dim> at;
   double area;                     // undeformed area [m²]
   std::array<double, dim> vector;  // n da when the phase begins [m²]
+  Point<dim>
+      gone{};  // the way from at.x to where it is: stages of small strain leave points, and weights, in place [m]
 
   /// x: undeformed position; normal: outwards.
   static BorderPiece make(const Point<dim>& x, double area, const Point<dim>& normal) {
@@ -60,6 +62,20 @@ struct BorderPiece {
   void move(const double* u) {
     vector = deformed_area(u);
     at.move(u);
+  }
+
+  /// Moves it at the end of a stage of small strain.
+  void move_in_place(const double* u) {
+    for (const Entry& a : at.entries) {
+      for (std::size_t i = 0; i < dim && a.function >= 0; ++i)
+        gone[i] += a.w * u[dim * a.function + static_cast<int>(i)];
+    }
+  }
+  /// Where it is when the phase begins [m].
+  Point<dim> place() const {
+    Point<dim> x = at.x;
+    for (std::size_t i = 0; i < dim; ++i) x[i] += gone[i];
+    return x;
   }
 
   /// The deformed area vector cof(f) n da; cof(f) = [f_yy, −f_yx; −f_xy, f_xx] in the plane, times f_θθ if

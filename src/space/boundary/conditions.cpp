@@ -200,11 +200,19 @@ bool Conditions<K>::ask_for_next_phase(ConstVec u) const {
 template <Kinematics K>
 void Conditions<K>::end_phase(double t, const double* u) {
   for (const auto& condition : all_) condition->end_phase(u);
-  weak_supports_.end_phase(u);
-  load_control_.end_phase(u);
-  rigid_contact_->end_phase(t, u);
-  body_contact_->end_phase(u);
+  weak_supports_.end_phase(u, /*in_place=*/false);
+  load_control_.end_phase(u, /*in_place=*/false);
+  rigid_contact_->end_phase(t, u, /*in_place=*/false);
+  body_contact_->end_phase(u, /*in_place=*/false);
   fading_.end_phase(u);
+}
+
+template <Kinematics K>
+void Conditions<K>::end_phase_in_place(double t, const double* u) {
+  weak_supports_.end_phase(u, /*in_place=*/true);
+  load_control_.end_phase(u, /*in_place=*/true);
+  rigid_contact_->end_phase(t, u, /*in_place=*/true);
+  body_contact_->end_phase(u, /*in_place=*/true);
 }
 
 template <Kinematics K>
@@ -223,6 +231,9 @@ void Conditions<K>::take_over(const SavedState& from_stage) {
   for (const auto& condition : all_)
     if (state.has_part(condition->kind())) condition->archive(state.part(condition->kind()));
   weak_supports_.archive(state.part("weak_supports"));
+  if (state.has_part("load")) load_control_.archive(state.part("load"));
+  rigid_contact_->take_over(state.part("rigid"));
+  body_contact_->take_over(state.part("bodies"));
 }
 
 template <Kinematics K>

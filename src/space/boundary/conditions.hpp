@@ -89,6 +89,8 @@ class Conditions {
   void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(double t, const double* u);
+  /// The same at the end of a stage of small strain, whose points stay where they are.
+  void end_phase_in_place(double t, const double* u);
   void archive(const StateArchive& state);
 
   // --- from stage to stage --------------------------------------------------------------------------

@@ -22,6 +22,16 @@ void ContactForce<K, Finder>::anchor_at_start(double t, const std::vector<Positi
 }
 
 template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::anchor_new_at_start(double t) {
+  const std::vector<Position> before = anchor_;
+  anchor_at_start(t, {});
+  for (const auto& part : surface_.parts()) {
+    for (std::size_t s = part.first_piece; s < part.end_piece && was_there(part.body) && remembers(); ++s)
+      anchor_[s] = before[s];
+  }
+}
+
+template <Kinematics K, class Finder>
 auto ContactForce<K, Finder>::slips(double t, const double* u) const -> std::vector<Position> {
   const RigidPlacement<N> placement = this->placement(t, u);
   std::vector<Position> slips(anchor_.size());
@@ -35,6 +45,18 @@ void ContactForce<K, Finder>::archive(const StateArchive& state) {
   resize();
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
   for (const auto& part : surface_.parts()) archive_part(state.part(surface_.name_of(part)), part);
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::take_over(const StateArchive& state) {
+  resize();
+  for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
+  for (const auto& part : surface_.parts()) {
+    if (!state.has_part(surface_.name_of(part))) continue;
+    archive_part(state.part(surface_.name_of(part)), part);
+    was_there_.resize(part.body + 1);
+    was_there_[part.body] = 1;
+  }
 }
 
 template <Kinematics K, class Finder>
@@ -82,6 +104,7 @@ RigidPlacement<ContactForce<K, Finder>::N> ContactForce<K, Finder>::placement(do
   RigidPlacement<N> placement = finder_.placement(t);
   if (!finder_.is_free()) return placement;
   placement.u += settled_;
+  if (surface_.empty()) return placement;
   const double cell = surface_.patches().front().cell;
   const double rounding = rounding_of(TouchFinder<K>::position_of(surface_.start(0)).norm());
   settle<N>(

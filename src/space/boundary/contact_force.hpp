@@ -83,9 +83,15 @@ class ContactForce {
   bool remembers() const { return friction_ > 0; }
   /// Sets the anchors where the pieces are when a phase begins, less the slip that each has had.
   void anchor_at_start(double t, const std::vector<Position>& slip);
+  /// The same in the first phase of a stage, of the pieces that the stage before did not have.
+  void anchor_new_at_start(double t);
   /// The elastic slip of each piece, T⁻¹ x − a, (pieces); empty without friction.
   std::vector<Position> slips(double t, const double* u) const;
   void archive(const StateArchive& state);
+  /// Before the first phase of a stage, once the surface has done so: takes over what the stage before remembers.
+  void take_over(const StateArchive& state);
+  /// Whether it acted on a body in the stage before.
+  bool was_there(std::size_t body) const { return body < was_there_.size() && was_there_[body]; }
 
   /// R −= the forces on the border at (t, u), (n); at_supports: the same at prescribed unknowns. of_patches += those on
   /// each patch, component by component, (dim × patches); may be empty.
@@ -158,6 +164,7 @@ class ContactForce {
   // Of the pieces, with friction:
   std::vector<Position> anchor_;  // a, in the same axes [m]
   std::vector<char> closed_;      // of commit()
+  std::vector<char> was_there_;   // (bodies up to the last that was); empty in the first stage
 };
 
 template <Kinematics K, class Finder>

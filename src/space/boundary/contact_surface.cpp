@@ -15,6 +15,7 @@ ContactSurface<K>::ContactSurface(const Problem& problem, const std::vector<char
                          problem.phase.quadrature != Quadrature::domains;  // as pieces that are carried
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
     number_of_body_.push_back(problem.bodies[k].number);
+    has_stiffness_.push_back(0);
     if (!touched[k]) continue;
     const std::vector<BorderPatch<K>> patches = border_patches<K>(problem, k, grid);
     if (stretches) chains_.add(problem.bodies[k], patches, patches_.size());
@@ -108,6 +109,7 @@ template <Kinematics K>
 void ContactSurface<K>::choose_stiffness(const std::vector<double>& G) {
   constexpr double beta = 1;
   for (Patch& patch : patches_) {
+    if (has_stiffness_[patch.body]) continue;
     double sum = 0, area = 0;
     for (std::size_t s = patch.begin; s < patch.end; ++s) {
       StiffnessAt at;
@@ -167,8 +169,14 @@ void ContactSurface<K>::take_growth(const Parts& phase) {
 }
 
 template <Kinematics K>
-void ContactSurface<K>::end_phase(const double* u) {
-  for (BorderPiece<K>& piece : pieces_) piece.move(u);
+void ContactSurface<K>::end_phase(const double* u, bool in_place) {
+  for (BorderPiece<K>& piece : pieces_) {
+    if (in_place) {
+      piece.move_in_place(u);
+    } else {
+      piece.move(u);
+    }
+  }
 }
 
 template <Kinematics K>
@@ -187,6 +195,12 @@ auto ContactSurface<K>::parts() const -> std::vector<Part> {
 template <Kinematics K>
 std::string ContactSurface<K>::name_of(const Part& part) {
   return fmt::format("body_{}", part.number);
+}
+
+template <Kinematics K>
+void ContactSurface<K>::take_over(const StateArchive& state) {
+  for (const Part& part : parts()) has_stiffness_[part.body] = static_cast<char>(state.has_part(name_of(part)));
+  archive_parts(state, /*some_are_new=*/true);
 }
 
 template <Kinematics K>

@@ -53,10 +53,10 @@ class ContactSurface {
     return n;
   }
   /// The position of piece s when the phase began [m].
-  const Point<dim>& start(std::size_t s) const { return pieces_[s].at.x; }
+  Point<dim> start(std::size_t s) const { return pieces_[s].place(); }
   /// The position of piece s at u, over the grid's functions [m].
   Point<dim> position(std::size_t s, const double* u) const {
-    Point<dim> x = pieces_[s].at.x;
+    Point<dim> x = start(s);
     for (std::size_t e = begin_[s]; e < begin_[s + 1]; ++e) {
       const double* const of_function = u + weights_[e].first_unknown;
       for (int i = 0; i < dim; ++i) x[i] += weights_[e].w * of_function[i];
@@ -119,8 +119,9 @@ class ContactSurface {
   void take_growth(const Parts& phase);
   /// The factor by which ω_max² may have grown through the springs of all pieces since the first phase.
   double growth() const { return growth_; }
-  /// Moves the pieces at the end of a phase; u: over the grid's functions.
-  void end_phase(const double* u);
+  /// Moves the pieces at the end of a phase; in_place: of a stage of small strain, whose points stay where they are. u:
+  /// over the grid's functions.
+  void end_phase(const double* u, bool in_place);
   /// Moves them by ways of their own besides, (pieces) or empty [m].
   template <class Position>
   void move(const std::vector<Position>& ways) {
@@ -144,6 +145,8 @@ class ContactSurface {
   std::vector<Part> parts() const;
   static std::string name_of(const Part& part);
   void archive(const StateArchive& state) { archive_parts(state, /*some_are_new=*/false); }
+  /// Before the first phase of a stage: takes over the borders that the stage before had, as archive() saved them.
+  void take_over(const StateArchive& state);
 
  private:
   using Partners = std::vector<std::vector<Entry>>;
@@ -165,6 +168,7 @@ class ContactSurface {
 
   bool phases_end_, has_begun_ = false;
   std::vector<std::size_t> number_of_body_;  // (bodies)
+  std::vector<char> has_stiffness_;          // likewise; from the stage before
   int free_ = 0;                             // n
   std::vector<BorderPiece<K>> pieces_;
   std::vector<Patch> patches_;

@@ -34,6 +34,7 @@ class FacetFinder {
 
   /// The facets of the phase, (pieces).
   void oppose(std::vector<Facet> facets) { facets_ = std::move(facets); }
+  bool has_facets() const { return !facets_.empty(); }
   bool is_there(std::size_t piece) const { return facets_[piece].is_there; }
   RigidPlacement<N> placement(double /*t*/) const { return {}; }
   bool is_free() const { return false; }

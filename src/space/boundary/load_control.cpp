@@ -59,10 +59,10 @@ void LoadControl<K>::begin_phase(const Parts& phase, const StiffnessBound& stiff
 }
 
 template <Kinematics K>
-void LoadControl<K>::end_phase(const double* u) {
+void LoadControl<K>::end_phase(const double* u, bool in_place) {
   if (!acts()) return;
   moved_ += springs_.displacement(0, u);
-  for (const auto& load : loads_) load->end_phase(u);
+  for (std::size_t k = 0; k < loads_.size() && !in_place; ++k) loads_[k]->end_phase(u);
 }
 
 template <Kinematics K>

@@ -40,8 +40,9 @@ class LoadControl {
 
   /// Sets the spring of the phase. Throws SceneError if the loads act on no free degree of freedom.
   void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound);
-  /// Moves the loads at the end of a phase; u: over the grid's functions.
-  void end_phase(const double* u);
+  /// Moves the loads at the end of a phase; in_place: of a stage of small strain, whose points stay where they are. u:
+  /// over the grid's functions.
+  void end_phase(const double* u, bool in_place);
   void archive(const StateArchive& state);
   /// F_s += λ F at the prescribed degrees of freedom, at (t, u).
   void add_load_on_supports(const Parts& phase, double t, const double* u, Vec F_s) const;

@@ -14,9 +14,11 @@ namespace {
 
 std::vector<char> bodies_touched(const Problem& problem) {
   std::vector<char> touched(problem.bodies.size(), 0);
-  for (const RigidSpec& rigid : problem.rigid) {
-    const std::vector<char> by_this = bodies_touched_by(problem, rigid);
-    for (std::size_t k = 0; k < touched.size(); ++k) touched[k] = touched[k] || by_this[k];
+  for (const auto* all : {&problem.rigid, &problem.later_rigid}) {
+    for (const RigidSpec& rigid : *all) {
+      const std::vector<char> by_this = bodies_touched_by(problem, rigid);
+      for (std::size_t k = 0; k < touched.size(); ++k) touched[k] = touched[k] || by_this[k];
+    }
   }
   return touched;
 }
@@ -33,15 +35,15 @@ RigidContact<K>::RigidContact(const Problem& problem, const Grid<dim>& grid, con
 
 template <Kinematics K>
 void RigidContact<K>::begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound) {
-  if (empty()) return;
   surface_.begin_phase(phase, stiffness_bound);
+  if (empty()) return;
   surface_.take_growth(phase);
   start_ = t;
   for (RigidBody& rigid : bodies_) rigid.finder().begin_phase();
   if (std::exchange(has_begun_, true)) return;
   refuse_overlaps(t);
   refuse_points_inside(phase, t);
-  for (RigidBody& rigid : bodies_) rigid.anchor_at_start(t, {});
+  for (RigidBody& rigid : bodies_) rigid.anchor_new_at_start(t);
 }
 
 template <Kinematics K>
@@ -51,15 +53,14 @@ void RigidContact<K>::refuse_overlaps(double t) const {
     const TouchFinder<K>& finder = bodies_[r].finder();
     const RigidPlacement<N> placement = finder.placement(t);
     for (const auto& patch : surface_.patches()) {
-      if (!finder.touches(patch.body)) continue;
+      if (!finder.touches(patch.body) || bodies_[r].was_there(patch.body)) continue;
       for (std::size_t s = patch.begin; s < patch.end; ++s) {
         const double cells = -finder.distance(surface_.start(s), placement) / patch.cell;
         if (!(cells > most)) continue;
         throw_scene_error(
             fmt::format("rigid[{}]", r),
-            fmt::format("{} overlaps body[{}] by {:.3g} cells at ({:.6g}) when the run begins; expected at most half "
-                        "a cell",
-                        in_quotes(finder.spec().name), patch.body, cells, fmt::join(surface_.start(s), ", ")));
+            fmt::format("{} overlaps body[{}] by {:.3g} cells at ({:.6g}) when {}; expected at most half a cell",
+                        in_quotes(finder.spec().name), patch.body, cells, fmt::join(surface_.start(s), ", "), begin()));
       }
     }
   }
@@ -76,8 +77,8 @@ void RigidContact<K>::refuse_points_inside(const Parts& phase, double t) const {
     throw_scene_error(
         fmt::format("rigid[{}]", r),
         fmt::format("{} is inside body[{}]: a material point at ({:.6g}) is {:.3g} cells inside it when "
-                    "the run begins; expected at most half a cell, or a hole in the body",
-                    in_quotes(finder.spec().name), deepest.other, fmt::join(deepest.at, ", "), deepest.cells));
+                    "{}; expected at most half a cell, or a hole in the body",
+                    in_quotes(finder.spec().name), deepest.other, fmt::join(deepest.at, ", "), deepest.cells, begin()));
   }
 }
 
@@ -89,13 +90,14 @@ bool RigidContact<K>::move_on(double share) {
 }
 
 template <Kinematics K>
-void RigidContact<K>::end_phase(double t, const double* u) {
+void RigidContact<K>::end_phase(double t, const double* u, bool in_place) {
+  if (in_place) return surface_.end_phase(u, in_place);
   std::vector<std::vector<Position>> ways, slips;
   for (const RigidBody& rigid : bodies_) {
     ways.push_back(rigid.ways_to_mean_gap(t, u));
     slips.push_back(rigid.slips(t, u));
   }
-  surface_.end_phase(u);
+  surface_.end_phase(u, in_place);
   for (const std::vector<Position>& of_body : ways) surface_.move(of_body);
   const std::vector<PieceOrigin> origins = surface_.cut_anew();
   for (std::size_t r = 0; r < bodies_.size() && !origins.empty(); ++r) {
@@ -106,9 +108,21 @@ void RigidContact<K>::end_phase(double t, const double* u) {
 
 template <Kinematics K>
 void RigidContact<K>::archive(const StateArchive& state) {
-  if (empty()) return;
   surface_.archive(state.part("surface"));
-  for (std::size_t r = 0; r < bodies_.size(); ++r) bodies_[r].archive(state.part(fmt::format("rigid_{}", r)));
+  for (RigidBody& rigid : bodies_) rigid.archive(state.part(name_of(rigid)));
+}
+
+template <Kinematics K>
+void RigidContact<K>::take_over(const StateArchive& state) {
+  is_later_stage_ = true;
+  surface_.take_over(state.part("surface"));
+  for (RigidBody& rigid : bodies_)
+    if (state.has_part(name_of(rigid))) rigid.take_over(state.part(name_of(rigid)));
+}
+
+template <Kinematics K>
+std::string RigidContact<K>::name_of(const RigidBody& rigid) {
+  return fmt::format("rigid_{}", rigid.finder().spec().number);
 }
 
 template <Kinematics K>

@@ -1,6 +1,10 @@
 // Contact of bodies with rigid bodies, each of which may touch all pieces of one surface.
+//
+// The surface has the borders of all bodies that a rigid body of this stage or of a later one may touch, so that it is
+// known by then where they are.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "space/boundary/contact_force.hpp"
@@ -23,12 +27,15 @@ class RigidContact {
 
   bool empty() const { return bodies_.empty(); }
 
-  /// Throws SceneError if a rigid body overlaps a body, or is inside it, when the run begins.
+  /// Throws SceneError if a rigid body overlaps a body, or is inside it, when the first of them appears.
   void begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound);
-  void end_phase(double t, const double* u);
+  /// in_place: see ContactSurface.
+  void end_phase(double t, const double* u, bool in_place);
   /// Lets the rigid bodies go a share of their way since the phase began, from then on. True if some have one.
   bool move_on(double share);
   void archive(const StateArchive& state);
+  /// Before the first phase of a stage: takes over what the stage before remembers, as archive() saved it.
+  void take_over(const StateArchive& state);
 
   /// The number of forces that add_force() writes: those of each rigid body on each patch, component by component.
   std::size_t forces() const { return of_each() * bodies_.size(); }
@@ -56,9 +63,12 @@ class RigidContact {
   using RigidBody = ContactForce<K, TouchFinder<K>>;
 
   std::size_t of_each() const { return dim * surface_.patches().size(); }
+  static std::string name_of(const RigidBody& rigid);
+  const char* begin() const { return is_later_stage_ ? "the stage begins" : "the run begins"; }
   void refuse_overlaps(double t) const;
   void refuse_points_inside(const Parts& phase, double t) const;
-  /// The material point of a body that it touches which lies deepest in rigid body r; u: null for the start of a phase.
+  /// The material point of a body that it touches which lies deepest in rigid body r; u: null for the start of
+  /// the first phase, in which bodies are not looked at that it touched before.
   Intrusion deepest_point(std::size_t r, const RigidPlacement<N>& placement, const Parts& phase, const double* u) const;
   /// The same of the border in patches that bear nothing; bearing: whether they do, (patches).
   Intrusion deepest_border(std::size_t r, const RigidPlacement<N>& placement, const std::vector<char>& bearing,
@@ -69,7 +79,7 @@ class RigidContact {
   const std::vector<int>& first_number_;
   ContactSurface<K> surface_;
   std::vector<RigidBody> bodies_;
-  bool has_begun_ = false;
+  bool has_begun_ = false, is_later_stage_ = false;
   double start_ = 0;  // when the phase began [s]
 };
 

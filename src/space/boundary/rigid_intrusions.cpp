@@ -60,7 +60,8 @@ Intrusion RigidContact<K>::deepest_point(std::size_t r, const RigidPlacement<N>&
       const double cells = -finder.distance(x, placement) / side;
       if (!(cells > deepest.cells)) continue;
       const auto body = std::ranges::upper_bound(first_number_, phase.points.number[p]) - first_number_.begin() - 1;
-      if (finder.touches(static_cast<std::size_t>(body)))
+      const bool is_looked_at = u || !bodies_[r].was_there(static_cast<std::size_t>(body));
+      if (is_looked_at && finder.touches(static_cast<std::size_t>(body)))
         take_if_deeper(cells, static_cast<std::size_t>(body), x, deepest);
     }
   }

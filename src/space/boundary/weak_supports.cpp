@@ -59,10 +59,10 @@ void WeakSupports<K>::begin_phase(const Parts& phase, const StiffnessBound& stif
 }
 
 template <Kinematics K>
-void WeakSupports<K>::end_phase(const double* u) {
+void WeakSupports<K>::end_phase(const double* u, bool in_place) {
   for (std::size_t s = 0; s < held_.size(); ++s) {
     held_[s].moved += springs_.displacement(s, u);
-    held_[s].at.move(u);
+    if (!in_place) held_[s].at.move(u);
   }
 }
 

@@ -58,7 +58,8 @@ class WeakSupports {
   /// Sets the springs of the phase. Throws SceneError if a support has nothing to hold.
   void begin_phase(const Parts& phase, const StiffnessBound& stiffness_bound);
   /// Moves the positions at the end of a phase; u: over the grid's functions.
-  void end_phase(const double* u);
+  /// in_place: of a stage of small strain, whose points stay where they are.
+  void end_phase(const double* u, bool in_place);
   void archive(const StateArchive& state);
 
   /// The report of each of these supports at (t, u), u over the grid's functions.

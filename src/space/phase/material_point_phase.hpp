@@ -1,6 +1,7 @@
 // Lagrangian phases for one basis and one kinematics: the semi-discrete system that the parts of a phase come to.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -108,6 +109,9 @@ class MaterialPointPhase final : public LagrangianPhase {
       H = end.leave_single_phase(t, u);
     } else if (frame.is_of_small_strain()) {
       end.take_strains_in_place(t, u);
+      const auto work = all_.force.borrow();
+      frame.unknowns.spread(t, u, work->u);
+      all_.conditions.end_phase_in_place(t, work->u.data());
     } else {
       all_.remap.end_phase(t, u, v, all_.limit.largest_motion(u));
     }
@@ -154,9 +158,15 @@ class MaterialPointPhase final : public LagrangianPhase {
     std::vector<double> Q = out_of_balance(t);
     if (Q.empty()) return;
     const std::vector<double>& before = carried.out_of_balance;
-    const bool same_functions = before.size() == static_cast<std::size_t>(dim) * all_.frame.functions_of_grid();
-    for (std::size_t k = 0; k < Q.size() && same_functions; ++k)
-      Q[k] -= before[static_cast<std::size_t>(all_.frame.dofs().free[k])];
+    const auto& points = static_cast<const CarriedBodyOf<K>&>(carried);
+    const std::vector<int> fields = points.fields_before(all_.problem, all_.frame.body.points, all_.frame.body.fields);
+    const std::size_t of_field = static_cast<std::size_t>(dim * all_.frame.functions.count_of_field());
+    for (std::size_t k = 0; k < Q.size() && !fields.empty(); ++k) {
+      const auto unknown = static_cast<std::size_t>(all_.frame.dofs().free[k]);
+      const int field = fields[unknown / of_field];
+      const std::size_t then = static_cast<std::size_t>(std::max(field, 0)) * of_field + unknown % of_field;
+      if (field >= 0 && then < before.size()) Q[k] -= before[then];
+    }
     all_.conditions.let_fade(all_.inertia.parts(), t, t + ramp, Q);
   }
   PhaseTrial& own(TrialState& trial) const {

@@ -117,7 +117,10 @@ class CarriedBodyOf final : public CarriedBody {
         origin_(origin),
         grid_moved_(grid_moved),
         phase_(phase) {
-    for (const BodySpec& spec : problem.bodies) bodies_.push_back(spec.number);
+    for (const BodySpec& spec : problem.bodies) {
+      fields.push_back(points_.field_of(bodies_.size()));
+      bodies_.push_back(spec.number);
+    }
     for (std::size_t m = 0; m < body.materials.size(); ++m) {
       const MaterialSpec& spec = problem.materials.at(body.material_names[m]);
       const auto begin = static_cast<std::size_t>(points_.material_begin[m]);
@@ -133,6 +136,20 @@ class CarriedBodyOf final : public CarriedBody {
     const auto found = std::ranges::find(bodies_, spec.number);
     if (found == bodies_.end()) return std::nullopt;
     return static_cast<std::size_t>(found - bodies_.begin());
+  }
+  /// The fields of motion before, of those now; empty unless they are as many, of the same bodies.
+  std::vector<int> fields_before(const Problem& problem, const MaterialPoints<dim>& points, int count) const {
+    std::vector<int> before(static_cast<std::size_t>(count), -1);
+    for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+      const auto b = find(problem.bodies[k]);
+      int& field = before[static_cast<std::size_t>(points.field_of(k))];
+      if (!b || field == fields[*b]) continue;
+      if (field >= 0) return {};
+      field = fields[*b];
+    }
+    std::vector<int> sorted = before;
+    std::ranges::sort(sorted);
+    return std::ranges::adjacent_find(sorted) == sorted.end() ? before : std::vector<int>();
   }
   /// The points of body b, with their numbers in it. material: theirs from now on; source: where each is among all that
   /// are carried on.
@@ -203,7 +220,7 @@ class CarriedBodyOf final : public CarriedBody {
     if (count > points_.size()) throw StateError("it has more materials than points");
     materials_.resize(count);
     for (std::size_t m = 0; m < count; ++m) materials_[m].archive(state.part(fmt::format("material_{}", m)));
-    state("out_of_balance", out_of_balance);
+    state("out_of_balance", out_of_balance, "fields", fields);
     rest.archive(state.part("rest"));
     state.part("conditions").everything(conditions);
     if (state.restores()) check();
@@ -226,6 +243,7 @@ class CarriedBodyOf final : public CarriedBody {
       fits = fits && material.begin == end;
       end += material.count;
     }
+    fits = fits && fields.size() == bodies_.size();
     if (!fits || end != n) throw StateError("the points that a stage took over were altered");
   }
 

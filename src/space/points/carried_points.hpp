@@ -29,6 +29,7 @@ class CarriedBody {
 
   SavedState conditions;               // what walls, loads and supports remember, by their kinds
   std::vector<double> out_of_balance;  // F − R at the end, (functions × dim) [N]; empty: not known
+  std::vector<int> fields;             // the field of motion of each body there (motion_fields.hpp)
   RestRecord rest;                     // of all stages so far
 };
 

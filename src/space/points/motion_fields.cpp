@@ -48,6 +48,7 @@ MotionFields motion_fields(const Problem& problem, const Grid<Dim>& grid,
   if (problem.contacts.empty()) return {std::vector<int>(bodies, 0), 1};
   std::vector<std::vector<char>> apart(bodies, std::vector<char>(bodies, 0));
   for (const ContactSpec& contact : problem.contacts) {
+    if (!are_there(problem, contact)) continue;
     const auto [a, b] = bodies_of(problem, contact);
     apart[a][b] = apart[b][a] = 1;
   }
@@ -71,6 +72,7 @@ MotionFields motion_fields(const Problem& problem, const Grid<Dim>& grid,
 
   std::vector<std::set<std::size_t>> touches(bodies);  // the groups that a group touches
   for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    if (!are_there(problem, problem.contacts[k])) continue;
     const auto [a, b] = bodies_of(problem, problem.contacts[k]);
     const std::size_t of_a = bonded.group(a), of_b = bonded.group(b);
     if (of_a == of_b) {

@@ -44,6 +44,41 @@ TEST_CASE("a scene with stages is that of its first one, and each stage adds and
   CHECK(scene.present_stage->at == 3);
 }
 
+TEST_CASE("rigid bodies come and go by the same names as bodies, and contacts may name bodies of any stage") {
+  Scene scene = scenes::load(
+      "ladder/lifts",
+      {"stage=[{at=1, add=['lift 6', 'plate']}, {at=2, remove=['wall', 'lift 1']}, {at=3, remove=['plate']}]",
+       "rigid=[{name='wall', half_plane=[[0, 0], [0, 1]], bodies=['lift 1']}, {name='plate', half_plane=[[0, 'H'], [0, "
+       "-1]], bodies=['lift 6']}]",
+       "contact=[{bodies=['lift 6', 'lift 5']}]"});
+  REQUIRE(scene.rigid.size() == 1);
+  CHECK(scene.rigid[0].name == "wall");
+  CHECK(scene.rigid_as_written.size() == 2);
+  begin_next_stage(scene);
+  REQUIRE(scene.rigid.size() == 2);
+  CHECK(scene.rigid[1].name == "plate");
+  CHECK(scene.rigid[1].number == 1);
+  begin_next_stage(scene);
+  REQUIRE(scene.rigid.size() == 1);
+  CHECK(scene.rigid[0].name == "plate");
+  begin_next_stage(scene);
+  CHECK(scene.rigid.empty());
+}
+
+TEST_CASE("rigid bodies in stages that cannot be are refused by name") {
+  const std::string plate = "rigid=[{name='plate', half_plane=[[0, 'H'], [0, -1]]}]";
+  CHECK_THAT(refusal("{at=1, change=['plate'], material=['fill']}", {plate}),
+             Catch::Contains("stage[0].change[0]: 'plate' is a rigid body, which has no material"));
+  CHECK_THAT(refusal("{at=1, remove=['plate']}, {at=2, remove=['plate']}", {plate}),
+             Catch::Contains("stage[1].remove[0]: rigid body 'plate' is not there then"));
+  CHECK_THAT(refusal("{at=1, add=['lift 2']}", {"rigid=[{name='lift 2', half_plane=[[0, 'H'], [0, -1]]}]"}),
+             Catch::Contains("stage[0].add[0]: a body and a rigid body have the name 'lift 2'"));
+  CHECK_THAT(refusal("{at=1}", {"rigid=[{name='plate', half_plane=[[0, 'H'], [0, -1]], bodies=['lift 7']}]"}),
+             Catch::Contains("there is no body 'lift 7'"));
+  CHECK_THAT(refusal("{at=1}", {"initial.from='other.h5'", plate}),
+             Catch::Contains("the border of a body that another run has strained is not known"));
+}
+
 TEST_CASE("a ramp is half of its stage, and an open last stage is as long as the one before") {
   const Scene open = scenes::load("ladder/lifts", {"solve.method=relaxation", "stage=[{at=1}, {at=3}, {at=3.5}]"});
   CHECK(open.stages[0].ramp == 1);

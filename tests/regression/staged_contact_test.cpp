@@ -1,0 +1,156 @@
+// Stages with contact: rigid bodies and bodies that touch appear and go, and what they touch does.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "scenes.hpp"
+
+using namespace stillpoint;
+
+namespace {
+
+// The column of ladder/lifts: a strip of this width between smooth walls, whose ground is placed before its fill.
+constexpr double M = 10e6, weight = 18e3, half = 3, H = 2 * half, width = 1;  // [Pa], [N/m³], [m]
+/// How far the top of the fill comes down under both weights since it was placed: on the ground, and by itself.
+constexpr double settled = weight / M * (half * half + half * half / 2);
+
+const std::vector<std::string> in_time = {"solve.method=relaxation", "damping.strategy=viscous", "stop.residual=1e-9"};
+
+std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+Summary column(const std::string& stages, const std::vector<std::string>& more) {
+  return run(scenes::load(
+                 "ladder/lifts",
+                 with({"body=[{name='ground', max=['h', 'H/2'], material='fill', state='plane-strain'}, "
+                       "{name='fill', min=[0, 'H/2'], max=['h', 'H'], material='fill'}]",
+                       "stage=[" + stages + "]", "probe=[{name='top', at=['h/2', 'H'], fields=['u.y', 'stress.yy']}]"},
+                      more)),
+             {.threads = 1});
+}
+
+double force_of(const Summary& s, const std::string& name) { return s.contacts.at(name + ".force_y"); }
+
+constexpr const char* plate =
+    "rigid=[{name='plate', half_plane=[[0, 'H'], [0, -1]], motion=['0', '-0.05*min(max(t - 2, 0), 1)']}]";
+constexpr double pressed = 0.05;  // [m]
+
+std::string footing(double load) {
+  return fmt::format("rigid=[{{name='footing', min=[0, 'H'], max=['h', 'H + 1'], free=true, force=['0', '{}']}}]",
+                     -load);
+}
+
+}  // namespace
+
+TEST_CASE("a plate presses fill that was placed later with its modulus times the strain, beyond what has settled") {
+  for (const auto& way : {std::vector<std::string>{}, in_time}) {
+    CAPTURE(way.size());
+    const Summary s = column("{at=1, add=['fill']}, {at=2, add=['plate']}, {at=3}",
+                             with({plate, "stop.time=20", "stop.residual=1e-9"}, way));
+    CAPTURE(s.reason);
+    REQUIRE(s.status == RunStatus::equilibrium);
+    CHECK(force_of(s, "plate") == Approx(-M * (pressed - settled) / H * width).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a rigid body there from the start presses a body that comes later, which alone it names") {
+  const Summary s = column("{at=1, add=['fill']}, {at=4}",
+                           {"rigid=[{name='plate', half_plane=[[0, 'H'], [0, -1]], motion=['0', '-0.05*min(t/4, 1)'], "
+                            "bodies=['fill']}]",
+                            "stop.time=20", "body_force.value=[0, 0]"});
+  REQUIRE(s.status == RunStatus::equilibrium);
+  CHECK(force_of(s, "plate") == Approx(-M * pressed / H * width).epsilon(1e-6));
+}
+
+TEST_CASE("a free footing that is put on fill bears its load, and goes down with what it stands on") {
+  constexpr double load = 40e3;
+  for (const auto& way : {std::vector<std::string>{}, in_time}) {
+    CAPTURE(way.size());
+    const Summary s = column("{at=1, add=['fill'], equilibrium=true}, {at=2, add=['footing'], equilibrium=true}",
+                             with({footing(load)}, way));
+    CAPTURE(s.reason);
+    REQUIRE(s.status == RunStatus::equilibrium);
+    CHECK(force_of(s, "footing") == Approx(-load).epsilon(1e-6));
+    CHECK(s.contacts.at("footing.displacement_y") == Approx(-settled - load / width * H / M).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("what a rigid body bore goes with it, and fill that is dug away below a fixed one leaves no force") {
+  const Summary gone =
+      column("{at=1, add=['fill']}, {at=2, add=['plate']}, {at=3, remove=['plate']}", {plate, "stop.time=20"});
+  REQUIRE(gone.status == RunStatus::equilibrium);
+  CHECK(force_of(gone, "plate") == 0);
+  CHECK(scenes::probe(gone, "top", "u.y") == Approx(-settled).epsilon(1e-6));
+  const Summary dug = column("{at=1, add=['fill']}, {at=2, add=['plate']}, {at=3, remove=['fill']}",
+                             {plate, "stop.time=20", "probe=[{name='ground', at=['h/2', 'H/2'], fields=['u.y']}]"});
+  REQUIRE(dug.status == RunStatus::equilibrium);
+  CHECK(force_of(dug, "plate") == 0);
+  CHECK(scenes::probe(dug, "ground", "u.y") == Approx(-weight / M * half * half / 2).epsilon(1e-6));
+}
+
+TEST_CASE("a block that is put on another one by a contact weighs on it, and no more once it is gone") {
+  const std::vector<std::string> touching = {"contact=[{bodies=['fill', 'ground']}]",
+                                             "probe=[{name='ground', at=['h/2', 'H/4'], fields=['u.y']}]"};
+  constexpr double y = half / 2, alone = weight / M * (half * y - y * y / 2), below = alone + weight * half / M * y;
+  const auto load = with(touching, with(in_time, {"damping.c=20"}));
+  const Summary put = column("{at=1, add=['fill'], ramp=0.2}", load);
+  CAPTURE(put.reason);
+  REQUIRE(put.status == RunStatus::equilibrium);
+  CHECK(force_of(put, "fill+ground") == Approx(weight * half * width).epsilon(1e-5));
+  CHECK(scenes::probe(put, "ground", "u.y") == Approx(-below).epsilon(1e-5));
+  const Summary dug =
+      column("{at=1, add=['fill'], ramp=0.2, equilibrium=true}, {at=2, remove=['fill'], ramp=0.2}", load);
+  REQUIRE(dug.status == RunStatus::equilibrium);
+  CHECK(force_of(dug, "fill+ground") == 0);
+  CHECK(scenes::probe(dug, "ground", "u.y") == Approx(-alone).epsilon(1e-6));
+}
+
+TEST_CASE("a stage that changes nothing changes nothing of a contact with friction, whether it sticks or slips") {
+  const auto pushed = [](const std::string& law, double friction, const std::string& stages) {
+    return run(scenes::load(
+        "ladder/lifts",
+        with(in_time, {"body=[{name='ground', max=['h', '2*h'], material='fill', "
+                       "state='plane-strain'}]",
+                       "rigid=[{name='plate', half_plane=[[0, '2*h'], [0, -1]], motion=['0.01*min(max(t "
+                       "- 1, 0), 1)', '-0.02*min(t, 1)']}]",
+                       fmt::format("rigid[0].friction={}", friction), "support=[{face='bottom'}]", "probe=[]",
+                       "damping.strategy=cundall", "material.fill.law=" + law, "stage=[" + stages + "]", "stop.time=8",
+                       "grid.min=['-h', 0]", "grid.max=['2*h', '3*h']", "grid.cells=[12, 12]",
+                       "body_force.value=[0, 0]", "stop.residual=1e-6"})));
+  };
+  for (const std::string law : {"linear-elastic", "hencky"}) {
+    for (const double friction : {0.05, 0.9}) {
+      CAPTURE(law, friction);
+      const Summary without = pushed(law, friction, ""), staged = pushed(law, friction, "{at=1.5, ramp=0.2}");
+      REQUIRE(without.status == RunStatus::equilibrium);
+      REQUIRE(staged.status == RunStatus::equilibrium);
+      const double normal = force_of(without, "plate"), shear = without.contacts.at("plate.force_x");
+      CHECK(normal < -0.9e5);
+      CHECK(shear > 1e3);
+      CHECK(std::abs(force_of(staged, "plate") - normal) < 3e-3 * std::abs(normal));
+      CHECK(std::abs(staged.contacts.at("plate.force_x") - shear) < 3e-3 * std::abs(normal));
+    }
+  }
+}
+
+TEST_CASE("stages with contact have the same bits for any number of threads") {
+  const auto figures = [](int threads) {
+    const Summary s = run(scenes::load("ladder/lifts", with({plate,
+                                                             "stage=[{at=0.5, add=['lift 2', 'lift 3', 'lift 4', "
+                                                             "'lift 5', 'lift 6'], ramp=0.1}, {at=2, "
+                                                             "add=['plate'], ramp=0.1}, {at=2.6, remove=['lift 6']}]",
+                                                             "rigid[0].friction=0.3", "stop.time=3",
+                                                             "material.fill.law=drucker-prager", "material.fill.c=1e5"},
+                                                            in_time)),
+                          {.threads = threads});
+    return fmt::format("{} {:a} {:a} {:a}", s.steps, s.residual, force_of(s, "plate"),
+                       scenes::probe(s, "lift 5", "u.y"));
+  };
+  CHECK(figures(1) == figures(2));
+  CHECK(figures(1) == figures(3));
+}
