@@ -65,6 +65,7 @@ struct TractionSpec {                          // [[traction]]: a load on the bo
 struct LoadSpec {               // [load]: proportional loads, scaled so as to reach a prescribed displacement
   Expression displacement;      // mean displacement of the loads, Σ F·u/Σ |F| [m], a formula of t
   std::vector<std::string> of;  // the loads scaled: "traction[0]", "force[1]", "body_force"; empty: all
+  double at = 0;                // when the stage begins with which they do; before, they do not act [s]
 };
 
 struct BoundarySpecs {

@@ -263,6 +263,7 @@ struct Problem : BoundarySpecs {
   std::vector<BodySpec> later_bodies;        // that they add
   std::vector<SupportSpec> later_supports;   // that they begin to hold
   std::vector<RigidSpec> later_rigid;        // that they add
+  std::optional<LoadSpec> later_load;        // that begins with one of them
   std::vector<std::string> named_supports;   // the names of those of all stages, as written
   std::vector<std::string> named_bodies;     // likewise
   std::vector<RigidSpec> rigid_as_written;   // those of all stages

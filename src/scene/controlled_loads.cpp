@@ -24,8 +24,9 @@ Problem with_loads(const Problem& problem, const Keeps& keeps) {
   return chosen;
 }
 
+// Also by a [load] that begins with a later stage: before, what it drives does not act.
 bool is_driven(const Problem& problem, const std::string& name) {
-  const std::vector<std::string>& driven = problem.load->of;
+  const std::vector<std::string>& driven = (problem.load ? problem.load : problem.later_load)->of;
   return driven.empty() || std::ranges::find(driven, name) != driven.end();
 }
 
@@ -49,7 +50,7 @@ Problem reference_loads(const Problem& problem) {
 }
 
 Problem without_reference_loads(const Problem& problem) {
-  if (!problem.load) return problem;
+  if (!problem.load && !problem.later_load) return problem;
   return with_loads(problem, [&](const std::string& name) { return !is_driven(problem, name); });
 }
 

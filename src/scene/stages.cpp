@@ -112,6 +112,7 @@ void set_later_parts_aside(Problem& problem, Locations& where) {
   move_parts(problem.bodies, body, problem.later_bodies, later_body, where, comes(added));
   move_parts(problem.supports, support, problem.later_supports, later_support, where, comes(held));
   move_parts(problem.rigid, rigid, problem.later_rigid, later_rigid, where, comes(added));
+  if (problem.load && problem.load->at > 0) problem.load.swap(problem.later_load);
   if (problem.stages.front().at > 0) return;
   problem.present_stage = problem.stages.front();  // which changes nothing
   problem.stages.erase(problem.stages.begin());
@@ -156,6 +157,7 @@ void begin_next_stage(Scene& scene) {
   move_parts(scene.later_bodies, later_body, scene.bodies, body, scene.where, comes(stage.add));
   move_parts(scene.later_supports, later_support, scene.supports, support, scene.where, comes(stage.hold));
   move_parts(scene.later_rigid, later_rigid, scene.rigid, rigid, scene.where, comes(stage.add));
+  if (scene.later_load && scene.later_load->at <= stage.at) scene.load.swap(scene.later_load);
   for (std::size_t k = 0; k < std::min(stage.change.size(), stage.material.size()); ++k) {
     const auto changed = std::ranges::find(scene.bodies, stage.change[k], &BodySpec::name);
     if (changed != scene.bodies.end()) changed->material = stage.material[k];

@@ -52,7 +52,7 @@ std::vector<std::string> Recorder::columns() const {
   std::vector<std::string> all = probes_.columns();
   std::ranges::copy(reaction_columns(problem_), std::back_inserter(all));
   std::ranges::copy(contact_columns(problem_), std::back_inserter(all));
-  if (problem_.load) all.insert(all.end(), {"load.factor", "load.displacement"});
+  if (problem_.load || problem_.later_load) all.insert(all.end(), {"load.factor", "load.displacement"});
   std::ranges::copy(energy_balance_.columns(), std::back_inserter(all));
   if (has_distance_) all.emplace_back("distance");
   return all;
@@ -85,6 +85,8 @@ void Recorder::add_row(RunState& run) {
   if (const auto load = phase_.supports().load_state(t, motion.u())) {
     values.insert(values.end(), {load->factor, load->displacement});
     if (!(load->factor <= largest_factor_)) largest_factor_ = load->factor;
+  } else if (problem_.later_load) {
+    values.insert(values.end(), {0, 0});
   }
   std::ranges::copy(energy_balance_.values(row.kinetic_energy), std::back_inserter(values));
   if (has_distance_) values.push_back(run.measured.distance().value_or(std::numeric_limits<double>::quiet_NaN()));

@@ -154,3 +154,21 @@ TEST_CASE("stages with contact have the same bits for any number of threads") {
   CHECK(figures(1) == figures(2));
   CHECK(figures(1) == figures(3));
 }
+
+TEST_CASE("a load that a displacement drives begins with its stage and counts from there, or goes on through stages") {
+  const auto driven = [](const std::string& stages, const std::string& begin, const std::string& weight_of_all) {
+    const Summary s = run(scenes::load(
+        "ladder/lifts",
+        with(in_time,
+             {"body=[{name='ground', max=['h', 'H'], material='fill', state='plane-strain'}]", "stage=[" + stages + "]",
+              "probe=[]", "body_force.value=[0, " + weight_of_all + "]",
+              "traction=[{line=[[0, 'H'], ['h', 'H']], value=[0, -1e3]}]",
+              "load={displacement='0.03*min(max(t - 2, 0), 1)', of=['traction[0]']" + begin + "}", "stop.time=30"})));
+    CAPTURE(s.reason);
+    REQUIRE(s.load);
+    CHECK(s.load->displacement > 0.025);  // it lags behind what is prescribed
+    CHECK(s.load->factor * 1e3 == Approx(M * s.load->displacement / H).epsilon(1e-6));
+  };
+  driven("{at=1, equilibrium=true}, {at=2, ramp=0}", ", at=2", "-10");
+  driven("{at=2.5, ramp=0.1}, {at=4, ramp=0.1}", "", "0");
+}

@@ -75,7 +75,9 @@ namespace stillpoint {
            "mean displacement along the loads, sum F u/sum |F|: how large a factor of the loads that takes is found",
            {.unit = "m", .variables = "t", .required = true})
       .key("of", &LoadSpec::of, "\"traction[0]\", \"force[1]\", \"body_force\": those that are driven",
-           {.fallback = "all loads", .list = true});
+           {.fallback = "all loads", .list = true})
+      .key("at", &LoadSpec::at, "the time of the stage with which it begins; before, what it drives does not act",
+           {.range = kNotNegative, .unit = "s"});
 }
 
 }  // namespace stillpoint

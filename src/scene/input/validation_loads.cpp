@@ -98,9 +98,11 @@ void check_body_force(SceneCheck& check) {
 /// Checks the loads of one proportion, which are as large as their displacement makes them.
 void check_load_control(SceneCheck& check) {
   const Scene& scene = check.scene();
-  check.wrong_if(!scene.load && scene.stop.load_growth > 0, "stop.load_growth",
+  check.wrong_if(!scene.load && !scene.later_load && scene.stop.load_growth > 0, "stop.load_growth",
                  "asks for the limit of a load that [load] drives");
   if (!scene.load) return;
+  check.wrong_if(scene.load->at > 0 && !scene.present_stage, "load.at",
+                 "must be the time of a [[stage]], and there is none at t = {}", scene.load->at);
   const Problem driven = reference_loads(scene);
   const std::vector<std::string> names = names_of_loads(scene);
   check.wrong_if(names.empty(), "load", "drives the loads of a scene, of which there are none");

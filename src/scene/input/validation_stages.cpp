@@ -156,9 +156,10 @@ void check_new_bodies(SceneCheck& check, const StageSpec& stage, const std::stri
 void check_company_of_stages(SceneCheck& check) {
   const Scene& scene = check.scene();
   const std::string first = scene.initial_from.empty() ? "stage[0]" : "initial.from";
-  check.wrong_if(scene.load.has_value(), first,
-                 "stages and loads that a displacement drives cannot be had together yet; give the loads as formulas "
-                 "of t");
+  check.wrong_if(
+      scene.later_load && std::ranges::find(scene.stages, scene.later_load->at, &StageSpec::at) == scene.stages.end(),
+      "load.at", "must be the time of a [[stage]], and there is none at t = {}",
+      scene.later_load ? scene.later_load->at : 0);
   check.wrong_if(scene.phase.quadrature == Quadrature::domains, "phase.quadrature",
                  "domains cannot be carried on from stage to stage yet; take \"points\"");
   check.wrong_if(scene.mass.kind == MassKind::multigrid, "mass.kind",

@@ -65,7 +65,7 @@ TEST_CASE("rigid bodies come and go by the same names as bodies, and contacts ma
   CHECK(scene.rigid.empty());
 }
 
-TEST_CASE("rigid bodies in stages that cannot be are refused by name") {
+TEST_CASE("rigid bodies and driven loads in stages that cannot be are refused by name") {
   const std::string plate = "rigid=[{name='plate', half_plane=[[0, 'H'], [0, -1]]}]";
   CHECK_THAT(refusal("{at=1, change=['plate'], material=['fill']}", {plate}),
              Catch::Contains("stage[0].change[0]: 'plate' is a rigid body, which has no material"));
@@ -75,6 +75,8 @@ TEST_CASE("rigid bodies in stages that cannot be are refused by name") {
              Catch::Contains("stage[0].add[0]: a body and a rigid body have the name 'lift 2'"));
   CHECK_THAT(refusal("{at=1}", {"rigid=[{name='plate', half_plane=[[0, 'H'], [0, -1]], bodies=['lift 7']}]"}),
              Catch::Contains("there is no body 'lift 7'"));
+  CHECK_THAT(refusal("{at=1}", {"solve.method=relaxation", "load={displacement='t', at=2}", "stop.time=4"}),
+             Catch::Contains("load.at: must be the time of a [[stage]], and there is none at t = 2"));
   CHECK_THAT(refusal("{at=1}", {"initial.from='other.h5'", plate}),
              Catch::Contains("the border of a body that another run has strained is not known"));
 }
