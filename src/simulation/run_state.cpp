@@ -49,6 +49,7 @@ RunState::RunState(RunState& before, Scene of, StageBegin begins)
       measured(*this, model),
       t(model.t),
       phases(before.phases + 1),
+      first_phase(phases),
       earlier_steps(before.steps()),
       earlier_evaluations(before.evaluations()),
       earlier_rejected(before.rejected_steps()),
@@ -83,6 +84,11 @@ void RunState::begin_next_phase(ConstVec v0) {
   begin_phase(std::vector<double>(v0.size(), 0.0), v0);
 }
 
+std::vector<double> RunState::velocity_to_hand_on() const {
+  if (model.multigrid) return std::vector<double>(model.phase->size(), 0.0);
+  return {motion->v().begin(), motion->v().end()};
+}
+
 // A static solver finds the equilibrium of a stage under the loads of the time at which the next one begins.
 bool RunState::loads_stay() const {
   const double ramp = scene.present_stage && stage.carried ? scene.present_stage->ramp.value() : 0;
@@ -109,7 +115,7 @@ void RunState::archive(const StateArchive& state) {
   state("body", body);
   if (body != placed) throw StateError("it is of another body: its material points were placed elsewhere");
 
-  state("t", t, "step", step, "phases", phases, "steps_before", earlier_steps,
+  state("t", t, "step", step, "phases", phases, "first_phase", first_phase, "steps_before", earlier_steps,
         "evaluations_before", earlier_evaluations, "rejected_before", earlier_rejected);
   double before_s = wall_s();
   state("wall_s", before_s);
@@ -124,7 +130,7 @@ void RunState::archive(const StateArchive& state) {
     std::vector<double> y(2 * model.phase->size());
     moving("y", Vec(y));
     motion.reset();
-    if (phases > 1) follow_multigrid(scene, model);
+    if (phases > first_phase) follow_multigrid(scene, model);
     begin_phase(first_half(ConstVec(y)), second_half(ConstVec(y)));
   }
   motion->archive(moving);

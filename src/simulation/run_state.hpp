@@ -50,6 +50,9 @@ struct RunState {
   /// The verdict that the run has failed now: "at t = 0.31 s, after 120 steps, in phase 3: " and what happened.
   Verdict failed(const std::string& what) const;
 
+  /// The velocities with which the next phase or stage begins, (n); a fictitious inertia has none that could go on.
+  std::vector<double> velocity_to_hand_on() const;
+
   void archive(const StateArchive& state);
 
   Scene scene;  // in the present stage
@@ -67,7 +70,7 @@ struct RunState {
   double t, step = 0;               // [s]
   bool is_cut = true;               // whether the last step is as short as it is to end at a time that was asked for
   double progress = 0;              // of the phase towards its end, which comes at 1
-  int phases = 1;
+  int phases = 1, first_phase = 1;  // of all stages so far, and at which of them the present stage began
   long earlier_steps = 0, earlier_evaluations = 0, earlier_rejected = 0;  // in the phases before
   double stepping_s = 0, earlier_wall_s = 0;  // wall time of all steps, and of the runs that this one resumes [s]
 

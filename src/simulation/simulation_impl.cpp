@@ -165,10 +165,8 @@ void Simulation::Impl::end_phase() {
 void Simulation::Impl::next_phase() {
   end_phase();
   try {
-    // A fictitious inertia has no velocity that a phase could hand on: the next one begins at rest.
-    const std::vector<double> rest(run_->model.multigrid ? run_->model.phase->size() : 0, 0.0);
-    const ConstVec v = run_->model.multigrid ? ConstVec(rest) : run_->motion->v();
-    const std::vector<double> v0 = run_->model.phase->control().begin_next(run_->t, run_->motion->u(), v);
+    const std::vector<double> v0 =
+        run_->model.phase->control().begin_next(run_->t, run_->motion->u(), run_->velocity_to_hand_on());
     follow_multigrid(run_->scene, run_->model);
     run_->begin_next_phase(v0);
     std::ranges::move(run_->model.body_notes.later(run_->scene, *run_->model.phase),

@@ -52,7 +52,7 @@ void Simulation::Impl::next_stage() {
   try {
     StageBegin next{.t = std::max(run_->t, run_->scene.stages.front().at),
                     .number = run_->stage.number + 1,
-                    .carried = run_->model.phase->hand_over(run_->t, run_->motion->u(), run_->motion->v())};
+                    .carried = run_->model.phase->hand_over(run_->t, run_->motion->u(), run_->velocity_to_hand_on())};
     SavedState records;
     if (recorder_) recorder_->end_stage(StateArchive::saving(records));
     const double work = recorder_ ? recorder_->external_work() : 0;

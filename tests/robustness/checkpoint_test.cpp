@@ -181,6 +181,14 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
                    {"mass.kind=multigrid", "damping.strategy=auto", "phase.max_motion=0.1", "grid.cells=[20,20]",
                     "stop.steps=40", "checkpoint.every_steps=3"}},
                   25);
+  for (const long steps : {10L, 40L, 70L}) {
+    check_same_bits({"ladder/lifts",
+                     {"mass.kind=multigrid", "solve.method=relaxation", "damping.strategy=auto", "stop.residual=1e-8",
+                      "material.fill.law=hencky", "checkpoint.every_steps=2",
+                      "stage=[{at=0, equilibrium=true}, {at=1, add=['lift 2'], ramp=0, equilibrium=true}, {at=2, "
+                      "add=['lift 3', 'lift 4', 'lift 5', 'lift 6'], ramp=0, equilibrium=true}]"}},
+                    steps);
+  }
 }
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with every static solver") {

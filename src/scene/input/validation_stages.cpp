@@ -162,8 +162,6 @@ void check_company_of_stages(SceneCheck& check) {
       scene.later_load ? scene.later_load->at : 0);
   check.wrong_if(scene.phase.quadrature == Quadrature::domains, "phase.quadrature",
                  "domains cannot be carried on from stage to stage yet; take \"points\"");
-  check.wrong_if(scene.mass.kind == MassKind::multigrid, "mass.kind",
-                 "'multigrid' cannot follow a body from stage to stage yet; take \"lumped\"");
   for (std::size_t k = 0; k < scene.probes.size(); ++k)
     check.wrong_if(scene.probes[k].point.has_value(), fmt::format("probe[{}].point", k),
                    "points have other numbers in other stages; take at");
