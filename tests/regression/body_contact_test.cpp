@@ -103,6 +103,34 @@ TEST_CASE("a frictionless block that overhangs the edge of another one feels no 
   }
 }
 
+TEST_CASE("a traction on the side of one body loads that body, also beneath another one that it touches") {
+  const Scene scene = load_scene("block.toml", R"(
+dim = 2
+grid = {min = [0, 0], max = [4, 3], cells = [16, 12]}
+material.m = {law = "linear-elastic", E = 1e6, nu = 0.3, rho = 1000}
+support = [{name = "floor", face = "bottom"}]
+traction = [{line = [[1, 2], [2, 2]], value = [0, -1000]}, {line = [[0.5, 1], [2.5, 1]], value = [0, -1000]}]
+contact = [{bodies = ["block", "base"], friction = 0.3}]
+damping = {strategy = "auto"}
+[[body]]
+name = "base"
+max = [4, 1]
+material = "m"
+placement = "gauss"
+[[body]]
+name = "block"
+min = [1, 1]
+max = [2, 2]
+material = "m"
+placement = "gauss"
+)",
+                                 {});
+  const Summary s = run(scene, {.threads = 1});
+  REQUIRE(s.status == RunStatus::equilibrium);
+  CHECK(s.contacts.at("block+base.force_y") == Approx(1000).epsilon(1e-5));
+  CHECK(s.reactions.at("floor")[1] == Approx(3000).epsilon(1e-5));
+}
+
 TEST_CASE("bodies that turn to each other within a single phase, and end in one place, are at no equilibrium") {
   const test::TemporaryFolder folder;
   const auto moved_by = [&](double way) {

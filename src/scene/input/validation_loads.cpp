@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "scene/body_border.hpp"
+#include "scene/contact_bodies.hpp"
 #include "scene/controlled_loads.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/own_loads.hpp"
@@ -63,6 +64,23 @@ void check_surface_of_traction(SceneCheck& check, const std::string& name, const
                  scene.dim == 2     ? "; give line = [from, to]"
                  : body.has_shape() ? "; give surface"
                                     : "");
+}
+
+/// A force belongs to one of two bodies that move apart.
+void check_body_of_force(SceneCheck& check, const std::string& key, const std::vector<double>& at) {
+  const Scene& scene = check.scene();
+  if (scene.contacts.empty() || !check.sound(key) || at.size() != static_cast<std::size_t>(scene.dim)) return;
+  const std::vector<std::size_t> bodies = bodies_at(scene, at);
+  for (const std::size_t a : bodies) {
+    for (const std::size_t b : bodies) {
+      if (a < b &&
+          check.wrong_if(have_contact(scene, a, b), key,
+                         "lies where {} and {} meet, which have a contact, so that it would load one or the other; "
+                         "expected a position inside one of them",
+                         name_of_body(scene, a), name_of_body(scene, b)))
+        return;
+    }
+  }
 }
 
 void check_tractions(SceneCheck& check, bool bodies) {
@@ -230,8 +248,11 @@ void check_pressure(SceneCheck& check) {
 
 void check_loads(SceneCheck& check, const std::optional<NamedBox>& body) {
   const Scene& scene = check.scene();
-  for (std::size_t k = 0; k < scene.forces.size() && body; ++k)
-    check.inside(scene.forces[k].at, *body, fmt::format("force[{}].at", k));
+  for (std::size_t k = 0; k < scene.forces.size() && body; ++k) {
+    const std::string key = fmt::format("force[{}].at", k);
+    check.inside(scene.forces[k].at, *body, key);
+    check_body_of_force(check, key, scene.forces[k].at);
+  }
   check_tractions(check, body.has_value());
   check_body_force(check);
   check_load_control(check);

@@ -116,10 +116,6 @@ std::vector<Overlap> overlaps(const Problem& problem, const LagrangianPhase& pha
   return list;
 }
 
-std::string name_of_body(const Problem& problem, std::size_t k) {
-  return problem.bodies[k].name.empty() ? fmt::format("body[{}]", k) : "'" + problem.bodies[k].name + "'";
-}
-
 std::string described(const Problem& problem, const Overlap& overlap) {
   const auto name = [&](std::size_t k) { return name_of_body(problem, k); };
   const char* remedy = !have_contact(problem, overlap.a, overlap.b) ? "a [[contact]] between them"

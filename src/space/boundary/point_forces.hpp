@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/contact_bodies.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
@@ -74,6 +75,7 @@ class PointForces final : public BoundaryCondition<Dim> {
 
   void find(const Parts& phase) {
     for (std::size_t f = 0; f < at_.size() && !has_begun_; ++f) {
+      if (phase.functions.fields() > 1) choose_field(f, phase);
       at_[f].freeze(cell_with_functions_at<Dim>(phase.functions, at_[f].x), phase);
       for (const auto& entry : at_[f].entries) {
         if (entry.function < 0 && std::abs(entry.w) > 1e-12)
@@ -85,6 +87,12 @@ class PointForces final : public BoundaryCondition<Dim> {
           at_, [](CarriedPoint<Dim> & at) -> auto& { return at; }, !has_begun_, phase);
     }
     has_begun_ = true;
+  }
+
+  // That of the body in which it lies: near another one the nearest point may be of that.
+  void choose_field(std::size_t f, const Parts& phase) {
+    const std::vector<std::size_t> bodies = bodies_at(problem_, problem_.forces[f].at);
+    if (!bodies.empty()) at_[f].field = phase.points.field_of(bodies.front());
   }
 
   static std::vector<std::pair<int, double>> weights_of(const CarriedPoint<Dim>& at, int component,

@@ -28,13 +28,13 @@ class TractionCutter {
   TractionCutter(const Problem& problem, const TractionSpec& traction, const Grid<dim>& grid)
       : problem_(problem), traction_(traction), grid_(grid) {}
 
-  /// Calls visit(x, area, outward normal) for each piece.
+  /// Calls visit(x, area, outward normal, number of the body) for each piece.
   template <class Visit>
   void cut(const Visit& visit) const {
     if constexpr (dim == 1) {
       const BodySpec& body = problem_.bodies.front();
       const bool upper = is_upper(traction_.face.value());
-      visit(Point<dim>{(upper ? body.max : body.min)[0]}, body.area, Point<dim>{upper ? 1.0 : -1.0});
+      visit(Point<dim>{(upper ? body.max : body.min)[0]}, body.area, Point<dim>{upper ? 1.0 : -1.0}, std::size_t{0});
     } else if constexpr (dim == 2) {
       for (const BorderLine& line : border_lines(problem_, traction_)) cut_line(line, visit);
     } else if (traction_.surface) {
@@ -62,7 +62,7 @@ class TractionCutter {
         grid_, normal, (is_upper(face) ? body.max : body.min)[normal],
         part_of_face(face, traction_.from, traction_.to, body.min, body.max),
         [&](std::size_t along) { return rule_along(body, along); },
-        [&](const Point<dim>& x, double area, double) { visit(x, area, outwards); });
+        [&](const Point<dim>& x, double area, double) { visit(x, area, outwards, std::size_t{0}); });
   }
   // Cuts a surface into pieces of half of the smallest cell, not at the borders of cells: a function with a kink there
   // is integrated to second order.
@@ -70,11 +70,12 @@ class TractionCutter {
   void cut_surface(const Visit& visit) const {
     double length = std::numeric_limits<double>::infinity();
     for (std::size_t d = 0; d < dim; ++d) length = std::min(length, smallest_cell(problem_.grid, d) / 2);
-    const BodySpec& body = problem_.bodies[body_with_surface(problem_).value()];
+    const std::size_t number = body_with_surface(problem_).value();
+    const BodySpec& body = problem_.bodies[number];
     for (const SurfacePiece& piece : surface_pieces(body, *traction_.surface, length)) {
       const auto& [x, y, z] = piece.vector;
       const double area = std::hypot(x, y, z);
-      visit(piece.x, area, Point<dim>{x / area, y / area, z / area});
+      visit(piece.x, area, Point<dim>{x / area, y / area, z / area}, number);
     }
   }
   // Cuts a line into the parts in each cell, and these into pieces.
@@ -91,7 +92,7 @@ class TractionCutter {
         Point<dim> x;
         for (std::size_t d = 0; d < dim; ++d) x[d] = (from[d] + to[d]) / 2 + (to[d] - from[d]) / 2 * xi;
         const double depth = K == Kinematics::axisymmetric ? 2 * std::numbers::pi * x[0] : body.area;
-        visit(x, length / 2 * weight * depth, line.normal);
+        visit(x, length / 2 * weight * depth, line.normal, line.body);
       }
     }
   }

@@ -31,14 +31,16 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
  public:
   Tractions(const Problem& problem, const GridOf& grid) : problem_(problem) {
     for (const TractionSpec& traction : problem.tractions) {
-      TractionCutter<K>(problem, traction, grid).cut([&](const auto& x, double area, const auto& normal) {
-        pieces_.push_back({BorderPiece<K>::make(x, area, normal), &traction});
-      });
+      TractionCutter<K>(problem, traction, grid)
+          .cut([&](const auto& x, double area, const auto& normal, std::size_t body) {
+            pieces_.push_back({BorderPiece<K>::make(x, area, normal), &traction, body});
+          });
     }
     check_values();
   }
 
   void begin_phase(const Parts& phase, Vec) override {
+    for (Piece& piece : pieces_) piece.at.field = phase.points.field_of(piece.body);
     if (problem_.phase.ends()) {
       freeze_carried(
           pieces_, [](Piece & piece) -> auto& { return piece.at; }, !has_begun_, phase);
@@ -108,6 +110,7 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
  private:
   struct Piece : BorderPiece<K> {
     const TractionSpec* traction;
+    std::size_t body;  // that it is a part of the border of
   };
   struct Values {
     double t = std::numeric_limits<double>::quiet_NaN();  // when they hold [s]

@@ -73,6 +73,19 @@ TEST_CASE("a wrong contact has one message, which says what was expected") {
              Contains("does not know the stiffness of contact yet"));
 }
 
+TEST_CASE("a force where two bodies with a contact meet is refused by their names, and elsewhere has a body") {
+  const auto with_force = [](const std::string& at, const std::string& more) {
+    return complaints(text_of("[[force]]\nat = " + at + "\nvalue = [0, -1]\n" + more));
+  };
+  const std::string contact = "[[contact]]\nbodies = [\"block\", \"base\"]";
+  for (const char* at : {"[0.5, 1]", "[1, 1]", "[0, 1]", "[0.5, 1.0000000000001]"}) {
+    CAPTURE(at);
+    CHECK_THAT(with_force(at, contact), Contains("force[0].at") && Contains("'base' and 'block' meet"));
+    CHECK(with_force(at, "").empty());
+  }
+  for (const char* at : {"[1.5, 1]", "[0.5, 0.99]", "[0.5, 1.01]"}) CHECK(with_force(at, contact).empty());
+}
+
 TEST_CASE("bodies that touch may overlap a little when the run begins, others may not") {
   const std::string contact = "[[contact]]\nbodies = [\"block\", \"base\"]";
   CHECK_THAT(complaints(text_of("", 0.1)), Contains("two bodies cannot be in the same place"));
