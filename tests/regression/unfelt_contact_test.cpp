@@ -1,8 +1,10 @@
 // What lies in another body without being felt is found at the end: no such state is an equilibrium.
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "says.hpp"
 #include "scenes.hpp"
@@ -43,6 +45,13 @@ face = "bottom"
 const std::string disc =
     "[[rigid]]\nname = \"pin\"\ndisc = [\"at\", \"2+R\"]\nradius = \"R\"\nmotion = [\"0\", \"-push*min(t,1)\"]\n";
 
+/// The number of cells after these words of a note; NaN: no note has them.
+double depth_told(const Summary& s, const std::string& words) {
+  for (const std::string& note : s.notes)
+    if (note.starts_with(words)) return std::stod(note.substr(words.size()));
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -64,6 +73,45 @@ TEST_CASE("a pin that goes in between two places that feel contact is found by t
   CAPTURE(in.reason);
   CHECK(in.status != RunStatus::equilibrium);
   CHECK_THAT(in.reason, Contains("'pin'") && Contains("'pad'"));
+}
+
+TEST_CASE("a corner of a body that has entered a floor unfelt is found with its depth, whatever is pressed beside it") {
+  // The places that feel contact nearest to a corner of 90° on its tip are 0.21 cells from it, and 0.15 above it.
+  for (const double top : {1.0, 1.1}) {
+    for (const double up : {0.01, 0.1}) {
+      CAPTURE(top, up);
+      const Summary s = run_text(fmt::format(R"toml(
+dim = 2
+[grid]
+min = [0, 0]
+max = [4, 4]
+cells = [16, 16]
+[[body]]
+name = "tip"
+polygon = [[2, {0}], [4, {1}], [4, 4], [0, 4], [0, {1}]]
+material = "m"
+[[support]]
+face = "top"
+[[rigid]]
+name = "floor"
+half_plane = [[0, {0}], [0, 1]]
+motion = ["0", "{2}*min(t,1)"]
+[[probe]]
+name = "corner"
+at = [2, {3}]
+fields = ["u.y"]
+)toml",
+                                             top, top + 2, up, top + 1e-9) +
+                                 rubber + ends);
+      REQUIRE(s.status == RunStatus::equilibrium);
+      const double cells = (up - scenes::probe(s, "corner", "u.y")) / 0.25;
+      CAPTURE(cells, s.notes);
+      CHECK(cells < 0.2);
+      CHECK((s.contacts.at("floor.force_y") > 0) == (up == 0.1));
+      const double told = depth_told(s, "'floor' reaches ");
+      CHECK(told == Approx(cells).margin(0.03));  // the border beside the corner is deformed
+    }
+  }
 }
 
 TEST_CASE("free rigid bodies that stand in each other are at no equilibrium") {

@@ -136,7 +136,7 @@ bool is_grave(const Intrusion& found) {
   return found.cells > (found.bears ? corner : rounding);
 }
 bool is_worth_a_note(const Intrusion& found) {
-  constexpr double seen = 0.25, rounding = 0.02;  // [cells], where a corner may lie without being felt
+  constexpr double seen = 0.1, rounding = 0.02;  // [cells]
   return is_grave(found) || (found.of == Intrusion::Of::border && found.cells > (found.bears ? seen : rounding));
 }
 

@@ -1,6 +1,7 @@
 // What lies in rigid bodies without being felt. Contact acts at the pieces of a border: a rigid body that has jumped
 // past them, or gone in between two of them, presses on nothing from there on.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "space/boundary/rigid_contact.hpp"
@@ -68,25 +69,31 @@ Intrusion RigidContact<K>::deepest_point(std::size_t r, const RigidPlacement<N>&
   return deepest;
 }
 
-// Along the lines through the pieces of a patch that bears nothing, two Gauss points of it, from end to end.
+// Along the lines through the pieces of a patch that bears nothing, from end to end: two Gauss points of it, or more
+// where it was joined of parts. Of one that bears only the ends are looked at, which may be corners of the body.
 template <Kinematics K>
 Intrusion RigidContact<K>::deepest_border(std::size_t r, const RigidPlacement<N>& placement,
                                           const std::vector<char>& bearing, const double* u) const {
-  constexpr double beyond = 0.3660254037844386;  // (√3 − 1)/2: the ends of a line, in distances of its Gauss points
+  constexpr double beyond = 0.4226497308103742;  // 1 − 1/√3: from a Gauss point to the end, in half lengths of its part
   constexpr int looks = 8;                       // along a line
   Intrusion deepest{.of = Intrusion::Of::border, .rigid = r};
   const TouchFinder<K>& finder = bodies_[r].finder();
   const auto patches = surface_.patches();
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    if (bearing[k] || !finder.touches(patches[k].body)) continue;
+    if (!finder.touches(patches[k].body)) continue;
     std::vector<Point<dim>> x;
-    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s) x.push_back(surface_.position(s, u));
+    std::vector<double> to_end;  // [m]
+    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s) {
+      x.push_back(surface_.position(s, u));
+      to_end.push_back(beyond * std::pow(surface_.area(s) / patches[k].depth, 1.0 / std::max(1, dim - 1)));
+    }
     for (std::size_t i = 0; i < x.size(); ++i) {
       for (std::size_t j = i + 1; j < x.size(); ++j) {
-        for (int look = 0; look <= looks; ++look) {
-          const double share = (1 + 2 * beyond) * look / looks - beyond;
+        const double length = (TouchFinder<K>::position_of(x[j]) - TouchFinder<K>::position_of(x[i])).norm();
+        for (int look = 0; look <= looks; look += bearing[k] ? looks : 1) {
+          const double share = look * (1.0 / looks), along = (1 - share) * -to_end[i] + share * (length + to_end[j]);
           Point<dim> between;
-          for (std::size_t d = 0; d < dim; ++d) between[d] = x[i][d] + share * (x[j][d] - x[i][d]);
+          for (std::size_t d = 0; d < dim; ++d) between[d] = x[i][d] + along / length * (x[j][d] - x[i][d]);
           take_if_deeper(-finder.distance(between, placement) / patches[k].cell, patches[k].body, between, deepest);
         }
       }
