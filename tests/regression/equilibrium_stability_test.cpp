@@ -175,6 +175,48 @@ TEST_CASE("a finite-strain body that nothing holds is neutral, not unstable, and
   CHECK_THAT(s.notes.back(), Contains("neutral") && Contains("nothing holds the body"));
 }
 
+namespace {
+
+/// A block, as high as it says and 1 wide, on top of a rough drum.
+Summary block_on_drum(double height, double radius, const std::string& law, const std::string& friction) {
+  const std::string text = fmt::format(R"(
+dim = 2
+grid = {{min = [0, 0], max = [4, 4], cells = [32, 32]}}
+body = {{name = "block", min = [1.5, 1.0], max = [2.5, {}], material = "m", placement = "gauss"}}
+material.m = {{law = "{}", E = 1e6, nu = 0.3, rho = 1000}}
+rigid = [{{name = "drum", disc = [2.0, {}], radius = {}, friction = {}}}]
+body_force = {{value = [0, -10]}}
+damping = {{strategy = "auto"}}
+)",
+                                       1 + height, law, 1 - radius, radius, friction);
+  return run(load_scene("drum.toml", text, {}), {.threads = 1});
+}
+bool says_unjudged(const Summary& s) {
+  return std::ranges::any_of(
+      s.notes, [](const std::string& note) { return note.find("whether it would roll or tip") != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("a block on top of a rough drum rolls off it if the drum's radius is less than half its height") {
+  for (const char* friction : {"'rough'", "0.5"}) {
+    CAPTURE(friction);
+    const Summary high = block_on_drum(2, 0.4, "neo-hookean", friction);
+    CAPTURE(high.reason, high.notes);
+    CHECK(high.status == RunStatus::unstable_equilibrium);
+    const Summary low = block_on_drum(0.5, 0.8, "neo-hookean", friction);
+    CAPTURE(low.reason, low.notes);
+    CHECK(low.status == RunStatus::equilibrium);
+    CHECK(low.stability == "stable");
+  }
+}
+
+TEST_CASE("a block on top of a rough drum of a law that does not feel its tipping says that it was not judged") {
+  const Summary s = block_on_drum(2, 0.4, "linear-elastic", "'rough'");
+  CHECK(s.stability.empty());
+  CHECK(says_unjudged(s));
+}
+
 TEST_CASE("no stability is looked for where K cannot have changed, or where points remember") {
   CHECK(run(scenes::load("block_on_wall")).stability.empty());
   const Scene linear = scenes::bar();

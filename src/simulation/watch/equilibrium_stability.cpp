@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "output/point_fields.hpp"
 #include "scene/dimensions.hpp"
 #include "simulation/advice/notes.hpp"
+#include "simulation/watch/contact_alone.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/spectrum/lowest_mode.hpp"
 
@@ -110,6 +112,11 @@ void describe_mode(const LagrangianPhase& phase, double t, ConstVec u, ConstVec 
   stability.largest.assign(first, first + static_cast<std::ptrdiff_t>(dim));
 }
 
+// A law of small strains does not feel that a body is lowered as it turns: no weight tips it.
+bool can_tip_unfelt(const LagrangianPhase& phase) {
+  return phase.info().may_touch && phase.info().of_small_strain && !on_contact_alone(phase).empty();
+}
+
 // True if the points have fewer strains than the body has unknowns, so that K is singular.
 bool has_too_few_points(const LagrangianPhase& phase) {
   const auto dim = static_cast<std::size_t>(phase.dim());
@@ -137,14 +144,15 @@ void write_mode(const EquilibriumStability& stability, const LagrangianPhase& ph
 
 EquilibriumStability stability_of(const LagrangianPhase& phase, double t, ConstVec u, double residual) {
   using Kind = EquilibriumStability::Kind;
-  const bool can_change = phase.info().nonlinear && !phase.history_dependent() && !phase.contact();
-  if (!can_change || phase.size() == 0 || phase.size() > direct_solver_limit) return {};
+  const bool can_change = phase.info().nonlinear && !phase.info().remembers && !phase.contact();
+  if (!can_change || phase.size() == 0 || phase.size() > direct_solver_limit || slips(phase, t, u)) return {};
   const SparseMatrix K = phase.tangents().matrix(Tangent::consistent, t, u) - phase.tangents().of_loads(t, u);
   const SparseMatrix transposed = K.transpose();
   // With an unsymmetric K no mode grows in one direction if the symmetric part is positive definite.
   LowestMode lowest = lowest_mode(0.5 * (K + transposed), phase.mass(),
                                   [&](const std::vector<double>& x) { return moves_no_material(phase, t, x); });
-  if (lowest.positive_definite) return {.kind = Kind::stable, .mode = {}, .largest = {}};
+  if (lowest.positive_definite)
+    return {.kind = can_tip_unfelt(phase) ? Kind::not_tested : Kind::stable, .mode = {}, .largest = {}};
   if (!lowest.found) return {};
   constexpr double rounding = 1e-10;
   const bool symmetric = (K - transposed).norm() <= rounding * K.norm();
@@ -156,6 +164,7 @@ EquilibriumStability stability_of(const LagrangianPhase& phase, double t, ConstV
   stability.kind = lowest.omega_squared < -unsure  ? Kind::unstable
                    : lowest.omega_squared > unsure ? Kind::stable
                                                    : Kind::neutral;
+  if (stability.kind == Kind::stable && can_tip_unfelt(phase)) return {};
   if (stability.kind != Kind::stable) describe_mode(phase, t, u, lowest.x, stability);
   return stability;
 }
@@ -184,6 +193,9 @@ void StabilityTest::confirm(RunState& run, Verdict& verdict) {
     verdict = run.end_request.verdict("before it was known whether the equilibrium is stable, after " + verdict.reason);
     return;
   }
+  if (stability_.kind == EquilibriumStability::Kind::not_tested)
+    if (std::string note = note_on_small_contact(run.scene, phase, run.t, run.motion->u()); !note.empty())
+      run.model.notes.push_back(std::move(note));
   const bool neutral = stability_.kind == EquilibriumStability::Kind::neutral;
   // A body that was held and is no more has softened away: what is left of its error bound certifies nothing.
   const bool softened_away = neutral && run.measured.has_distance() && !run.measured.distance_to_go();

@@ -21,7 +21,8 @@ struct EquilibriumStability {
 };
 
 /// The stability of the equilibrium (t, u). It is tested if a factor fits into memory and K(u) can have changed its
-/// sign: in bodies that are nonlinear, without history and without contact. residual: how far from balance u is.
+/// sign: in bodies that are nonlinear, without history, without walls and where no friction slips. residual: how far
+/// from balance u is.
 EquilibriumStability stability_of(const LagrangianPhase& phase, double t, ConstVec u, double residual);
 
 /// A sentence that says what a neutral or an unstable equilibrium means.
