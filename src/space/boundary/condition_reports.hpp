@@ -51,6 +51,9 @@ struct ContactReport {
   double slid = 0;                       // how far bodies have moved along each other in the phase, where most [cells]
   double turned = 0;   // by how much a piece that touches has turned on what it touches in the phase, where most [rad]
   double stretch = 1;  // by which a piece of the border that touches is drawn out, where most, if it is not cut anew
+  // At a sharp corner a piece may be pushed along its own border, by the side of the rigid body that it is behind:
+  double hooked = 0;         // the pressures there, as a force along the border [N]
+  double friction_left = 0;  // that could bear it in their place [N]
 };
 
 /// What lies in a rigid body without being felt, where it lies deepest.

@@ -298,12 +298,21 @@ void ContactForce<K, Finder>::follow(const std::vector<PieceOrigin>& origins, st
 template <Kinematics K, class Finder>
 ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   constexpr double rounding = 1e-6;  // of the limit: a piece whose anchor was dragged is at it
+  constexpr double faces = 0.35;     // the cosine between the normals of what touches, from which on it is in front
   ContactReport report;
   const RigidPlacement<N> placement = this->placement(t, u);
   const Position centre = placement.a + placement.u, moved = placement.u - finder_.placement(t).u;
   for (int i = 0; i < N; ++i) report.displacement[static_cast<std::size_t>(i)] = moved[i];
   double slipping = 0;
+  Position hooked = Position::Zero();
   for_closed(placement, u, [&](const Touch& touch) {
+    const Position border = TouchFinder<K>::position_of(surface_.piece(touch.piece).deformed_area(u)).normalized();
+    const double facing = -touch.at.normal.dot(border);
+    if (facing < faces) {
+      hooked += touch.area * touch.p * (touch.at.normal + facing * border);
+    } else if (friction_ > 0) {
+      report.friction_left += touch.area * (friction_ * touch.p - touch.tau.norm());
+    }
     const Position f = touch.area * (touch.p * touch.at.normal + touch.tau), arm = touch.x - centre;
     for (int i = 0; i < N; ++i) report.force[static_cast<std::size_t>(i)] += f[i];
     add_moment<N>(arm, f, report.moment);
@@ -313,6 +322,8 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
     report.penetration = std::max(report.penetration, -touch.at.distance / surface_.patches()[touch.patch].cell);
   });
   report.slipping = report.area > 0 ? slipping / report.area : 0;
+  if (K == Kinematics::axisymmetric) hooked[0] = 0;  // which cancels around the axis
+  report.hooked = hooked.norm();
   return report;
 }
 
