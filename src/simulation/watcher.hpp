@@ -63,6 +63,7 @@ std::unique_ptr<Watcher> watch_single_phase();
 std::unique_ptr<Watcher> watch_left_in_points();
 std::unique_ptr<Watcher> watch_passed_bodies();
 std::unique_ptr<Watcher> watch_hooked_corners();
+std::unique_ptr<Watcher> watch_unheld_bodies();
 std::unique_ptr<Watcher> watch_rate_share(const RunState& run);
 std::unique_ptr<Watcher> watch_multipliers(RunState& run);
 std::unique_ptr<Watcher> watch_plastic_path(const RunState& run);

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "says.hpp"
 #include "scenes.hpp"
 
 using namespace stillpoint;
@@ -18,7 +19,7 @@ Summary run_text(const std::string& text, const std::vector<std::string>& set = 
   return run(load_scene("scene.toml", text, set), {.threads = 1});
 }
 const std::string rubber = "[material.m]\nlaw = 'neo-hookean'\nE = 1e6\nnu = 0.3\nrho = 1000\n";
-const std::string ends = "[damping]\nstrategy = 'auto'\n[stop]\nsteps = 20000\n";
+const std::string stop = "[stop]\nsteps = 20000\n", ends = "[damping]\nstrategy = 'auto'\n" + stop;
 
 /// A rigid box of 1 by 0.5 on an incline of 0.2, whose lower corner is at x_0.
 std::string box_on_incline(double x_0, const std::string& more) {
@@ -36,6 +37,33 @@ std::string box_on_incline(double x_0, const std::string& more) {
          rubber + ends;
 }
 
+/// A block between two plates that stand at its sides.
+std::string between_plates(const std::string& more, const std::string& way = ends) {
+  return "dim = 2\n[grid]\nmin = [0, 0]\nmax = [4, 4]\ncells = [16, 16]\n"
+         "[[body]]\nname = 'block'\nmin = [1, 1]\nmax = [2, 2]\nmaterial = 'm'\nplacement = 'gauss'\n"
+         "[[rigid]]\nname = 'left'\nhalf_plane = [[1, 0], [1, 0]]\n"
+         "[[rigid]]\nname = 'right'\nhalf_plane = [[2, 0], [-1, 0]]\n"
+         "[body_force]\nvalue = [0, -10]\n" +
+         more + rubber + way;
+}
+
+/// A block above a base.
+const std::string above_base =
+    "dim = 2\n[constants]\ng = -10\n[grid]\nmin = [0, 0]\nmax = [4, 3]\ncells = [16, 12]\n"
+    "[[body]]\nname = 'base'\nmax = [4, 1]\nmaterial = 'm'\nplacement = 'gauss'\n"
+    "[[body]]\nname = 'block'\nmin = [1, 1.5]\nmax = [2, 2.25]\nmaterial = 'm'\nplacement = 'gauss'\n"
+    "[[contact]]\nbodies = ['block', 'base']\nfriction = 0.3\n[[support]]\nface = 'bottom'\n"
+    "[body_force]\nvalue = [0, 'g']\n" +
+    rubber + ends;
+
+void check_moves_away(const Summary& s, const std::string& who, const std::string& along) {
+  CAPTURE(s.reason);
+  CHECK(s.status == RunStatus::failed);
+  CHECK(s.exit_status == 4);
+  CHECK_THAT(s.reason, Contains(fmt::format("{} is held by nothing along {} and moves away", who, along)));
+  CHECK(s.rhs_evaluations < 1000);
+}
+
 }  // namespace
 
 TEST_CASE("a free box on a smooth incline comes to no rest behind the places that its sharp corner meets") {
@@ -48,6 +76,47 @@ TEST_CASE("a free box on a smooth incline comes to no rest behind the places tha
   }
   // With friction that is enough it rests by that.
   CHECK(run_text(box_on_incline(1.2, "friction = 0.25")).status == RunStatus::equilibrium);
+}
+
+TEST_CASE("a block that falls between smooth plates is told soon to be held by nothing along them") {
+  check_moves_away(run_text(between_plates("")), "'block'", "y");
+  // A floor ahead, however far, and rough plates are something.
+  const Summary caught = run_text(between_plates("[[rigid]]\nname = 'floor'\nhalf_plane = [[0, -0.5], [0, 1]]\n"));
+  CAPTURE(caught.reason);
+  CHECK(caught.status == RunStatus::equilibrium);
+}
+
+TEST_CASE("bodies that nothing holds are told by static solvers as well") {
+  for (const char* method : {"newton", "lbfgs"}) {
+    CAPTURE(method);
+    const Summary s = run_text(between_plates("", fmt::format("[solve]\nmethod = '{}'\n", method) + stop));
+    CHECK(s.status != RunStatus::equilibrium);
+    CHECK((says(s, "'block' is held by nothing along y") ||
+           s.reason.find("'block' is held by nothing along y") != std::string::npos));
+  }
+}
+
+TEST_CASE("a block that its load lifts off a base moves away, and one that falls on it comes to rest") {
+  check_moves_away(run_text(above_base, {"constants.g=10"}), "'block'", "y");
+  CHECK(run_text(above_base).status == RunStatus::equilibrium);
+}
+
+TEST_CASE("a free rigid body with nothing on its way is told to move away, and its displacement stays a length") {
+  const std::string free_box =
+      "dim = 2\n[constants]\ng = 10\n[grid]\nmin = [0, 0]\nmax = [4, 3]\ncells = [16, 12]\n"
+      "[[body]]\nname = 'pad'\nmax = [4, 1]\nmaterial = 'm'\nplacement = 'gauss'\n[[support]]\nface = 'bottom'\n"
+      "[[rigid]]\nname = 'box'\nmin = [1.5, 1.5]\nmax = [2.5, 2]\nfree = true\nmass = 500\n"
+      "[body_force]\nvalue = [0, 'g']\n" +
+      rubber + ends;
+  const Summary s = run_text(free_box);
+  check_moves_away(s, "'box'", "y");
+  CHECK(s.contacts.at("box.displacement_y") < 1e5);
+  CHECK(run_text(free_box, {"constants.g=-10"}).status == RunStatus::equilibrium);
+  // From however far above it comes down.
+  CHECK(run_text(free_box, {"constants.g=-10", "rigid[0].min=[1.5, 501.5]", "rigid[0].max=[2.5, 502]"}).status ==
+        RunStatus::equilibrium);
+  // A run until a time goes on.
+  CHECK(run_text(free_box, {"stop.residual=0", "stop.time=0.1"}).status == RunStatus::end_time);
 }
 
 }  // namespace stillpoint::test

@@ -48,6 +48,7 @@ std::vector<Watched> make_watchers(RunState& run) {
   list.push_back({"multipliers", watch_multipliers(run)});
   list.push_back({"monitor", std::make_unique<Monitor>(run, *creep)});
   list.push_back({"mechanism", std::make_unique<MechanismWatch>(run)});
+  list.push_back({"unheld_bodies", watch_unheld_bodies()});
   list.push_back({"standstill", std::make_unique<Standstill>(run.model.integrator.max_step)});
   list.push_back({"creep", std::move(creep)});
   list.push_back({"limit_load", std::make_unique<LimitLoad>(run.scene.stop.load_growth)});

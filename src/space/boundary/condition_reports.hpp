@@ -54,6 +54,7 @@ struct ContactReport {
   // At a sharp corner a piece may be pushed along its own border, by the side of the rigid body that it is behind:
   double hooked = 0;         // the pressures there, as a force along the border [N]
   double friction_left = 0;  // that could bear it in their place [N]
+  bool is_gone = false;      // a free rigid body that has found nothing on its way, far beyond all that it may touch
 };
 
 /// What lies in a rigid body without being felt, where it lies deepest.

@@ -177,6 +177,11 @@ std::vector<Intrusion> Conditions<K>::intrusions(const Parts& phase, double t, c
 }
 
 template <Kinematics K>
+bool Conditions<K>::is_ahead(std::size_t body, const Point<dim>& direction, double t, const double* u) const {
+  return rigid_contact_->is_ahead(body, direction, t, u);
+}
+
+template <Kinematics K>
 ContactState Conditions<K>::contact_state(double t, const double* u) const {
   ContactFit fit;
   rigid_contact_->add_fit(t, u, fit);

@@ -104,13 +104,27 @@ RigidPlacement<ContactForce<K, Finder>::N> ContactForce<K, Finder>::placement(do
   RigidPlacement<N> placement = finder_.placement(t);
   if (!finder_.is_free()) return placement;
   placement.u += settled_;
-  if (surface_.empty()) return placement;
+  if (surface_.empty() || is_gone(t, u)) return placement;
   const double cell = surface_.patches().front().cell;
   const double rounding = rounding_of(TouchFinder<K>::position_of(surface_.start(0)).norm());
   settle<N>(
-      placement, {longest * cell, rounding, touching * cell}, [&] { return balance(t, placement, u); },
-      [&] { return way_to_touch(placement, u); });
+      placement, {longest * cell, rounding, touching * cell, surface_.extent()},
+      [&] { return balance(t, placement, u); }, [&] { return way_to_touch(placement, u); });
   return placement;
+}
+
+// Far beyond the grid, and driven still further away from all of it.
+template <Kinematics K, class Finder>
+bool ContactForce<K, Finder>::is_gone(double t, const double* u) const {
+  constexpr double far = 30;  // extents of the grid
+  const double extent = surface_.extent();
+  if (!finder_.is_free() || !(settled_.norm() > far * extent)) return false;
+  RigidPlacement<N> here = finder_.placement(t);
+  here.u += settled_;
+  RigidPlacement<N> further = here;
+  further.u += extent * settled_.normalized();
+  const double way = way_to_touch(here, u);
+  return way > 2 * extent && way_to_touch(further, u) > way && finder_.load(t).dot(settled_) > 0;
 }
 
 template <Kinematics K, class Finder>
@@ -324,6 +338,7 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   report.slipping = report.area > 0 ? slipping / report.area : 0;
   if (K == Kinematics::axisymmetric) hooked[0] = 0;  // which cancels around the axis
   report.hooked = hooked.norm();
+  report.is_gone = is_gone(t, u);
   return report;
 }
 

@@ -134,6 +134,7 @@ class ContactForce {
     if (K == Kinematics::axisymmetric) stiffness.row(0).setZero(), stiffness.col(0).setZero();
     return stiffness;
   }
+  bool is_gone(double t, const double* u) const;
   double way_to_touch(const RigidPlacement<N>& placement, const double* u) const;
   /// Calls visit(piece, A S) for each piece that touches, or all but does.
   template <class Visit>

@@ -11,6 +11,7 @@ namespace stillpoint {
 template <Kinematics K>
 ContactSurface<K>::ContactSurface(const Problem& problem, const std::vector<char>& touched, const Grid<dim>& grid)
     : phases_end_(problem.phase.ends()) {
+  for (const Axis& axis : grid.axes) extent_ = std::hypot(extent_, axis.max() - axis.min());
   const bool stretches = dim == 2 && problem.phase.ends() &&
                          problem.phase.quadrature != Quadrature::domains;  // as pieces that are carried
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {

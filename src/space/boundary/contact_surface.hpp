@@ -40,6 +40,8 @@ class ContactSurface {
   bool empty() const { return pieces_.empty(); }
   std::span<const Patch> patches() const { return patches_; }
   std::size_t size() const { return pieces_.size(); }
+  /// The length from corner to corner of the grid of the first phase [m].
+  double extent() const { return extent_; }
   /// The functions that move the pieces, each once, by the numbers of their first unknowns; and those of the patches,
   /// by their places in that list.
   const std::vector<int>& functions() const { return functions_; }
@@ -179,7 +181,7 @@ class ContactSurface {
   std::vector<std::size_t> sources_begin_{0};
   std::vector<Source> sources_;
   std::vector<int> functions_, of_patches_;
-  double first_bound_ = -1, growth_ = 1;
+  double first_bound_ = -1, growth_ = 1, extent_ = 0;
 };
 
 }  // namespace stillpoint

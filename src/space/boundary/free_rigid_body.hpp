@@ -32,6 +32,7 @@ struct SettlingLengths {
   double longest;   // of a step
   double rounding;  // a step that is none
   double touching;  // that it goes into what it meets
+  double furthest;  // of a way through empty space
 };
 
 /// Newton's method downhill in the potential, whose slope Σ f − W is piecewise linear but for the turn of n. As long as
@@ -49,7 +50,7 @@ void settle(RigidPlacement<N>& placement, const SettlingLengths& lengths, const 
     if (now.stiffness.isZero(0)) {
       const double way = way_to_touch();
       if (!std::isfinite(way)) return;  // nothing to touch
-      placement.u += (way + lengths.touching) / out.norm() * out;
+      placement.u += (std::min(way, lengths.furthest) + lengths.touching) / out.norm() * out;
       now = balance();
       continue;
     }

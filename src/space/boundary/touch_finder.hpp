@@ -81,6 +81,11 @@ class TouchFinder {
     return shape_->nearest(placement.to_body(position_of(x))).distance;
   }
 
+  /// The same with its derivatives.
+  Nearest<N> nearest(const Position& x, const RigidPlacement<N>& placement) const {
+    return placement.nearest(*shape_, x);
+  }
+
   static Position position_of(const Point<dim>& x) {
     Position position = Position::Zero();
     for (int d = 0; d < dim; ++d) position[d] = x[static_cast<std::size_t>(d)];

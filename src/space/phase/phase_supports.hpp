@@ -1,6 +1,7 @@
 // What the conditions of a phase bear and how they move.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -40,6 +41,12 @@ class PhaseSupportsOf final : public PhaseSupports {
   std::vector<Intrusion> intrusions(double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return {};
     return all_.conditions.intrusions(all_.inertia.parts(), t, spread(t, u)->u.data());
+  }
+  bool is_rigid_body_ahead(std::size_t body, ConstVec direction, double t, ConstVec u) const override {
+    if (!all_.conditions.may_touch()) return false;
+    Point<dimensions(K)> along;
+    std::copy_n(direction.begin(), along.size(), along.begin());
+    return all_.conditions.is_ahead(body, along, t, spread(t, u)->u.data());
   }
   std::optional<LoadState> load_state(double t, ConstVec u) const override {
     if (!all_.conditions.are_driven()) return std::nullopt;
