@@ -192,6 +192,37 @@ TEST_CASE(
                                           Catch::Contains("may pass between its points"));
 }
 
+TEST_CASE(
+    "around an axis the figures of a rigid body are those of all of it, and its radial force a sum without sign") {
+  const std::string bar =
+      "dim = 2\n[constants]\nnu = 0.25\n[grid]\nmin = [0, 0]\nmax = [2, 2]\ncells = [16, 16]\n"
+      "[[body]]\nmax = [1, 1]\nmaterial = 'm'\nstate = 'axisymmetric'\nplacement = 'gauss'\n"
+      "[material.m]\nlaw = 'linear-elastic'\nE = 1000\nnu = 'nu'\nrho = 1\n"
+      "[[support]]\nface = 'bottom'\nkind = 'roller'\n[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-9\n";
+  const auto run_with = [&](const std::string& rigid, const std::vector<std::string>& set = {}) {
+    return run(load_scene("bar.toml", bar + rigid, set), {.threads = 1});
+  };
+  const double pi = std::acos(-1.0);
+  // A ring that is 1 % too narrow: p = E δ/(a (1 + ν)(1 − 2ν)) in plane strain, on 2π a H.
+  const Summary ring = run_with(
+      "[[rigid]]\nname = 'lid'\nhalf_plane = [[0, 1], [0, -1]]\n"
+      "[[rigid]]\nname = 'ring'\nhalf_plane = [[0.99, 0], [-1, 0]]\n");
+  REQUIRE(ring.status == RunStatus::equilibrium);
+  CHECK(ring.contacts.at("ring.force_x") == Approx(-2 * pi * 1000 * 0.01 / (1.25 * 0.5)).epsilon(1e-6));
+  CHECK(ring.contacts.at("ring.force_y") == Approx(0).margin(1e-6));
+  CHECK(ring.contacts.at("ring.contact_area") == Approx(2 * pi));
+  CHECK(ring.contacts.count("ring.moment_z") == 0);
+  // A free plate bears the force on it: E δ/H on π a².
+  const Summary plate = run_with(
+      fmt::format("[[rigid]]\nname = 'plate'\nhalf_plane = [[0, 1], [0, -1]]\nfree = true\nforce = [0, {:.15g}]\n",
+                  -10 * pi),
+      {"constants.nu=0"});
+  REQUIRE(plate.status == RunStatus::equilibrium);
+  CHECK(plate.contacts.at("plate.force_y") == Approx(-10 * pi).epsilon(1e-6));
+  CHECK(plate.contacts.at("plate.displacement_y") == Approx(-0.01).epsilon(1e-5));
+  CHECK(plate.contacts.at("plate.contact_area") == Approx(pi));
+}
+
 TEST_CASE("a free footing settles until the ground bears its weight, by every way to rest, and always as far") {
   double settled = 0;
   for (const char* way : {"damping.strategy=viscous", "damping.strategy=auto", "damping.strategy=kinetic",
