@@ -121,7 +121,9 @@ struct Summary {
   std::map<std::string, std::vector<double>> reactions;         // forces that named supports exert on the body [N]
   std::map<std::string, std::vector<double>> reaction_moments;  // moments of the reactions about the origin, in space
                                                                 // [N m]
-  std::map<std::string, double> contacts;  // the last value of each column of history.csv that a rigid body has
+  /// The last value of each column of history.csv that a rigid body or a contact has. In an axisymmetric scene they are
+  /// of the whole body, around the axis: force_y along it, and force_x the sum of the radial components.
+  std::map<std::string, double> contacts;
   std::vector<SupportGap> weak_supports;
   std::optional<LoadFigures> load;
   std::optional<ExactError> error;
