@@ -169,6 +169,7 @@ Setting setting_out(const Problem& problem, const LagrangianPhase& phase, double
 bool meet(const Problem& problem, const Setting& set) {
   constexpr double rounding = 1e-6;
   return std::ranges::any_of(problem.contacts, [&](const ContactSpec& contact) {
+    if (!are_there(problem, contact)) return false;
     const auto [a, b] = bodies_of(problem, contact);
     const std::vector<double>&of_a = set.ways[a], &of_b = set.ways[b];
     std::vector<double> relative = of_a;
