@@ -180,7 +180,7 @@ TEST_CASE("relaxed at large strain in a single phase, the column is the static s
   }
 }
 
-TEST_CASE("at large strain in many phases the quadratic column settles right to 0.3 % and bears its weight to 1.5 %") {
+TEST_CASE("at large strain in many phases the quadratic column settles right to 0.3 % and bears its weight to 2 %") {
   // What is lost is in the points of a cell that no longer integrate it once they have moved.
   for (const std::string& law : laws) {
     for (const std::string& state : states) {
@@ -192,7 +192,7 @@ TEST_CASE("at large strain in many phases the quadratic column settles right to 
       CHECK(s.phases > 5);
       CHECK(std::abs(off) < 0.003);
       const double y = s.probe_positions.at("base")[1];
-      CHECK_THAT(scenes::probe(s, "base", "stress.yy"), WithinRel(-rho * g * (H - y), 0.015));
+      CHECK_THAT(scenes::probe(s, "base", "stress.yy"), WithinRel(-rho * g * (H - y), 0.02));
     }
   }
 }

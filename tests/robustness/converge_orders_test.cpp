@@ -41,8 +41,8 @@ TEST_CASE("a bar with a manufactured solution has the order of its basis in ever
     const StudiedQuantity& read = quantity(study, "stress_read_l2");
     CAPTURE(read.errors, quantity(study, "stress_l2").errors);
     CHECK(read.theory == degree);
-    CHECK(read.order->order >= degree - 0.1);
-    CHECK(read.errors.back() <= 0.3 * quantity(study, "stress_l2").errors.back());
+    CHECK(read.order->order >= degree - 0.2);
+    CHECK(read.errors.back() <= 0.5 * quantity(study, "stress_l2").errors.back());
     // Judged by the exact u at the place itself, a third of the way along a cell or two on each level.
     CHECK(quantity(study, "third.u").theory == degree + 1);
     CHECK(quantity(study, "third.u").order->order >= least - 0.1);

@@ -13,8 +13,8 @@ namespace stillpoint {
 /// the material points: they are fitted to those points around x that have the material of the nearest one, by
 /// polynomials whose degree is that of the basis, 4 for cubic ones, as far as the points determine them. The error of
 /// the points' own stress, of the order of the basis's degree, changes its sign within a cell: a fit over the cells
-/// around evens it out, and is an order better amid points on all sides [Zienkiewicz and Zhu 1992, for finite
-/// elements].
+/// around evens it out [Zienkiewicz and Zhu 1992, for finite elements]. Amid points on all sides the fit is an order
+/// better with a linear or quadratic basis; with a cubic one, and at borders, it has the order of the points.
 class PlaceReader {
  public:
   virtual ~PlaceReader() = default;
