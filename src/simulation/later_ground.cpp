@@ -3,7 +3,9 @@
 #include <map>
 #include <string>
 
+#include "plan/catalogue.hpp"
 #include "scene/dimensions.hpp"
+#include "scene/resolve.hpp"
 #include "scene/stages.hpp"
 #include "space/grid/scene_grid.hpp"
 #include "space/points/material_points.hpp"
@@ -29,6 +31,7 @@ void check_ground_of_later_stages(Scene scene) {
   for (const BodySpec& body : scene.bodies) material_of[body.number] = body.material;
   while (!scene.stages.empty()) {
     begin_next_stage(scene);
+    resolve(scene, catalogue());
     for (const BodySpec& body : scene.bodies) {
       const MaterialSpec& material = scene.materials.at(body.material);
       std::string& before = material_of[body.number];
