@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 
 #include "base/special_functions.hpp"
+#include "space/points/nonnegative_least_squares.hpp"
 
 namespace stillpoint {
 namespace {
@@ -91,39 +92,6 @@ MatrixXd legendre_products(const MatrixXd& xi, int degree) {
   std::vector<std::vector<int>> powers;
   for (int k = 0; k <= degree; ++k) powers.push_back({k, degree - k});
   return Legendre(xi).products(powers);
-}
-
-VectorXd solve_nnls(const MatrixXd& E, const VectorXd& f) {
-  const Index n = E.cols();
-  VectorXd x = VectorXd::Zero(n);
-  std::vector<Index> passive;  // indices for which x > 0 is allowed
-  const double tolerance = 1e-13 * (1 + E.cwiseAbs().maxCoeff()) * (1 + f.cwiseAbs().maxCoeff());
-  const auto least_squares = [&] {
-    MatrixXd columns(E.rows(), static_cast<Index>(passive.size()));
-    for (std::size_t j = 0; j < passive.size(); ++j) columns.col(static_cast<Index>(j)) = E.col(passive[j]);
-    return VectorXd(columns.colPivHouseholderQr().solve(f));
-  };
-  for (Index outer = 0; outer < 3 * n; ++outer) {
-    VectorXd gradient = E.transpose() * (f - E * x);
-    for (const Index j : passive) gradient(j) = 0;
-    Index entering = 0;
-    if (static_cast<Index>(passive.size()) == n || gradient.maxCoeff(&entering) <= tolerance) break;
-    passive.push_back(entering);
-    while (!passive.empty()) {
-      const VectorXd s = least_squares();
-      // The longest share of the way to s that keeps x ≥ 0; variables that reach zero leave the passive set.
-      double share = 1;
-      for (std::size_t j = 0; j < passive.size(); ++j) {
-        const double from = x(passive[j]), to = s(static_cast<Index>(j));
-        if (to <= 0) share = std::min(share, from / (from - to));
-      }
-      for (std::size_t j = 0; j < passive.size(); ++j)
-        x(passive[j]) += share * (s(static_cast<Index>(j)) - x(passive[j]));
-      if (share >= 1) break;
-      std::erase_if(passive, [&](Index j) { return x(j) <= 1e-15 ? (x(j) = 0, true) : false; });
-    }
-  }
-  return x;
 }
 
 MomentFit fit_moments(const MatrixXd& xi) {

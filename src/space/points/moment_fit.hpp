@@ -37,7 +37,4 @@ ConstrainedFit nearest_nonnegative(const Eigen::MatrixXd& A, const Eigen::Vector
 /// this total degree. xi: (2 × n); returns (degree + 1 × n).
 Eigen::MatrixXd legendre_products(const Eigen::MatrixXd& xi, int degree);
 
-/// Solves min ‖E x − f‖ with x ≥ 0 [Lawson and Hanson 1974, algorithm NNLS (23.10)].
-Eigen::VectorXd solve_nnls(const Eigen::MatrixXd& E, const Eigen::VectorXd& f);
-
 }  // namespace stillpoint

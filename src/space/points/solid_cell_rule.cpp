@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include "geometry/gauss_rule.hpp"
 #include "space/points/cut_cell_rule.hpp"
 #include "space/points/moment_fit.hpp"
+#include "space/points/nonnegative_least_squares.hpp"
 
 namespace stillpoint {
 namespace {
@@ -32,6 +35,24 @@ VectorXd vector_of_values(const std::vector<double>& values) {
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 VectorXd equal(std::size_t n) { return VectorXd::Constant(static_cast<Index>(n), 1.0 / static_cast<double>(n)); }
+
+std::vector<SpacePoint> every_nth(const std::vector<SpacePoint>& x, std::size_t n) {
+  std::vector<SpacePoint> some;
+  for (std::size_t k = n / 2; k < x.size(); k += n) some.push_back(x[k]);
+  return some;
+}
+
+// solve_nnls(A, b) with the rows of A made orthonormal first, A = Rᵀ Qᵀ: where they nearly depend on each other, as
+// products of high degrees do in a part that is no box, it would end before its residual is small.
+VectorXd solve_in_orthonormal_rows(const MatrixXd& A, const VectorXd& b) {
+  if (A.cols() < A.rows()) return solve_nnls(A, b);
+  const Eigen::HouseholderQR<MatrixXd> qr(A.transpose());
+  const Eigen::ArrayXd diagonal = qr.matrixQR().diagonal().array().abs();
+  if (!(diagonal.minCoeff() > 1e-10 * diagonal.maxCoeff())) return solve_nnls(A, b);
+  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(A.cols(), A.rows());
+  const VectorXd f = qr.matrixQR().topRows(A.rows()).triangularView<Eigen::Upper>().transpose().solve(b);
+  return solve_nnls(Q.transpose(), f);
+}
 
 int degree_for(std::size_t points) {
   int degree = 1;
@@ -163,23 +184,33 @@ SolidCellRule CellPart::fitted_shares(std::vector<SpacePoint> inside) const {
   return with_shares(x, share, degree);
 }
 
+// Shares of some of these points that integrate a degree; none if they do not.
+std::optional<VectorXd> CellPart::shares_for(const std::vector<SpacePoint>& from, int degree) const {
+  // Four points cannot resolve all of the trilinear functions, of which there are eight.
+  const bool more = degree == 1 && most_points_ >= 8;
+  const auto rows = static_cast<Index>(count_of(degree)), all = rows + (more ? 4 : 0);
+  MatrixXd A(all, static_cast<Index>(from.size()));
+  VectorXd b(all);
+  A.topRows(rows) = products(seen_from_part(from), degree);
+  b.head(rows) = moments_.head(rows);
+  if (more) {
+    A.bottomRows(4) = products_of_axes(from);
+    b.tail(4) = products_of_axes(rule_.x) * vector_of_values(rule_.weight) / volume_;
+  }
+  const VectorXd share = solve_in_orthonormal_rows(A, b);
+  if (!((A * share - b).lpNorm<Eigen::Infinity>() <= kRoundingOfMoments)) return std::nullopt;
+  return share;
+}
+
 SolidCellRule CellPart::gauss_points() const {
   const std::vector<SpacePoint> from = solid_.rules_lie_inside() ? rule_.x : lattice_inside();
   for (int degree = degree_; degree > 0 && !from.empty(); --degree) {
-    // Four points cannot resolve all of the trilinear functions, of which there are eight.
-    const bool more = degree == 1 && most_points_ >= 8;
-    const auto rows = static_cast<Index>(count_of(degree)), all = rows + (more ? 4 : 0);
-    MatrixXd A(all, static_cast<Index>(from.size()));
-    VectorXd b(all);
-    A.topRows(rows) = products(seen_from_part(from), degree);
-    b.head(rows) = moments_.head(rows);
-    if (more) {
-      A.bottomRows(4) = products_of_axes(from);
-      b.tail(4) = products_of_axes(rule_.x) * vector_of_values(rule_.weight) / volume_;
+    // A rule of the part has thousands of points: of far fewer there are such shares as well, nearly always.
+    for (std::size_t every = std::max<std::size_t>(1, from.size() / (5 * count_of(degree)));; every = (every + 3) / 4) {
+      const std::vector<SpacePoint> some = every_nth(from, every);
+      if (const std::optional<VectorXd> share = shares_for(some, degree)) return with_shares(some, *share, degree);
+      if (every == 1) break;
     }
-    const VectorXd share = solve_nnls(A, b);
-    if (!((A * share - b).lpNorm<Eigen::Infinity>() <= kRoundingOfMoments)) continue;
-    return with_shares(from, share, degree);
   }
   return fitted_shares({});
 }

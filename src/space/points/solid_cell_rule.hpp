@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -55,6 +56,7 @@ class CellPart {
   Eigen::MatrixXd products_of_axes(const std::vector<SpacePoint>& x) const;
   std::vector<SpacePoint> or_one(std::vector<SpacePoint> inside) const;
   std::vector<SpacePoint> lattice_inside() const;
+  std::optional<Eigen::VectorXd> shares_for(const std::vector<SpacePoint>& from, int degree) const;
   SolidCellRule with_shares(const std::vector<SpacePoint>& x, const Eigen::VectorXd& share, int degree) const;
 
   const Solid& solid_;
