@@ -65,16 +65,14 @@ void check_part(SceneCheck& check, const std::string& name, const SupportSpec& s
   }
 }
 
-/// A motion that varies along a face takes values of its own at the nodes there, or springs.
+/// A motion that varies along a face takes values alone as unknowns there, or springs.
 void check_varying_motion(SceneCheck& check, const std::string& name, const SupportSpec& support) {
   const GridSpec& grid = check.scene().grid;
   if (!support.face || !support.motion.uses_position() || check.scene().dim == 1) return;
-  check.wrong_if(grid.basis != BasisKind::linear && !holds_by_springs(grid, support), name + ".u",
-                 "varies along the face, where {}; expected a linear basis, or a stiffness, by which springs hold each "
-                 "place",
-                 grid.basis == BasisKind::hermite
-                     ? "a hermite basis has slopes as unknowns besides"
-                     : "the unknowns of a quadratic or cubic basis are no values at positions");
+  check.wrong_if(
+      grid.basis == BasisKind::hermite && !holds_by_springs(grid, support), name + ".u",
+      "varies along the face, where a hermite basis has slopes as unknowns besides; expected another basis, or a "
+      "stiffness, by which springs hold each place");
 }
 
 void check_supports(SceneCheck& check, bool grid) {

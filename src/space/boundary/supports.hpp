@@ -128,16 +128,32 @@ class Supports final : public BoundaryCondition<Dim> {
     }
   }
 
-  // The motion of a function: a formula in the position is evaluated at the function's node, where the basis
-  // interpolates (support_kind.hpp).
+  // The motion of a function: of a formula in the position it is the function's coefficient, which is the value at its
+  // node where the basis interpolates.
   const PrescribedMotion& motion_at(std::size_t s, const Functions& functions, int function) {
     if (!motions_[s].varies_in_space()) return motions_[s];
-    std::vector<double> X(Dim);
-    for (int d = 0; d < Dim; ++d) X[static_cast<std::size_t>(d)] = functions.centre(function, d);
     const PrescribedMotion& motion =
-        at_nodes_.insert_or_assign({s, function}, motions_[s].at(std::move(X))).first->second;
+        of_functions_.insert_or_assign({s, function}, motions_[s].summed_over(coefficient_of(functions, function)))
+            .first->second;
     check_motion(s, motion);
     return motion;
+  }
+
+  // Σ_k weight_k f(X_k): the products of the axes' positions and weights.
+  static std::vector<WeightedPlace> coefficient_of(const Functions& functions, int function) {
+    std::vector<WeightedPlace> places{{{}, 1.0}};
+    for (int d = 0; d < Dim; ++d) {
+      const WeightedPositions along = functions.coefficient_along(function, d);
+      std::vector<WeightedPlace> further;
+      for (const WeightedPlace& place : places) {
+        for (std::size_t k = 0; k < along.x.size(); ++k) {
+          further.push_back({place.X, place.weight * along.weight[k]});
+          further.back().X.push_back(along.x[k]);
+        }
+      }
+      places = std::move(further);
+    }
+    return places;
   }
 
   bool is_in_part(const SupportSpec& support, const Functions& functions, int function) const {
@@ -156,8 +172,7 @@ class Supports final : public BoundaryCondition<Dim> {
   std::vector<PrescribedMotion> motions_;  // motion of each support
   std::vector<TouchedFunctions> touched_;  // the held functions of each support on a face
   std::vector<Waiting> waiting_;           // normal unknowns whose material has not reached the face yet
-  std::map<std::pair<std::size_t, int>, PrescribedMotion> at_nodes_;  // motions that vary in space, by support and
-                                                                      // function
+  std::map<std::pair<std::size_t, int>, PrescribedMotion> of_functions_;  // that vary in space, by support and function
 };
 
 }  // namespace stillpoint

@@ -9,6 +9,7 @@
 
 #include "space/grid/basis.hpp"
 #include "space/grid/grid.hpp"
+#include "space/grid/spline_coefficient.hpp"
 
 namespace stillpoint {
 
@@ -49,6 +50,8 @@ class GridFunctions {
   virtual Values evaluate(int field, const Cell& cell, const Point<Dim>& x) const = 0;
   /// The centre of a function along an axis [m].
   virtual double centre(int function, int axis) const = 0;
+  /// The coefficient of a function of f(x) along an axis. Of a basis of values.
+  virtual WeightedPositions coefficient_along(int function, int axis) const = 0;
   /// Whether the function is a value along each axis, and not a slope.
   virtual bool is_value(int function) const = 0;
   /// The functions of all fields that do not vanish on a face of the grid, in ascending order.
@@ -106,6 +109,11 @@ class FunctionsOfBasis final : public GridFunctions<Dim> {
   }
   double centre(int function, int axis) const override {
     return B::centre(this->grid().axes[axis], Basis::index_along(this->grid(), function, axis));
+  }
+  WeightedPositions coefficient_along(int function, int axis) const override {
+    if constexpr (!B::partition_of_unity) return {{centre(function, axis)}, {1.0}};
+    const int along = Basis::index_along(this->grid(), function, axis);
+    return spline_coefficient(this->grid().axes[axis], B::degree, along);
   }
   bool is_value(int function) const override { return Basis::is_value(this->grid(), function); }
   std::vector<int> on_face(int axis, bool upper) const override {

@@ -1,6 +1,10 @@
 #include "space/grid/basis.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
+
+#include "space/grid/spline_coefficient.hpp"
 
 using namespace stillpoint;
 
@@ -33,6 +37,21 @@ TEMPLATE_TEST_CASE("B-splines are a partition of unity and not negative", "", BS
     }
     CHECK(sum == Approx(1).epsilon(1e-14));
     CHECK(slope == Approx(0).margin(1e-13));
+  });
+}
+
+TEMPLATE_TEST_CASE(
+    "a spline with the coefficients of a polynomial up to its degree is that polynomial, on uneven cells", "",
+    BSpline<1>, BSpline<2>, BSpline<3>) {
+  using Basis = TensorBasis<TestType, 1>;
+  const auto f = [](double x) { return std::pow(x - 1.2, TestType::degree) + 0.3 * x; };
+  everywhere<Basis>([&](int cell, double x, const auto& values) {
+    double sum = 0;
+    for (int a = 0; a < Basis::per_cell; ++a) {
+      const WeightedPositions of = spline_coefficient(uneven.axes[0], TestType::degree, TestType::first(cell) + a);
+      for (std::size_t k = 0; k < of.x.size(); ++k) sum += values.N[a] * of.weight[k] * f(of.x[k]);
+    }
+    CHECK(sum == Approx(f(x)).margin(1e-13));
   });
 }
 
