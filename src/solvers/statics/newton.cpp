@@ -78,7 +78,6 @@ class Newton {
   // the end of such a detour: beyond a limit load it may be an equilibrium that no path of the load reaches.
   bool load_step(LoadStep& step, Vec u) {
     const std::vector<double> start(u.begin(), u.end());
-    full_steps_ = false;
     refusal_.clear();
     if (last_.is_known()) {
       const double share = step.to - step.from;
@@ -89,10 +88,11 @@ class Newton {
       step.residuals.clear();
     }
     if (iterate(step, u)) return true;
-    if (!crawling()) return false;
+    if (!full_steps_ && !crawling()) return false;
+    // The other kind of steps; where full ones were the better kind they are what the next increment begins with.
     std::ranges::copy(start, u.begin());
     step.residuals.clear();
-    full_steps_ = true;
+    full_steps_ = !full_steps_;
     return iterate(step, u);
   }
 
