@@ -6,7 +6,8 @@ their u and σ are read at the same places inside the body and compared with the
 and each repetition begins with another way, so that what the machine does meanwhile falls on all of them; of a way's
 repetitions the fastest counts. Prints a line for each way and size, and writes DIR/beside_fem.csv, DIR/beside_fem.json (the
 orders, ratios, crossings and verdicts), DIR/CASE.png and DIR/beside_fem.md. Exit status 1 if a run has no solution, which
-leaves its place empty, 2 for bad input or without FEniCSx. Needs build/release/stillpoint.
+leaves its place empty, 2 for bad input or without FEniCSx. The CSV file is written after each case; with --keep the cases
+that it already has are not measured again. Needs build/release/stillpoint.
 """
 
 import argparse
@@ -21,7 +22,7 @@ from pathlib import Path
 from beside_fem_cases import CASES
 from beside_fem_page import line, page
 from beside_fem_runs import FEM, QUICK_WAYS, ROOT, cases_named, fem_row, first_cells, our_errors, our_row, refer, sizes_of, ways_of
-from beside_fem_table import write_csv
+from beside_fem_table import by, read_csv, write_csv
 from beside_fem_verdict import judged
 from scaling import best, enough, rotated
 
@@ -76,6 +77,25 @@ def measure_case(options, case):
     return rows
 
 
+def kept(options):
+    """{case: rows} of an earlier run into the same folder, if they are to be kept."""
+    file = options.out / "beside_fem.csv"
+    return by(read_csv(file), "case") if options.keep and file.exists() else {}
+
+
+def measure(options, rows):
+    """The rows of all cases: those that are kept, and those that are asked for and not among them."""
+    for case in cases_named(options.only):
+        if case.name not in rows:
+            rows[case.name] = measure_case(options, case)
+            write_csv(options.out / "beside_fem.csv", in_order(rows))
+    return in_order(rows)
+
+
+def in_order(rows):
+    return [row for name in CASES for row in rows.get(name, ())]
+
+
 def fem_is_there():
     return subprocess.run(["/usr/bin/python3", "-c", "import dolfinx"], capture_output=True, check=False).returncode == 0
 
@@ -89,6 +109,7 @@ def parse():
     add("--repeat", type=int, default=3, metavar="N", help="runs of each; of long ones fewer")
     add("--sizes", type=int, default=None, metavar="N", help="the N smallest sizes alone")
     add("--seconds", type=float, default=1800, help="of the processor, after which a run is cut off")
+    add("--keep", action="store_true", help="measure no case again whose figures are in DIR/beside_fem.csv")
     add("--accept", action="store_true", help="write the page and its pictures to problems/, of all cases")
     add("--program", type=Path, default=ROOT / "build/release/stillpoint", help="instead of build/release/stillpoint")
     options = parser.parse_args()
@@ -113,7 +134,6 @@ def about(options, load):
 
 
 def write(options, rows, verdicts, text):
-    write_csv(options.out / "beside_fem.csv", rows)
     (options.out / "beside_fem.json").write_text(json.dumps(verdicts, indent=2) + "\n", encoding="utf-8")
     import plot_beside_fem  # here: drawing takes a second to begin
 
@@ -132,7 +152,12 @@ def main():
         return 2
     shutil.rmtree(options.out / "runs", ignore_errors=True)
     options.out.mkdir(parents=True, exist_ok=True)
-    rows = [row for case in cases_named(options.only) for row in measure_case(options, case)]
+    try:
+        rows = kept(options)
+    except (ValueError, TypeError) as error:
+        print(f"beside_fem: {options.out / 'beside_fem.csv'} is not of this program: {error}", file=sys.stderr)
+        return 2
+    rows = measure(options, rows)
     verdicts = judged(rows)
     text = page(rows, verdicts, about(options, load))
     write(options, rows, verdicts, text)

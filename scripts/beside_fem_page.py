@@ -1,6 +1,7 @@
 """The page of scripts/beside_fem, beside_fem.md, and its lines on the terminal."""
 
-from beside_fem_cases import CASES, PLACES
+from beside_fem_case import PLACES
+from beside_fem_cases import CASES
 from beside_fem_runs import FEM, OURS
 from beside_fem_table import by
 from beside_fem_verdict import one_solver

@@ -6,15 +6,16 @@ import os
 import shlex
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from beside_fem_cases import CASES, REFERENCES
+from beside_fem_case import REFERENCES
+from beside_fem_cases import CASES
 from beside_fem_errors import errors_of
 from beside_fem_table import Row
+from beside_fem_scenes import SCENES
 from limited_run import run_in
-from ring_scene import ring_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 FEM, OURS = "FEniCSx", "Stillpoint"
@@ -48,14 +49,15 @@ def first_cells(case, way, unknowns):
     unknowns."""
     dim, nodes = case.dim, unknowns / case.dim
     if way.program == FEM:
-        return max(1, round((nodes / np.prod(case.aspect)) ** (1 / dim) * case.aspect[0] / int(way.functions[1])))
+        return max(1, round((nodes / case.blocks / np.prod(case.aspect)) ** (1 / dim) * case.aspect[0] / int(way.functions[1])))
     return max(2, round((nodes / case.filled / np.prod(case.grid)) ** (1 / dim) * case.grid[0]))
 
 
 def points_per_cell(case, functions):
     """Gauss points that integrate a cell fully; in cells that a border cuts as many as Stillpoint's notes ask for."""
-    along = {"linear": 2, "quadratic": 3, "cubic": 4}[functions]
-    return (along if case.fitted else {2: 4, 3: 4, 4: 6}[along]) ** case.dim
+    fitted = {"linear": 2, "quadratic": 3, "cubic": 4}
+    cut = {2: {"linear": 4, "quadratic": 4, "cubic": 6}, 3: {"linear": 3, "quadratic": 4, "cubic": 5}}[case.dim]
+    return (fitted if case.fitted else cut)[functions] ** case.dim
 
 
 # --- FEniCSx -------------------------------------------------------------------------------------------
@@ -102,7 +104,7 @@ def scene_of(case, first, folder):
         return ROOT / "problems" / case.scene
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{case.name}_{first}.toml"
-    file.write_text(ring_scene(first), encoding="utf-8")
+    file.write_text(SCENES[case.name](first), encoding="utf-8")
     return file
 
 
@@ -185,7 +187,7 @@ def our_errors(program, case, way, first, folder, seconds):
 
 # --- what is run ---------------------------------------------------------------------------------------
 
-PLANE_SIZES, SPACE_SIZES = (250, 1e3, 4e3, 1.6e4, 6.4e4), (3e3, 2e4, 1e5, 3e5)
+PLANE_SIZES, SPACE_SIZES = (250, 1e3, 4e3, 1.6e4, 6.4e4), (3e3, 2e4, 1e5, 1e6)
 IN_PLANE = [Way(FEM, element, "cholmod") for element in ("P1", "P2", "Q1", "Q2")] + [
     Way(FEM, "Q2", "mumps"),
     Way(FEM, "P2", "gamg"),
@@ -193,29 +195,41 @@ IN_PLANE = [Way(FEM, element, "cholmod") for element in ("P1", "P2", "Q1", "Q2")
 ]
 NEARLY_INCOMPRESSIBLE = [Way(FEM, element, "mumps") for element in ("Q1", "Q2", "P2-P1", "Q2-Q1")]
 AT_LARGE_STRAIN = [Way(FEM, element, "mumps") for element in ("P1", "P2", "Q1", "Q2")]
-IN_SPACE = [Way(FEM, element, "gamg") for element in ("P1", "P2", "Q1", "Q2")] + [
-    Way(FEM, element, "cholmod", most=3e4) for element in ("Q1", "Q2")
-]
+IN_SPACE = (
+    [Way(FEM, element, "gamg", most=2e5) for element in ("P1", "P2")]
+    + [Way(FEM, element, "gamg") for element in ("Q1", "Q2")]
+    + [Way(FEM, element, "cholmod", most=3e4) for element in ("Q1", "Q2")]
+)
 BASES = ("linear", "quadratic", "cubic")
 # Where K becomes too wide to be worth the wait [unknowns].
 PLANE_MOST = {("cubic", solver): 2e4 for solver in SOLVERS}
 SPACE_MOST = {
     ("linear", "newton"): 3e4, ("quadratic", "newton"): 5e3, ("cubic", "newton"): 5e3,
-    ("quadratic", "auto, multigrid"): 3e4, ("cubic", "auto, multigrid"): 5e3, ("cubic", "auto, lumped mass"): 1.2e5,
+    ("linear", "auto, multigrid"): 2e5, ("quadratic", "auto, multigrid"): 3e4, ("cubic", "auto, multigrid"): 5e3,
+    ("quadratic", "auto, lumped mass"): 2e5, ("cubic", "auto, lumped mass"): 1.2e5,
 }  # fmt: skip
 OUR_PLANE, OUR_SPACE = (
     [Way(OURS, basis, solver, most.get((basis, solver), math.inf)) for basis in BASES for solver in SOLVERS]
     for most in (PLANE_MOST, SPACE_MOST)
 )
-OUR_NEARLY_INCOMPRESSIBLE = [way for way in OUR_PLANE if way.functions != "cubic"] + [Way(OURS, "cubic", "newton", 5e3)]
+# A cut cell's points for cubic functions take 50 ms to find.
+OUR_IN_CUT_CELLS = [replace(way, most=3e4) if way.functions == "cubic" and way.most > 3e4 else way for way in OUR_SPACE]
+# With a diagonal mass the number of steps grows as the square root of K/G as well.
+OUR_NEARLY_INCOMPRESSIBLE = [
+    replace(way, most=5e3) if way.solver == "auto, lumped mass" else way for way in OUR_PLANE if way.functions != "cubic"
+] + [Way(OURS, "cubic", "newton", 5e3)]
+# A slender body's frequencies lie so far apart that relaxation takes tens of thousands of steps.
+OUR_BENDING = [way if way.solver == "newton" else replace(way, most=1.5e3) for way in OUR_PLANE]
 QUICK_WAYS = [Way(FEM, "Q2", "cholmod"), Way(OURS, "quadratic", "newton"), Way(OURS, "cubic", "newton")]  # of the quick case
 
 
 def ways_of(case):
     if case.dim == 3:
-        return IN_SPACE + OUR_SPACE
+        return IN_SPACE + (OUR_SPACE if case.fitted else OUR_IN_CUT_CELLS)
     if case.dilatation:
         return NEARLY_INCOMPRESSIBLE + OUR_NEARLY_INCOMPRESSIBLE
+    if case.steps > 1:
+        return AT_LARGE_STRAIN + OUR_BENDING
     return (AT_LARGE_STRAIN if case.law.large_strain else IN_PLANE) + OUR_PLANE
 
 

@@ -3,7 +3,8 @@
 import dolfinx
 import numpy as np
 import ufl
-from beside_fem_cases import COOK_LOAD, CUBE_AMPLITUDES, INNER, PRESSURE
+from beside_fem_plane import BEAM_DEPTH, BEAM_LENGTH, BEAM_LOAD, COOK_LOAD, INNER, PRESSURE
+from beside_fem_space import CUBE_AMPLITUDES, SPHERE_INNER, SPHERE_PRESSURE
 from kirsch_plate import HOLE, SIDE, TENSION
 from petsc4py import PETSc
 
@@ -72,8 +73,21 @@ def plate_work(case, mesh, v, degree):
     return TENSION * ufl.inner(ufl.as_matrix([[xx, xy], [xy, yy]]) * ufl.FacetNormal(mesh), v) * sides
 
 
+def sphere_work(case, mesh, v, degree):
+    inside = on_facets(mesh, lambda x: np.sqrt((x**2).sum(axis=0)) < SPHERE_INNER * (1 + 1e-6), degree)
+    return -SPHERE_PRESSURE * ufl.inner(ufl.FacetNormal(mesh), v) * inside
+
+
+def no_work(_case, mesh, v, _degree):
+    return ufl.inner(dolfinx.fem.Constant(mesh, np.zeros(mesh.geometry.dim)), v) * ufl.dx
+
+
 def cook_work(case, mesh, v, degree):
     return COOK_LOAD * v[1] * on_facets(mesh, lambda x: np.isclose(x[0], 48), degree)
+
+
+def elastica_work(case, mesh, v, degree):
+    return -BEAM_LOAD / BEAM_DEPTH * v[1] * on_facets(mesh, lambda x: np.isclose(x[0], BEAM_LENGTH), degree)
 
 
 # The loads' virtual work by case.
@@ -83,7 +97,10 @@ WORK_OF_LOADS = {
     "kirsch": plate_work,
     "cook": cook_work,
     "cook_incompressible": cook_work,
+    "elastica": elastica_work,
     "cube": cube_work,
+    "torsion": no_work,
+    "sphere": sphere_work,
 }
 
 
@@ -104,12 +121,24 @@ def large_stress(u, law):
 
 
 def supports_of(case, V, W=None):
-    """Dirichlet conditions u_c = 0; W: of u and a pressure."""
+    """Dirichlet conditions on components of u; W: of u and a pressure."""
     mesh, conditions = V.mesh, []
     for support in case.supports:
         facets = dolfinx.mesh.locate_entities_boundary(mesh, case.dim - 1, lambda x: np.isclose(x[support.axis], support.at))
-        for component in support.components:
+        for number, component in enumerate(support.components):
             of_component = (V if W is None else W.sub(0)).sub(component)
-            dofs = dolfinx.fem.locate_dofs_topological(of_component, case.dim - 1, facets)
-            conditions.append(dolfinx.fem.dirichletbc(PETSc.ScalarType(0), dofs, of_component))
+            if support.value is None:
+                dofs = dolfinx.fem.locate_dofs_topological(of_component, case.dim - 1, facets)
+                conditions.append(dolfinx.fem.dirichletbc(PETSc.ScalarType(0), dofs, of_component))
+            else:
+                conditions.append(held_at(support, number, of_component, facets))
     return conditions
+
+
+def held_at(support, number, of_component, facets):
+    """The condition that a component is what the support's value says."""
+    alone, _ = of_component.collapse()
+    dofs = dolfinx.fem.locate_dofs_topological((of_component, alone), alone.mesh.topology.dim - 1, facets)
+    value, x = dolfinx.fem.Function(alone), alone.tabulate_dof_coordinates()[dofs[1]]
+    value.x.array[dofs[1]] = support.value(x[:, : alone.mesh.geometry.dim])[:, number]
+    return dolfinx.fem.dirichletbc(value, dofs, of_component)

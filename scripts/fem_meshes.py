@@ -1,4 +1,4 @@
-"""Structured meshes for FEniCSx: a unit square or cube of cells, mapped onto a body, and where a place lies in them."""
+"""Structured meshes for FEniCSx: unit squares or cubes of cells, mapped onto a body, and where a place lies in them."""
 
 import basix
 import dolfinx
@@ -19,17 +19,17 @@ def reference_element(kind, order):
 
 class StructuredMesh:
     """cells: how many along each parameter; family: "P" for simplices or "Q"; order: of the geometry; place: parameters
-    in the unit square or cube -> positions."""
+    -> positions, of the unit square or cube, or of blocks as a Case has them."""
 
-    def __init__(self, cells, family, order, place):
-        self.cells = np.array(cells)
+    def __init__(self, cells, family, order, place, blocks=1):
+        self.cells, self.blocks = np.array(cells), blocks
         self.dim = len(cells)
         self.kind = KINDS[self.dim, family]
         self.geometry = reference_element(self.kind, order)
         self.corners = self._corners(family)
-        nodes, parameters = self._nodes(order)
+        nodes, x = self._nodes(order, place)
         vector = ufl.VectorElement("Lagrange", ufl.Cell(self.kind, geometric_dimension=self.dim), order)
-        self.mesh = dolfinx.mesh.create_mesh(MPI.COMM_WORLD, nodes, place(parameters), ufl.Mesh(vector))
+        self.mesh = dolfinx.mesh.create_mesh(MPI.COMM_WORLD, nodes, x, ufl.Mesh(vector))
         self.place = place
         self.cell_of = np.argsort(self.mesh.topology.original_cell_index)
 
@@ -47,8 +47,8 @@ class StructuredMesh:
             return points
         return corners[0] + points @ (corners[1:] - corners[0])
 
-    def _nodes(self, order):
-        """The nodes of each cell, and their parameters."""
+    def _nodes(self, order, place):
+        """The nodes of each cell, and their positions; nodes of two blocks in one place are one."""
         boxes = np.stack(np.meshgrid(*(np.arange(n) for n in self.cells), indexing="ij"), axis=-1).reshape(-1, 1, self.dim)
         fine = order * self.cells + 1
         cells = []
@@ -56,18 +56,26 @@ class StructuredMesh:
             inside = np.rint(order * self._local_to_box(simplex, self.geometry.points)).astype(np.int64)
             cells.append(np.ravel_multi_index(tuple(np.moveaxis(order * boxes + inside, -1, 0)), fine))
         cells = np.stack(cells, axis=1).reshape(-1, len(self.geometry.points))
-        grid = np.stack(np.meshgrid(*(np.linspace(0, 1, n) for n in fine), indexing="ij"), axis=-1)
-        return cells, grid.reshape(-1, self.dim)
+        grid = np.stack(np.meshgrid(*(np.linspace(0, 1, n) for n in fine), indexing="ij"), axis=-1).reshape(-1, self.dim)
+        if self.blocks == 1:
+            return cells, place(grid)
+        first = np.eye(self.dim)[0]
+        x = np.concatenate([place(grid + 2 * block * first) for block in range(self.blocks)])
+        cells = np.concatenate([cells + block * len(grid) for block in range(self.blocks)])
+        size = np.abs(x).max()
+        _, kept, number = np.unique(np.rint(x / size * 1e9).astype(np.int64), axis=0, return_index=True, return_inverse=True)
+        return number.reshape(-1)[cells], x[kept]
 
     def locate(self, parameters):
         """(cells, reference coordinates) of the places with these parameters."""
-        scaled = parameters * self.cells
+        block = np.minimum(parameters[:, 0] // 2, self.blocks - 1).astype(np.int64)
+        scaled = (parameters - 2 * np.outer(block, np.eye(self.dim)[0])) * self.cells
         box = np.clip(scaled.astype(np.int64), 0, self.cells - 1)
         within = scaled - box
         simplex, local = np.zeros(len(box), dtype=np.int64), within
         if len(self.corners) > 1:
             simplex, local = self._in_simplices(within)
-        original = np.ravel_multi_index(tuple(box.T), self.cells) * len(self.corners) + simplex
+        original = (block * np.prod(self.cells) + np.ravel_multi_index(tuple(box.T), self.cells)) * len(self.corners) + simplex
         cells = self.cell_of[original]
         return cells, self._pulled_back(cells, local, self.place(parameters))
 

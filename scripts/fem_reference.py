@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """fem_reference.py CASE [CELLS]: the answer of a case of scripts/beside_fem that has no closed form, to build/beside_fem.
 
-Lagrange elements of order 4 on quadrilaterals that are graded towards all sides, 72 a side if CELLS is not given: of a
-higher order and, at the corners, with far smaller cells than anything that is compared with it. Prints the value that the
+Lagrange elements of order 4 on quadrilaterals that are graded towards all sides, 72 a side if CELLS is not given, or 24 at
+large strain: of a higher order and, at the corners, with far smaller cells than anything that is compared with it. Prints the value that the
 case reads. CASE.npz has u and its gradient at the places.
 """
 
@@ -10,13 +10,14 @@ import sys
 
 import dolfinx
 import numpy as np
-from beside_fem_cases import CASES, REFERENCES
+from beside_fem_case import REFERENCES
+from beside_fem_cases import CASES
 from fem_meshes import StructuredMesh, reference_element
 from fem_run import value_read
-from fem_solve import Linear
+from fem_solve import problem_of
 from fem_stress import gradient_at
 
-ORDER, CELLS = 4, 72
+ORDER, CELLS, CELLS_AT_LARGE_STRAIN = 4, 72, 24
 
 
 def graded(s):
@@ -37,7 +38,7 @@ class GradedMesh(StructuredMesh):
 def found(case, cells):
     mesh = GradedMesh([cells] * case.dim, "Q", 1, lambda s: case.place(graded(s)))
     V = dolfinx.fem.VectorFunctionSpace(mesh.mesh, ("Lagrange", ORDER))
-    problem = Linear(case, V, 2 * ORDER)
+    problem = problem_of(case, V, f"Q{ORDER}", 2 * ORDER)
     problem.solve("mumps")
     element = reference_element(mesh.kind, ORDER)
     u, gradient = gradient_at(mesh, element, problem.u, *mesh.locate(case.parameters()))
@@ -45,8 +46,9 @@ def found(case, cells):
 
 
 def main():
-    name, cells = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else CELLS
-    answer = found(CASES[name], cells)
+    name = sys.argv[1]
+    usual = CELLS_AT_LARGE_STRAIN if CASES[name].law.large_strain else CELLS
+    answer = found(CASES[name], int(sys.argv[2]) if len(sys.argv) > 2 else usual)
     REFERENCES.mkdir(parents=True, exist_ok=True)
     np.savez(REFERENCES / f"{name}.npz", **answer)
     print(f"{name}: {answer['read']:.6f}")

@@ -69,7 +69,7 @@ class Clock:
 def run(case, element, solver, first):
     order, clock, before = int(element[1]), Clock(), resident("VmRSS")
     with clock.of("meshing"):
-        mesh = StructuredMesh(cells_of(case, first), element[0], order if case.curved else 1, case.place)
+        mesh = StructuredMesh(cells_of(case, first), element[0], order if case.curved else 1, case.place, case.blocks)
         V = dolfinx.fem.VectorFunctionSpace(mesh.mesh, ("Lagrange", order))
     meshed = resident("VmRSS")
     S = dolfinx.fem.FunctionSpace(mesh.mesh, ("Lagrange", order))

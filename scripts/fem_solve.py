@@ -63,6 +63,7 @@ class Linear:
         A.assemble()
         A.setOption(PETSc.Mat.Option.SPD, True)
         b = dolfinx.fem.petsc.assemble_vector(self.L)
+        dolfinx.fem.petsc.apply_lifting(b, [self.a], [conditions])
         dolfinx.fem.petsc.set_bc(b, conditions)
         if solver == "gamg":
             A.setNearNullSpace(rigid_motions(self.V))
@@ -87,18 +88,22 @@ class Large:
         self.u = self.solution = dolfinx.fem.Function(V)
         v = ufl.TestFunction(V)
         dx = ufl.dx(metadata={"quadrature_degree": degree})
+        self.share = dolfinx.fem.Constant(V.mesh, PETSc.ScalarType(1))  # of the load
         residual = ufl.derivative(large_work(self.u, case.law, dx), self.u, v)
-        residual -= WORK_OF_LOADS[case.name](case, V.mesh, v, degree + 2)
+        residual -= self.share * WORK_OF_LOADS[case.name](case, V.mesh, v, degree + 2)
         self.problem = dolfinx.fem.petsc.NonlinearProblem(residual, self.u, supports_of(case, V), jit_params=COMPILED)
         self.stress = components(*large_stress(self.u, case.law))
 
     def solve(self, solver):
-        """The iterations of Newton's method."""
+        """The iterations of Newton's method, of all steps of the load."""
         newton = dolfinx.nls.petsc.NewtonSolver(self.V.mesh.comm, self.problem)
         newton.convergence_criterion, newton.rtol, newton.atol = "residual", self.case.residual, 1e-14
         newton.krylov_solver.setOptionsPrefix("")
         set_up(newton.krylov_solver, solver, self.case.residual)
-        iterations, _ = newton.solve(self.u)
+        iterations = 0
+        for step in range(1, self.case.steps + 1):
+            self.share.value = step / self.case.steps
+            iterations += newton.solve(self.u)[0]
         return iterations
 
     def raw(self, _mesh, gradient, _cells, _local):

@@ -28,10 +28,12 @@ def dofs_of(V, cells):
 
 
 def components(sigma, through):
-    """{(i, j): form} of σ (dim, dim); through: σ_zz in plane strain."""
+    """{(i, j): form} of σ (dim, dim), of those that are not 0; through: σ_zz in plane strain."""
     dim = sigma.ufl_shape[0]
     forms = {(i, j): sigma[i, j] for i in range(dim) for j in range(i, dim)}
-    return forms if dim == 3 else forms | {(2, 2): through}
+    if dim == 2 and not isinstance(through, ufl.constantvalue.Zero):
+        forms[2, 2] = through
+    return forms
 
 
 class Projection:

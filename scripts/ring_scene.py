@@ -2,7 +2,7 @@
 
 import math
 
-from beside_fem_cases import INNER, OUTER, PRESSURE, RING_LAW
+from beside_fem_plane import INNER, OUTER, PRESSURE, RING_LAW
 
 MOST_CHORDS = 480  # of an arc: a polygon has at most 1000 corners
 HEAD = """# A quarter of a thick-walled cylinder under inner pressure [Lamé and Clapeyron 1831; Timoshenko and Goodier 1970, art. 28].

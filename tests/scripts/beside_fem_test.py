@@ -118,81 +118,7 @@ def _(folder):
     assert table.read_csv(folder / "rows.csv") == rows
 
 
-def cases_with_a_closed_form():
-    return [case for case in script_module("beside_fem_cases").CASES.values() if not case.reference]
-
-
-# --- both programs solve the same problem --------------------------------------------------------------
-
-
-@claim("the gradient of each case is that of its displacement, by differences")
-def _(_folder):
-    for case in cases_with_a_closed_form():
-        x, h = case.place(case.parameters(50)), 1e-6
-        steps = h * np.eye(case.dim)
-        slopes = np.stack([(case.u(x + step) - case.u(x - step)) / (2 * h) for step in steps], axis=2)
-        assert np.abs(slopes - case.gradient(x)).max() < 1e-7 * max(1, np.abs(slopes).max()), case.name
-
-
-@claim("the displacement of each case is 0 where its supports hold it")
-def _(_folder):
-    for case in cases_with_a_closed_form():
-        for support in case.supports:
-            x = case.place(case.parameters(50))
-            x[:, support.axis] = support.at
-            assert np.abs(case.u(x)[:, support.components]).max() < 1e-17, (case.name, support)
-
-
-@claim("the stress of Lamé's cylinder is in equilibrium, is the pressure inside, and nothing outside")
-def _(_folder):
-    cases = script_module("beside_fem_cases")
-    case, h = cases.RING, 1e-4
-    x = case.place(case.parameters(50))
-    for i in range(2):
-        pull = sum(
-            (case.stress(x + step)[:, i, j] - case.stress(x - step)[:, i, j]) / (2 * h)
-            for j, step in enumerate(h * np.eye(2))
-        )
-        assert np.abs(pull).max() < 1e-5 * cases.PRESSURE, np.abs(pull).max()
-    for radius, traction in ((cases.INNER, -cases.PRESSURE), (cases.OUTER, 0.0)):
-        stress = case.stress(np.array([[0.6 * radius, 0.8 * radius]]))[0, :2, :2]
-        assert np.abs(stress @ [0.6, 0.8] - traction * np.array([0.6, 0.8])).max() < 1e-12, (radius, stress)
-
-
-@claim("the neo-Hookean law is the linear one at small strain, and a turn has no stress")
-def _(_folder):
-    cases = script_module("beside_fem_cases")
-    linear, rubber = cases.Law(3.0, 0.3), cases.Law(3.0, 0.3, large_strain=True)
-    gradient = 1e-6 * np.array([[[0.3, 0.7], [-0.2, 0.5]]])
-    assert np.abs(linear.stress(gradient) - rubber.stress(gradient)).max() < 1e-5 * np.abs(linear.stress(gradient)).max()
-    turn = np.array([[[math.cos(1) - 1, -math.sin(1)], [math.sin(1), math.cos(1) - 1]]])
-    assert np.abs(rubber.stress(turn)).max() < 1e-15
-    through = linear.stress(gradient)[0]
-    assert abs(through[2, 2] - 0.3 * (through[0, 0] + through[1, 1])) < 1e-18, through  # plane strain
-
-
-@claim("places lie evenly in the body: of a ring as many on each side of the circle that halves its area")
-def _(_folder):
-    case = script_module("beside_fem_cases").RING
-    x = case.place(case.parameters())
-    r2 = (x**2).sum(axis=1)
-    assert r2.min() > 1 and r2.max() < 4 and x.min() > 0, (r2.min(), r2.max())
-    assert abs(np.mean(r2 < 2.5) - 0.5) < 0.01 and abs(np.mean(x[:, 0] > x[:, 1]) - 0.5) < 0.01
-
-
-@claim("the scene of Lamé's cylinder has the area of the quarter ring, and the load of the pressure on it")
-def _(_folder):
-    ring, cases = script_module("ring_scene"), script_module("beside_fem_cases")
-    for cells in (8, 400):
-        scene = tomllib.loads(ring.ring_scene(cells))
-        corners = np.array(scene["body"]["polygon"])
-        after = np.roll(corners, -1, axis=0)
-        area = abs((corners[:, 0] * after[:, 1] - corners[:, 1] * after[:, 0]).sum()) / 2
-        assert abs(area - np.pi * 3 / 4) < 1e-12 and len(corners) <= 1000, (cells, area)
-        size = sum(
-            math.dist(*traction["line"]) * float(traction["value"][0].partition("*")[0]) for traction in scene["traction"]
-        )
-        assert abs(size - cases.PRESSURE * math.pi / 2) < 1e-12 * size, (cells, size)
+# --- runs ----------------------------------------------------------------------------------------------
 
 
 @claim("meshes and grids have about as many unknowns as are asked for")
@@ -205,7 +131,7 @@ def _(_folder):
             if "-" in way.functions:
                 continue  # of a pressure as well
             if way.program == runs.FEM:
-                nodes = np.prod([int(way.functions[1]) * round(first * share) + 1 for share in case.aspect])
+                nodes = case.blocks * np.prod([int(way.functions[1]) * round(first * share) + 1 for share in case.aspect])
             else:
                 nodes = case.filled * np.prod([first * share / case.grid[0] + 1 for share in case.grid])
             assert 0.7 < case.dim * nodes / asked < 1.4, (case.name, way, first, case.dim * nodes)
@@ -213,8 +139,8 @@ def _(_folder):
 
 @claim("what probes read comes back as displacement, gradient and stress of each place")
 def _(_folder):
-    runs, cases = script_module("beside_fem_runs"), script_module("beside_fem_cases")
-    for case in (cases.RING, cases.CUBE):
+    runs = script_module("beside_fem_runs")
+    for case in (script_module("beside_fem_plane").RING, script_module("beside_fem_space").CUBE):
         x = case.place(case.parameters(7))
         tables = tomllib.loads(runs.probes(case, x))["probe"]
         exact = {"u": case.u(x), "strain": case.gradient(x), "stress": case.stress(x)}
@@ -303,17 +229,6 @@ def _(_folder):
     assert list(ratios) == ["quadratic/Q2-Q1"] and abs(ratios["quadratic/Q2-Q1"] - 4) < 1e-9, ratios
 
 
-@claim("the places in Cook's membrane lie in it, evenly but for its clamped corners")
-def _(_folder):
-    case = script_module("beside_fem_cases").COOK
-    x = case.place(case.parameters())
-    below, above = x[:, 1] - 44 * x[:, 0] / 48, x[:, 1] - 44 - 16 * x[:, 0] / 48
-    assert x.min() > 0 and x[:, 0].max() < 48 and below.min() > 0 and above.max() < 0
-    assert min(np.hypot(x[:, 0], x[:, 1]).min(), np.hypot(x[:, 0], x[:, 1] - 44).min()) >= 3.9
-    left = (44 * 24 - 14 / 48 * 24**2) / 1440  # of the area
-    assert abs(np.mean(x[:, 0] < 24) - left) < 0.01, (np.mean(x[:, 0] < 24), left)
-
-
 @claim("the page has every figure, its command, the ratios and the verdicts, and says what is missing")
 def _(_folder):
     page, judged = script_module("beside_fem_page").page, script_module("beside_fem_verdict").judged
@@ -345,6 +260,17 @@ def _(folder):
     assert all(row["reason"] and not row["whole_s"] for row in rows), rows
     assert (folder / "out/beside_fem.md").read_text().count("missing: ") == 6
     assert json.loads((folder / "out/beside_fem.json").read_text())["claims"]["more time"]["verdict"] == "not measured"
+
+
+@claim("what an earlier run measured is kept if that is asked for, and a file of another program refused with status 2")
+def _(folder):
+    assert the_study(folder).returncode == 1
+    called = folder / "called"
+    kept = the_study(folder, f"#!/bin/bash\ntouch '{called}'\nexit 4\n", "", "--keep")
+    assert "6 figures, 6 missing" in kept.stdout and not called.exists(), kept
+    (folder / "out/beside_fem.csv").write_text("one,two\n1,2\n")
+    refused = the_study(folder, "", "", "--keep")
+    assert refused.returncode == 2 and "is not of this program" in refused.stderr, refused
 
 
 @claim("scripts/beside_fem installs, builds, measures and ends with its status")
