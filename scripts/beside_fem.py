@@ -5,7 +5,7 @@ For each case both programs solve the same problem on a series of meshes, each r
 their u and σ are read at the same places inside the body and compared with the exact answer. Runs go one after another,
 and each repetition begins with another way, so that what the machine does meanwhile falls on all of them; of a way's
 repetitions the fastest counts. Prints a line for each way and size, and writes DIR/beside_fem.csv, DIR/beside_fem.json (the
-orders, ratios, crossings and verdicts), DIR/CASE.png and DIR/beside_fem.md. Exit status 1 if a run has no solution, which
+orders, ratios, crossings and verdicts), DIR/beside_fem/CASE.png and DIR/beside_fem.md. Exit status 1 if a run has no solution, which
 leaves its place empty, 2 for bad input or without FEniCSx. The CSV file is written after each case; with --keep the cases
 that it already has are not measured again. Needs build/release/stillpoint.
 """
@@ -141,8 +141,9 @@ def write(options, rows, verdicts, text):
     (options.out / "beside_fem.md").write_text(text, encoding="utf-8")
     if options.accept:
         shutil.copy(options.out / "beside_fem.md", ROOT / "problems/beside_fem.md")
+        (ROOT / "problems/beside_fem").mkdir(exist_ok=True)
         for picture in pictures:
-            shutil.copy(picture, ROOT / "problems" / picture.name)
+            shutil.copy(picture, ROOT / "problems/beside_fem" / picture.name)
 
 
 def main():

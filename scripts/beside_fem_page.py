@@ -101,7 +101,7 @@ def times_table(times):
 def section(name, rows, verdicts):
     case = CASES[name]
     text = f"\n## {case.title}\n\n    scripts/beside_fem --only {name}\n\n"
-    text += f"![Errors against unknowns and against time](beside_fem_{name}.png)\n\n"
+    text += f"![Errors against unknowns and against time](beside_fem/{name}.png)\n\n"
     text += errors_table(verdicts["errors"][name]) + "\n" + times_table(verdicts["times"][name]) + "\n"
     text += "Orders in h, with 95 % (Student's t):\n\n" + orders_table(verdicts["orders"][name]) + "\n"
     return text + figures_table(rows) + "\n" + commands(name, rows)

@@ -219,7 +219,7 @@ OUR_NEARLY_INCOMPRESSIBLE = [
     replace(way, most=5e3) if way.solver == "auto, lumped mass" else way for way in OUR_PLANE if way.functions != "cubic"
 ] + [Way(OURS, "cubic", "newton", 5e3)]
 # A slender body's frequencies lie so far apart that relaxation takes tens of thousands of steps.
-OUR_BENDING = [way if way.solver == "newton" else replace(way, most=1.5e3) for way in OUR_PLANE]
+OUR_BENDING = [way if way.solver == "newton" else replace(way, most=300) for way in OUR_PLANE]
 QUICK_WAYS = [Way(FEM, "Q2", "cholmod"), Way(OURS, "quadratic", "newton"), Way(OURS, "cubic", "newton")]  # of the quick case
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""plot_beside_fem.py DIR: the pictures of scripts/beside_fem, DIR/beside_fem_CASE.png, from DIR/beside_fem.csv.
+"""plot_beside_fem.py DIR: the pictures of scripts/beside_fem, DIR/beside_fem/CASE.png, from DIR/beside_fem.csv.
 
 Above the errors of u and of the stress (the better of a program's two) against unknowns, with the orders in h; below
 against the wall time of the whole program, of each size by the quickest solver. Lines with circles are
@@ -75,10 +75,11 @@ def draw(case, rows, file):
 
 def draw_all(rows, folder):
     """The files that were drawn."""
-    files = []
+    files, pictures = [], folder / "beside_fem"
+    pictures.mkdir(exist_ok=True)
     for name, of_it in by(rows, "case").items():
         if any(row.found for row in of_it):
-            files.append(folder / f"beside_fem_{name}.png")
+            files.append(pictures / f"{name}.png")
             draw(CASES[name], of_it, files[-1])
     return files
 

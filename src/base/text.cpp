@@ -1,12 +1,75 @@
 #include "base/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace stillpoint {
 namespace {
+
+// What other programs call things, in lower case.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 56> other_words{{
+    {"gravity", "body_force"},
+    {"gravitation", "body_force"},
+    {"g", "body_force"},
+    {"solver", "solve"},
+    {"boundary", "support"},
+    {"boundary_condition", "support"},
+    {"bc", "support"},
+    {"dirichlet", "support"},
+    {"constraint", "support"},
+    {"neumann", "traction"},
+    {"pressure", "traction"},
+    {"surface_load", "traction"},
+    {"mesh", "grid"},
+    {"domain", "grid"},
+    {"geometry", "body"},
+    {"time", "stop"},
+    {"parameters", "constants"},
+    {"variables", "constants"},
+    {"obstacle", "rigid"},
+    {"tolerance", "residual"},
+    {"tol", "residual"},
+    {"max_steps", "steps"},
+    {"iterations", "steps"},
+    {"sigma", "stress"},
+    {"s", "stress"},
+    {"epsilon", "strain"},
+    {"eps", "strain"},
+    {"displacement", "u"},
+    {"disp", "u"},
+    {"velocity", "v"},
+    {"vel", "v"},
+    {"young", "E"},
+    {"youngs_modulus", "E"},
+    {"poisson", "nu"},
+    {"density", "rho"},
+    {"cohesion", "c"},
+    {"friction_angle", "phi"},
+    {"dilation_angle", "psi"},
+    {"diagonal", "lumped"},
+    {"clamped", "fixed"},
+    {"pinned", "fixed"},
+    {"encastre", "fixed"},
+    {"sliding", "roller"},
+    {"north", "top"},
+    {"south", "bottom"},
+    {"east", "right"},
+    {"west", "left"},
+    {"critical", "viscous"},
+    {"rayleigh", "viscous"},
+    {"flac", "cundall"},
+    {"von-mises", "drucker-prager"},
+    {"tresca", "mohr-coulomb"},
+    {"explicit", "leapfrog"},
+    {"verlet", "leapfrog"},
+    {"runge-kutta", "erk:rk4"},
+    {"dormand-prince", "erk:dormand-prince-7-4-5"},
+}};
 
 std::string lower_case(std::string word) {
   for (char& letter : word)
@@ -82,11 +145,33 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   return result;
 }
 
+std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
+  const auto there = [&](const std::string& candidate) {
+    return std::ranges::find(candidates, candidate) != candidates.end();
+  };
+  const auto by_end = std::ranges::find_if(candidates, [&](const std::string& candidate) {
+    return candidate.size() > word.size() + 1 && candidate.ends_with(lower_case(word)) &&
+           std::string_view(".:-").find(candidate[candidate.size() - word.size() - 1]) != std::string_view::npos;
+  });
+  if (!word.empty() && by_end != candidates.end()) return *by_end;
+  // A component may be written in many ways: sigma_yy, sigma.yy, sigmayy.
+  const std::string lower = lower_case(word);
+  for (const auto& [elsewhere, here] : other_words) {
+    if (!lower.starts_with(elsewhere)) continue;
+    std::string rest = lower.substr(elsewhere.size());
+    if (!rest.empty() && (rest.front() == '_' || rest.front() == '.' || rest.front() == '-')) rest.erase(0, 1);
+    const std::string meant = rest.empty() ? std::string(here) : fmt::format("{}.{}", here, rest);
+    if (there(meant)) return meant;
+  }
+  return {};
+}
+
 std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates) {
   const std::string said = fmt::format("{} {}", what, in_quotes(word));
-  if (const std::string meant = nearest(word, candidates); !meant.empty())
-    return fmt::format("{}; did you mean '{}'?", said, meant);
-  constexpr std::size_t most = 20;
+  std::string meant = nearest(word, candidates);
+  if (meant.empty()) meant = meant_by(word, candidates);
+  if (!meant.empty()) return fmt::format("{}; did you mean '{}'?", said, meant);
+  constexpr std::size_t most = 30;
   const auto shown = static_cast<std::ptrdiff_t>(std::min(most, candidates.size()));
   return candidates.empty()
              ? said

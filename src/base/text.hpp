@@ -23,7 +23,12 @@ std::string in_quotes(std::string_view word);
 /// The candidate with the smallest edit distance to word, for "did you mean"; empty if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// "unknown value 'x'; did you mean 'y'?", or with the permitted values if none is near.
+/// The candidate for which a word stands elsewhere: what other programs call it ("gravity", "sigma_yy"), or its end
+/// alone
+/// ("rk4" of "erk:rk4"); empty if there is none.
+std::string meant_by(const std::string& word, const std::vector<std::string>& candidates);
+
+/// "unknown value 'x'; did you mean 'y'?", or with the permitted values if none is meant.
 std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates);
 
 /// Whether a program may give something this name in scenes; what_a_plain_word_is states the rule for messages.

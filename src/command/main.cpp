@@ -2,18 +2,22 @@
 #include <stillpoint/scene_error.hpp>
 #include <stillpoint/state_archive.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <malloc.h>
 
 #include "base/gpl.hpp"
+#include "base/text.hpp"
 #include "base/work_apart.hpp"
 #include "command/commands.hpp"
 
@@ -128,6 +132,15 @@ std::string number_or_auto(std::string& text) {
   return {};
 }
 
+// CLI11 says of a misspelt command no more than that arguments were not expected.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return std::ranges::find(names, argv[1]) == names.end() ? stillpoint::unknown_word("unknown command", argv[1], names)
+                                                          : "";
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("Quasi-static equilibrium by dynamic relaxation in the material point method", "stillpoint");
   app.set_version_flag("--version", STILLPOINT_VERSION + std::string(stillpoint::missing_without_gpl()));
@@ -141,7 +154,7 @@ int dispatch(int argc, char** argv) {
                              .add_option("--resume", run_arguments.resume,
                                          "go on with a run that was ended, from the checkpoint in its folder")
                              ->type_name("DIR");
-  scene.required(false)->excludes(&resume);
+  scene.required(false);
   resume.excludes(&out)->excludes(run_app.get_option("--set"));
   run_app
       .add_option(
@@ -178,6 +191,10 @@ int dispatch(int argc, char** argv) {
   list_app.add_option("--format", format, "of keys: text, markdown or schema (a JSON schema for editors)")
       ->check(CLI::IsMember({"text", "markdown", "schema"}));
 
+  if (const std::string wrong = unknown_command(app, argc, argv); !wrong.empty()) {
+    fmt::print(stderr, "{}\n", wrong);
+    return bad_input;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -189,6 +206,11 @@ int dispatch(int argc, char** argv) {
   }
   if (run_app.parsed() && run_arguments.scene.file.empty() && run_arguments.resume.empty()) {
     fmt::print(stderr, "run: expected a SCENE, or --resume DIR\n");
+    return bad_input;
+  }
+  if (run_app.parsed() && !run_arguments.scene.file.empty() && !run_arguments.resume.empty()) {
+    fmt::print(stderr, "run: --resume {} goes on with the scene of that folder; leave out {}\n",
+               run_arguments.resume.string(), run_arguments.scene.file.string());
     return bad_input;
   }
   if (run_app.parsed()) return run(run_arguments);

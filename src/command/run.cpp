@@ -35,7 +35,9 @@ std::string distance_of(const Summary& s) {
 }
 
 void print_table(const Summary& s, const std::filesystem::path& out) {
-  const auto row = [](std::string_view what, const std::string& value) { fmt::print("  {:<17} {}\n", what, value); };
+  const auto row = [](std::string_view what, const std::string& value) {
+    fmt::print("{}", wrapped(fmt::format("  {:<17} ", what), value, width_of_terminal()));
+  };
   fmt::print("{}\n", s.title.empty() ? s.scene : s.title);
   row("status", fmt::format("{}: {}", to_string(s.status), s.reason));
   row("model", fmt::format("{} points, {} degrees of freedom, {}", s.points, s.dofs,
@@ -109,9 +111,16 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
 }
 
 std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file) {
+  if (!std::filesystem::exists(folder_or_file))
+    throw StateError(fmt::format("--resume {}: there is no such folder", folder_or_file.string()));
   if (!std::filesystem::is_directory(folder_or_file)) return folder_or_file;
   const std::filesystem::path last = folder_or_file / "checkpoint.h5", previous = previous_checkpoint(last);
-  return !std::filesystem::exists(last) && std::filesystem::exists(previous) ? previous : last;
+  if (std::filesystem::exists(last)) return last;
+  if (std::filesystem::exists(previous)) return previous;
+  throw StateError(
+      fmt::format("--resume {}: there is no checkpoint.h5 in it to go on from; a run that ended by itself leaves "
+                  "none, unless its scene has [checkpoint]",
+                  folder_or_file.string()));
 }
 
 }  // namespace

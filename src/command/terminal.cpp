@@ -6,9 +6,11 @@
 #include <csignal>
 #include <cstdio>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace stillpoint::command {
@@ -96,11 +98,55 @@ std::string ProgressLine::outlook(const Progress& p) const {
   if (!share || !(*share > 0.02)) return "";
   const std::string done = fmt::format("  {:3.0f} %", 100 * *share);
   if (!by_residual) return done + fmt::format("  about {:.0f} s left", p.wall_s * (1 - *share) / *share);
-  const auto& [since, before] = lately_.front();
-  const double fallen = std::log(before / p.residual), to_fall = std::log(p.residual / p.residual_goal);
-  constexpr double little = 1e-3;  // as a power of e
-  if (!(fallen > little)) return done + "  the residual does not fall";
-  return done + fmt::format("  about {:.0f} s left", (p.wall_s - since) * to_fall / fallen);
+  const std::optional<double> falls = rate();
+  if (!falls) return "  the residual does not fall steadily";
+  return done + fmt::format("  about {:.0f} s left", std::log(p.residual / p.residual_goal) / *falls);
+}
+
+// −d(ln residual)/dt over the last half of the run [1/s]; none if it is not nearly the same in both parts of that: a
+// body that slides on for ever slows down, too.
+std::optional<double> ProgressLine::rate() const {
+  const auto& [begin, first] = lately_.front();
+  const auto& [end, last] = lately_.back();
+  const auto half = std::ranges::find_if(lately_, [&](const auto& one) { return one.first >= (begin + end) / 2; });
+  const auto& [middle, between] = *half;
+  if (!(begin < middle && middle < end)) return std::nullopt;
+  const double before = std::log(first / between) / (middle - begin), after = std::log(between / last) / (end - middle);
+  constexpr double alike = 3;
+  if (!(before > 0 && after > 0 && before < alike * after && after < alike * before)) return std::nullopt;
+  return std::log(first / last) / (end - begin);
+}
+
+std::size_t width_of_terminal() {
+  winsize size{};
+  const bool is_terminal = isatty(STDOUT_FILENO) != 0 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0;
+  return is_terminal ? size.ws_col : 0;
+}
+
+std::string wrapped(const std::string& head, const std::string& text, std::size_t width) {
+  const auto letters = [](std::string_view word) {  // of UTF-8
+    return static_cast<std::size_t>(std::ranges::count_if(word, [](char c) { return (c & 0xC0) != 0x80; }));
+  };
+  const std::size_t margin = letters(head);
+  constexpr std::size_t narrowest = 20;
+  if (width < margin + narrowest) return head + text + "\n";
+  std::string lines = head;
+  std::size_t column = margin;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find(' ', from), text.size());
+    const std::string_view word = std::string_view(text).substr(from, to - from);
+    if (column > margin && column + 1 + letters(word) > width) {
+      lines += "\n" + std::string(margin, ' ');
+      column = margin;
+    } else if (from > 0) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += letters(word);
+    from = to + 1;
+  }
+  return lines + "\n";
 }
 
 void CountLine::show(const StudyProgress& p) {

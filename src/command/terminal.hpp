@@ -1,10 +1,13 @@
-// Progress with the time left: one line that rewrites itself on a terminal, occasional plain lines elsewhere.
+// Progress with the time left: one line that rewrites itself on a terminal, occasional plain lines elsewhere. Lines as
+// wide as the terminal.
 #pragma once
 
 #include <stillpoint/simulation.hpp>
 #include <stillpoint/study_progress.hpp>
 
+#include <cstddef>
 #include <deque>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -34,6 +37,7 @@ class ProgressLine : public StatusLine {
 
  private:
   std::string outlook(const Progress& progress) const;
+  std::optional<double> rate() const;
 
   double start_residual_ = 0;
   std::deque<std::pair<double, double>> lately_;  // wall time [s] and residual, over the last half of the run
@@ -44,6 +48,13 @@ class CountLine : public StatusLine {
  public:
   void show(const StudyProgress& progress);
 };
+
+/// The columns of the terminal that the standard output is; 0 if it is none.
+std::size_t width_of_terminal();
+
+/// head + text + "\n", broken at spaces into lines of this width, those after the first as far in as the text is; width
+/// 0: in one line.
+std::string wrapped(const std::string& head, const std::string& text, std::size_t width);
 
 /// Whether Ctrl-C was pressed since watch_for_interrupt(), or SIGTERM or SIGHUP was received; a second signal ends the
 /// process at once.

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -73,6 +75,17 @@ bool stands_in_grid(SceneCheck& check, const BodySpec& body, std::size_t k, cons
 
 }  // namespace
 
+// Where the lines a b and c d meet; empty if they are parallel.
+std::optional<PlanePoint> crossing(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
+  const auto cross = [](double x, double y, double z, double w) { return x * w - y * z; };
+  const double x = b[0] - a[0], y = b[1] - a[1], z = d[0] - c[0], w = d[1] - c[1];
+  const double turn = cross(x, y, z, w);
+  constexpr double rounding = 1e-12;
+  if (std::abs(turn) <= rounding * std::hypot(x, y) * std::hypot(z, w)) return std::nullopt;
+  const double share = cross(c[0] - a[0], c[1] - a[1], z, w) / turn;
+  return PlanePoint{a[0] + share * x, a[1] + share * y};
+}
+
 bool has_shape_key(const SceneCheck& check, std::size_t k) {
   return check.scene().bodies[k].has_shape() ||
          std::ranges::any_of(kShapes, [&](const char* shape) { return check.written(check.body_key(k, shape)); });
@@ -93,12 +106,19 @@ bool check_corners(SceneCheck& check, std::size_t k) {
     const auto [low, high] = std::ranges::minmax_element(polygon, {}, [d](const PlanePoint& x) { return x[d]; });
     box *= (*high)[d] - (*low)[d];
   }
-  constexpr double rounding = 1e-12;
-  if (check.wrong_if(std::abs(signed_area(polygon)) <= rounding * box, key, "has no area")) return false;
   const auto edges = crossing_edges(polygon);
   const auto [a, b] = edges.value_or(std::pair<std::size_t, std::size_t>());
+  const auto at = edges ? crossing(polygon[a], polygon[(a + 1) % n], polygon[b], polygon[(b + 1) % n]) : std::nullopt;
+  if (check.wrong_if(
+          at.has_value(), key,
+          "its sides cross or touch at ({:.6g}, {:.6g}): that from corner {} to {} and that from {} to {}; expected "
+          "corners in their order around the body",
+          at.value_or(PlanePoint())[0], at.value_or(PlanePoint())[1], a, (a + 1) % n, b, (b + 1) % n))
+    return false;
+  constexpr double rounding = 1e-12;
+  if (check.wrong_if(std::abs(signed_area(polygon)) <= rounding * box, key, "has no area")) return false;
   return !check.wrong_if(edges.has_value(), key,
-                         "must not cross or touch itself, as the edges from corner {} to {} and from {} to {} do", a,
+                         "must not touch itself, as the sides from corner {} to {} and from {} to {} do", a,
                          (a + 1) % n, b, (b + 1) % n);
 }
 

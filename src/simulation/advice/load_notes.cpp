@@ -142,17 +142,30 @@ double resultant(const FreePart& part, ConstVec F) {
   return std::abs(sum) > rounding * scale ? sum : 0;
 }
 
-void note_free_parts(const Problem& problem, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
-  const bool varies = loads_vary(problem);
-  if (!problem.stop.wants_equilibrium() || (varies && !(problem.stop.time > 0))) return;
+// The loads that stay: those at stop.time, or those of a run without an end once all ramps have ended; none if they
+// never stay.
+std::optional<std::vector<double>> loads_at_end(const Problem& problem, const LagrangianPhase& phase, ConstVec u) {
+  constexpr double late = 1e6;  // [s]: longer than any ramp of a run without an end
   std::vector<double> F(phase.size());
-  phase.external_force(varies ? problem.stop.time : 0, u, F);
+  const bool varies = loads_vary(problem), ends = problem.stop.time > 0;
+  phase.external_force(varies ? (ends ? problem.stop.time : late) : 0, u, F);
+  if (!varies || ends) return F;
+  std::vector<double> later(phase.size());
+  phase.external_force(1.37 * late, u, later);
+  return F == later ? std::optional(F) : std::nullopt;
+}
+
+void note_free_parts(const Problem& problem, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
+  if (!problem.stop.wants_equilibrium()) return;
+  const std::optional<std::vector<double>> at_end = loads_at_end(problem, phase, u);
+  if (!at_end) return;
+  const std::vector<double>& F = *at_end;
   std::vector<std::string> balanced;
   for (const FreePart& part : phase.shape().free_parts()) {
     const std::string along = fmt::format(
         "{} along {}",
         part.is_whole ? "the body" : fmt::format("the part of the body around material point {}", part.point + 1),
-        (problem.state == StressState::axisymmetric ? "rz" : "xy")[part.axis]);
+        (problem.state == StressState::axisymmetric ? "rz" : "xyz")[part.axis]);
     const double force = resultant(part, F);
     if (force == 0) {
       balanced.push_back(along);

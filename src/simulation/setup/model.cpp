@@ -16,6 +16,7 @@
 #include "scene/stages.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/advice/notes.hpp"
+#include "simulation/advice/unit_notes.hpp"
 #include "simulation/loads/load_schedule.hpp"
 #include "simulation/setup/set_up_state.hpp"
 
@@ -63,6 +64,7 @@ void begin_motion(SetUpState& set_up) {
   choose_mass(set_up);
   set_up.note(model.body_notes.at_start(problem, *model.phase));
   set_up.note(accuracy_notes(problem, *model.phase, model.mass.scaling));
+  if (set_up.begin.t == 0) set_up.note(unit_notes(problem));
   if (set_up.begin.t == 0) set_up.note(load_notes(problem, *model.phase, model.u));
   model.v = model.phase->initial_velocity(model.t);
 }

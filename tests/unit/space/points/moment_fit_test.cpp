@@ -99,21 +99,3 @@ TEST_CASE("equal weights are credited with the degree that they integrate, no mo
   const double g = 1 / std::sqrt(3.0);
   CHECK(equal_weights(row({-g, g})).degree == 3);  // the two-point Gauss rule has equal weights
 }
-
-TEST_CASE("non-negative least squares satisfies its optimality conditions") {
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal;
-  for (int trial = 0; trial < 50; ++trial) {
-    Eigen::MatrixXd E(6, 9);
-    Eigen::VectorXd f(6);
-    for (double& e : E.reshaped()) e = normal(random);
-    for (double& e : f) e = normal(random);
-    const Eigen::VectorXd x = solve_nnls(E, f);
-    const Eigen::VectorXd gradient = E.transpose() * (f - E * x);
-    for (Eigen::Index j = 0; j < x.size(); ++j) {
-      CHECK(x(j) >= 0);
-      CHECK(gradient(j) <= 1e-10);
-      if (x(j) > 0) CHECK(gradient(j) == Approx(0).margin(1e-10));
-    }
-  }
-}
