@@ -5,7 +5,8 @@ For each case both programs solve the same problem on a series of meshes, each r
 their u and σ are read at the same places inside the body and compared with the exact answer. Runs go one after another,
 and each repetition begins with another way, so that what the machine does meanwhile falls on all of them; of a way's
 repetitions the fastest counts. Prints a line for each way and size, and writes DIR/beside_fem.csv, DIR/beside_fem.json (the
-orders, ratios, crossings and verdicts), DIR/beside_fem/CASE.png and DIR/beside_fem.md. Exit status 1 if a run has no solution, which
+orders, ratios, crossings and verdicts), DIR/beside_fem/CASE.png and DIR/beside_fem.md, with the sections of
+beside_fem_limits.py if they are in DIR. Exit status 1 if a run has no solution, which
 leaves its place empty, 2 for bad input or without FEniCSx. The CSV file is written after each case; with --keep the cases
 that it already has are not measured again. Needs build/release/stillpoint.
 """
@@ -133,6 +134,12 @@ def about(options, load):
     )
 
 
+def with_limits(options, text):
+    """The page with the sections of beside_fem_limits.py, if that has written them into the same folder."""
+    limits = options.out / "beside_fem_limits.md"
+    return text + ("\n" + limits.read_text(encoding="utf-8") if limits.exists() else "")
+
+
 def write(options, rows, verdicts, text):
     (options.out / "beside_fem.json").write_text(json.dumps(verdicts, indent=2) + "\n", encoding="utf-8")
     import plot_beside_fem  # here: drawing takes a second to begin
@@ -142,7 +149,7 @@ def write(options, rows, verdicts, text):
     if options.accept:
         shutil.copy(options.out / "beside_fem.md", ROOT / "problems/beside_fem.md")
         (ROOT / "problems/beside_fem").mkdir(exist_ok=True)
-        for picture in pictures:
+        for picture in pictures[0].parent.glob("*.png"):
             shutil.copy(picture, ROOT / "problems/beside_fem" / picture.name)
 
 
@@ -161,7 +168,7 @@ def main():
     rows = measure(options, rows)
     verdicts = judged(rows)
     text = page(rows, verdicts, about(options, load))
-    write(options, rows, verdicts, text)
+    write(options, rows, verdicts, with_limits(options, text))
     missing = sum(not row.found for row in rows)
     print(f"{len(rows)} figures, {missing} missing, {time.monotonic() - start:.0f} s; {options.out / 'beside_fem.md'}")
     return 1 if missing else 0
