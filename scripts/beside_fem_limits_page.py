@@ -156,7 +156,7 @@ def block_section(rows, paths):
         "Those whose sides stick come to": [row for row in rows if row.functions.endswith(", stick")],
         "Stillpoint comes to": [row for row in rows if row.program == OURS],
     }
-    text = BLOCK_TEXT + "".join(f"{kind} {ends_of(of_kind)}. " for kind, of_kind in kinds.items() if of_kind) + "\n\n"
+    text = BLOCK_TEXT + " ".join(f"{kind} {ends_of(of_kind)}." for kind, of_kind in kinds.items() if of_kind) + "\n\n"
     if to:
         text += f"Forces of the plate are those of FEniCSx {to.functions}, {to.cells} cells a side, over E, and of the others\n"
         text += "how far off they are; `through from` is the compression from which free sides lie beyond a plate:\n\n"

@@ -212,8 +212,8 @@ OUR_PLANE, OUR_SPACE = (
     [Way(OURS, basis, solver, most.get((basis, solver), math.inf)) for basis in BASES for solver in SOLVERS]
     for most in (PLANE_MOST, SPACE_MOST)
 )
-# A cut cell's points for cubic functions take 50 ms to find.
-OUR_IN_CUT_CELLS = [replace(way, most=3e4) if way.functions == "cubic" and way.most > 3e4 else way for way in OUR_SPACE]
+# A cut cell's points for cubic functions take 50 ms to find, most of a run's time whatever the solver.
+OUR_IN_CUT_CELLS = [way for way in OUR_SPACE if way.functions != "cubic"] + [Way(OURS, "cubic", "auto, lumped mass", 5e3)]
 # With a diagonal mass the number of steps grows as the square root of K/G as well.
 OUR_NEARLY_INCOMPRESSIBLE = [
     replace(way, most=5e3) if way.solver == "auto, lumped mass" else way for way in OUR_PLANE if way.functions != "cubic"
