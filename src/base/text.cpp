@@ -160,7 +160,7 @@ std::string meant_by(const std::string& word, const std::vector<std::string>& ca
     if (!lower.starts_with(elsewhere)) continue;
     std::string rest = lower.substr(elsewhere.size());
     if (!rest.empty() && (rest.front() == '_' || rest.front() == '.' || rest.front() == '-')) rest.erase(0, 1);
-    const std::string meant = rest.empty() ? std::string(here) : fmt::format("{}.{}", here, rest);
+    std::string meant = rest.empty() ? std::string(here) : fmt::format("{}.{}", here, rest);
     if (there(meant)) return meant;
   }
   return {};
