@@ -66,6 +66,8 @@ class Case:
     blocks: int = 1  # images of the unit cube; of the k-th the first parameter lies between 2 k and 2 k + 1
     steps: int = 1  # of the load, by Newton's method of finite elements
     residual: float = 1e-9  # ‖F − R‖/‖F‖ at which iterations of both programs end
+    # Of finite elements where the loads are displacements: their right side is K times these, far larger than the reactions.
+    fem_residual: float | None = None
     curved: bool = False  # whether elements of order 2 follow a curved border
     fitted: bool = True  # whether cells of the grid end where the body does
     filled: float = 1.0  # share of the grid that the body fills

@@ -69,7 +69,7 @@ class Linear:
             A.setNearNullSpace(rigid_motions(self.V))
         ksp = PETSc.KSP().create(self.V.mesh.comm)
         ksp.setOperators(A)
-        set_up(ksp, solver, self.case.residual)
+        set_up(ksp, solver, self.case.fem_residual or self.case.residual)
         ksp.solve(b, self.u.vector)
         if ksp.getConvergedReason() <= 0:
             sys.exit(f"fem_run: PETSc ended for its reason {ksp.getConvergedReason()}")

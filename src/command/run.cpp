@@ -114,7 +114,7 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file)
   if (!std::filesystem::exists(folder_or_file))
     throw StateError(fmt::format("--resume {}: there is no such folder", folder_or_file.string()));
   if (!std::filesystem::is_directory(folder_or_file)) return folder_or_file;
-  const std::filesystem::path last = folder_or_file / "checkpoint.h5", previous = previous_checkpoint(last);
+  std::filesystem::path last = folder_or_file / "checkpoint.h5", previous = previous_checkpoint(last);
   if (std::filesystem::exists(last)) return last;
   if (std::filesystem::exists(previous)) return previous;
   throw StateError(

@@ -106,15 +106,16 @@ std::string ProgressLine::outlook(const Progress& p) const {
 // −d(ln residual)/dt over the last half of the run [1/s]; none if it is not nearly the same in both parts of that: a
 // body that slides on for ever slows down, too.
 std::optional<double> ProgressLine::rate() const {
-  const auto& [begin, first] = lately_.front();
-  const auto& [end, last] = lately_.back();
-  const auto half = std::ranges::find_if(lately_, [&](const auto& one) { return one.first >= (begin + end) / 2; });
-  const auto& [middle, between] = *half;
-  if (!(begin < middle && middle < end)) return std::nullopt;
-  const double before = std::log(first / between) / (middle - begin), after = std::log(between / last) / (end - middle);
+  const double begin = lately_.front().first, end = lately_.back().first, half = (begin + end) / 2;
+  const auto fall = [](const auto& from, const auto& to) {
+    return std::log(from.second / to.second) / (to.first - from.first);
+  };
+  const auto middle = std::ranges::find_if(lately_, [half](const auto& one) { return one.first >= half; });
+  if (!(begin < middle->first && middle->first < end)) return std::nullopt;
+  const double before = fall(lately_.front(), *middle), after = fall(*middle, lately_.back());
   constexpr double alike = 3;
   if (!(before > 0 && after > 0 && before < alike * after && after < alike * before)) return std::nullopt;
-  return std::log(first / last) / (end - begin);
+  return fall(lately_.front(), lately_.back());
 }
 
 std::size_t width_of_terminal() {
