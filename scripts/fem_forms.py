@@ -120,15 +120,15 @@ def large_stress(u, law):
     return mu / J * (F * F.T - ufl.Identity(2)) + through * ufl.Identity(2), through
 
 
-def supports_of(case, V, W=None):
+def supports_of(supports, V, W=None):
     """Dirichlet conditions on components of u; W: of u and a pressure."""
-    mesh, conditions = V.mesh, []
-    for support in case.supports:
-        facets = dolfinx.mesh.locate_entities_boundary(mesh, case.dim - 1, lambda x: np.isclose(x[support.axis], support.at))
+    mesh, side, conditions = V.mesh, V.mesh.topology.dim - 1, []
+    for support in supports:
+        facets = dolfinx.mesh.locate_entities_boundary(mesh, side, lambda x: np.isclose(x[support.axis], support.at))
         for number, component in enumerate(support.components):
             of_component = (V if W is None else W.sub(0)).sub(component)
             if support.value is None:
-                dofs = dolfinx.fem.locate_dofs_topological(of_component, case.dim - 1, facets)
+                dofs = dolfinx.fem.locate_dofs_topological(of_component, side, facets)
                 conditions.append(dolfinx.fem.dirichletbc(PETSc.ScalarType(0), dofs, of_component))
             else:
                 conditions.append(held_at(support, number, of_component, facets))

@@ -67,17 +67,6 @@ class Linearised:
         return found.array.copy()
 
 
-def held_along(V, supports):
-    """Dirichlet conditions of rows (axis, at, components): u of these components is 0 on the plane x_axis = at."""
-    conditions = []
-    for axis, at, components in supports:
-        facets = dolfinx.mesh.locate_entities_boundary(V.mesh, 1, lambda x, axis=axis, at=at: np.isclose(x[axis], at))
-        for component in components:
-            dofs = dolfinx.fem.locate_dofs_topological(V.sub(component), 1, facets)
-            conditions.append(dolfinx.fem.dirichletbc(PETSc.ScalarType(0), dofs, V.sub(component)))
-    return conditions
-
-
 def timed(meshing, problem_of, solution):
     """(problem, what the solution returns, figures): what is done to forms counts neither to the times nor to the memory.
 

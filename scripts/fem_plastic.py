@@ -23,9 +23,10 @@ except ImportError:
 import basix
 import numpy as np
 import ufl
-from fem_forms import on_facets
+from beside_fem_case import Support
+from fem_forms import on_facets, supports_of
 from fem_meshes import StructuredMesh
-from fem_newton import Linearised, held_along, timed
+from fem_newton import Linearised, timed
 from fem_stress import compiled
 from von_mises import contracted, deviator, share_kept
 
@@ -50,7 +51,7 @@ class Ground:
         dx, dx_of_volume = (ufl.dx(metadata={"quadrature_degree": degree}) for degree in degrees)
         work = contracted(s, e) * dx + BULK * ufl.div(self.u) * ufl.div(v) * dx_of_volume
         elastic = 2 * SHEAR * contracted(deviatoric(ufl.TrialFunction(V)), e) * dx
-        supports = held_along(V, ((1, 0.0, (0, 1)), (0, 0.0, (0,)), (0, WIDTH, (0,))))
+        supports = supports_of((Support(1, 0.0, (0, 1)), Support(0, 0.0, (0,)), Support(0, WIDTH, (0,))), V)
         self.system = Linearised(work, self.u, supports, STIFFER * elastic)
         loaded = on_facets(V.mesh, lambda x: np.isclose(x[1], HEIGHT) & (x[0] < B * (1 + 1e-9)), 2)
         self.load = compiled(-C * v[1] * loaded)

@@ -48,7 +48,7 @@ def quadrature_degree(case, element):
 
 def unknowns_of(case, problem):
     """Degrees of freedom that no support holds."""
-    held = [condition.dof_indices()[0] for condition in supports_of(case, problem.V)]
+    held = [condition.dof_indices()[0] for condition in supports_of(case.supports, problem.V)]
     return len(problem.solution.x.array) - len(np.unique(np.concatenate(held)))
 
 

@@ -58,7 +58,7 @@ class Linear:
 
     def solve(self, solver):
         """The iterations of conjugate gradients."""
-        conditions = supports_of(self.case, self.V)
+        conditions = supports_of(self.case.supports, self.V)
         A = dolfinx.fem.petsc.assemble_matrix(self.a, bcs=conditions)
         A.assemble()
         A.setOption(PETSc.Mat.Option.SPD, True)
@@ -91,7 +91,7 @@ class Large:
         self.share = dolfinx.fem.Constant(V.mesh, PETSc.ScalarType(1))  # of the load
         residual = ufl.derivative(large_work(self.u, case.law, dx), self.u, v)
         residual -= self.share * WORK_OF_LOADS[case.name](case, V.mesh, v, degree + 2)
-        self.problem = dolfinx.fem.petsc.NonlinearProblem(residual, self.u, supports_of(case, V), jit_params=COMPILED)
+        self.problem = dolfinx.fem.petsc.NonlinearProblem(residual, self.u, supports_of(case.supports, V), jit_params=COMPILED)
         self.stress = components(*large_stress(self.u, case.law))
 
     def solve(self, solver):
@@ -129,7 +129,7 @@ class Mixed:
         self.stress = components(2 * mu * ufl.sym(ufl.grad(u)) + p * ufl.Identity(len(u)), p)
 
     def solve(self, solver):
-        conditions = supports_of(self.case, self.V, self.W)
+        conditions = supports_of(self.case.supports, self.V, self.W)
         A = dolfinx.fem.petsc.assemble_matrix(self.a, bcs=conditions)
         A.assemble()
         b = dolfinx.fem.petsc.assemble_vector(self.L)
