@@ -94,6 +94,28 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return above[b.size()];
 }
 
+// The candidate for which a word stands elsewhere, or whose end it is; empty if there is none.
+std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
+  const auto there = [&](const std::string& candidate) {
+    return std::ranges::find(candidates, candidate) != candidates.end();
+  };
+  const auto by_end = std::ranges::find_if(candidates, [&](const std::string& candidate) {
+    return candidate.size() > word.size() + 1 && candidate.ends_with(lower_case(word)) &&
+           std::string_view(".:-").find(candidate[candidate.size() - word.size() - 1]) != std::string_view::npos;
+  });
+  if (!word.empty() && by_end != candidates.end()) return *by_end;
+  // A component may be written in many ways: sigma_yy, sigma.yy, sigmayy.
+  const std::string lower = lower_case(word);
+  for (const auto& [elsewhere, here] : other_words) {
+    if (!lower.starts_with(elsewhere)) continue;
+    std::string rest = lower.substr(elsewhere.size());
+    if (!rest.empty() && (rest.front() == '_' || rest.front() == '.' || rest.front() == '-')) rest.erase(0, 1);
+    std::string meant = rest.empty() ? std::string(here) : fmt::format("{}.{}", here, rest);
+    if (there(meant)) return meant;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string one_line(std::string_view text) {
@@ -143,27 +165,6 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     }
   }
   return result;
-}
-
-std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
-  const auto there = [&](const std::string& candidate) {
-    return std::ranges::find(candidates, candidate) != candidates.end();
-  };
-  const auto by_end = std::ranges::find_if(candidates, [&](const std::string& candidate) {
-    return candidate.size() > word.size() + 1 && candidate.ends_with(lower_case(word)) &&
-           std::string_view(".:-").find(candidate[candidate.size() - word.size() - 1]) != std::string_view::npos;
-  });
-  if (!word.empty() && by_end != candidates.end()) return *by_end;
-  // A component may be written in many ways: sigma_yy, sigma.yy, sigmayy.
-  const std::string lower = lower_case(word);
-  for (const auto& [elsewhere, here] : other_words) {
-    if (!lower.starts_with(elsewhere)) continue;
-    std::string rest = lower.substr(elsewhere.size());
-    if (!rest.empty() && (rest.front() == '_' || rest.front() == '.' || rest.front() == '-')) rest.erase(0, 1);
-    std::string meant = rest.empty() ? std::string(here) : fmt::format("{}.{}", here, rest);
-    if (there(meant)) return meant;
-  }
-  return {};
 }
 
 std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates) {

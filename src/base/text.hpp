@@ -23,12 +23,8 @@ std::string in_quotes(std::string_view word);
 /// The candidate with the smallest edit distance to word, for "did you mean"; empty if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// The candidate for which a word stands elsewhere: what other programs call it ("gravity", "sigma_yy"), or its end
-/// alone
-/// ("rk4" of "erk:rk4"); empty if there is none.
-std::string meant_by(const std::string& word, const std::vector<std::string>& candidates);
-
-/// "unknown value 'x'; did you mean 'y'?", or with the permitted values if none is meant.
+/// "unknown value 'x'; did you mean 'y'?", or with the permitted values if none is near. What
+/// other programs call it is near as well ("gravity", "sigma_yy"), and so is its end alone ("rk4" of "erk:rk4").
 std::string unknown_word(const std::string& what, const std::string& word, const std::vector<std::string>& candidates);
 
 /// Whether a program may give something this name in scenes; what_a_plain_word_is states the rule for messages.

@@ -118,8 +118,8 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file)
   if (std::filesystem::exists(last)) return last;
   if (std::filesystem::exists(previous)) return previous;
   throw StateError(
-      fmt::format("--resume {}: there is no checkpoint.h5 in it to go on from; a run that ended by itself leaves "
-                  "none, unless its scene has [checkpoint]",
+      fmt::format("--resume {}: there is no checkpoint.h5 in it to go on from; a run leaves one if its scene has "
+                  "[checkpoint]",
                   folder_or_file.string()));
 }
 

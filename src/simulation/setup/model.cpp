@@ -64,8 +64,10 @@ void begin_motion(SetUpState& set_up) {
   choose_mass(set_up);
   set_up.note(model.body_notes.at_start(problem, *model.phase));
   set_up.note(accuracy_notes(problem, *model.phase, model.mass.scaling));
-  if (set_up.begin.t == 0) set_up.note(unit_notes(problem));
-  if (set_up.begin.t == 0) set_up.note(load_notes(problem, *model.phase, model.u));
+  if (set_up.begin.t == 0) {
+    set_up.note(unit_notes(problem));
+    set_up.note(load_notes(problem, *model.phase, model.u));
+  }
   model.v = model.phase->initial_velocity(model.t);
 }
 

@@ -16,8 +16,8 @@ struct WeightedPositions {
   std::vector<double> weight;
 };
 
-/// The coefficient of function i of splines of degree p ≥ 1 on the cells of an axis, between the first and the last of
-/// its knots but the outermost two. It is exact for polynomials up to degree p, so that f is met to order p + 1, and
+/// The coefficient of function i of splines of degree p ≥ 1 on the cells of an axis, from positions between the first
+/// and the last of its inner knots. It is exact for polynomials up to degree p, so that f is met to order p + 1, and
 /// takes a single value where the basis interpolates. The weights have the coefficient of each monomial, which is its
 /// polar form at the function's knots τ_1 … τ_p: e_m(τ)/(p over m) for x^m [de Boor and Fix 1973, J. Approx. Theory
 /// 8:19-45].
