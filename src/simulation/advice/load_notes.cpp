@@ -152,7 +152,8 @@ std::optional<std::vector<double>> loads_at_end(const Problem& problem, const La
   if (!varies || ends) return F;
   std::vector<double> later(phase.size());
   phase.external_force(1.37 * late, u, later);
-  return F == later ? std::optional(F) : std::nullopt;
+  const bool stay = F == later && std::ranges::all_of(F, [](double force) { return std::isfinite(force); });
+  return stay ? std::optional(F) : std::nullopt;
 }
 
 void note_free_parts(const Problem& problem, const LagrangianPhase& phase, ConstVec u, Notes& notes) {
