@@ -6,9 +6,9 @@ their u and σ are read at the same places inside the body and compared with the
 and each repetition begins with another way, so that what the machine does meanwhile falls on all of them; of a way's
 repetitions the fastest counts. Prints a line for each way and size, and writes DIR/beside_fem.csv, DIR/beside_fem.json (the
 orders, ratios, crossings and verdicts), DIR/beside_fem/CASE.png and DIR/beside_fem.md, with the sections of
-beside_fem_limits.py if they are in DIR. Exit status 1 if a run has no solution, which
-leaves its place empty, 2 for bad input or without FEniCSx. The CSV file is written after each case; with --keep the cases
-that it already has are not measured again. Needs build/release/stillpoint.
+beside_fem_limits.py and beside_fem_threads.py if these have run into DIR before. Exit status 1 if a run has no solution,
+which leaves its place empty, 2 for bad input or without FEniCSx. The CSV file is written after each case; with --keep the
+cases that it already has are not measured again. Needs build/release/stillpoint.
 """
 
 import argparse
@@ -30,13 +30,13 @@ from scaling import best, enough, rotated
 QUICK_CASE, QUICK_SIZES = "lame", 2
 
 
-def measured(options, case, way, unknowns):
+def measured(options, case, way, unknowns, threads=1):
     folder = options.out / "runs"
     folder.mkdir(parents=True, exist_ok=True)
     first = first_cells(case, way, unknowns)
     if way.program == FEM:
-        return fem_row(case, way, first, folder, options.seconds)
-    return our_row(options.program, case, way, first, folder, options.seconds)
+        return fem_row(case, way, first, folder, options.seconds, threads)
+    return our_row(options.program, case, way, first, folder, options.seconds, threads)
 
 
 def with_errors(options, case, rows):
@@ -134,10 +134,10 @@ def about(options, load):
     )
 
 
-def with_limits(options, text):
-    """The page with the sections of beside_fem_limits.py, if that has written them into the same folder."""
-    limits = options.out / "beside_fem_limits.md"
-    return text + ("\n" + limits.read_text(encoding="utf-8") if limits.exists() else "")
+def with_sections(options, text):
+    """The page with the sections of the other studies, of those that have written them into the same folder."""
+    files = [options.out / f"{study}.md" for study in ("beside_fem_limits", "beside_fem_threads")]
+    return "\n".join([text, *(file.read_text(encoding="utf-8") for file in files if file.exists())])
 
 
 def write(options, rows, verdicts, text):
@@ -168,7 +168,7 @@ def main():
     rows = measure(options, rows)
     verdicts = judged(rows)
     text = page(rows, verdicts, about(options, load))
-    write(options, rows, verdicts, with_limits(options, text))
+    write(options, rows, verdicts, with_sections(options, text))
     missing = sum(not row.found for row in rows)
     print(f"{len(rows)} figures, {missing} missing, {time.monotonic() - start:.0f} s; {options.out / 'beside_fem.md'}")
     return 1 if missing else 0

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from beside_fem_limits_table import BLOCK, FOOTING, Row
-from beside_fem_runs import FEM, OURS, ROOT, one_thread, our_command
+from beside_fem_runs import FEM, OURS, ROOT, on_threads, our_command
 from limited_run import run_in
 from scene_constants import constants_of
 
@@ -74,7 +74,7 @@ def fem_run(way, cells, folder, seconds):
     row = Row(way.problem, FEM, way.functions, str(cells), command=shlex.join([f"scripts/{script}", *words, "figures.json"]))
     command = ["/usr/bin/python3", str(ROOT / "scripts" / script), *words, str(file)]
     try:
-        ended = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False, env=one_thread())
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False, env=on_threads(1))
     except subprocess.TimeoutExpired:
         return row.missing(f"no end within {seconds:g} s"), []
     if ended.returncode != 0:

@@ -14,6 +14,7 @@ accurate where finite elements can handle the problem, it takes more time, and w
 competitive. This page measures them: Stillpoint beside FEniCSx 0.5, Debian's, on problems with an exact answer.
 
     scripts/beside_fem_limits.py        # a limit load and where finite elements end, at the bottom: half an hour
+    scripts/beside_fem_threads.py       # both programs on one thread and on two, below it
     scripts/beside_fem                  # all the rest, with these: two hours
     scripts/beside_fem --only lame      # one case
     scripts/beside_fem --quick          # its smallest sizes, under half a minute

@@ -1,4 +1,7 @@
-"""The runs of scripts/beside_fem: by FEniCSx and by Stillpoint, each a process of its own on one thread."""
+"""The runs of scripts/beside_fem: by FEniCSx and by Stillpoint, each a process of its own, on one thread if nothing is said.
+
+On more threads FEniCSx runs as so many ranks of MPI, each on one thread.
+"""
 
 import json
 import math
@@ -26,6 +29,13 @@ SOLVERS = {
     "auto, lumped mass": (*AUTO, "mass.kind=lumped"),
     "auto, multigrid": (*AUTO, "mass.kind=multigrid"),
 }
+# Root may start Open MPI. Ranks may be more than cores, and are bound to none. One that waits for another lets other processes
+# run, or else a core that something else keeps busy costs tens of times as much. A failed rank has the last word.
+OPEN_MPI = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_orte_execute_quiet": "1",
+}  # fmt: skip
 STRESSES = {2: ("xx", "yy", "zz", "xy"), 3: ("xx", "yy", "zz", "xy", "yz", "zx")}
 
 
@@ -63,13 +73,15 @@ def points_per_cell(case, functions):
 # --- FEniCSx -------------------------------------------------------------------------------------------
 
 
-def fem_row(case, way, first, folder, seconds):
+def fem_row(case, way, first, folder, seconds, threads=1):
     file = folder / "figures.json"
     words = [case.name, way.functions, way.solver, str(first)]
-    row = Row(case.name, FEM, *words[1:], command=shlex.join(["scripts/fem_run.py", *words, "figures.json"]))
-    command = ["/usr/bin/python3", str(ROOT / "scripts/fem_run.py"), *words, str(file)]
+    shown = shlex.join([*ranks(threads), "scripts/fem_run.py", *words, "figures.json"])
+    row = Row(case.name, FEM, *words[1:], command=shown, threads=threads)
+    command = [*(ranks(threads) or ["/usr/bin/python3"]), str(ROOT / "scripts/fem_run.py"), *words, str(file)]
     try:
-        ended = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False, env=one_thread())
+        environment = on_threads(1) | OPEN_MPI
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False, env=environment)
     except subprocess.TimeoutExpired:
         return row.missing(f"no end within {seconds:g} s")
     if ended.returncode != 0:
@@ -82,15 +94,20 @@ def fem_row(case, way, first, folder, seconds):
     )
 
 
-def one_thread():
-    return os.environ | {"OMP_NUM_THREADS": "1"}
+def on_threads(count):
+    return os.environ | {"OMP_NUM_THREADS": str(count)}
+
+
+def ranks(threads):
+    """What starts a script on several ranks, of which one that fails ends the others."""
+    return ["mpirun", "-n", str(threads), "/usr/bin/python3", "-m", "mpi4py"] if threads > 1 else []
 
 
 def refer(case):
     """Computes the answer of a case that has no closed form, once."""
     if case.reference and not (REFERENCES / f"{case.name}.npz").exists():
         command = ["/usr/bin/python3", str(ROOT / "scripts/fem_reference.py"), case.name]
-        ended = subprocess.run(command, capture_output=True, text=True, check=False, env=one_thread())
+        ended = subprocess.run(command, capture_output=True, text=True, check=False, env=on_threads(1))
         if ended.returncode != 0:
             sys.exit(f"beside_fem: {case.name} has no answer to compare with: {ended.stderr.strip()}")
 
@@ -155,13 +172,15 @@ def read_probes(case, summary, count):
     return np.stack([column(f"u.{i}") for i in axes], axis=1), np.moveaxis(gradient, -1, 0), stress
 
 
-def our_row(program, case, way, first, folder, seconds):
-    measuring = [sys.executable, "-I", "-S", str(ROOT / "scripts/measured_run.py"), str(folder / "usage.json")]
+def our_row(program, case, way, first, folder, seconds, threads=1):
+    measuring = ["env", f"OMP_NUM_THREADS={threads}", sys.executable, "-I", "-S"]
+    measuring += [str(ROOT / "scripts/measured_run.py"), str(folder / "usage.json")]
     scene = scene_of(case, first, folder)
     command = our_command(Path(program).resolve(), scene, settings_of(case, way, first))
     words = our_command("build/release/stillpoint", os.path.relpath(scene, ROOT), settings_of(case, way, first))
-    row = Row(case.name, OURS, way.functions, way.solver, str(first), command=shlex.join([*words, "--threads", "1"]))
-    run = run_in(folder / "run", measuring + command, seconds)
+    shown = shlex.join([*words, "--threads", str(threads)])
+    row = Row(case.name, OURS, way.functions, way.solver, str(first), command=shown, threads=threads)
+    run = run_in(folder / "run", measuring + command, seconds, threads)
     if run.exit_status != 0:
         return row.missing(run.message or run.summary.get("reason") or f"exit status {run.exit_status}")
     took = json.loads((folder / "usage.json").read_text(encoding="utf-8"))

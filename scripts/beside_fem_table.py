@@ -32,6 +32,7 @@ class Row:
     megabytes: float | None = None
     reason: str = ""  # why there are no figures
     command: str = ""  # that computes it
+    threads: int | None = 1
 
     @property
     def found(self):
@@ -59,7 +60,8 @@ class Row:
         return replace(self, reason=reason or "no solution")
 
     def without_figures(self, reason):
-        return Row(self.case, self.program, self.functions, self.solver, self.cells, reason=reason, command=self.command)
+        known = ("case", "program", "functions", "solver", "cells", "command", "threads")
+        return Row(**{name: getattr(self, name) for name in known}, reason=reason)
 
     def with_figures(self, **figures):
         return replace(self, **figures)

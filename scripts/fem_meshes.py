@@ -1,4 +1,7 @@
-"""Structured meshes for FEniCSx: unit squares or cubes of cells, mapped onto a body, and where a place lies in them."""
+"""Structured meshes for FEniCSx: unit squares or cubes of cells, mapped onto a body, and where a place lies in them.
+
+On several ranks of MPI each has a part of the cells.
+"""
 
 import basix
 import dolfinx
@@ -28,10 +31,19 @@ class StructuredMesh:
         self.geometry = reference_element(self.kind, order)
         self.corners = self._corners(family)
         nodes, x = self._nodes(order, place)
+        if MPI.COMM_WORLD.rank > 0:  # the first hands out all of them
+            nodes, x = nodes[:0], x[:0]
         vector = ufl.VectorElement("Lagrange", ufl.Cell(self.kind, geometric_dimension=self.dim), order)
         self.mesh = dolfinx.mesh.create_mesh(MPI.COMM_WORLD, nodes, x, ufl.Mesh(vector))
         self.place = place
-        self.cell_of = np.argsort(self.mesh.topology.original_cell_index)
+        self.cell_of = self._own_cells()
+
+    def _own_cells(self):
+        """This rank's number of each cell of the whole mesh; −1 of those that are another's."""
+        count = self.mesh.topology.index_map(self.dim).size_local
+        found = np.full(self.blocks * np.prod(self.cells) * len(self.corners), -1)
+        found[self.mesh.topology.original_cell_index[:count]] = np.arange(count)
+        return found
 
     def _corners(self, family):
         """(simplices in a box, corners, dim): of each in units of the box."""
@@ -67,7 +79,7 @@ class StructuredMesh:
         return number.reshape(-1)[cells], x[kept]
 
     def locate(self, parameters):
-        """(cells, reference coordinates) of the places with these parameters."""
+        """(cells, reference coordinates) of the places with these parameters; cell −1 where it is another rank's."""
         block = np.minimum(parameters[:, 0] // 2, self.blocks - 1).astype(np.int64)
         scaled = (parameters - 2 * np.outer(block, np.eye(self.dim)[0])) * self.cells
         box = np.clip(scaled.astype(np.int64), 0, self.cells - 1)
@@ -77,7 +89,21 @@ class StructuredMesh:
             simplex, local = self._in_simplices(within)
         original = (block * np.prod(self.cells) + np.ravel_multi_index(tuple(box.T), self.cells)) * len(self.corners) + simplex
         cells = self.cell_of[original]
-        return cells, self._pulled_back(cells, local, self.place(parameters))
+        own = cells >= 0
+        if own.any():
+            local[own] = self._pulled_back(cells[own], local[own], self.place(parameters[own]))
+        return cells, local
+
+    def read(self, parameters, at):
+        """The arrays at(cells, reference coordinates) of all places, each read by the rank that has its cell: on the first
+        rank, and None on others."""
+        cells, local = self.locate(parameters)
+        own = np.flatnonzero(cells >= 0)
+        parts = self.mesh.comm.gather((own, *at(cells[own], local[own])) if len(own) else None)
+        if parts is None:
+            return None
+        places, *found = (np.concatenate(part) for part in zip(*filter(None, parts)))
+        return [values[np.argsort(places)] for values in found]
 
     def _in_simplices(self, within):
         found = []

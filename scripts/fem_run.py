@@ -4,8 +4,9 @@
 ELEMENT is P1, P2, Q1, Q2, or P2-P1 or Q2-Q1 with a pressure; SOLVER is cholmod, mumps or gamg; CELLS are those along the
 first parameter of the body. FILE gets an object with the unknowns, the errors at the places at which both programs are
 read, the wall time of meshing, of the solution (assembly and solver) and of the stress's projection, and the peak memory of
-these. Python's imports and all that is done to forms, by Python and by the compiler, is in none of them. Exit status 1
-without FEniCSx, or if there is no solution.
+these. Python's imports and all that is done to forms, by Python and by the compiler, is in none of them. By `mpirun -n RANKS`
+several ranks divide the cells; times are then those of the slowest one, the processor's time and the memory those of all
+together. Exit status 1 without FEniCSx, or if there is no solution.
 """
 
 import json
@@ -28,6 +29,7 @@ from fem_forms import supports_of
 from fem_meshes import StructuredMesh, reference_element
 from fem_solve import problem_of
 from fem_stress import Projection, gradient_at, projected_at
+from mpi4py import MPI
 
 
 def resident(what):
@@ -47,19 +49,22 @@ def quadrature_degree(case, element):
 
 
 def unknowns_of(case, problem):
-    """Degrees of freedom that no support holds."""
-    held = [condition.dof_indices()[0] for condition in supports_of(case.supports, problem.V)]
-    return len(problem.solution.x.array) - len(np.unique(np.concatenate(held)))
+    """Degrees of freedom that no support holds, of all ranks."""
+    held = [dofs[:own] for dofs, own in (condition.dof_indices() for condition in supports_of(case.supports, problem.V))]
+    dofmap = problem.solution.function_space.dofmap
+    free = dofmap.index_map.size_local * dofmap.index_map_bs - len(np.unique(np.concatenate(held)))
+    return MPI.COMM_WORLD.allreduce(free)
 
 
 class Clock:
-    """Seconds of what runs under it, by name."""
+    """Seconds of what runs under it, by name; all ranks begin together."""
 
     def __init__(self):
         self.seconds, self.processor_seconds = {}, {}
 
     @contextmanager
     def of(self, name):
+        MPI.COMM_WORLD.Barrier()
         start, processor = time.monotonic(), time.process_time()
         yield
         self.seconds[name] = time.monotonic() - start
@@ -67,6 +72,7 @@ class Clock:
 
 
 def run(case, element, solver, first):
+    """Figures of all ranks, with the errors on the first one."""
     order, clock, before = int(element[1]), Clock(), resident("VmRSS")
     with clock.of("meshing"):
         mesh = StructuredMesh(cells_of(case, first), element[0], order if case.curved else 1, case.place, case.blocks)
@@ -81,36 +87,44 @@ def run(case, element, solver, first):
         iterations = problem.solve(solver)
     with clock.of("projection"):
         stress = projection.solve()
-    figures = {f"{name}_s": seconds for name, seconds in clock.seconds.items()}
-    figures["processor_s"] = clock.processor_seconds["meshing"] + clock.processor_seconds["solution"]
+    world = MPI.COMM_WORLD
+    figures = {f"{name}_s": world.allreduce(seconds, MPI.MAX) for name, seconds in clock.seconds.items()}
+    figures["processor_s"] = world.allreduce(clock.processor_seconds["meshing"] + clock.processor_seconds["solution"])
     figures |= {"unknowns": unknowns_of(case, problem), "iterations": iterations}
-    figures["megabytes"] = resident("VmHWM") - compiled_at + meshed - before
+    figures["megabytes"] = world.allreduce(resident("VmHWM") - compiled_at + meshed - before)
     return figures | errors(case, mesh, problem, S, order, stress)
 
 
 def errors(case, mesh, problem, S, order, stress):
-    parameters = case.parameters()
-    cells, local = mesh.locate(parameters)
-    element = reference_element(mesh.kind, order)
-    u, gradient = gradient_at(mesh, element, problem.u, cells, local)
-    recovered = projected_at(S, element, stress, cells, local)
-    found = errors_of(case, case.place(parameters), u, problem.raw(mesh, gradient, cells, local), recovered)
-    return found | (case.value_error(value_read(case, mesh, element, problem.u)) if case.read else {})
+    """Of all places, on the first rank."""
+    parameters, element = case.parameters(), reference_element(mesh.kind, order)
+
+    def at(cells, local):
+        u, gradient = gradient_at(mesh, element, problem.u, cells, local)
+        return u, problem.raw(mesh, gradient, cells, local), projected_at(S, element, stress, cells, local)
+
+    read = mesh.read(parameters, at)
+    value = value_read(case, mesh, element, problem.u) if case.read else None
+    if read is None:
+        return {}
+    return errors_of(case, case.place(parameters), *read) | (case.value_error(value) if case.read else {})
 
 
 def value_read(case, mesh, element, u):
-    """The component of u at the place that the case names."""
+    """The component of u at the place that the case names, on the first rank."""
     parameters, component = case.read
-    at, _ = gradient_at(mesh, element, u, *mesh.locate(np.array([parameters])))
-    return float(at[0, component])
+    read = mesh.read(np.array([parameters]), lambda cells, local: gradient_at(mesh, element, u, cells, local))
+    return None if read is None else float(read[0][0, component])
 
 
 def main():
     case, element, solver, first, file = sys.argv[1:]
     figures = run(CASES[case], element, solver, int(first))
-    with open(file, "w", encoding="utf-8") as found:
-        json.dump(figures, found)
+    if MPI.COMM_WORLD.rank == 0:
+        with open(file, "w", encoding="utf-8") as found:
+            json.dump(figures, found)
     sys.stdout.flush()
+    MPI.Finalize()  # mpirun takes a rank that ends without it for a failed one
     os._exit(0)  # PETSc's own end frees what Python's has freed
 
 

@@ -9,13 +9,15 @@ import numpy as np
 import ufl
 from fem_forms import WORK_OF_LOADS, large_stress, large_work, small_stress, supports_of
 from fem_meshes import reference_element
-from fem_stress import COMPILED, compiled, components, dofs_of
+from fem_stress import COMPILED, compiled, components, dofs_of, summed
 from petsc4py import PETSc
 
 
 def rigid_motions(V):
-    """The near null space of elasticity, as in FEniCSx's demo of it: translations and rotations, orthonormal."""
-    dim, x = V.mesh.geometry.dim, V.tabulate_dof_coordinates()
+    """The near null space of elasticity, as in FEniCSx's demo of it: translations and rotations, orthonormal.
+
+    Q = A L⁻ᵀ with L Lᵀ = Aᵀ A, which sums over ranks."""
+    dim, x = V.mesh.geometry.dim, V.tabulate_dof_coordinates()[: V.dofmap.index_map.size_local]
     turns = [(0, 1)] if dim == 2 else [(0, 1), (1, 2), (2, 0)]
     columns = []
     for axis in range(dim):
@@ -24,8 +26,9 @@ def rigid_motions(V):
     for i, j in turns:
         columns.append(np.zeros((len(x), dim)))
         columns[-1][:, i], columns[-1][:, j] = -x[:, j], x[:, i]
-    basis, _ = np.linalg.qr(np.stack([column.ravel() for column in columns], axis=1))
-    vectors = [PETSc.Vec().createWithArray(column.copy(), comm=V.mesh.comm) for column in basis.T]
+    rows = np.stack([column.ravel() for column in columns])  # Aᵀ
+    factor = np.linalg.cholesky(V.mesh.comm.allreduce(rows @ rows.T))
+    vectors = [PETSc.Vec().createWithArray(row, comm=V.mesh.comm) for row in np.linalg.solve(factor, rows)]
     return PETSc.NullSpace().create(vectors=vectors)
 
 
@@ -64,13 +67,14 @@ class Linear:
         A.setOption(PETSc.Mat.Option.SPD, True)
         b = dolfinx.fem.petsc.assemble_vector(self.L)
         dolfinx.fem.petsc.apply_lifting(b, [self.a], [conditions])
-        dolfinx.fem.petsc.set_bc(b, conditions)
+        dolfinx.fem.petsc.set_bc(summed(b), conditions)
         if solver == "gamg":
             A.setNearNullSpace(rigid_motions(self.V))
         ksp = PETSc.KSP().create(self.V.mesh.comm)
         ksp.setOperators(A)
         set_up(ksp, solver, self.case.fem_residual or self.case.residual)
         ksp.solve(b, self.u.vector)
+        self.u.x.scatter_forward()
         if ksp.getConvergedReason() <= 0:
             sys.exit(f"fem_run: PETSc ended for its reason {ksp.getConvergedReason()}")
         return ksp.getIterationNumber()
@@ -132,12 +136,13 @@ class Mixed:
         conditions = supports_of(self.case.supports, self.V, self.W)
         A = dolfinx.fem.petsc.assemble_matrix(self.a, bcs=conditions)
         A.assemble()
-        b = dolfinx.fem.petsc.assemble_vector(self.L)
+        b = summed(dolfinx.fem.petsc.assemble_vector(self.L))
         dolfinx.fem.petsc.set_bc(b, conditions)
         ksp = PETSc.KSP().create(self.mesh.comm)
         ksp.setOperators(A)
         set_up(ksp, solver, self.case.residual, indefinite=True)
         ksp.solve(b, self.w.vector)
+        self.w.x.scatter_forward()
         self.u, self.p = self.w.sub(0).collapse(), self.w.sub(1).collapse()
         return ksp.getIterationNumber()
 

@@ -56,8 +56,15 @@ class Projection:
         ksp.setTolerances(rtol=1e-10)
         found = {key: dolfinx.fem.Function(self.S) for key in self.loads}
         for key, load in self.loads.items():
-            ksp.solve(dolfinx.fem.petsc.assemble_vector(load), found[key].vector)
+            ksp.solve(summed(dolfinx.fem.petsc.assemble_vector(load)), found[key].vector)
+            found[key].x.scatter_forward()
         return found
+
+
+def summed(b):
+    """An assembled vector with what other ranks' cells add to it."""
+    b.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+    return b
 
 
 def projected_at(S, element, found, cells, local):
