@@ -39,6 +39,9 @@ class Tangents {
   virtual void apply(Tangent kind, double t, ConstVec u, ConstVec du, Vec dR) const = 0;
   /// K(u) assembled, (n × n). The consistent one is unsymmetric if R has no potential.
   virtual SparseMatrix matrix(Tangent kind, double t, ConstVec u) const = 0;
+  /// The consistent K(u), but with the stresses that K(from) predicts at u in the place of the law's, where the system
+  /// can tell them apart; from: (n). For Newton's method, whose long steps stretch what they are to bend.
+  virtual SparseMatrix matrix_ahead(double t, ConstVec u, ConstVec from) const;
   /// ∂F/∂u of the loads that follow u, (n × n); without entries if no load does.
   virtual SparseMatrix of_loads(double t, ConstVec u) const;
 };

@@ -67,12 +67,12 @@ struct StaticReport {
 ///   F_s = (1 − s) R(u₀) + s F(t, u),   s from 0 to 1 in load steps,
 /// each committed if history_dependent(). u, (n): u₀ at the start, in the end the last equilibrium. A step du is halved
 /// while ‖Q(u + λ du)‖ > (1 − 10⁻⁴ λ) ‖Q(u)‖ [Kelley 1995, §8.1] or u + λ du is inadmissible; if that leads to three
-/// short steps in a row, in a body without history, the load step is begun again with full ones. Iterative solvers
-/// solve K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the order 2 [Dembo, Eisenstat and Steihaug 1982]. A matrix K equal
-/// to that of the previous iteration, as in a linear system, is not factorised again. Everything happens at t: supports
-/// have their positions of that time from the first load step on, and a viscous law flows in the first one, for the
-/// time since the last commit. Throws std::invalid_argument on bad options and if the system has contact, which has no
-/// tangent here.
+/// short steps in a row or to none, in a body without history, the load step is begun again with full ones and
+/// Tangents::matrix_ahead() in the place of K. Iterative solvers solve K du = Q to min(0.1, ‖Q‖/‖F‖), which keeps the
+/// order 2 [Dembo, Eisenstat and Steihaug 1982]. A matrix K equal to that of the previous iteration, as in a linear
+/// system, is not factorised again. Everything happens at t: supports have their positions of that time from the first
+/// load step on, and a viscous law flows in the first one, for the time since the last commit. Throws
+/// std::invalid_argument on bad options and if the system has contact, which has no tangent here.
 StaticReport newton(SemiDiscrete& system, double t, Vec u, const NewtonOptions& options = {});
 
 /// Conjugate gradients on K (u' − u) = F − R(u), matrix-free, preconditioned with the diagonal of M: for a linear

@@ -5,6 +5,10 @@
 
 namespace stillpoint {
 
+SparseMatrix Tangents::matrix_ahead(double t, ConstVec u, ConstVec /*from*/) const {
+  return matrix(Tangent::consistent, t, u);
+}
+
 SparseMatrix Tangents::of_loads(double /*t*/, ConstVec u) const {
   const auto n = static_cast<Eigen::Index>(u.size());
   return SparseMatrix(n, n);

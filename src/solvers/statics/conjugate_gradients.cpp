@@ -44,7 +44,7 @@ StaticReport conjugate_gradients(const SemiDiscrete& system, double t, Vec u, co
     report.residual = balance.residual();
     residuals.push_back(report.residual);
     if (report.residual <= options.tolerance)
-      return end(true, fmt::format("residual {:.3g} ≤ tolerance {:.3g}", report.residual, options.tolerance));
+      return end(true, fmt::format("residual {:.3g} <= tolerance {:.3g}", report.residual, options.tolerance));
     if (pass == passes || report.iterations >= most)
       return end(false, fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations, largest at {}",
                                     report.residual, options.tolerance, report.iterations,

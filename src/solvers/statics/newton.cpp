@@ -74,8 +74,9 @@ class Newton {
   }
   // u: the state at step.from, then the equilibrium at step.to; if there is none, report_.reason says why. A slender
   // body has a valley of bent states between walls of stretched ones: a search that asks each step for a smaller ‖Q‖
-  // crawls along it, while full steps cross the walls and come down on the other side. Points that yield would remember
-  // the end of such a detour: beyond a limit load it may be an equilibrium that no path of the load reaches.
+  // crawls along it, while full steps cross the walls and come down on the other side, soonest with the stresses that
+  // the tangent predicts in K, since the stretch of a wall is the next step's to take back. Points that yield would
+  // remember the end of such a detour: beyond a limit load it may be an equilibrium that no path of the load reaches.
   bool load_step(LoadStep& step, Vec u) {
     const std::vector<double> start(u.begin(), u.end());
     refusal_.clear();
@@ -88,7 +89,7 @@ class Newton {
       step.residuals.clear();
     }
     if (iterate(step, u)) return true;
-    if (!full_steps_ && !crawling()) return false;
+    if (!full_steps_ && !crawls_) return false;
     // The other kind of steps; where full ones were the better kind they are what the next increment begins with.
     std::ranges::copy(start, u.begin());
     step.residuals.clear();
@@ -96,15 +97,16 @@ class Newton {
     return iterate(step, u);
   }
 
-  bool crawling() const { return short_steps_ >= most_short_steps && !system_.history_dependent(); }
-
   bool iterate(LoadStep& step, Vec u) {
     short_steps_ = 0;
+    crawls_ = false;
     double residual = evaluate(step.to, u) ? balance_.residual() : std::numeric_limits<double>::quiet_NaN();
     step.residuals.push_back(residual);
     direction_.begin_load_step();
     for (int iteration = 0; !(residual <= options_.tolerance); ++iteration) {
-      if (iteration == options_.max_iterations || !std::isfinite(residual) || (!full_steps_ && crawling())) {
+      if (!full_steps_ && short_steps_ >= most_short_steps) crawls_ = !system_.history_dependent();
+      const bool strays = full_steps_ && iteration >= patience && !(residual < step.residuals.front());
+      if (iteration == options_.max_iterations || !std::isfinite(residual) || crawls_ || strays) {
         report_.reason = fmt::format("residual {:.3g} > tolerance {:.3g} after {} iterations", residual,
                                      options_.tolerance, iteration);
         return false;
@@ -112,7 +114,9 @@ class Newton {
       heed_stop_request();
       ++report_.iterations;
       const double before = residual;
-      const bool nearer = direction_.find(step.to, u) && descend(step.to, u, before);
+      const bool predicts = full_steps_ && iteration > 0;
+      const bool nearer =
+          direction_.find(step.to, u, predicts ? ConstVec(from_) : ConstVec()) && descend(step.to, u, before);
       if (!nearer && before <= options_.near_enough) {
         evaluate(step.to, u);
         break;
@@ -121,6 +125,7 @@ class Newton {
         // Opening or just yielding points may leave K singular; K_e never is in a body that is held.
         ++report_.elastic_iterations;
         if (!evaluate(step.to, u) || !direction_.find_elastic(u) || !descend(step.to, u, residual)) {
+          crawls_ = !full_steps_ && !system_.history_dependent();
           report_.reason = fmt::format("no step from the residual {:.3g} makes it smaller{}", residual,
                                        refusal_.empty() ? "" : "; on the way, " + refusal_);
           return false;
@@ -141,7 +146,7 @@ class Newton {
     step.converged = true;
     report_.residual = residual;
     report_.reason = residual <= options_.tolerance
-                         ? fmt::format("residual {:.3g} ≤ tolerance {:.3g}", residual, options_.tolerance)
+                         ? fmt::format("residual {:.3g} <= tolerance {:.3g}", residual, options_.tolerance)
                          : fmt::format("residual {:.3g} > tolerance {:.3g}, as small as rounding lets it become",
                                        residual, options_.tolerance);
     return true;
@@ -165,6 +170,7 @@ class Newton {
         continue;
       }
       if (!full_steps_ && !(balance_.residual() <= (1 - decrease * lambda) * before)) continue;
+      from_.assign(u.begin(), u.end());
       std::ranges::copy(trial_, u.begin());
       short_steps_ = lambda < short_step ? short_steps_ + 1 : 0;
       return true;
@@ -189,15 +195,17 @@ class Newton {
   StaticBalance balance_;
   StaticReport report_;
   NewtonDirection direction_;
-  std::vector<double> trial_;
-  LastIncrement last_;  // known if the points have a history
+  std::vector<double> trial_, from_;  // the state that the next step would lead to, and the one that the last led from
+  LastIncrement last_;                // known if the points have a history
   static constexpr int most_short_steps = 3;
   static constexpr double short_step = 0.3;
-  bool full_steps_ = false;  // full steps are taken, whatever ‖Q‖ does
-  int short_steps_ = 0;      // short steps in succession
-  std::string refusal_;      // why the first state of this load step that could not be evaluated was refused
-  bool refused_ = false;     // an equilibrium was refused since the last one taken
-  bool accepts_ = false;     // indefinite equilibria are accepted
+  static constexpr int patience = 12;  // full steps that need not have led anywhere; slender beams take up to ten
+  bool full_steps_ = false;            // full steps are taken, whatever ‖Q‖ does
+  int short_steps_ = 0;                // short steps in succession
+  bool crawls_ = false;   // the search of the last iterate() came to an end, or nearly, and full steps may do better
+  std::string refusal_;   // why the first state of this load step that could not be evaluated was refused
+  bool refused_ = false;  // an equilibrium was refused since the last one taken
+  bool accepts_ = false;  // indefinite equilibria are accepted
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ bool same(const SparseMatrix& A, const SparseMatrix& B) {
 
 }  // namespace
 
-bool NewtonDirection::find(double s, ConstVec u) {
+bool NewtonDirection::find(double s, ConstVec u, ConstVec from) {
   indefinite_ = false;
   const SparseMatrix of_loads = system_.tangents().of_loads(t_, u);
   if (options_.solver == LinearSolver::iterative) {
@@ -36,11 +36,11 @@ bool NewtonDirection::find(double s, ConstVec u) {
       system_.tangents().apply(Tangent::consistent, t_, u, x, Kx);
       subtract_product(s, of_loads, x, Kx);
     };
-    const LinearMap apply_K = options_.assembles ? row_product(consistent_matrix(s, u, of_loads)) : by_laws;
+    const LinearMap apply_K = options_.assembles ? row_product(consistent_matrix(s, u, from, of_loads)) : by_laws;
     const bool may_be_unsymmetric = system_.history_dependent() || of_loads.nonZeros() > 0;
     return by_iterations(apply_K, !may_be_unsymmetric || looks_symmetric(apply_K));
   }
-  const SparseMatrix K = consistent_matrix(s, u, of_loads);
+  const SparseMatrix K = consistent_matrix(s, u, from, of_loads);
   if (options_.solver == LinearSolver::cholesky) return by_cholesky(0.5 * (K + SparseMatrix(K.transpose())));
   if (options_.solver == LinearSolver::automatic && symmetric(K, options_.symmetry)) {
     if (by_cholesky(K)) return true;
@@ -49,8 +49,10 @@ bool NewtonDirection::find(double s, ConstVec u) {
   return by_lu(K);
 }
 
-SparseMatrix NewtonDirection::consistent_matrix(double s, ConstVec u, const SparseMatrix& of_loads) const {
-  SparseMatrix K = system_.tangents().matrix(Tangent::consistent, t_, u);
+SparseMatrix NewtonDirection::consistent_matrix(double s, ConstVec u, ConstVec from,
+                                                const SparseMatrix& of_loads) const {
+  const Tangents& of = system_.tangents();
+  SparseMatrix K = from.empty() ? of.matrix(Tangent::consistent, t_, u) : of.matrix_ahead(t_, u, from);
   if (of_loads.nonZeros() > 0) K -= s * of_loads;
   return K;
 }

@@ -23,8 +23,9 @@ class NewtonDirection {
       : system_(system), t_(t), options_(options), balance_(balance), report_(report), du_(system.size()) {}
 
   void begin_load_step() { indefinite_ = false; }
-  /// Solves K du = Q at u, with Q as last evaluated at the share s of the loads. False if that cannot be solved.
-  bool find(double s, ConstVec u);
+  /// Solves K du = Q at u, with Q as last evaluated at the share s of the loads. from: the state before the last step,
+  /// if K is to be Tangents::matrix_ahead(), or empty. False if that cannot be solved.
+  bool find(double s, ConstVec u, ConstVec from);
   /// The same with K_e, which is never singular in a body that is held.
   bool find_elastic(ConstVec u);
   /// The direction of the last solution, (n).
@@ -37,7 +38,7 @@ class NewtonDirection {
   }
 
  private:
-  SparseMatrix consistent_matrix(double s, ConstVec u, const SparseMatrix& of_loads) const;
+  SparseMatrix consistent_matrix(double s, ConstVec u, ConstVec from, const SparseMatrix& of_loads) const;
   bool by_cholesky(const SparseMatrix& K);
   bool by_lu(const SparseMatrix& K);
   bool by_iterations(const LinearMap& K, bool is_symmetric);

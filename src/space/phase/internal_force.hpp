@@ -171,8 +171,9 @@ class InternalForce {
     heed_laws();
     laws_.add_shared_forces(u, dR, {}, work);
   }
-  /// The tangent as a matrix, (n × n).
-  SparseMatrix matrix(Tangent kind, double t, Work& work) const {
+  /// The tangent as a matrix, (n × n); from: as matrix_of_points(), which points that share their dilatation do not
+  /// heed.
+  SparseMatrix matrix(Tangent kind, double t, Work& work, const std::vector<double>* from = nullptr) const {
     const double dt = t - committed_.t;
     if constexpr (dim > 1) {
       if (laws_.share_dilatation()) {
@@ -181,7 +182,7 @@ class InternalForce {
       }
     }
     std::ranges::transform(work.u, committed_.u, work.du.begin(), std::minus<>());
-    return matrix_of_points(frame_, kind, dt, work.u, work.du);
+    return matrix_of_points(frame_, kind, dt, work.u, work.du, from);
   }
   /// The largest stiffness bound of a point at work.u, as a frequency in its cell, over that when the run began.
   double stiffening(Work& work) const { return largest_bound(work) / undeformed_bound_; }

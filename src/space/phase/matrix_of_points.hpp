@@ -6,21 +6,28 @@
 
 #include "space/kernels/cell_assembly.hpp"
 #include "space/materials/moduli_of.hpp"
+#include "space/materials/stress_ahead.hpp"
 #include "space/phase/phase_frame.hpp"
 
 namespace stillpoint {
 
 /// The stiffness K_ai,bk = Σ_p V_p G_a,i,c (∂P_c/∂H_d) G_b,k,d with H_c = Σ_a,i G_a,i,c u_a,i, (n × n). u, du: over the
-/// grid's functions, du since the last commit, which was dt ago.
+/// grid's functions, du since the last commit, which was dt ago. from, if it is not null: the stresses of elastic
+/// points are those that the tangent at that displacement predicts, by stress_ahead().
 template <AxisBasis B, Kinematics K>
 SparseMatrix matrix_of_points(const PhaseFrame<B, K>& frame, Tangent kind, double dt, const std::vector<double>& u,
-                              const std::vector<double>& du) {
+                              const std::vector<double>& du, const std::vector<double>* from = nullptr) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   constexpr int components = gradient_components(K);
   const PointWeights<B, K>& weights = frame.weights;
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<dim, per_cell>& matrix) {
     const auto H = weights.gradient(u.data(), k, p), dH = weights.gradient(du.data(), k, p);
-    const auto A = moduli_of(frame.material_of(k), kind, H, dH, dt, p);
+    const PointMaterial<K>& law = frame.material_of(k);
+    auto A = moduli_of(law, kind, H, dH, dt, p);
+    if (from && has_stress_ahead(law)) {
+      const auto H_from = weights.gradient(from->data(), k, p);
+      add_stress<K>(stress_ahead(law, H, H_from, frame.body.points.volume.data(), p), A);
+    }
     std::array<TensorOf<K>, dim * per_cell> G{};
     const auto dN = weights.dN(k, p);
     for (int a = 0; a < per_cell; ++a) {

@@ -28,6 +28,14 @@ class PhaseTangents final : public Tangents {
     all_.conditions.add_matrix(kind, t, work->u.data(), matrix);
     return matrix;
   }
+  SparseMatrix matrix_ahead(double t, ConstVec u, ConstVec from) const override {
+    const auto work = all_.force.borrow(), before = all_.force.borrow();
+    all_.frame.unknowns.spread(t, u, work->u);
+    all_.frame.unknowns.spread(t, from, before->u);
+    SparseMatrix matrix = all_.force.matrix(Tangent::consistent, t, *work, &before->u);
+    all_.conditions.add_matrix(Tangent::consistent, t, work->u.data(), matrix);
+    return matrix;
+  }
   SparseMatrix of_loads(double t, ConstVec u) const override {
     const auto work = all_.force.borrow();
     all_.frame.unknowns.spread(t, u, work->u);

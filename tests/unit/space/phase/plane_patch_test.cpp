@@ -135,6 +135,36 @@ TEST_CASE("forces of bilinear cells are those of the assembled stiffness, for an
   }
 }
 
+TEST_CASE("a rotation by a long step predicts no stress, and with that the body turns on as freely as before it") {
+  // Along u = ω × x the body is stretched to √(1 + ω²), which no small rotation does: the tangent at 0 predicts S = 0.
+  constexpr double w = 0.5;
+  constexpr Matrix by_step{0, -w, w, 0}, further{-w, -1, 1, -w};  // the latter W (I + H), with the spin W
+  for (const std::string law : {"neo-hookean", "hencky"}) {
+    for (const std::string state : {"plane-strain", "plane-stress"}) {
+      for (const auto& [basis, points] : {Placed{"linear", "4"}, {"quadratic", "9"}}) {
+        CAPTURE(law, state, basis);
+        const auto field = [&, basis = basis, points = points](const Matrix& A) {
+          Scene scene = free_block({"material.rubber.law=" + law, "body.state=" + state, "grid.basis=" + basis,
+                                    "body.points_per_cell=" + points});
+          deform(scene, A);
+          auto phase = make_phase(scene);
+          auto u = phase->initial_displacement(0);
+          return std::pair(std::move(phase), std::move(u));
+        };
+        const auto [phase, u] = field(by_step);
+        const std::vector<double> spin = field(further).second, from(u.size(), 0.0);
+        const auto n = static_cast<Eigen::Index>(u.size());
+        const Eigen::Map<const Eigen::VectorXd> turned(spin.data(), n);
+        const SparseMatrix K = phase->tangents().matrix(Tangent::consistent, 0, u),
+                           ahead = phase->tangents().matrix_ahead(0, u, from);
+        CHECK((ahead * turned).norm() < 1e-13 * ahead.norm() * turned.norm());
+        CHECK((K * turned).norm() > 1e-3 * K.norm() * turned.norm());
+        CHECK((phase->tangents().matrix_ahead(0, u, u) - K).norm() < 1e-14 * K.norm());
+      }
+    }
+  }
+}
+
 TEST_CASE("a free body that is moved and turned as a whole, by any angle, feels no force") {
   for (const std::string law : {"neo-hookean", "hencky", "drucker-prager"}) {
     for (const std::string state : {"plane-strain", "plane-stress"}) {
