@@ -209,10 +209,12 @@ struct GeostaticSpec {  // [initial.geostatic]: initial stress below a horizonta
 struct StageSpec {  // [[stage]]: what changes at a time of the run
   /// When the stage begins, at the earliest [s].
   double at = 0;
-  std::vector<std::string> add, remove;       // the names of bodies, also rigid ones, that appear (those of material
-                                              // without stress), and of those that go
+  std::vector<std::string> add, remove;       // the names of bodies, also rigid ones, that appear, and of those that go
   std::vector<std::string> hold, release;     // the names of supports that begin and end
   std::vector<std::string> change, material;  // the names of bodies, and of the material that each has from now on
+  /// A formula of x, y, z: bodies that appear bear the weight of what appears above them, σ_yy, with σ_xx = σ_zz = K0
+  /// σ_yy; empty: they appear without stress.
+  std::optional<Expression> K0{};
   /// Whether it lasts until the body is in equilibrium, at least.
   bool equilibrium = false;
   /// The time over which its changes come into force [s]; open: half its length, see stage_ramp().

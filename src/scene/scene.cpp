@@ -43,6 +43,7 @@ Location Scene::location(const std::string& key) const {
 SceneError Scene::located(const SceneError& error) const {
   std::vector<Mistake> mistakes = error.problems();
   for (Mistake& mistake : mistakes) {
+    if (mistake.key.empty() && mistake.where.file.empty()) mistake.where.file = this->file.string();
     const Location found = location(mistake.key);
     if (mistake.key.empty() || found.file.empty()) continue;
     mistake.where = found;

@@ -215,6 +215,34 @@ TEST_CASE("ground that was drained carries what comes later by its water, once a
   CHECK(scenes::probe(s, "middle", "stress.yy") == Approx(-own - above).epsilon(0.01));
 }
 
+TEST_CASE("bodies placed with K0 keep the stress of the weight above them, and only what they stand on is compressed") {
+  const std::vector<std::string> placed = {
+      "material.fill.law=mohr-coulomb",
+      "material.fill.c=1e9",
+      "material.heavy={law='mohr-coulomb', E='M', nu=0, rho=2500, c=1e9}",
+      "body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}, {name='middle', min=[0, '3*h'], "
+      "max=['h', '4*h'], material='fill'}, {name='above', min=[0, '4*h'], max=['h', '5*h'], material='heavy'}]",
+      "stage=[{at=1, add=['middle', 'above'], K0='0.3+0.1*y'}]",
+      "probe=[{name='above', at=['h/2', '4.5*h'], fields=['stress.xx', 'stress.yy', 'stress.zz']}, {name='middle', "
+      "at=['h/2', '3.5*h'], fields=['stress.xx', 'stress.yy', 'stress.zz']}, {name='top', at=['h/2', '5*h'], "
+      "fields=['u.y']}]"};
+  for (const auto& way : {std::vector<std::string>{"stop.residual=1e-9"}, in_time}) {
+    const Summary s = run(scenes::load("ladder/lifts", with(placed, way)));
+    CHECK(s.status == RunStatus::equilibrium);
+    const double of_above = -25e3 / 2, of_middle = -25e3 - 18e3 / 2;  // σ_yy [Pa]
+    constexpr double by_points = 1e-3;  // what points of other cells add where bodies meet
+    constexpr double by_lines = 5e-3;   // K0 σ_yy is quadratic in y, and read by a line through the points around
+    CHECK(scenes::probe(s, "above", "stress.yy") == Approx(of_above).epsilon(by_points));
+    CHECK(scenes::probe(s, "middle", "stress.yy") == Approx(of_middle).epsilon(by_points));
+    for (const std::string across : {"stress.xx", "stress.zz"}) {
+      CAPTURE(across);
+      CHECK(scenes::probe(s, "above", across) == Approx((0.3 + 0.45) * of_above).epsilon(by_lines));
+      CHECK(scenes::probe(s, "middle", across) == Approx((0.3 + 0.35) * of_middle).epsilon(by_lines));
+    }
+    CHECK(scenes::probe(s, "top", "u.y") == Approx(-43e3 * 3 / 1e7).epsilon(0.01));  // 1.3 % of strain: its square
+  }
+}
+
 TEST_CASE("a stage that waits for equilibrium ends when it has come, and later stages begin then") {
   const Summary s = run(cut("{at=0, equilibrium=true}, {at=0.01, remove=['above']}",
                             with(in_time, {"damping.strategy=viscous", "stop.time=100"})));

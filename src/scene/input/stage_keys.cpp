@@ -10,9 +10,12 @@ namespace stillpoint {
            &Scene::stages)
       .key("at", &StageSpec::at, "when it begins; later if the stage before waits for equilibrium",
            {.range = kNotNegative, .unit = "s", .required = true})
-      .key("add", &StageSpec::add,
-           "names of bodies that are placed, free of stress, and of rigid bodies; before, they are not there",
+      .key("add", &StageSpec::add, "names of bodies that are placed, and of rigid bodies; before, they are not there",
            {.list = true})
+      .key("K0", &StageSpec::K0,
+           "of the bodies that are placed: they bear the weight that is placed above them, sigma_xx = sigma_zz = K0 "
+           "sigma_yy",
+           {.variables = "x", .fallback = "they are free of stress"})
       .key("remove", &StageSpec::remove, "names of bodies and rigid bodies that are taken away", {.list = true})
       .key("hold", &StageSpec::hold, "names of supports that hold from now on; before, they do not", {.list = true})
       .key("release", &StageSpec::release, "names of supports that hold no longer", {.list = true})

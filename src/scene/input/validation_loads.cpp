@@ -185,17 +185,7 @@ void check_geostatic(SceneCheck& check, const std::optional<NamedBox>& body) {
   if (!scene.geostatic || check.wrong_if(scene.dim == 1, key, "a level surface needs two dimensions")) return;
   check.wrong_if(!scene.initial_u.empty(), "initial.u",
                  "does not go with initial.geostatic, which is the stress of the undeformed body");
-  const auto& b = scene.body_force;
-  if (own_load(scene.own_load)) {
-    check.add("body_force.own", "does not go with initial.geostatic, which is the stress of a constant weight alone");
-  } else if (b.size() != static_cast<std::size_t>(scene.dim)) {
-    check.wrong_if(!check.written("body_force"), key, "needs a [body_force]: the weight that the stress bears");
-  } else {
-    check.wrong_if(
-        !std::ranges::all_of(b, &Expression::constant) || b[0]({}, 0) != 0 || (scene.dim == 3 && b[2]({}, 0) != 0),
-        "body_force.value", "must be constant and vertical, {}, if initial.geostatic is asked for",
-        scene.dim == 2 ? "[0, b]" : "[0, b, 0]");
-  }
+  check_weight(check, key);
   check_laws_keep_a_stress(check, "initial.geostatic");
   const Expression& K0 = scene.geostatic->K0;
   if (check.sound(key + ".K0") && K0.constant())
@@ -245,6 +235,22 @@ void check_pressure(SceneCheck& check) {
 }
 
 }  // namespace
+
+void check_weight(SceneCheck& check, const std::string& key) {
+  const Scene& scene = check.scene();
+  const auto& b = scene.body_force;
+  if (own_load(scene.own_load)) {
+    check.add("body_force.own",
+              fmt::format("does not go with {}, which is the stress of a constant weight alone", key));
+  } else if (b.size() != static_cast<std::size_t>(scene.dim)) {
+    check.wrong_if(!check.written("body_force"), key, "needs a [body_force]: the weight that the stress bears");
+  } else {
+    check.wrong_if(
+        !std::ranges::all_of(b, &Expression::constant) || b[0]({}, 0) != 0 || (scene.dim == 3 && b[2]({}, 0) != 0),
+        "body_force.value", "must be constant and vertical, {}, if {} is asked for",
+        scene.dim == 2 ? "[0, b]" : "[0, b, 0]", key);
+  }
+}
 
 void check_loads(SceneCheck& check, const std::optional<NamedBox>& body) {
   const Scene& scene = check.scene();

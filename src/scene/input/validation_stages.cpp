@@ -140,16 +140,36 @@ void check_changed_once(SceneCheck& check, const StageSpec& stage, const std::st
   }
 }
 
-/// A body is placed without stress.
+/// A body is placed without stress, or under the weight of what is placed above it.
 void check_new_bodies(SceneCheck& check, const StageSpec& stage, const std::string& key) {
   const Scene& scene = check.scene();
+  bool places_a_body = false;
   for (std::size_t k = 0; k < stage.add.size(); ++k) {
     const auto body = std::ranges::find(scene.later_bodies, stage.add[k], &BodySpec::name);
-    const LawInfo* const law = body == scene.later_bodies.end() ? nullptr : check.law_of(body->material);
-    check.wrong_if(law && law->needs_pressure, fmt::format("{}.add[{}]", key, k),
-                   "{} is placed without stress, and '{}' has no stiffness without pressure; take another law for it",
-                   in_quotes(stage.add[k]), law ? law->name : "");
+    if (body == scene.later_bodies.end()) continue;
+    places_a_body = true;
+    const std::string one = fmt::format("{}.add[{}]", key, k), name = in_quotes(stage.add[k]);
+    const LawInfo* const law = check.law_of(body->material);
+    check.wrong_if(!stage.K0 && law && law->needs_pressure, one,
+                   "{} is placed without stress, and '{}' has no stiffness without pressure; give {}.K0, with which it "
+                   "bears its weight, or take another law for it",
+                   name, law ? law->name : "", key);
+    check.wrong_if(stage.K0 && law && !law->history_dependent, one,
+                   "the stress of '{}', the law of {}, is 0 where nothing is deformed, so that {} cannot be placed "
+                   "under its weight; leave out {}.K0, or take a law that keeps a stress",
+                   law ? law->name : "", name, name, key);
+    check.wrong_if(stage.K0 && body->shape() == BodyShape::points, one,
+                   "where {}, of points from a file, ends is not known, and so the weight above them; leave out {}.K0, "
+                   "or give it a shape",
+                   name, key);
   }
+  const std::string K0 = key + ".K0";
+  if (!stage.K0 || check.wrong_if(!places_a_body, K0, "is of bodies that the stage adds, and it adds none") ||
+      check.wrong_if(scene.dim == 1, K0, "needs two dimensions, of which the second is the vertical"))
+    return;
+  check_weight(check, K0);
+  check.wrong_if(stage.K0->constant() && !((*stage.K0)({}, 0) > 0), K0, "must be greater than 0, not {}",
+                 (*stage.K0)({}, 0));
 }
 
 /// What stages cannot be had with.
@@ -221,7 +241,7 @@ void check_stages(SceneCheck& check) {
   if (scene.present_stage) {
     const StageSpec& first = *scene.present_stage;
     check_wait(first, "stage[0]");
-    check.refuse_if(true, "stage[0]", {"add", "remove", "hold", "release", "change", "material", "ramp"},
+    check.refuse_if(true, "stage[0]", {"add", "remove", "K0", "hold", "release", "change", "material", "ramp"},
                     "at t = 0 there is what the scene has: leave it out, or give a later time");
   }
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {

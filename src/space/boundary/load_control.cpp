@@ -85,7 +85,7 @@ void LoadControl<K>::add_load_on_supports(const Parts& phase, double t, const do
 
 template <Kinematics K>
 LoadState LoadControl<K>::state(double t, const double* u) const {
-  return {.factor = -stiffness_ * springs_.gap(0, t, u) / total_,
+  return {.factor = 0 - stiffness_ * springs_.gap(0, t, u) / total_,  // which is never -0
           .displacement = moved_ + springs_.displacement(0, u),
           .prescribed = motion_.front().displacement(t)};
 }

@@ -10,87 +10,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/gauss_rule.hpp"
-#include "scene/body_depth.hpp"
-#include "scene/grid_lines.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/materials/material_laws.hpp"
 #include "space/points/value_by_place.hpp"
+#include "space/points/weight_above.hpp"
 
 namespace stillpoint {
 namespace {
-
-/// The vertical stress by the weight above a position.
-class WeightAbove {
- public:
-  /// b_y: the body force [m/s²].
-  WeightAbove(const Problem& problem, double b_y)
-      : problem_(problem),
-        b_y_(b_y),
-        step_(touching * smallest_cell(problem.grid, 1)),
-        lines_(grid_lines(problem.grid, 1)) {
-    for (const BodySpec& body : problem.bodies) {
-      depths_.emplace_back(body);
-      materials_.push_back(&problem.materials.at(body.material));
-    }
-    const double first = materials_.front()->parameters.at("rho");
-    by_depth_ = std::ranges::all_of(materials_,
-                                    [&](const MaterialSpec* one) {
-                                      return !one->by_place.contains("rho") && one->parameters.at("rho") == first;
-                                    }) ||
-                std::ranges::any_of(depths_, [](const BodyDepth& depth) { return !depth.is_known(); });
-  }
-
-  /// of: the material of the point itself, which is all that counts above it where the ground has one density, or the
-  /// surface of a body is not known [Pa].
-  double operator()(std::vector<double> X, const MaterialSpec& of) const {
-    const double surface = problem_.geostatic->surface;
-    const MaterialSpec* last = &of;
-    double weight = 0, from = X[1];
-    for (std::optional<std::size_t> k = by_depth_ ? std::nullopt : body_at(X); k && X[1] < surface; k = body_at(X)) {
-      const double rest = surface - X[1],
-                   up = std::clamp(depths_[*k].along(X, 1, true, rest).value_or(rest), 0.0, rest);
-      const double to = X[1] + up;
-      last = materials_[*k];
-      weight += column(*last, X, from, to);
-      from = to;
-      X[1] = to + step_;
-    }
-    return weight + column(*last, X, from, surface);
-  }
-
- private:
-  std::optional<std::size_t> body_at(const std::vector<double>& X) const {
-    for (std::size_t k = 0; k < depths_.size(); ++k)
-      if (depths_[k].contains(X)) return k;
-    return std::nullopt;
-  }
-  // ∫ ρ b_y dy of a material along the vertical through X. A formula is integrated from one line of the grid to the
-  // next, where layers end, by a rule that is exact for polynomials up to the fifth degree.
-  double column(const MaterialSpec& material, std::vector<double> X, double from, double top) const {
-    if (!material.by_place.contains("rho")) return material.parameters.at("rho") * b_y_ * std::max(0.0, top - from);
-    double weight = 0;
-    while (from < top) {
-      const auto next = std::ranges::upper_bound(lines_, from);
-      const double to = next == lines_.end() ? top : std::min(*next, top);
-      const GaussRule rule(from, to, 3);
-      for (std::size_t i = 0; i < rule.at.size(); ++i) {
-        X[1] = rule.at[i];
-        weight += rule.weight[i] * b_y_ * value_by_place(material, "rho", X);
-      }
-      from = to;
-    }
-    return weight;
-  }
-
-  const Problem& problem_;
-  double b_y_;
-  double step_;  // over the border of a body [m]
-  std::vector<double> lines_;
-  std::vector<BodyDepth> depths_;
-  std::vector<const MaterialSpec*> materials_;  // of the bodies
-  bool by_depth_ = true;
-};
 
 /// The positions of the points of material m before the motion, in their order.
 template <Kinematics K>
@@ -110,7 +36,9 @@ void set_geostatic_stress(const Problem& problem, Body<K>& body) {
   if constexpr (dimensions(K) > 1) {
     const GeostaticSpec& level = *problem.geostatic;
     const double b_y = problem.body_force.at(1)({}, 0);
-    const WeightAbove weight_above(problem, b_y);
+    std::vector<const BodySpec*> bodies;
+    for (const BodySpec& spec : problem.bodies) bodies.push_back(&spec);
+    const WeightAbove weight_above(problem, bodies, level.surface);
     for (std::size_t m = 0; m < body.materials.size(); ++m) {
       const MaterialSpec& material = problem.materials.at(body.material_names[m]);
       const std::vector<std::vector<double>> at = places(body, m, {});
@@ -120,11 +48,8 @@ void set_geostatic_stress(const Problem& problem, Body<K>& body) {
       for (const std::vector<double>& x : at) {
         const double below = level.water_table.value_or(x[1]) - x[1];
         const double water = material.undrained ? level.water_density * -b_y * std::max(0.0, below) : 0;
-        const double vertical = weight_above(x, material) + water, K0 = level.K0(x, 0);
-        if (!(K0 > 0) || !std::isfinite(K0))
-          throw_scene_error("initial.geostatic.K0",
-                            fmt::format("must be > 0 everywhere, not {} at ({:.6g})", K0, fmt::join(x, ", ")));
-        stress.push_back({K0 * vertical, vertical, K0 * vertical});
+        std::ranges::copy(stress_at_rest(level.K0, weight_above(x, material) + water, x, "initial.geostatic.K0"),
+                          stress.emplace_back().begin());
         ground.pore_pressure.push_back(water);
       }
       body.materials[m]->set_stress(stress, ground);

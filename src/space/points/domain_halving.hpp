@@ -84,7 +84,7 @@ void refuse_folded_domains(const MaterialPoints<Dim>& points) {
   throw_scene_error(
       "phase",
       fmt::format("the domain of material point {} at ({:.6g}) is stretched over more than a cell, and folded where it "
-                  "would be halved; expected a [[traction]] in the place of a force at a point, smaller loads or cells",
+                  "would be halved; expected smaller loads or cells, and a [[traction]] where a force acts at a point",
                   points.number[p] + 1, fmt::join(points.position(p), ", ")));
 }
 

@@ -12,6 +12,7 @@
 #include "space/points/carried_body.hpp"
 #include "space/points/motion_fields.hpp"
 #include "space/points/point_order.hpp"
+#include "space/points/states_of_stage.hpp"
 #include "space/points/value_by_place.hpp"
 
 namespace stillpoint {

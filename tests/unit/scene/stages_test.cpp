@@ -110,6 +110,10 @@ TEST_CASE("stages that cannot be are refused by name") {
       {"{at=1, hold=['prop']}", "there is no support 'prop'"},
       {"{at=1, ramp=1}", "stage[0].ramp: 'newton' is a static solver"},
       {"{at=0, add=['lift 2']}", "stage[0].add: at t = 0 there is what the scene has"},
+      {"{at=1, add=['lift 2'], K0=0.5}",
+       "stage[0].add[0]: the stress of 'linear-elastic', the law of 'lift 2', is 0 where nothing is deformed"},
+      {"{at=1, remove=['lift 2'], K0=0.5}", "stage[0].K0: is of bodies that the stage adds, and it adds none"},
+      {"{at=1, add=['lift 2'], K0=-0.5}", "stage[0].K0: must be greater than 0, not -0.5"},
       {"{at=1, equilibrium=1}", "stage[0].equilibrium: expected true or false"},
       {"{at=1, remove=['lift 1', 'lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6']}", "no body is left then"},
   };
@@ -122,6 +126,12 @@ TEST_CASE("stages that cannot be are refused by name") {
              Catch::Contains("stage[0].ramp: must be over when the next stage begins at t = 2"));
   CHECK_THAT(refusal("{at=1, equilibrium=true}, {at=2}", {"stop.residual=0", "stop.time=3", "solve.method=relaxation"}),
              Catch::Contains("there is no test of equilibrium: give stop.residual"));
+  CHECK_THAT(refusal("{at=1, add=['lift 2'], K0=0.5}", {"body_force.value=[0, '-10*t']"}),
+             Catch::Contains("body_force.value: must be constant and vertical, [0, b], if stage[0].K0 is asked for"));
+  CHECK_THAT(refusal("{at=1, add=['lift 2']}",
+                     {"material.fill={law='cam-clay', M=1, lambda=0.2, kappa=0.02, nu=0.3, rho=1800, e0=1, OCR=2}",
+                      "initial.geostatic={K0=0.5, surface='H'}"}),
+             Catch::Contains("give stage[0].K0, with which it bears its weight"));
   CHECK_THAT(refusal("{at=1}", {"grid.basis=hermite"}), Catch::Contains("'hermite' has no lumped mass"));
   CHECK_THAT(refusal("{at=1}", {"phase.max_motion=0.1", "solve.method=relaxation"}),
              Catch::Contains("is a law of small strain"));
