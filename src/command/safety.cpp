@@ -17,9 +17,11 @@ void print_table(const SafetyStudy& study) {
              "verdict", "displacement", "evaluations", "time");
   std::vector<SafetyTrial> trials = study.trials;
   std::ranges::sort(trials, {}, &SafetyTrial::factor);
+  const auto rests = [](const SafetyTrial& trial) { return trial.verdict == SafetyVerdict::rests; };
   for (const SafetyTrial& trial : trials)
-    fmt::print("  {:>9.4f}{:>12}{:>13.3e} m{:>14}{:>9.2f} s\n", trial.factor, to_string(trial.verdict),
-               trial.displacement, trial.evaluations, trial.wall_s);
+    fmt::print("  {:>9.4f}{:>12}{:>13} m{:>14}{:>9.2f} s\n", trial.factor, to_string(trial.verdict),
+               fmt::format("{}{:.3e}", rests(trial) ? "" : "> ", trial.displacement), trial.evaluations, trial.wall_s);
+  if (!std::ranges::all_of(trials, rests)) fmt::print("  >: when the motion was followed no further\n");
   for (const SafetyTrial& trial : trials) {
     const bool is_end = trial.factor == study.factor_low || trial.factor == study.factor_high;
     if (is_end || trial.verdict == SafetyVerdict::undecided)

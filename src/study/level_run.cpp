@@ -79,6 +79,10 @@ void read_end(const Scene& scene, Simulation& simulation, const Summary& s, cons
               : std::abs(value - exact_value(exact.get(), simulation.parts().phase, field, at->second, s.t)));
     }
   }
+  if (s.load) {
+    run.probes.emplace_back("load.factor", s.load->factor);
+    run.probe_errors.push_back(not_known);
+  }
   if (places && exact) {
     if (!s.error || !exact->has_stress()) return;
     if (const auto fields = fields_at(*places, simulation))

@@ -20,7 +20,7 @@ struct LevelRun {
   double floor = 0;                                    // relative size of errors that are not those of the level
   std::vector<std::pair<std::string, double>> norms;   // errors relative to the exact solution: "u_l2", …
   std::string no_energy;                               // reason why "u_energy" is missing there
-  std::vector<std::pair<std::string, double>> probes;  // "tip.u.x" and its value at the end
+  std::vector<std::pair<std::string, double>> probes;  // "tip.u.x" or "load.factor" and its value at the end
   std::vector<double> probe_errors;                    // relative to the exact solution; NaN if there is none
   std::vector<double> u, stress, volume;               // at the points, in order, or at the common places
   std::vector<std::string> notes;

@@ -119,7 +119,10 @@ ReducedBody::Tried ReducedBody::by_newton(double factor) {
                                       .max_load_step = 0.5,
                                       .min_load_step = 0.1});
   tried.verdict = report.converged ? SafetyVerdict::rests : SafetyVerdict::undecided;
-  tried.reason = "Newton's method: " + report.reason;
+  tried.reason = report.converged
+                     ? "Newton's method: " + report.reason
+                     : fmt::format("Newton's method finds no equilibrium beyond {:.4g} % of the change of strength",
+                                   100 * report.load_factor);
   tried.evaluations = report.force_evaluations;
   return tried;
 }

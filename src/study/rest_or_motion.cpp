@@ -97,8 +97,8 @@ class CriticallyDampedMotion {
       times_going_on = goes_on(periods_) ? times_going_on + 1 : 0;
       if (times_going_on == few)
         return ended(moves, fmt::format("after {} periods of 2 pi/omega_1 of a critically damped motion the mean "
-                                        "residual is {:.3g}, and falls so slowly with the way that the body would have "
-                                        "to go at least half as far again as it went",
+                                        "residual is {:.3g}, and falls so slowly that the way to rest would be at "
+                                        "least half as long again as the way so far",
                                         periods_.size(), periods_.back().residual));
       if (limits_.settles && periods_.size() % between_statics == 0 && limits_.settles(t_, first_half(y_.span())))
         return ended(rests, fmt::format("Newton's method found the equilibrium after {} periods of a critically damped "

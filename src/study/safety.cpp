@@ -68,7 +68,9 @@ std::optional<double> next_factor(const SafetyStudy& study, const SafetyOptions&
   const double above_low = known[1] - known[0], below_high = known.back() - known[known.size() - 2];
   constexpr double finest = 1.0 / 8;  // of the width
   if (std::max(above_low, below_high) <= finest * options.width) return std::nullopt;
-  return above_low >= below_high ? (known[0] + known[1]) / 2 : (known.back() + known[known.size() - 2]) / 2;
+  const double middle = (above_low >= below_high ? known[0] + known[1] : known.back() + known[known.size() - 2]) / 2;
+  constexpr double digits = 1e12;  // what a halved decimal has beyond them is rounding
+  return std::round(digits * middle) / digits;
 }
 
 void take(const SafetyTrial& trial, SafetyStudy& study) {

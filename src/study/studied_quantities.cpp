@@ -69,7 +69,7 @@ class Gathering {
     }
     for (std::size_t p = 0; p < any->probes.size(); ++p) add_probe(p, any->probes[p].first);
     if (study_.quantities.empty())
-      study_.notes.emplace_back("there is nothing to study; expected [exact] or a [[probe]]");
+      study_.notes.emplace_back("there is nothing to study; expected [exact], a [[probe]] or [load]");
   }
 
  private:
@@ -80,11 +80,11 @@ class Gathering {
   }
 
   void add_against_finest(const LevelRun& any) {
-    constexpr const char* probes = "Richardson's extrapolation of the probes";
+    constexpr const char* probes = "Richardson's extrapolation of single figures";
     if (any.u.empty()) {
       study_.reference = probes;
       study_.notes.push_back(fmt::format(
-          "only probes are studied: {}",
+          "only single figures are studied: {}",
           !problem_.exact.known() ? "there is no exact solution, and later phases know no place of the start at which "
                                     "levels could be compared; expected a single phase"
                                   : "the exact displacement vanishes; expected another moment, stop.time"));

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,7 +115,7 @@ TEST_CASE("without an exact solution probes are extrapolated: the stress at the 
   const std::vector<std::string> set = {"grid.cells=8", "stop.residual=1e-11",
                                         "probe=[{name='end', at=1.0, fields=['stress']}]"};
   const ConvergenceStudy study = converge(load_scene(file, set), {.levels = 5, .finds_dominant = false});
-  CHECK(study.reference == "the finest level, and Richardson's extrapolation of the probes");
+  CHECK(study.reference == "the finest level, and Richardson's extrapolation of single figures");
   CHECK(says(study, "expected [exact]"));
   const StudiedQuantity& end = quantity(study, "end.stress");
   REQUIRE(end.extrapolated);
@@ -122,6 +123,17 @@ TEST_CASE("without an exact solution probes are extrapolated: the stress at the 
   CHECK(end.order->order == Approx(3).margin(0.2));
   CHECK(*end.extrapolated == Approx(4 * std::cos(2.0)).epsilon(1e-6));
   CHECK(std::abs(end.errors.back()) < std::abs(end.errors.front()) / 10);
+}
+
+TEST_CASE("the factor of a driven load is studied without a probe of it: that of a footing comes down to Prandtl's") {
+  const ConvergenceStudy study =
+      study_of("footing_limit", {"grid.cells=[12, 8]"}, {.levels = 3, .finds_dominant = false});
+  const StudiedQuantity& factor = quantity(study, "load.factor");
+  REQUIRE(factor.values.size() == 3);
+  constexpr double prandtl = 2 + std::numbers::pi;
+  for (const double value : factor.values) CHECK(value > prandtl);
+  REQUIRE(factor.extrapolated);
+  CHECK(*factor.extrapolated == Approx(prandtl).epsilon(0.003));  // 3.5, 1.8 and 0.9 % above it
 }
 
 TEST_CASE("without an exact solution u and stress are compared at the same places: their orders are the basis' too") {

@@ -29,7 +29,7 @@ Verdict LimitLoad::judge(RunState& run) {
                   .kinetic_energy = measured.kinetic_energy,
                   .plastic_strain = giving_way.plastic_strain(),
                   .slides = !giving_way.shows() || !giving_way.slides_along(run.t, run.motion->u()).empty()};
-  return reached(body) ? Verdict{RunStatus::limit_load, "the limit load: " + description()} : Verdict{};
+  return reached(body) ? Verdict{RunStatus::limit_load, "an estimate of the limit load: " + description()} : Verdict{};
 }
 
 void LimitLoad::explain(RunState&, Verdict& verdict) {
@@ -130,7 +130,9 @@ std::optional<double> LimitLoad::measured_growth() const {
 std::string LimitLoad::description() const {
   if (!growth_) return "too few steps to tell how the factor grows";
   std::string growth = fmt::format(
-      "over the last fifth of the displacement the factor grew {:.3g} times as fast as it (stop.load_growth = {:.3g})",
+      "over the last fifth of the displacement the load factor grew {:.3g} times as much as the displacement, each as "
+      "a "
+      "share of itself (stop.load_growth = {:.3g})",
       *growth_, asked_);
   if (reached_ || !is_flat()) return growth;
   std::vector<std::string> missing;
